@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "./decodeError.ts";
 import type { ElementRange } from "./bg/bgArrays.ts";
-import { countIn, indexArrayOf, vertexArrayOf } from "./bg/bgArrays.ts";
+import { countThatFits, indexArrayOf, vertexArrayOf } from "./bg/bgArrays.ts";
 import { byteSizeOf } from "../stage/elementType.ts";
 import { trianglesFromStrip } from "./strips.ts";
 import { decodeImage } from "./image.ts";
@@ -193,12 +193,12 @@ describe("a typed array", () => {
   });
 
   test("counts what the bytes hold when the document does not say", () => {
-    assert.equal(countIn(40, range({})), 6);
-    assert.equal(countIn(40, range({ byteStride: 8 })), 5);
-    assert.equal(countIn(38, range({ byteStride: 8 })), 5);
-    assert.equal(countIn(37, range({ byteStride: 8 })), 4);
-    assert.equal(countIn(5, range({})), 0);
-    assert.equal(countIn(40, range({ byteOffset: 100 })), 0);
+    assert.equal(countThatFits(40, range({})), 6);
+    assert.equal(countThatFits(40, range({ byteStride: 8 })), 5);
+    assert.equal(countThatFits(38, range({ byteStride: 8 })), 5);
+    assert.equal(countThatFits(37, range({ byteStride: 8 })), 4);
+    assert.equal(countThatFits(5, range({})), 0);
+    assert.equal(countThatFits(40, range({ byteOffset: 100 })), 0);
   });
 
   test("is refused whenever the bytes end before the last vertex", () => {
@@ -206,7 +206,7 @@ describe("a typed array", () => {
       for (const byteStride of [0, 16]) {
         for (const byteOffset of [0, 3, 8, 1000, 2 ** 40]) {
           const groups = range({ type, byteStride, byteOffset });
-          const fit = countIn(bytes.length, groups);
+          const fit = countThatFits(bytes.length, groups);
           for (const count of [fit + 1, 2 ** 32, 2 ** 52]) {
             assert.throws(() => vertexArrayOf(bytes, { ...groups, count }), refused("truncated"));
           }

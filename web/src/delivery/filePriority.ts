@@ -19,7 +19,7 @@ const minVisibleStepPixels = 0.5;
 export interface GeometryInstance {
   readonly geometry: GeometryDescription;
   /** The author's priority, there. */
-  readonly content: number;
+  readonly authorPriority: number;
   /** Around each patch, in the scene. */
   readonly spheres: readonly Sphere[];
   /** Of each patch, in the scene: the distance between two values of the first byte. */
@@ -34,13 +34,13 @@ const anywhere: Sphere = { center: [0, 0, 0], radius: 1e12 };
 export function geometryInstance(
   geometry: GeometryDescription,
   sceneFromShape: Matrix,
-  content: number,
+  authorPriority: number,
   isTextured = false,
 ): GeometryInstance {
   const scale = scaleOf(sceneFromShape);
   return {
     geometry,
-    content,
+    authorPriority: authorPriority,
     isTextured,
     spheres: geometry.patches.map((patch) =>
       isUnbounded(geometry, patch)
@@ -81,7 +81,7 @@ export function texturePriorityFor(
   type: TextureChunk,
   { camera, weights }: ViewState,
 ): number | undefined {
-  const priorities = Array.from(places).flatMap(({ spheres, content }) =>
+  const priorities = Array.from(places).flatMap(({ spheres, authorPriority: content }) =>
     spheres.map((sphere) =>
       priorityOf(content, { type, plane: 0 }, camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics, weights),
     ),
@@ -98,7 +98,7 @@ function filePriorityAt(placed: GeometryInstance, { camera, weights }: ViewState
     const patch = placed.geometry.patches[place];
     const coarseStep = placed.coarseSteps[place] ?? Infinity;
     if (patch !== undefined && isTooFine(part, patch, coarseStep, view)) return undefined;
-    return priorityOf(placed.content, part.chunk, view, weights);
+    return priorityOf(placed.authorPriority, part.chunk, view, weights);
   };
 }
 

@@ -39,7 +39,7 @@ function deliveriesOf() {
       storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
       download: {
         fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal),
-        silenceMs: 1000,
+        idleTimeoutMs: 1000,
         retries: 0,
         backoffMs: 1,
       },

@@ -1,7 +1,6 @@
-// A geometry -> its stages. Asks for the files of its patches as it is told to,
-// turns what comes into stages, and reports what does not come; one missing file
-// costs what it holds and nothing else. What it has it gives up when it is told
-// to, and asks for again.
+// Delivers the stages of one geometry: requests the files of its patches in the order that the scene sets, turns them
+// into stages, and reports files that fail. A missing file costs only what it holds. Files that the GPU budget has no
+// room for are evicted, and can be requested again.
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
@@ -16,67 +15,67 @@ import { deliveryOf } from "./encodings/encodings.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
 export interface DeliveryListener {
-  /** Another stage of a patch; it takes the place of the one before as a whole. Undefined: nothing is left of the patch. */
-  onStage(patch: number, stage: Stage | undefined): void;
-  /** Once for each file that is of no use. */
+  /** A new stage of a patch, which replaces the previous one as a whole. Undefined: nothing of the patch is left. */
+  onStage(patchIndex: number, stage: Stage | undefined): void;
+  /** Called once for each URL that fails. */
   onError(error: DeliveryError): void;
-  /** Every file that was asked for has come or failed. Again after each demand that asked for more. */
+  /** Every requested file is ready or has failed. Called again when a later `request` that asked for more has settled. */
   onSettled(): void;
 }
 
-/** The priority of a file that is wanted now; undefined: not now. */
-export type FilePriority = (place: number, part: PatchFile) => number | undefined;
+/** The priority of a file; undefined: it is not needed now. */
+export type FilePriority = (patchIndex: number, file: PatchFile) => number | undefined;
 
 export interface Delivery {
-  /** Of the files that were asked for. */
+  /** The transfers of the requested files. */
   readonly transfers: readonly Readonly<Transfer>[];
-  /** Every file that was asked for has come or failed. */
+  /** Every requested file is ready or has failed. */
   readonly isSettled: boolean;
-  /** There is nothing left that could be asked for. */
+  /** Every file of the geometry is ready or has failed. */
   readonly isExhausted: boolean;
-  /** What all of it takes on the GPU, as far as that is known. */
+  /** Bytes of all its files on the GPU; an estimate for those that have not arrived. */
   readonly storedBytes: number;
-  /** What it wants, and has, of the GPU: for each patch in the order of use. */
+  /** What it needs and has of the GPU: a chain for each patch, in the order in which files become useful. */
   budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[];
   /**
-   * Asks for what is wanted, gives new priorities to what is on its way, and aborts
-   * what is no longer wanted. What is here stays, but of claims only what is granted.
+   * Requests the files that have a priority, updates the priorities of those on their way, and aborts those without.
+   * Ready files stay; but where `granted` is given, files of a budget request that is not in it are evicted.
    */
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
-  /** No call to the listener follows. Stages must no longer be used. */
+  /** No call to the listener follows. Its stages must no longer be drawn. */
   cancel(): void;
 }
 
-/** A file that a patch needs, and how far it is. */
-interface Need {
-  readonly part: PatchFile;
-  /** While it is asked for; of an image, also while it is here. */
-  lease: ResourceHandle | undefined;
+/** A file that a patch files, and how far it is. */
+interface TrackedFile {
+  readonly file: PatchFile;
+  /** Defined while the file is requested; of an image, also while it is ready. */
+  handle: ResourceHandle | undefined;
   transfer: Readonly<Transfer> | undefined;
-  /** Stops what is done with the content. */
+  /** Stops decoding and uploading the content. */
   aborter: AbortController;
-  state: "absent" | "asked" | "here" | "failed";
-  /** On the GPU: an estimate until it has been there. */
+  state: "absent" | "requested" | "ready" | "failed";
+  /** Bytes on the GPU: an estimate until the file has been there once. */
   storedBytes: number;
 }
 
 interface Patch {
-  readonly place: number;
-  /** The newest that the listener knows. */
+  readonly index: number;
+  /** The stage that the listener was given last. */
   stage: Stage | undefined;
   readonly builder: StageBuilder;
-  /** In the order of their use. */
-  readonly needs: readonly Need[];
-  /** As last asked for. */
-  claims: readonly PatchBudgetRequest[];
+  /** In the order in which they become useful. */
+  readonly files: readonly TrackedFile[];
+  /** Those of the last call to `budgetRequests`. */
+  budgetRequests: readonly PatchBudgetRequest[];
 }
 
-/** To be granted together. */
+/** The files are granted together. */
 interface PatchBudgetRequest extends BudgetRequest {
-  readonly needs: readonly Need[];
+  readonly files: readonly TrackedFile[];
 }
 
-/** Asks for nothing before `demand`. Never calls the listener before it returns. */
+/** Requests nothing before `request` is called. Never calls the listener before it returns. */
 export function deliverGeometry(
   geometry: GeometryDescription,
   pool: ResourcePool,
@@ -89,9 +88,9 @@ class GeometryDelivery implements Delivery {
   readonly #pool: ResourcePool;
   readonly #listener: DeliveryListener;
   readonly #patches: readonly Patch[];
-  readonly #needs: readonly Need[];
+  readonly #files: readonly TrackedFile[];
   readonly #reported = new Set<string>();
-  /** Undefined when transfers have come or gone: there may be thousands of deliveries to ask. */
+  /** A cache, undefined when transfers were added or removed: a scene may have thousands of deliveries. */
   #transfers: readonly Readonly<Transfer>[] | undefined;
   #storedBytes: number | undefined;
   #isCancelled = false;
@@ -99,31 +98,31 @@ class GeometryDelivery implements Delivery {
   constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
     this.#pool = pool;
     this.#listener = listener;
-    this.#patches = geometry.patches.map((patch, place) => ({
-      place,
-      builder: deliveryOf(geometry).stageBuilder(geometry, patch, place, pool),
-      needs: needsOf(geometry, patch, pool.maxTextureSize),
-      claims: [],
+    this.#patches = geometry.patches.map((patch, index) => ({
+      index,
+      builder: deliveryOf(geometry).stageBuilder(geometry, patch, index, pool),
+      files: trackedFilesOf(geometry, patch, pool.maxTextureSize),
+      budgetRequests: [],
       stage: undefined,
     }));
-    this.#needs = this.#patches.flatMap(({ needs }) => needs);
+    this.#files = this.#patches.flatMap(({ files }) => files);
   }
 
   get transfers(): readonly Readonly<Transfer>[] {
-    this.#transfers ??= Array.from(new Set(this.#needs.flatMap(({ transfer }) => (transfer ? [transfer] : []))));
+    this.#transfers ??= Array.from(new Set(this.#files.flatMap(({ transfer }) => (transfer ? [transfer] : []))));
     return this.#transfers;
   }
 
   get isSettled(): boolean {
-    return this.#needs.every(({ state }) => state !== "asked");
+    return this.#files.every(({ state }) => state !== "requested");
   }
 
   get isExhausted(): boolean {
-    return this.#needs.every(({ state }) => state === "here" || state === "failed");
+    return this.#files.every(({ state }) => state === "ready" || state === "failed");
   }
 
   get storedBytes(): number {
-    this.#storedBytes ??= this.#needs.reduce(
+    this.#storedBytes ??= this.#files.reduce(
       (sum, { storedBytes, state }) => sum + (state === "failed" ? 0 : storedBytes),
       0,
     );
@@ -131,124 +130,125 @@ class GeometryDelivery implements Delivery {
   }
 
   budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[] {
-    for (const patch of this.#patches) patch.claims = claimsOf(patch, priorityOf);
-    return this.#patches.map(({ claims }) => claims);
+    for (const patch of this.#patches) patch.budgetRequests = budgetRequestsOf(patch, priorityOf);
+    return this.#patches.map(({ budgetRequests }) => budgetRequests);
   }
 
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const patch of this.#patches) {
       const denied =
-        granted && new Set(patch.claims.filter((claim) => !granted.has(claim)).flatMap(({ needs }) => needs));
-      for (const need of patch.needs) {
-        if (need.state === "here" || need.state === "failed") continue;
-        const priority = denied?.has(need) === true ? undefined : priorityOf(patch.place, need.part);
-        if (priority === undefined) this.#giveUp(need);
-        else if (need.lease !== undefined) need.lease.setPriority(priority);
-        else this.#ask(patch, need, priority);
+        granted &&
+        new Set(patch.budgetRequests.filter((request) => !granted.has(request)).flatMap(({ files }) => files));
+      for (const tracked of patch.files) {
+        if (tracked.state === "ready" || tracked.state === "failed") continue;
+        const priority = denied?.has(tracked) === true ? undefined : priorityOf(patch.index, tracked.file);
+        if (priority === undefined) this.#withdraw(tracked);
+        else if (tracked.handle !== undefined) tracked.handle.setPriority(priority);
+        else this.#startRequest(patch, tracked, priority);
       }
       if (denied !== undefined)
         this.#evict(
           patch,
-          patch.needs.filter((need) => need.state === "here" && denied.has(need)),
+          patch.files.filter((tracked) => tracked.state === "ready" && denied.has(tracked)),
         );
     }
   }
 
   cancel(): void {
     this.#isCancelled = true;
-    for (const need of this.#needs) this.#release(need);
+    for (const tracked of this.#files) this.#release(tracked);
     for (const { builder } of this.#patches) {
       builder.clear();
       builder.sweep();
     }
   }
 
-  #ask(patch: Patch, need: Need, priority: number): void {
-    const { reference, target, expectedBytes } = need.part;
-    const lease = this.#pool.acquire({ ...target, url: reference.url, priority, expectedBytes });
-    need.lease = lease;
-    need.transfer = lease.transfer;
-    need.aborter = new AbortController();
-    need.state = "asked";
+  #startRequest(patch: Patch, tracked: TrackedFile, priority: number): void {
+    const { reference, target, expectedBytes } = tracked.file;
+    const handle = this.#pool.acquire({ ...target, url: reference.url, priority, expectedBytes });
+    tracked.handle = handle;
+    tracked.transfer = handle.transfer;
+    tracked.aborter = new AbortController();
+    tracked.state = "requested";
     this.#transfers = undefined;
-    void this.#await(patch, need, lease);
+    void this.#receive(patch, tracked, handle);
   }
 
-  #giveUp(need: Need): void {
-    if (need.lease === undefined) return;
-    this.#release(need);
-    need.state = "absent";
-    need.transfer = undefined;
+  #withdraw(tracked: TrackedFile): void {
+    if (tracked.handle === undefined) return;
+    this.#release(tracked);
+    tracked.state = "absent";
+    tracked.transfer = undefined;
     this.#transfers = undefined;
   }
 
-  #release(need: Need): void {
-    need.aborter.abort();
-    need.lease?.release();
-    need.lease = undefined;
+  #release(tracked: TrackedFile): void {
+    tracked.aborter.abort();
+    tracked.handle?.release();
+    tracked.handle = undefined;
   }
 
-  /** Gives up what is here: the listener first lets go of it. */
-  #evict(patch: Patch, evicted: readonly Need[]): void {
-    const { builder, needs } = patch;
+  /** The listener gets the stage without these files before their memory is freed. */
+  #evict(patch: Patch, evicted: readonly TrackedFile[]): void {
+    const { builder, files } = patch;
     if (evicted.length === 0) return;
-    if (!builder.isDivisible || evicted.length === needs.filter(({ state }) => state === "here").length)
+    if (!builder.isDivisible || evicted.length === files.filter(({ state }) => state === "ready").length)
       builder.clear();
-    else for (const { part } of evicted) builder.drop(part);
-    this.#show(patch);
-    for (const need of evicted) {
-      this.#release(need);
-      need.state = "absent";
+    else for (const { file } of evicted) builder.drop(file);
+    this.#updateStage(patch);
+    for (const tracked of evicted) {
+      this.#release(tracked);
+      tracked.state = "absent";
     }
     builder.sweep();
   }
 
-  async #await(patch: Patch, need: Need, lease: ResourceHandle): Promise<void> {
-    const { signal } = need.aborter;
-    // Given up in between, or given up and asked for again.
-    const isOver = () => this.#isCancelled || need.lease !== lease;
+  async #receive(patch: Patch, tracked: TrackedFile, handle: ResourceHandle): Promise<void> {
+    const { signal } = tracked.aborter;
+    // Withdrawn meanwhile, or withdrawn and requested again.
+    const isOver = () => this.#isCancelled || tracked.handle !== handle;
     const { builder } = patch;
     try {
-      const content = await lease.content;
+      const content = await handle.content;
       if (isOver()) return;
-      await builder.accept(need.part, content, signal);
+      await builder.accept(tracked.file, content, signal);
       if (isOver()) return;
-      need.state = "here";
-      this.#note(patch, need, content);
-      this.#show(patch);
+      tracked.state = "ready";
+      this.#recordStoredBytes(patch, tracked, content);
+      this.#updateStage(patch);
       builder.sweep();
     } catch (error) {
       if (isOver()) return;
-      need.state = "failed";
-      lease.fail(error);
+      tracked.state = "failed";
+      handle.fail(error);
       this.#storedBytes = undefined;
-      this.#report(need.part.reference.url, error);
+      this.#report(tracked.file.reference.url, error);
     } finally {
-      lease.finish();
+      handle.finish();
     }
     if (this.isSettled) this.#listener.onSettled();
   }
 
-  /** A base that comes after its patch changes nothing. */
-  #show(patch: Patch): void {
+  /** A base mesh that arrives after its patch does not change the stage. */
+  #updateStage(patch: Patch): void {
     const stage = patch.builder.stage();
     if (stage === patch.stage) return;
     patch.stage = stage;
-    this.#listener.onStage(patch.place, stage);
+    this.#listener.onStage(patch.index, stage);
   }
 
-  /** What it takes on the GPU is known now, and stays known when it has gone. */
-  #note({ builder, needs }: Patch, need: Need, content: Content): void {
+  /** The file's bytes on the GPU are known now, and stay known after an eviction. */
+  #recordStoredBytes({ builder, files }: Patch, tracked: TrackedFile, content: Content): void {
     this.#storedBytes = undefined;
     if (content.kind === "image") {
-      need.storedBytes = content.image.width * content.image.height * bytesPerTexel;
-    } else if (builder.isDivisible && needs.every(isSeparate)) {
-      const others = needs.filter((other) => other !== need && other.state === "here");
-      need.storedBytes = builder.storedBytes - others.reduce((sum, { storedBytes }) => sum + storedBytes, 0);
-    } else if (needs.every(({ state }) => state !== "absent" && state !== "asked")) {
-      // Arrays of a patch are one claim: it does not matter which of its files they are counted for.
-      needs.forEach((each, place) => {
-        each.storedBytes = place === 0 ? builder.storedBytes : 0;
+      tracked.storedBytes = content.image.width * content.image.height * bytesPerTexel;
+    } else if (builder.isDivisible && files.every(isSeparate)) {
+      const others = files.filter((other) => other !== tracked && other.state === "ready");
+      tracked.storedBytes = builder.storedBytes - others.reduce((sum, { storedBytes }) => sum + storedBytes, 0);
+    } else if (files.every(({ state }) => state !== "absent" && state !== "requested")) {
+      // The arrays of a patch are one budget request: it does not matter which of its files they are counted for.
+      files.forEach((each, index) => {
+        each.storedBytes = index === 0 ? builder.storedBytes : 0;
       });
     }
   }
@@ -260,13 +260,13 @@ class GeometryDelivery implements Delivery {
   }
 }
 
-function needsOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): Need[] {
+function trackedFilesOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): TrackedFile[] {
   return deliveryOf(geometry)
     .patchFilesOf(geometry, patch, maxTextureSize)
-    .sort((a, b) => useOf(a) - useOf(b))
-    .map((part): Need => ({
-      part,
-      lease: undefined,
+    .sort((a, b) => usageRank(a) - usageRank(b))
+    .map((part): TrackedFile => ({
+      file: part,
+      handle: undefined,
       transfer: undefined,
       aborter: new AbortController(),
       state: "absent",
@@ -274,50 +274,50 @@ function needsOf(geometry: GeometryDescription, patch: PatchDescription, maxText
     }));
 }
 
-/** What each is of no use without comes before it. */
-function useOf({ role, plane }: PatchFile): number {
+/** A file is useful only together with those of smaller ranks. */
+function usageRank({ role, plane }: PatchFile): number {
   return plane > 0
     ? 6 + plane
     : ["base", "patch", "coord", "index", "normal", "texCoord", "color", "value"].indexOf(role);
 }
 
-function claimsOf({ place, builder, needs }: Patch, priorityOf: FilePriority): PatchBudgetRequest[] {
-  const wanted = needs.flatMap((need) => {
-    if (need.state === "failed") return [];
-    const priority = priorityOf(place, need.part);
-    if (priority === undefined && need.state === "absent") return [];
-    return [{ need, priority: priority ?? 0 }];
+function budgetRequestsOf({ index, builder, files }: Patch, priorityOf: FilePriority): PatchBudgetRequest[] {
+  const requested = files.flatMap((tracked) => {
+    if (tracked.state === "failed") return [];
+    const priority = priorityOf(index, tracked.file);
+    if (priority === undefined && tracked.state === "absent") return [];
+    return [{ tracked, priority: priority ?? 0 }];
   });
-  if (wanted.length === 0) return [];
-  if (builder.isDivisible && wanted.every(({ need }) => isSeparate(need))) {
-    return wanted.map(({ need, priority }) => ({
-      needs: [need],
-      key: isImage(need) ? need.part.reference.url : need,
-      bytes: need.storedBytes,
+  if (requested.length === 0) return [];
+  if (builder.isDivisible && requested.every(({ tracked }) => isSeparate(tracked))) {
+    return requested.map(({ tracked, priority }) => ({
+      files: [tracked],
+      key: isImage(tracked) ? tracked.file.reference.url : tracked,
+      bytes: tracked.storedBytes,
       priority,
-      isHeld: need.state !== "absent",
+      isAllocated: tracked.state !== "absent",
     }));
   }
   return [
     {
-      needs: wanted.map(({ need }) => need),
+      files: requested.map(({ tracked }) => tracked),
       key: builder,
-      bytes: wanted.reduce((sum, { need }) => sum + need.storedBytes, 0),
-      priority: Math.max(...wanted.map(({ priority }) => priority)),
-      isHeld: wanted.some(({ need }) => need.state !== "absent"),
+      bytes: requested.reduce((sum, { tracked }) => sum + tracked.storedBytes, 0),
+      priority: Math.max(...requested.map(({ priority }) => priority)),
+      isAllocated: requested.some(({ tracked }) => tracked.state !== "absent"),
     },
   ];
 }
 
 function isImage({
-  part: {
+  file: {
     target: { kind },
   },
-}: Need): boolean {
+}: TrackedFile): boolean {
   return kind === "texture" || kind === "either";
 }
 
-/** Of use, and room on the GPU, for itself. */
-function isSeparate(need: Need): boolean {
-  return isImage(need) || need.part.target.kind === "patches" || need.part.target.kind === "bases";
+/** Whether the file is useful, and takes room on the GPU, independently of the patch's other files. */
+function isSeparate(tracked: TrackedFile): boolean {
+  return isImage(tracked) || tracked.file.target.kind === "patches" || tracked.file.target.kind === "bases";
 }

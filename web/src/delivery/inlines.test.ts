@@ -21,7 +21,7 @@ function sceneOf(markup: string, files: Record<string, Answer>) {
   const inlines: Inlines = new Inlines(
     {
       pool,
-      own: { url, x3d },
+      ownDocument: { url, x3d },
       urlOf: (url) => {
         if (url.startsWith("data:")) throw new DecodeError("unsupported", "no file");
         return new URL(url, "https://site/").href;
@@ -35,7 +35,7 @@ function sceneOf(markup: string, files: Record<string, Answer>) {
         reader.touch(inline);
         inlines.follow(reader.read().inlines);
       },
-      onLeave: (inline) => log.push(`leave ${nameOf(inline)}`),
+      onRemove: (inline) => log.push(`leave ${nameOf(inline)}`),
     },
   );
   const reader = new SceneReader(x3d, { url, inlined: (inline) => inlines.documentOf(inline) });

@@ -21,7 +21,7 @@ export interface InlinesListener {
   /** Its document is here, or none of its urls has led to one: the Inline is to be read anew. */
   onEnd(inline: SceneElement, error: DeliveryError | undefined): void;
   /** The scene no longer has it, or it names others. */
-  onLeave?(inline: SceneElement): void;
+  onRemove?(inline: SceneElement): void;
 }
 
 export interface InlinesOptions {
@@ -29,14 +29,14 @@ export interface InlinesOptions {
   /** The absolute url of one that an Inline names. Throws DecodeError for what must not be asked for. */
   readonly urlOf: (url: string) => string;
   /** The document that the scene begins with, which is here, though it cannot stand in itself. */
-  readonly own?: InlinedDocument;
+  readonly ownDocument?: InlinedDocument;
   /** The <X3D> in a document; relative urls in it become absolute. Throws DecodeError. */
   readonly parse?: (bytes: Uint8Array, url: string) => SceneElement;
 }
 
 interface Followed {
   readonly urls: readonly string[];
-  lease: ResourceHandle | undefined;
+  handle: ResourceHandle | undefined;
   document: InlinedDocument | undefined;
   isEnded: boolean;
 }
@@ -70,7 +70,7 @@ export class Inlines {
 
   /** Of the file that an Inline has asked for last. */
   transfersOf(inline: SceneElement): readonly Readonly<Transfer>[] {
-    const lease = this.#followed.get(inline)?.lease;
+    const lease = this.#followed.get(inline)?.handle;
     return lease === undefined ? [] : [lease.transfer];
   }
 
@@ -89,8 +89,8 @@ export class Inlines {
       const inline = seen.get(element);
       if (inline !== undefined && isSame(inline.urls, followed.urls)) continue;
       this.#followed.delete(element);
-      followed.lease?.release();
-      this.#listener.onLeave?.(element);
+      followed.handle?.release();
+      this.#listener.onRemove?.(element);
     }
     for (const inline of seen.values()) this.#ask(inline);
     const inUse = new Set(Array.from(this.#followed.values(), ({ document }) => document));
@@ -103,9 +103,9 @@ export class Inlines {
 
   #ask({ element, urls, visible, priority }: InlineDescription): void {
     const known = this.#followed.get(element);
-    known?.lease?.setPriority(priority * documentWeight);
+    known?.handle?.setPriority(priority * documentWeight);
     if (known !== undefined || !visible) return;
-    const followed: Followed = { urls, lease: undefined, document: undefined, isEnded: false };
+    const followed: Followed = { urls, handle: undefined, document: undefined, isEnded: false };
     this.#followed.set(element, followed);
     this.#listener.onBegin?.(element);
     void this.#load(element, followed, priority * documentWeight);
@@ -130,13 +130,13 @@ export class Inlines {
   }
 
   async #documentAt(named: string, followed: Followed, priority: number): Promise<InlinedDocument> {
-    const { pool, urlOf, own, parse = parseInlined } = this.#options;
+    const { pool, urlOf, ownDocument: own, parse = parseInlined } = this.#options;
     const url = urlOf(named);
     const known = url === own?.url ? own : this.#documents.get(url);
     if (known !== undefined) return known;
     const lease = pool.acquire({ kind: "bytes", url, priority, expectedBytes });
-    followed.lease?.release();
-    followed.lease = lease;
+    followed.handle?.release();
+    followed.handle = lease;
     const content = await lease.content;
     try {
       const sooner = this.#documents.get(url); // for another Inline

@@ -171,7 +171,7 @@ export class ResourcePool {
   }
 }
 
-interface Leased {
+interface HandleState {
   readonly priority: number;
   readonly expectedBytes: number;
 }
@@ -181,9 +181,9 @@ class Resource {
   readonly #options: DeliveryOptions;
   readonly #backlog: ByteSemaphore;
   readonly #aborter = new AbortController();
-  readonly #leases = new Set<Leased>();
+  readonly #leases = new Set<HandleState>();
   /** Those of them who still look at the content: of files that thousands share, all but the last keep the bytes. */
-  readonly #looking = new Set<Leased>();
+  readonly #looking = new Set<HandleState>();
   /** Whoever leases it wants another piece. */
   readonly #isInPieces: boolean;
   #content: Promise<Content> | undefined;
@@ -227,7 +227,7 @@ class Resource {
     this.#priority = undefined;
   }
 
-  add(lease: Leased): void {
+  add(lease: HandleState): void {
     this.#leases.add(lease);
     this.#looking.add(lease);
     this.#expect(lease.expectedBytes);
@@ -235,7 +235,7 @@ class Resource {
   }
 
   /** False where the lease has been given back before. */
-  remove(lease: Leased): boolean {
+  remove(lease: HandleState): boolean {
     this.reconsider();
     this.#looking.delete(lease);
     if (!this.#leases.delete(lease)) return false;
@@ -243,7 +243,7 @@ class Resource {
     return true;
   }
 
-  finish(lease: Leased): void {
+  finish(lease: HandleState): void {
     this.#looking.delete(lease);
   }
 

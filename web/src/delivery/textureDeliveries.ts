@@ -38,12 +38,12 @@ export type TexturePriority = (key: string, chunk: TextureChunk) => number | und
 interface Source {
   readonly chunk: TextureChunk;
   readonly url: string;
-  lease: ResourceHandle | undefined;
+  handle: ResourceHandle | undefined;
   state: "absent" | "asked" | "here" | "failed";
   picture: Picture | undefined;
   /** On the GPU: an estimate until it has been there. */
   storedBytes: number;
-  claim: BudgetRequest | undefined;
+  budgetRequest: BudgetRequest | undefined;
 }
 
 interface Shared {
@@ -52,7 +52,7 @@ interface Shared {
   readonly sources: readonly Source[];
   readonly listeners: Set<TextureListener>;
   members: number;
-  shown: Picture | undefined;
+  displayed: Picture | undefined;
   error: DeliveryError | undefined;
 }
 
@@ -83,7 +83,7 @@ export class TextureDeliveries {
     queueMicrotask(() => {
       if (isCancelled) return;
       shared.listeners.add(listener);
-      if (shared.shown !== undefined) listener.onPicture(shared.shown);
+      if (shared.displayed !== undefined) listener.onPicture(shared.displayed);
       if (shared.error !== undefined) listener.onError(shared.error);
       if (isSettled(shared) && !shared.sources.every(({ state }) => state === "absent")) listener.onSettled();
     });
@@ -124,11 +124,16 @@ export class TextureDeliveries {
       shared.sources.flatMap((source) => {
         const isNeedless = source.chunk === "preview" && hasTexture(shared);
         const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
-        source.claim =
+        source.budgetRequest =
           source.state === "failed" || (priority === undefined && source.state === "absent")
             ? undefined
-            : { key: source, bytes: source.storedBytes, priority: priority ?? 0, isHeld: source.state !== "absent" };
-        return source.claim ?? [];
+            : {
+                key: source,
+                bytes: source.storedBytes,
+                priority: priority ?? 0,
+                isAllocated: source.state !== "absent",
+              };
+        return source.budgetRequest ?? [];
       }),
     );
   }
@@ -140,11 +145,11 @@ export class TextureDeliveries {
   request(priorityOf: TexturePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [key, shared] of this.#shared) {
       const denied = shared.sources.filter(
-        ({ claim }) => granted !== undefined && claim !== undefined && !granted.has(claim),
+        ({ budgetRequest: claim }) => granted !== undefined && claim !== undefined && !granted.has(claim),
       );
       const evicted = denied.filter(({ state }) => state === "here");
       if (evicted.length > 0) {
-        show(shared, evicted);
+        updateDisplayed(shared, evicted);
         evicted.forEach(release);
       }
       for (const source of shared.sources) {
@@ -152,7 +157,7 @@ export class TextureDeliveries {
         const isNeedless = denied.includes(source) || (source.chunk === "preview" && hasTexture(shared));
         const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
         if (priority === undefined) release(source);
-        else if (source.lease !== undefined) source.lease.setPriority(priority);
+        else if (source.handle !== undefined) source.handle.setPriority(priority);
         else this.#ask(shared, source, priority);
       }
     }
@@ -160,7 +165,7 @@ export class TextureDeliveries {
 
   #ask(shared: Shared, source: Source, priority: number): void {
     const { url, chunk } = source;
-    source.lease = this.#pool.acquire({
+    source.handle = this.#pool.acquire({
       kind: "picture",
       url,
       sampling: shared.sampling,
@@ -168,19 +173,19 @@ export class TextureDeliveries {
       expectedBytes: expected[chunk].bytes,
     });
     source.state = "asked";
-    void this.#await(shared, source, source.lease);
+    void this.#await(shared, source, source.handle);
   }
 
   async #await(shared: Shared, source: Source, lease: ResourceHandle): Promise<void> {
     // Given up in between, or given up and asked for again.
-    const isOver = () => source.lease !== lease;
+    const isOver = () => source.handle !== lease;
     try {
       const content = await lease.content;
       if (isOver() || content.kind !== "picture") return;
       source.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
       source.state = "here";
       source.picture = content;
-      show(shared);
+      updateDisplayed(shared);
     } catch (error) {
       if (isOver()) return;
       source.state = "failed";
@@ -197,17 +202,17 @@ function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
   const source = (chunk: TextureChunk, of: string): Source => ({
     chunk,
     url: of,
-    lease: undefined,
+    handle: undefined,
     state: "absent",
     picture: undefined,
     storedBytes: bytesWithMipmaps(expected[chunk].texels),
-    claim: undefined,
+    budgetRequest: undefined,
   });
   return {
     sampling,
     listeners: new Set(),
     members: 0,
-    shown: undefined,
+    displayed: undefined,
     error: undefined,
     sources: [...(preview === "" ? [] : [source("preview", preview)]), source("texture", url)],
   };
@@ -222,20 +227,20 @@ function isSettled({ sources }: Shared): boolean {
 }
 
 function transfersOf({ sources }: Shared): Readonly<Transfer>[] {
-  return sources.flatMap(({ lease }) => (lease ? [lease.transfer] : []));
+  return sources.flatMap(({ handle: lease }) => (lease ? [lease.transfer] : []));
 }
 
 /** The best that is here, but none of `without`. */
-function show(shared: Shared, without: readonly Source[] = []): void {
+function updateDisplayed(shared: Shared, without: readonly Source[] = []): void {
   const best = shared.sources.findLast((source) => source.picture !== undefined && !without.includes(source))?.picture;
-  if (best === shared.shown) return;
-  shared.shown = best;
+  if (best === shared.displayed) return;
+  shared.displayed = best;
   for (const listener of shared.listeners) listener.onPicture(best);
 }
 
 function release(source: Source): void {
-  source.lease?.release();
-  source.lease = undefined;
+  source.handle?.release();
+  source.handle = undefined;
   source.picture = undefined;
   if (source.state !== "failed") source.state = "absent";
 }

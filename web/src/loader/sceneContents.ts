@@ -65,7 +65,7 @@ export class SceneContents {
       deliveries,
       shapes: this.shapes,
       reader: { url, levelOf: (lod) => this.#levels.get(lod) },
-      inlines: { urlOf, own: { url, x3d } },
+      inlines: { urlOf, ownDocument: { url, x3d } },
       host: {
         view: () => undefined, // the app has any number of cameras
         display: (scene) => this.#display(scene),

@@ -5,11 +5,11 @@ import { grantedRequests } from "./budget.ts";
 
 interface TestClaim extends BudgetRequest {
   readonly name: string;
-  isHeld: boolean;
+  isAllocated: boolean;
 }
 
 function claim(name: string, bytes: number, priority: number, isHeld = false, key: unknown = name): TestClaim {
-  return { name, key, bytes, priority, isHeld };
+  return { name, key, bytes, priority, isAllocated: isHeld };
 }
 
 function namesOf(chains: readonly (readonly TestClaim[])[], mostBytes: number): string {
@@ -73,7 +73,7 @@ describe("within a budget", () => {
       const mostBytes = 300 * random();
       let before = grantedRequests(chains, mostBytes);
       for (let turn = 0; turn < 5; ++turn) {
-        for (const each of chains.flat()) each.isHeld = before.has(each);
+        for (const each of chains.flat()) each.isAllocated = before.has(each);
         const now = grantedRequests(chains, mostBytes);
         for (const each of before)
           assert.ok(now.has(each), `scene ${scene}, turn ${turn}: ${(each as TestClaim).name} goes to and fro`);

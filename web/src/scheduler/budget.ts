@@ -1,69 +1,66 @@
-// What may be on the GPU at a time: as much as fits of what matters most, by the
-// same number that orders requests. So what goes first when room is short is the
-// finest of what is small, far or out of the view, and the last to go is the
-// coarse shape of what is large before the camera.
+// Which data stay on the GPU: the most important that fit, by the numbers that also order requests. Where memory is
+// short, the finest data of what is small, far or out of view are evicted first, and the coarse shape of what is large
+// in front of the camera last.
 
-/** Something that takes room, or would. */
+/** A request for GPU memory. */
 export interface BudgetRequest {
-  /** Claims of one key share their room: a file of several patches is stored once. */
+  /** Requests of one key share their memory: a file of several patches is stored once. */
   readonly key: unknown;
   readonly bytes: number;
-  /** Larger comes first; 0 where nobody wants it now. */
+  /** Larger is granted first; 0: not needed now. */
   readonly priority: number;
-  /** It has its room already, or is on its way there. */
-  readonly isHeld: boolean;
+  /** Its data are on the GPU, or on their way there. */
+  readonly isAllocated: boolean;
 }
 
 /**
- * What has room keeps it against what matters less than this many times as much.
- * While the view stands still, priorities do too, and what is granted only grows;
- * while it moves, nothing goes to and fro over a small difference.
+ * A request replaces an allocated one only where its priority is larger by this factor. While the camera stands still,
+ * granted requests stay granted; while it moves, small differences do not evict and reload data.
  */
-const inertia = 2;
+const hysteresis = 2;
 
 interface Ranked {
-  readonly claim: BudgetRequest;
-  /** Of use only with this one, the one before it in its chain. */
-  readonly before: BudgetRequest | undefined;
+  readonly request: BudgetRequest;
+  /** The request before it in its chain, without which it is useless. */
+  readonly previous: BudgetRequest | undefined;
   readonly rank: number;
 }
 
 /**
- * The claims that fit into `mostBytes` together. Each chain holds the claims of
- * one thing in the order of their use: none is granted without those before it.
- * What is wanted and does not fit is passed over for what does.
+ * The requests that fit into `maxBytes` together, in order of priority. A chain holds requests in the order in which
+ * they become useful: none is granted without those before it. A request that does not fit is skipped.
  */
 export function grantedRequests(
   chains: Iterable<readonly BudgetRequest[]>,
-  mostBytes: number,
+  maxBytes: number,
 ): ReadonlySet<BudgetRequest> {
   const granted = new Set<BudgetRequest>();
   const keys = new Set<unknown>();
   let bytes = 0;
-  for (const { claim, before } of ranked(chains)) {
-    if (before !== undefined && !granted.has(before)) continue;
-    const more = keys.has(claim.key) ? 0 : claim.bytes;
-    if (bytes + more > mostBytes) continue;
+  for (const { request, previous } of ranked(chains)) {
+    if (previous !== undefined && !granted.has(previous)) continue;
+    const more = keys.has(request.key) ? 0 : request.bytes;
+    if (bytes + more > maxBytes) continue;
     bytes += more;
-    keys.add(claim.key);
-    granted.add(claim);
+    keys.add(request.key);
+    granted.add(request);
   }
   return granted;
 }
 
-/** In order; a claim comes after those before it in its chain, whatever its own priority. */
+/** In order of rank; a request follows those before it in its chain, whatever its own priority. */
 function ranked(chains: Iterable<readonly BudgetRequest[]>): Ranked[] {
   const all: Ranked[] = [];
   for (const chain of chains) {
     let priority = Infinity;
-    let isHeld = true;
-    let before: BudgetRequest | undefined;
-    for (const claim of chain) {
-      priority = Math.min(priority, claim.priority);
-      isHeld &&= claim.isHeld;
-      all.push({ claim, before, rank: isHeld ? priority * inertia : priority });
-      before = claim;
+    let isAllocated = true;
+    let previous: BudgetRequest | undefined;
+    for (const request of chain) {
+      priority = Math.min(priority, request.priority);
+      isAllocated &&= request.isAllocated;
+      all.push({ request, previous, rank: isAllocated ? priority * hysteresis : priority });
+      previous = request;
     }
   }
-  return all.sort((a, b) => b.rank - a.rank); // a stable sort: chains keep their order
+  return all.sort((a, b) => b.rank - a.rank); // the sort is stable: chains keep their order
 }

@@ -1,35 +1,34 @@
-// What has come and is not on the GPU yet. When downloads are faster than
-// decoding and upload, downloads wait, so that memory stays small.
+// A semaphore that counts bytes: limits the downloaded bytes that wait for decoding and upload. When downloads are faster
+// than both, they wait, so that memory stays small.
 
 import type { Prioritised } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";
 
 interface Waiting extends Prioritised {
   readonly bytes: number;
-  readonly enter: () => void;
+  readonly admit: () => void;
 }
 
-/** Gives the room back; a second call does nothing. */
+/** Frees the bytes; a second call does nothing. */
 export type Release = () => void;
 
 export class ByteSemaphore {
-  readonly #mostBytes: number;
+  readonly #maxBytes: number;
   readonly #queue = new PriorityQueue<Waiting>();
   #bytes = 0;
 
-  constructor(mostBytes: number) {
-    this.#mostBytes = mostBytes;
+  constructor(maxBytes: number) {
+    this.#maxBytes = maxBytes;
   }
 
-  /** Bytes that are inside now. */
+  /** Bytes that are acquired now. */
   get bytes(): number {
     return this.#bytes;
   }
 
   /**
-   * Resolves when there is room for so many bytes, in the order of asking; what
-   * is larger than all the room enters alone. Rejects with the signal's reason
-   * when aborted while waiting.
+   * Resolves when there is room for the bytes, in the order of calls; a request larger than the limit is admitted
+   * alone. Rejects with the signal's reason when aborted while waiting.
    */
   acquire(bytes: number, signal: AbortSignal): Promise<Release> {
     return new Promise((resolve, reject) => {
@@ -37,30 +36,30 @@ export class ByteSemaphore {
         reject(signal.reason as Error);
         return;
       }
-      const give = () => {
+      const cancel = () => {
         this.#queue.remove(entry);
         reject(signal.reason as Error);
-        this.#admit(); // a smaller one behind it may fit
+        this.#admit(); // a smaller one after it may fit
       };
       const entry = this.#queue.push({
         priority: 0,
         bytes,
-        enter: () => {
-          signal.removeEventListener("abort", give);
+        admit: () => {
+          signal.removeEventListener("abort", cancel);
           this.#bytes += bytes;
-          resolve(this.#leaveOnce(bytes));
+          resolve(this.#releaseOnce(bytes));
         },
       });
-      signal.addEventListener("abort", give, { once: true });
+      signal.addEventListener("abort", cancel, { once: true });
       this.#admit();
     });
   }
 
-  #leaveOnce(bytes: number): Release {
-    let isInside = true;
+  #releaseOnce(bytes: number): Release {
+    let isAcquired = true;
     return () => {
-      if (!isInside) return;
-      isInside = false;
+      if (!isAcquired) return;
+      isAcquired = false;
       this.#bytes -= bytes;
       this.#admit();
     };
@@ -69,9 +68,9 @@ export class ByteSemaphore {
   #admit(): void {
     for (;;) {
       const next = this.#queue.first;
-      if (next === undefined || (this.#bytes > 0 && this.#bytes + next.bytes > this.#mostBytes)) return;
+      if (next === undefined || (this.#bytes > 0 && this.#bytes + next.bytes > this.#maxBytes)) return;
       this.#queue.pop();
-      next.enter();
+      next.admit();
     }
   }
 }

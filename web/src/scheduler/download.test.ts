@@ -64,7 +64,7 @@ describe("a download", () => {
     let asked = 0;
     const options: DownloadOptions = {
       ...silent,
-      silenceMs: 5,
+      idleTimeoutMs: 5,
       retries: 1,
       fetch: (input, init) => {
         asked += 1;

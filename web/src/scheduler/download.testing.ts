@@ -7,7 +7,7 @@ export const subject = { priority: 1 };
 export const listener: DownloadListener = { onState: () => undefined, onBytes: () => undefined };
 
 export function answering(fetch: typeof globalThis.fetch): DownloadOptions {
-  return { fetch, silenceMs: 1000, retries: 0, backoffMs: 1 };
+  return { fetch, idleTimeoutMs: 1000, retries: 0, backoffMs: 1 };
 }
 
 export const status = (code: number) => answering(() => Promise.resolve(new Response("no", { status: code })));

@@ -1,5 +1,4 @@
-// One URL -> its bytes, counted as they come, with a limit on silence and
-// retries where trying again can help.
+// Downloads a URL: counts the bytes as they arrive, times out when none arrive, and retries where that can help.
 
 import type { Prioritised } from "./priorityQueue.ts";
 import { retryDelayMs } from "./retry.ts";
@@ -11,9 +10,9 @@ export class RequestError extends Error {
   override readonly name = "RequestError";
   readonly kind: RequestFailure;
   readonly url: string;
-  /** The HTTP status; 0 where there was no answer. */
+  /** The HTTP status; 0 where there was no response. */
   readonly status: number;
-  /** The server's `Retry-After`, as it wrote it. */
+  /** The `Retry-After` header as the server sent it. */
   readonly retryAfter: string | undefined;
 
   constructor(kind: RequestFailure, url: string, message: string, status = 0, retryAfter?: string) {
@@ -25,41 +24,39 @@ export class RequestError extends Error {
   }
 }
 
-/** No container file comes near; a server that sends more is not sending one. */
+/** Far more than any file of a site has. */
 export const maxDownloadBytes = 2 ** 30;
 
 export interface DownloadOptions {
   readonly fetch: typeof fetch;
-  /** A transfer without a byte for so long has failed. */
-  readonly silenceMs: number;
-  /** Attempts after the first. */
+  /** A transfer that receives no byte for this long has failed. */
+  readonly idleTimeoutMs: number;
+  /** Number of attempts after the first. */
   readonly retries: number;
-  /** Before the first retry; doubled for each further one. */
+  /** Delay before the first retry; doubled for each further one. */
   readonly backoffMs: number;
 }
 
 export const defaultDownloadOptions: DownloadOptions = {
   fetch: (input, init) => globalThis.fetch(input, init),
-  silenceMs: 30_000,
+  idleTimeoutMs: 30_000,
   retries: 2,
   backoffMs: 400,
 };
 
-/** Where a download stands: in the queue, on the line, or waiting to try again. */
+/** The state of a download: in the queue, receiving bytes, or waiting to try again. */
 export type DownloadState = "waiting" | "loading" | "retrying";
 
-/** What is told of a download on its way. */
 export interface DownloadListener {
   onState(state: DownloadState): void;
-  /** `totalBytes` is undefined where the server does not say or says it of the compressed body. */
+  /** `totalBytes` is undefined where the server does not state it, or states it for the compressed body. */
   onBytes(loadedBytes: number, totalBytes: number | undefined): void;
 }
 
 /**
- * Downloads `url` in a slot of the scheduler and takes the bytes over there: while
- * `take` waits, nothing further is asked for. Each attempt has a slot of its own:
- * until the next one, others use the slot. Which failures are tried again, and
- * when, is said in retry.ts; all others are final.
+ * Downloads `url` in a slot of the scheduler and passes the bytes to `take`, which keeps the slot until it resolves.
+ * Each attempt takes a slot of its own; other downloads use it until the next attempt. retry.ts decides which failures
+ * are tried again, and when.
  */
 export async function downloadInSlot<Result>(
   scheduler: Scheduler,
@@ -96,17 +93,17 @@ export async function download(
   options: DownloadOptions,
   listener: Pick<DownloadListener, "onBytes">,
 ): Promise<Uint8Array<ArrayBuffer>> {
-  const silence = new AbortController();
+  const idleTimeout = new AbortController();
   let timer: ReturnType<typeof setTimeout> | undefined;
-  const listen = () => {
+  const restartTimer = () => {
     clearTimeout(timer);
     timer = setTimeout(() => {
-      silence.abort();
-    }, options.silenceMs);
+      idleTimeout.abort();
+    }, options.idleTimeoutMs);
   };
-  listen();
+  restartTimer();
   try {
-    const response = await options.fetch(url, { signal: AbortSignal.any([signal, silence.signal]) });
+    const response = await options.fetch(url, { signal: AbortSignal.any([signal, idleTimeout.signal]) });
     if (!response.ok) {
       await response.body?.cancel();
       throw new RequestError(
@@ -117,11 +114,11 @@ export async function download(
         response.headers.get("retry-after") ?? undefined,
       );
     }
-    return await readBody(url, response, listen, listener);
+    return await readBody(url, response, restartTimer, listener);
   } catch (error) {
     if (signal.aborted) throw signal.reason;
-    if (silence.signal.aborted)
-      throw new RequestError("timeout", url, `no byte came for ${options.silenceMs / 1000} s`);
+    if (idleTimeout.signal.aborted)
+      throw new RequestError("timeout", url, `no byte came for ${options.idleTimeoutMs / 1000} s`);
     if (error instanceof RequestError) throw error;
     throw new RequestError("network", url, networkMessage(url, error));
   } finally {
@@ -129,7 +126,7 @@ export async function download(
   }
 }
 
-/** Browsers do not say why: of another origin the likeliest cause is that it does not allow this page to read. */
+/** Browsers do not state the cause. For another origin it is most likely that the server sends no CORS header. */
 function networkMessage(url: string, error: unknown): string {
   const reason = error instanceof Error ? error.message : String(error);
   const page = (globalThis as { location?: Location }).location;
@@ -165,7 +162,7 @@ async function readBody(
   return bytes;
 }
 
-/** Streams are not async iterable in every browser yet. */
+/** ReadableStream is not async iterable in every browser yet. */
 async function* chunksOf(body: ReadableStream<Uint8Array>): AsyncGenerator<Uint8Array> {
   const reader = body.getReader();
   try {
@@ -175,13 +172,13 @@ async function* chunksOf(body: ReadableStream<Uint8Array>): AsyncGenerator<Uint8
       yield value;
     }
   } finally {
-    // Ends the transfer where we stop early; after its end it does nothing.
+    // Ends the transfer where reading stops early; does nothing once the stream has ended.
     await reader.cancel().catch(() => undefined);
   }
 }
 
 function totalBytesOf(response: Response): number | undefined {
-  // Content-Length counts the bytes on the wire, the body gives them unpacked.
+  // Content-Length counts compressed bytes; the body gives them decompressed.
   if (response.headers.get("content-encoding") !== null) return undefined;
   const length = Number(response.headers.get("content-length") ?? NaN);
   return Number.isSafeInteger(length) && length >= 0 ? length : undefined;

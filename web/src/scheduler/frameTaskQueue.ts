@@ -1,17 +1,16 @@
-// Work that may not hold up a frame: done in small steps, so many bytes and so
-// many milliseconds before each one. Bursts are what freezes a page while a
-// scene arrives, not the work as a whole.
+// Runs long work in small steps before frames, within limits of bytes and milliseconds, so that no frame is late while a
+// scene loads.
 
 export interface FrameTaskQueueOptions {
-  /** At least one step is taken before each frame, and none that begins beyond these. */
+  /** Before each frame at least one step runs, and none begins once a limit is reached. */
   readonly bytesPerFrame: number;
   readonly millisecondsPerFrame: number;
   readonly now: () => number;
-  /** Calls back before the next frame; or soon, and with `true`, where nobody sees any: the work is then done at once. */
-  readonly requestFrame: (callback: (isUnseen?: boolean) => void) => void;
+  /** Calls back before the next frame; or soon, and with `true`, where the page is hidden: all work then runs at once. */
+  readonly requestFrame: (callback: (isHidden?: boolean) => void) => void;
 }
 
-/** Each turn takes a step and yields the bytes that it has moved. */
+/** Each call of `next` runs one step and yields the bytes that it moved. */
 export type Steps = Iterator<number, void, void>;
 
 interface Work {
@@ -23,7 +22,7 @@ interface Work {
 
 export class FrameTaskQueue {
   readonly #options: FrameTaskQueueOptions;
-  /** In order of arrival, which is that of the requests: what matters most came first. */
+  /** In order of arrival, which is the order of requests: the most important first. */
   readonly #queue: Work[] = [];
   #frameIsDue = false;
 
@@ -32,8 +31,8 @@ export class FrameTaskQueue {
   }
 
   /**
-   * Takes all steps, in this frame or the next ones. Rejects with what a step
-   * throws, or with the signal's reason, after which none is taken.
+   * Runs all steps, before the next frame or later ones. Rejects with what a step throws, or with the signal's reason;
+   * no step runs after that.
    */
   run(steps: Steps, signal: AbortSignal): Promise<void> {
     return new Promise((resolve, reject) => {
@@ -45,17 +44,17 @@ export class FrameTaskQueue {
   #frameSoon(): void {
     if (this.#frameIsDue) return;
     this.#frameIsDue = true;
-    this.#options.requestFrame((isUnseen = false) => {
+    this.#options.requestFrame((isHidden = false) => {
       this.#frameIsDue = false;
       this.#workBeforeFrame(
-        isUnseen ? Infinity : this.#options.bytesPerFrame,
-        isUnseen ? Infinity : this.#options.millisecondsPerFrame,
+        isHidden ? Infinity : this.#options.bytesPerFrame,
+        isHidden ? Infinity : this.#options.millisecondsPerFrame,
       );
       if (this.#queue.length > 0) this.#frameSoon();
     });
   }
 
-  #workBeforeFrame(mostBytes: number, milliseconds: number): void {
+  #workBeforeFrame(maxBytes: number, milliseconds: number): void {
     const { now } = this.#options;
     const end = now() + milliseconds;
     let bytes = 0;
@@ -65,11 +64,11 @@ export class FrameTaskQueue {
       const moved = step(work);
       if (moved === undefined) this.#queue.shift();
       bytes += moved ?? 0;
-    } while (bytes < mostBytes && now() < end);
+    } while (bytes < maxBytes && now() < end);
   }
 }
 
-/** The bytes that one step has moved; undefined when there are no more. */
+/** The bytes that one step moved; undefined when there are no more steps. */
 function step({ steps, signal, resolve, reject }: Work): number | undefined {
   try {
     signal.throwIfAborted();

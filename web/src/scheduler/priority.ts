@@ -1,10 +1,13 @@
-// One number for each request (paper section 5.4, "Priority Controlled
-// Rendering"): what the author says, times what the file holds, times what the
-// camera sees. Larger goes first.
+// The priority of a request (paper section 5.4, "Priority Controlled Rendering"): the author's factor, times the weight of
+// what the file holds, times a weight of its size on the screen. Larger goes first. docs/formats/nodes.md, "Order of
+// requests", is its description for authors.
 
 import type { ViewMetrics } from "./viewMetrics.ts";
 
-/** What a file holds, for the second factor. `refinement` is every byte of a coordinate after the first, `patch` all of a patch, `base` a coarse shape of all patches, `preview` a texture in few pixels. */
+/**
+ * What a file holds. `refinement`: a byte plane of coordinates after the first; `patch`: all of a patch; `base`: the
+ * base mesh of all patches; `preview`: a small version of a texture.
+ */
 export const chunkTypes = [
   "base",
   "patch",
@@ -21,11 +24,9 @@ export type ChunkType = (typeof chunkTypes)[number];
 export type ChunkWeights = Readonly<Record<ChunkType, number>>;
 
 /**
- * First a shape, then what makes it better. A step is a factor of 4, the same as
- * that of an author's `high`, and as that of being 16 times as large on the
- * screen: among the patches of one object, and among objects of about the same
- * size, all are coarse before one is fine; but nobody waits with an object that
- * fills the screen for the dots of one that is hardly seen.
+ * Coarse shapes first, then what refines them. Weights differ by factors of 4, the same as an author's `high`, and as
+ * being 16 times as large on the screen. So all patches of one object, and all objects of about the same size, are
+ * coarse before one is fine; but an object that fills the screen does not wait for one of a few pixels.
  */
 export const defaultChunkWeights: ChunkWeights = {
   base: 4096,
@@ -40,43 +41,43 @@ export const defaultChunkWeights: ChunkWeights = {
   texture: 1,
 };
 
-/** Byte planes after the second are worth this much of the one before. */
+/** The weight of a byte plane after the second, relative to the one before it. */
 const furtherPlaneFactor = 1 / 4;
 
-/** Off the screen is fetched too, since turning the head is quick, but after what is seen. */
+/** Data out of view are fetched too, since the camera turns quickly, but after those in view. */
 const outOfViewFactor = 1 / 4096;
 
-/** Neither is more than this worth telling apart. */
+/** Diameters in pixels are clamped to this range. */
 const minPixels = 1;
 const maxPixels = 4096;
 
 export interface Chunk {
   readonly type: ChunkType;
-  /** Which byte of the coordinate, for `refinement`: 1 is the second. */
+  /** Index of the byte plane, for `refinement`: 1 is the second. */
   readonly plane: number;
 }
 
-/** `content` is the author's factor, 0 or more; 1 where nothing is said. */
+/** `authorPriority`: the author's factor, 0 or more; 1 where the document states none. */
 export function priorityOf(
-  content: number,
+  authorPriority: number,
   chunk: Chunk,
   view: ViewMetrics,
   weights: ChunkWeights = defaultChunkWeights,
 ): number {
   const type =
     chunk.type === "refinement" ? weights.refinement * furtherPlaneFactor ** (chunk.plane - 1) : weights[chunk.type];
-  return content * type * weightOfView(view);
+  return authorPriority * type * weightOfView(view);
 }
 
-/** Grows with the square root of the size on the screen: size differs by thousands, and must not drown the other factors. */
+/** Grows with the square root of the diameter: diameters differ by factors of thousands, and must not outweigh the other factors. */
 export function weightOfView({ pixels, isInView }: ViewMetrics): number {
   const size = Math.sqrt(Math.min(Math.max(pixels, minPixels), maxPixels));
   return isInView ? size : size * outOfViewFactor;
 }
 
 /**
- * The default weights changed by declarations such as "normal: 8; refinement: 200",
- * as an author writes them for a scene. What cannot be read is told to `onProblem`.
+ * The default weights changed by an author's declarations, such as "normal: 8; refinement: 200". Calls `onProblem` for
+ * each declaration that is invalid.
  */
 export function chunkWeightsOf(text: string, onProblem: (problem: string) => void): ChunkWeights {
   const weights: Record<ChunkType, number> = { ...defaultChunkWeights };

@@ -1,7 +1,5 @@
-// What waits, most important first: a binary heap. Priorities belong to the
-// things themselves and may change at any time; the heap orders by what they
-// were when it last looked, so that it is a heap at every moment, and looks
-// again when it is told to.
+// A priority queue as a binary heap. Priorities belong to the items and may change at any time: the heap is ordered by
+// the keys that it read last, and reads all priorities again when `reorder` is called.
 
 /** Something with a priority that its owner may change while it waits. */
 export interface Prioritised {
@@ -9,39 +7,39 @@ export interface Prioritised {
   readonly priority: number;
 }
 
-/** A place in a queue, to leave it by. */
+/** An item in a queue; `remove` takes it out. */
 export interface QueueEntry<Item extends Prioritised> {
   readonly item: Item;
-  /** Of the item, when the queue last looked. */
+  /** The item's priority when the queue last read it. */
   key: number;
-  /** Equal keys leave in the order in which they came. */
-  readonly turn: number;
-  /** Index in the heap; -1 after leaving. */
-  place: number;
+  /** Items of equal keys leave in the order in which they were pushed. */
+  readonly sequence: number;
+  /** Index in the heap; -1 once removed. */
+  heapIndex: number;
 }
 
 export class PriorityQueue<Item extends Prioritised> {
   readonly #heap: QueueEntry<Item>[] = [];
-  #turns = 0;
+  #nextSequence = 0;
 
   get size(): number {
     return this.#heap.length;
   }
 
-  /** What `pop` would take. */
+  /** The item that `pop` would return. */
   get first(): Item | undefined {
     return this.#heap[0]?.item;
   }
 
   /** O(log n). */
   push(item: Item): QueueEntry<Item> {
-    const entry = { item, key: item.priority, turn: this.#turns++, place: this.#heap.length };
+    const entry = { item, key: item.priority, sequence: this.#nextSequence++, heapIndex: this.#heap.length };
     this.#heap.push(entry);
     this.#rise(entry);
     return entry;
   }
 
-  /** Takes the first out; O(log n). */
+  /** Removes and returns the first item; O(log n). */
   pop(): Item | undefined {
     const first = this.#heap[0];
     if (first === undefined) return undefined;
@@ -49,31 +47,31 @@ export class PriorityQueue<Item extends Prioritised> {
     return first.item;
   }
 
-  /** O(log n); what has left already is left alone. */
+  /** O(log n); does nothing for an entry that is removed already. */
   remove(entry: QueueEntry<Item>): void {
-    const { place } = entry;
+    const { heapIndex } = entry;
     const last = this.#heap.at(-1);
-    if (place < 0 || last === undefined) return;
+    if (heapIndex < 0 || last === undefined) return;
     this.#heap.pop();
-    entry.place = -1;
+    entry.heapIndex = -1;
     if (last === entry) return;
-    this.#put(last, place);
+    this.#put(last, heapIndex);
     this.#rise(last);
     this.#sink(last);
   }
 
-  /** Looks at all priorities again; O(n). */
+  /** Reads all priorities again; O(n). */
   reorder(): void {
     for (const entry of this.#heap) entry.key = entry.item.priority;
-    for (let place = (this.#heap.length >> 1) - 1; place >= 0; --place) {
-      const entry = this.#heap[place];
+    for (let index = (this.#heap.length >> 1) - 1; index >= 0; --index) {
+      const entry = this.#heap[index];
       if (entry !== undefined) this.#sink(entry);
     }
   }
 
   #rise(entry: QueueEntry<Item>): void {
-    while (entry.place > 0) {
-      const parent = this.#heap[(entry.place - 1) >> 1];
+    while (entry.heapIndex > 0) {
+      const parent = this.#heap[(entry.heapIndex - 1) >> 1];
       if (parent === undefined || !goesBefore(entry, parent)) return;
       this.#exchange(entry, parent);
     }
@@ -81,8 +79,8 @@ export class PriorityQueue<Item extends Prioritised> {
 
   #sink(entry: QueueEntry<Item>): void {
     for (;;) {
-      const left = this.#heap[2 * entry.place + 1];
-      const right = this.#heap[2 * entry.place + 2];
+      const left = this.#heap[2 * entry.heapIndex + 1];
+      const right = this.#heap[2 * entry.heapIndex + 2];
       const child = left !== undefined && right !== undefined && goesBefore(right, left) ? right : left;
       if (child === undefined || !goesBefore(child, entry)) return;
       this.#exchange(child, entry);
@@ -90,17 +88,17 @@ export class PriorityQueue<Item extends Prioritised> {
   }
 
   #exchange(a: QueueEntry<Item>, b: QueueEntry<Item>): void {
-    const { place } = a;
-    this.#put(a, b.place);
-    this.#put(b, place);
+    const { heapIndex } = a;
+    this.#put(a, b.heapIndex);
+    this.#put(b, heapIndex);
   }
 
-  #put(entry: QueueEntry<Item>, place: number): void {
-    this.#heap[place] = entry;
-    entry.place = place;
+  #put(entry: QueueEntry<Item>, heapIndex: number): void {
+    this.#heap[heapIndex] = entry;
+    entry.heapIndex = heapIndex;
   }
 }
 
-function goesBefore(a: { key: number; turn: number }, b: { key: number; turn: number }): boolean {
-  return a.key > b.key || (a.key === b.key && a.turn < b.turn);
+function goesBefore(a: { key: number; sequence: number }, b: { key: number; sequence: number }): boolean {
+  return a.key > b.key || (a.key === b.key && a.sequence < b.sequence);
 }

@@ -1,30 +1,30 @@
-// Which failures another attempt may mend, and how long to wait before it.
+// Which failed requests are tried again, and after how long.
 
-/** What is known of a failure. */
+/** A failed request. */
 export interface Failure {
   readonly kind: "http" | "network" | "timeout" | "limit";
   readonly status: number;
-  /** The header as it came: seconds, or a date (RFC 9110, 10.2.3). */
+  /** The Retry-After header: seconds, or a date (RFC 9110, 10.2.3). */
   readonly retryAfter: string | undefined;
 }
 
-/** A server that asks for more patience than this is taken at its word: the file has failed. */
+/** Where a server asks to wait longer than this, the file has failed. */
 export const maxRetryAfterMs = 60_000;
 
-/** The server is busy or in trouble (RFC 9110, 15.5.9, 15.6; RFC 6585, 4); every other answer stays what it is. */
-function isPassing(status: number): boolean {
+/** Whether the status is temporary: the server is busy or has an internal error (RFC 9110, 15.5.9, 15.6; RFC 6585, 4). */
+function isTemporary(status: number): boolean {
   return status === 408 || status === 425 || status === 429 || (status >= 500 && status !== 501 && status !== 505);
 }
 
-/** Milliseconds until the next attempt, at least `backoffMs`; undefined where it would not help. */
+/** Milliseconds until the next attempt, at least `backoffMs`; undefined where the request is not tried again. */
 export function retryDelayMs(failure: Failure, backoffMs: number, nowMs: number): number | undefined {
   if (failure.kind === "limit") return undefined;
-  if (failure.kind === "http" && !isPassing(failure.status)) return undefined;
-  const asked = failure.retryAfter === undefined ? 0 : patienceAsked(failure.retryAfter, nowMs);
-  return asked > maxRetryAfterMs ? undefined : Math.max(backoffMs, asked);
+  if (failure.kind === "http" && !isTemporary(failure.status)) return undefined;
+  const requestedMs = failure.retryAfter === undefined ? 0 : requestedDelayMs(failure.retryAfter, nowMs);
+  return requestedMs > maxRetryAfterMs ? undefined : Math.max(backoffMs, requestedMs);
 }
 
-function patienceAsked(retryAfter: string, nowMs: number): number {
+function requestedDelayMs(retryAfter: string, nowMs: number): number {
   const text = retryAfter.trim();
   if (/^\d+$/.test(text)) return Number(text) * 1000;
   const date = Date.parse(text);

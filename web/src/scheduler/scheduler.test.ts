@@ -40,7 +40,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
     );
   },
   silence: (scheduler, { signal }) =>
-    downloadInSlot(scheduler, subject, url, signal, { ...silent, silenceMs: 5 }, listener, decoded),
+    downloadInSlot(scheduler, subject, url, signal, { ...silent, idleTimeoutMs: 5 }, listener, decoded),
   "abort before asking": (scheduler, aborter) => {
     aborter.abort();
     return downloadInSlot(scheduler, subject, url, aborter.signal, ok, listener, decoded);

@@ -1,11 +1,10 @@
-// Work waits in one queue and runs in a few slots. A slot is given back exactly
-// once, in one `finally`, whatever becomes of the job: X3DOM's download manager
-// stood still after six network errors because an error kept its slot.
+// Runs jobs from one priority queue in a few slots. A job frees its slot in one `finally`, whatever becomes of it:
+// X3DOM's download manager stopped after six network errors because an error kept its slot.
 
 import type { Prioritised } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";
 
-/** Told to stop through `signal`; its slot is free when the promise settles. */
+/** `signal` tells it to stop. Its slot is free once the promise settles. */
 export type Job<Result> = (signal: AbortSignal) => Promise<Result>;
 
 interface Waiting extends Prioritised {
@@ -28,33 +27,32 @@ export class Scheduler {
     return this.#slotCount;
   }
 
-  /** With fewer slots, what runs goes on; new jobs wait until there is room. */
+  /** With fewer slots, running jobs continue; new jobs wait until a slot is free. */
   set slotCount(count: number) {
     this.#slotCount = count;
     this.#pumpSoon();
   }
 
-  /** Jobs that hold a slot now. */
+  /** Number of jobs that hold a slot. */
   get running(): number {
     return this.#running;
   }
 
+  /** Number of jobs in the queue. */
   get waiting(): number {
     return this.#queue.size;
   }
 
-  /** Jobs that ever got a slot. */
+  /** Number of jobs that ever got a slot. */
   get started(): number {
     return this.#started;
   }
 
   /**
-   * Runs `job` when a slot is free and nothing of a larger priority waits; equal
-   * priorities keep their order. The subject's priority is read now and after
-   * each `reorder`. Rejects with the signal's reason when aborted while waiting;
-   * a job that runs is told through its signal. Nothing starts before the
-   * caller's turn of the event loop has ended, so that what is enqueued together
-   * is ordered together.
+   * Runs `job` when a slot is free and no job of a larger priority waits; equal priorities keep their order. The
+   * subject's priority is read now and after each `reorder`. Rejects with the signal's reason when aborted while
+   * waiting; a running job gets the signal. No job starts before the caller's microtask has ended, so that jobs that
+   * are enqueued together are ordered together.
    */
   run<Result>(subject: Prioritised, signal: AbortSignal, job: Job<Result>): Promise<Result> {
     return new Promise((resolve, reject) => {
@@ -80,7 +78,7 @@ export class Scheduler {
     });
   }
 
-  /** Priorities have changed. They are looked at when the next slot is free, however often this is called before. */
+  /** Call when priorities have changed. The queue reads them once, when the next slot is free. */
   reorder(): void {
     this.#orderIsStale = true;
   }

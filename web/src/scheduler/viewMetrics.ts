@@ -1,6 +1,5 @@
-// How a box is seen: whether it is inside the view, how large, and how finely.
-// Numbers only, no camera of any library; matrices are 16 numbers, column by
-// column, as WebGL has them.
+// How a bounding sphere is seen: whether it is in view, how large it is, and how finely. Matrices are 16 numbers in
+// column-major order, as WebGL has them; there is no dependency on a camera class.
 
 export type Point = readonly [number, number, number];
 export type Matrix = ArrayLike<number>;
@@ -15,27 +14,27 @@ export interface Sphere {
   readonly radius: number;
 }
 
-/** A camera with a perspective, in the scene's coordinates. */
+/** A perspective camera, in the scene's coordinates. */
 export interface Camera {
   readonly position: Point;
-  /** Inside is where x nx + y ny + z nz + w >= 0, for each [nx, ny, nz, w] with a normal of length 1. */
+  /** The view frustum: points with x nx + y ny + z nz + w >= 0 for each [nx, ny, nz, w]; normals have length 1. */
   readonly planes: readonly (readonly [number, number, number, number])[];
-  /** Pixels of the screen that something of length 1 covers at a distance of 1, in the middle of the view. */
+  /** Pixels that a length of 1 covers at a distance of 1, in the middle of the view. */
   readonly pixelsPerUnit: number;
-  /** Nothing is nearer than this. */
+  /** Distance of the near plane. */
   readonly near: number;
 }
 
-/** What the camera sees of something. */
+/** What the camera sees of a sphere. */
 export interface ViewMetrics {
-  /** Its diameter on the screen, if the camera were turned to it. */
+  /** Its diameter in pixels, as if the camera looked at its centre. */
   readonly pixels: number;
   readonly isInView: boolean;
-  /** How large a length of 1 is where it is nearest. */
+  /** Pixels that a length of 1 covers at its nearest point. */
   readonly pixelsPerUnit: number;
 }
 
-/** Before a camera is known: everything is seen, and everything matters. */
+/** Before a camera is known: everything is in view and equally important. */
 export const unknownViewMetrics: ViewMetrics = { pixels: 1, isInView: true, pixelsPerUnit: Infinity };
 
 export function viewMetricsOf({ center, radius }: Sphere, camera: Camera): ViewMetrics {
@@ -45,7 +44,7 @@ export function viewMetricsOf({ center, radius }: Sphere, camera: Camera): ViewM
     center[2] - camera.position[2],
   );
   return {
-    // From inside of it, it is as large as what lies a radius away.
+    // From inside the sphere the distance counts as its radius.
     pixels: (2 * radius * camera.pixelsPerUnit) / Math.max(distance, radius, camera.near),
     isInView: camera.planes.every(([x, y, z, w]) => x * center[0] + y * center[1] + z * center[2] + w >= -radius),
     pixelsPerUnit: camera.pixelsPerUnit / Math.max(distance - radius, camera.near),
@@ -61,7 +60,7 @@ export function sphereOf({ min, max }: Box, sceneFromShape: Matrix): Sphere {
       at(sceneFromShape, 12 + row) +
       [0, 1, 2].reduce((sum, axis) => sum + at(sceneFromShape, 4 * axis + row) * at(middle, axis), 0),
   ) as unknown as Point;
-  // The farthest corner: its coordinates are sums of the half edges' images with some signs.
+  // The farthest corner is a sum of the transformed half edges with some signs; opposite corners are equally far.
   let square = 0;
   for (const [signY, signZ] of [
     [1, 1],
@@ -83,7 +82,7 @@ export function sphereOf({ min, max }: Box, sceneFromShape: Matrix): Sphere {
   return { center, radius: Math.sqrt(square) };
 }
 
-/** By how much a shape's longest axis is longer in the scene. */
+/** The largest factor by which the matrix scales an axis. */
 export function scaleOf(sceneFromShape: Matrix): number {
   return Math.max(
     ...[0, 4, 8].map((column) =>
@@ -92,19 +91,19 @@ export function scaleOf(sceneFromShape: Matrix): number {
   );
 }
 
-/** The six sides of what a camera sees, from its projection times its view (Gribb and Hartmann 2001). */
+/** The six planes of the view frustum, from the projection times the view matrix (Gribb and Hartmann 2001). */
 export function planesOf(clipFromScene: Matrix): Camera["planes"] {
   const row = (n: number) => [0, 4, 8, 12].map((column) => at(clipFromScene, column + n));
   const last = row(3);
   return [0, 1, 2].flatMap((n) =>
     [1, -1].map((sign) => {
-      const [x = 0, y = 0, z = 0, w = 0] = last.map((value, place) => value + sign * at(row(n), place));
+      const [x = 0, y = 0, z = 0, w = 0] = last.map((value, column) => value + sign * at(row(n), column));
       const length = Math.hypot(x, y, z) || 1;
       return [x / length, y / length, z / length, w / length] as const;
     }),
   );
 }
 
-function at(numbers: ArrayLike<number>, place: number): number {
-  return numbers[place] ?? 0;
+function at(numbers: ArrayLike<number>, index: number): number {
+  return numbers[index] ?? 0;
 }

@@ -98,7 +98,7 @@ export class ViewerCore<Shape extends LoadingShape> {
           this.read();
           host.onInlineRead?.();
         },
-        onLeave: (inline) => {
+        onRemove: (inline) => {
           host.onInlineRemoved?.(inline);
         },
       },

@@ -33,7 +33,7 @@ interface Job {
   readonly reject: (reason: Error) => void;
 }
 
-interface Busy {
+interface PoolWorker {
   readonly worker: JobWorker;
   job: Job | undefined;
   idleTimer: ReturnType<typeof setTimeout> | undefined;
@@ -41,7 +41,7 @@ interface Busy {
 
 export class WorkerPool {
   readonly #options: WorkerPoolOptions;
-  readonly #workers = new Set<Busy>();
+  readonly #workers = new Set<PoolWorker>();
   #waiting: Job[] = [];
   #canStart = true;
   #isDisposed = false;
@@ -126,7 +126,7 @@ export class WorkerPool {
   }
 
   /** A worker without a job; "none" while all are at work, "never" where none can be started. */
-  #idle(): Busy | "none" | "never" {
+  #idle(): PoolWorker | "none" | "never" {
     const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
     if (idle !== undefined) return idle;
     if (!this.#canStart) return "never";
@@ -134,7 +134,7 @@ export class WorkerPool {
     return this.#tryStart() ?? "never";
   }
 
-  #tryStart(): Busy | undefined {
+  #tryStart(): PoolWorker | undefined {
     try {
       return this.#start(this.#options.start());
     } catch {
@@ -144,14 +144,14 @@ export class WorkerPool {
   }
 
   /** Until there is a job, or for good. */
-  #rest(busy: Busy): void {
+  #rest(busy: PoolWorker): void {
     busy.idleTimer = setTimeout(() => {
       this.#end(busy);
     }, this.#options.idleMs);
   }
 
-  #start(worker: JobWorker): Busy {
-    const busy: Busy = { worker, job: undefined, idleTimer: undefined };
+  #start(worker: JobWorker): PoolWorker {
+    const busy: PoolWorker = { worker, job: undefined, idleTimer: undefined };
     this.#workers.add(busy);
     worker.onmessage = ({ data }) => {
       this.#take(busy, data);
@@ -168,7 +168,7 @@ export class WorkerPool {
     return busy;
   }
 
-  #take(busy: Busy, answer: AnswerMessage): void {
+  #take(busy: PoolWorker, answer: AnswerMessage): void {
     const { job } = busy;
     busy.job = undefined;
     if ("output" in answer) job?.resolve(answer.output);
@@ -177,7 +177,7 @@ export class WorkerPool {
     this.#pump();
   }
 
-  #end(busy: Busy): void {
+  #end(busy: PoolWorker): void {
     clearTimeout(busy.idleTimer);
     busy.worker.terminate();
     this.#workers.delete(busy);

@@ -18,7 +18,7 @@ export interface ElementRange {
 }
 
 /** How many groups of `range` lie in so many bytes. */
-export function countIn(byteLength: number, range: ElementRange): number {
+export function countThatFits(byteLength: number, range: ElementRange): number {
   const { group, stride } = sizesOf(range);
   const available = byteLength - range.byteOffset;
   return available < group ? 0 : Math.floor((available - group) / stride) + 1;
@@ -94,7 +94,7 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefor
   if (stride % size !== 0 || stride < group) {
     throw new DecodeError("malformed", `has a stride of ${stride} bytes for ${range.components} ${range.type}`);
   }
-  const fit = countIn(bytes.byteLength, range);
+  const fit = countThatFits(bytes.byteLength, range);
   const count = range.count === 0 ? fit : range.count;
   if (count > fit)
     throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);

@@ -3,7 +3,7 @@
 import type { Bounds } from "../../../stage/vertexArray.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
-import { boundsOf, countIn, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
+import { boundsOf, countThatFits, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
 import type { BufferStage, DrawRange, NormalCode, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
 import { withoutStrips } from "../../../decode/strips.ts";
@@ -58,7 +58,7 @@ export function bgStageBuilder(
       if (hasNormalsInCoords(geometry, patch)) present.normal = fourthElementOf(stored);
       if (patch.index !== undefined) return;
       // Strips without an index get one, since buffers are drawn as separate triangles.
-      const { index, draws } = unindexed(patch.vertexCount || countIn(content.bytes.byteLength, range));
+      const { index, draws } = unindexed(patch.vertexCount || countThatFits(content.bytes.byteLength, range));
       present.index = { stored: index && (await holdings.storeIndex(index, signal)), draws };
     },
 
