@@ -3,7 +3,7 @@
 // runtime, which reports the error.
 
 import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
-import { wholeBases } from "../decode/compact/jobs.ts";
+import { decodeBases } from "../decode/compact/jobs.ts";
 
 /** The bases in one file. */
 interface DecodedBases<Decoded> {
@@ -44,7 +44,7 @@ export class PrefetchedBases {
     const downloaded = this.#download(url);
     const decoded = downloaded.then(async (bytes) => ({
       byteLength: bytes.byteLength,
-      bases: await wholeBases(bytes),
+      bases: await decodeBases(bytes),
     }));
     for (const promise of [downloaded, decoded]) promise.catch(() => undefined); // a rejection may go unhandled
     return { downloaded, decoded };
