@@ -1,4 +1,5 @@
-// What is drawn together: members, each of which is a draw of a stage in one place.
+// A batch draws several members together. A member is one draw of a stage in one instance of its
+// shape.
 
 import type { BufferGeometry, Frustum, Material, Matrix4, Sphere } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
@@ -10,57 +11,57 @@ import type { MaterialRequest } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { backFaces, frontFaces } from "../shaders/instanceRecord.ts";
 
-/** What a shape asks to be drawn of a stage. The same for all its places. */
+/** A draw that a batch may take in; the same for all instances of its shape. */
 export interface BatchedDraw {
   readonly stage: Stage;
-  /** Of one kind of primitive; only one, unless it is to be merged. */
+  /** All of one primitive; a single range unless it is merged. */
   readonly ranges: readonly DrawRange[];
   readonly isMerged: boolean;
-  /** Drawn in its turn, the farthest first. */
+  /** Drawn in depth order, the farthest first. */
   readonly isBlended: boolean;
-  /** Of the stage; of use where it is merged. */
+  /** Vertices of the stage; used where it is merged. */
   readonly vertexCount: number;
-  /** Around the stored vertices. */
+  /** Bounds of the vertices, in stored coordinates. */
   readonly bounds: Sphere;
   readonly shapeFromStored: Matrix4;
-  /** Of the lattice, in the shape's coordinates. */
+  /** Lattice step, in the shape's coordinates. */
   readonly step: readonly [number, number, number];
   readonly texCoordFrame: readonly [number, number, number, number];
-  /** As valueFrameOf says it. */
+  /** As valueFrameOf returns it. */
   readonly valueFrame: { readonly min: readonly number[]; readonly step: readonly number[] };
   readonly request: MaterialRequest;
   readonly appearance: AppearanceDescription;
   readonly surfaceTextures: SurfaceTextures;
-  /** The same where one material will do. */
+  /** As materialKeyOf returns it: equal where one material can be used. */
   readonly materialKey: string;
 }
 
 export interface Member {
   readonly draw: BatchedDraw;
   readonly group: ShapeGroup;
-  /** Its record in the table of places. */
+  /** Index of its record in the instance table. */
   readonly instanceIndex: number;
   batch: Batch | undefined;
   isVisible: boolean;
-  /** Its place turns triangles inside out. */
+  /** Its transform mirrors, which turns triangles inside out. */
   isMirrored: boolean;
-  /** Around it, in the coordinates of what the batches hang in. */
+  /** Bounds in the coordinates of the batches' root. */
   readonly sphere: Sphere;
 }
 
-/** Members of a batch that one call draws, one after the other. */
+/** Consecutive members of a batch, drawn with one call. */
 export interface Run {
   readonly members: readonly Member[];
-  /** Among all runs of a frame. */
+  /** Render order among all runs of the frame. */
   readonly order: number;
 }
 
-/** What a batch is made of. */
+/** What a batch is made from. */
 export interface BatchResources {
-  /** The first of its members. */
+  /** The draw of its first member. */
   readonly draw: BatchedDraw;
   readonly material: Material;
-  /** An object that draws a geometry with the material, where the batch hangs. */
+  /** Makes an object for a geometry with the material and adds it to the batches' root. */
   readonly addObject: (geometry: BufferGeometry) => DrawnObject;
 }
 
@@ -69,33 +70,33 @@ export interface Batch {
   hasRoomFor(member: Member): boolean;
   add(member: Member): void;
   remove(member: Member): void;
-  /** A member's place has changed, or whether it is shown. */
+  /** A member has moved, or its visibility has changed. */
   invalidateBounds(): void;
-  /** Before a frame: what of it a camera sees is drawn, as far as that is cheap to tell. */
+  /** Before a frame, in batches that do not blend: culls, as far as that is cheap. */
   update(frustum: Frustum): void;
-  /** The same where it blends: these are drawn. */
+  /** Before a frame, in batches that blend: these runs are drawn, and nothing else. */
   drawRuns(runs: readonly Run[]): void;
   dispose(): void;
 }
 
-/** What members have become one of. */
+/** The geometry into which members are merged. */
 export interface MergedGeometry {
   readonly members: Iterable<Member>;
   readonly isEmpty: boolean;
-  /** What members have left that are gone takes much room, or would be seen: it is to be written anew. */
+  /** Removed members waste much memory, or would still be visible. */
   readonly needsRebuild: boolean;
   hasRoomFor(member: Member): boolean;
   add(member: Member): void;
   remove(member: Member): void;
-  /** Without what has been removed. */
+  /** Rewrites the geometry without removed members. */
   rebuild(): void;
-  /** Valid until there is more of it: they share memory. */
+  /** It shares memory with this object: valid until the next `add`. */
   makeGeometry(): BufferGeometry;
 }
 
 /**
- * What blends and has two sides is drawn twice, its back faces first, as three.js draws such objects:
- * by what is added to its place's number.
+ * The passes of a draw, as numbers to add to the instance index. Blended surfaces with two sides are drawn twice, back
+ * faces first, as three.js draws such objects.
  */
 export function passesOf({ isBlended, request: { solid, primitive } }: BatchedDraw): readonly number[] {
   return isBlended && !solid && isSurface({ primitive }) ? [backFaces, frontFaces] : [0];

@@ -1,4 +1,4 @@
-// A stage of a patch that is drawn together with others.
+// Draws a stage of a patch in batches, together with other stages.
 
 import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
@@ -22,14 +22,14 @@ import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
 import type { DrawMode, DrawModes } from "./batchingPlan.ts";
 
-/** How draws go together. */
+/** How draws are batched. */
 export interface BatchContext {
   readonly batches: Batches;
   readonly batching: BatchingRules;
   readonly isMerged: boolean;
 }
 
-/** How the stage is drawn, of a geometry that is drawn so. */
+/** The draw mode of a stage, from those of its geometry. */
 export function drawModeOf(
   stage: Stage,
   drawing: DrawModes,
@@ -73,17 +73,17 @@ export class BatchedStage implements PatchDraws {
     this.#members.delete(group);
   }
 
-  /** It must be one for which `drawModeOf` is still the same. */
+  /** Only for appearances with an unchanged `drawModeOf`. */
   applyAppearance(appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): void {
     this.#context = { ...this.#context, appearance, surfaceTextures };
     for (const pick of this.picks) pick.releaseResources();
     const isSame = this.#draws.every(
-      ({ ranges: [range], materialKey: lookKey }) =>
-        range && lookKey === materialKeyOf(this.#stage, range, appearance, surfaceTextures, this.#batch.batching),
+      ({ ranges: [range], materialKey: materialKey }) =>
+        range && materialKey === materialKeyOf(this.#stage, range, appearance, surfaceTextures, this.#batch.batching),
     );
     if (isSame) {
-      for (const here of this.#members.values())
-        for (const member of here) this.#batch.batches.setMaterialNumbers(member, this.#numbersOf(member.draw));
+      for (const members of this.#members.values())
+        for (const member of members) this.#batch.batches.setMaterialNumbers(member, this.#numbersOf(member.draw));
       return;
     }
     this.#draws = drawsOf(this.#stage, this.#context, this.#batch);
@@ -108,7 +108,7 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
   const uniforms = uniformsOf(stage, context);
   const { sphere: bounds } = boundsOf(geometry, patch, stage);
   const blends = isBlended(stage, appearance, surfaceTextures, batching);
-  return togetherOf(stage, isMerged, blends).flatMap(({ ranges, mayMerge }) => {
+  return groupedRangesOf(stage, isMerged, blends).flatMap(({ ranges, mayMerge }) => {
     const [first] = ranges;
     if (first === undefined) return [];
     return [
@@ -126,17 +126,17 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
         texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
         valueFrame: valueFrameOf(stage, geometry.value),
         request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
-        surfaceTextures: laidOn(stage, surfaceTextures),
+        surfaceTextures: applicableTextures(stage, surfaceTextures),
       },
     ];
   });
 }
 
 /**
- * Draws of one kind of primitive are merged as one. A strip of thin lines would go on into the next, and of wide
- * ones, which have no index, a frame could not tell the order.
+ * Groups the ranges into draws. Merged ranges of one primitive are one draw. Strips of thin lines cannot be merged,
+ * because one strip would be joined to the next; blended wide lines cannot, because they have no index to sort.
  */
-function togetherOf(
+function groupedRangesOf(
   { kind, draws }: Stage,
   isMerged: boolean,
   blends: boolean,
@@ -164,11 +164,11 @@ function isBlended(
   surfaceTextures: SurfaceTextures,
   batching: BatchingRules,
 ): boolean {
-  return batching.isBlended({ colors: colorsOf(stage) }, appearance, laidOn(stage, surfaceTextures));
+  return batching.isBlended({ colors: colorsOf(stage) }, appearance, applicableTextures(stage, surfaceTextures));
 }
 
-/** Without texture coordinates there is nowhere to lay them. */
-function laidOn(stage: Stage, surfaceTextures: SurfaceTextures): SurfaceTextures {
+/** Without texture coordinates, textures cannot be applied. */
+function applicableTextures(stage: Stage, surfaceTextures: SurfaceTextures): SurfaceTextures {
   return stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
 }
 
@@ -179,10 +179,14 @@ function materialKeyOf(
   surfaceTextures: SurfaceTextures,
   batching: BatchingRules,
 ): string {
-  return batching.materialKeyOf({ primitive, colors: colorsOf(stage) }, appearance, laidOn(stage, surfaceTextures));
+  return batching.materialKeyOf(
+    { primitive, colors: colorsOf(stage) },
+    appearance,
+    applicableTextures(stage, surfaceTextures),
+  );
 }
 
-/** The picking pass draws place by place, what the pointer is near. */
+/** The picking pass draws single instances near the pointer. */
 function pickOf(stage: Stage, range: DrawRange, contextNow: () => PatchContext): PickDraw {
   const { geometry, patch, buffers, geometries } = contextNow();
   return new PickDraw(stage, range, {

@@ -45,7 +45,7 @@ function stored(array: ElementArray) {
   return { bytes, type: elementTypeOf(array) };
 }
 
-/** A triangle whose vertices have three numbers in records of `stride`. */
+/** A triangle whose vertices have three numbers in records of `stride` elements. */
 function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   const coord = new Uint16Array(3 * stride).map((_, i) => (i % stride < 3 ? first + i : 7));
   return {
@@ -63,7 +63,7 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   };
 }
 
-/** The first number of its first vertex. */
+/** The first coordinate of its first vertex. */
 function first({ coord }: BufferStage): number {
   return arrays.get(coord.bytes)?.[0] ?? 0;
 }
@@ -96,7 +96,7 @@ class Scene {
   readonly #camera = new PerspectiveCamera(60, 1, 0.1, 100);
 
   constructor() {
-    const look: MaterialFactory = {
+    const materialFactory: MaterialFactory = {
       makeMaterial: ({ uniforms }) => {
         this.#table = () => uniforms.instances?.value as DataTexture;
         return new MeshBasicMaterial();
@@ -105,7 +105,7 @@ class Scene {
       prepareObject: () => undefined,
       batching: undefined,
     };
-    this.batches = new Batches(look, new GeometryPool(buffers), buffers);
+    this.batches = new Batches(materialFactory, new GeometryPool(buffers), buffers);
     this.#camera.position.z = 10;
     this.#camera.updateMatrixWorld();
   }
@@ -126,14 +126,14 @@ class Scene {
     this.batches.follow(member);
   }
 
-  /** What the next frame draws. */
+  /** The objects that the next frame draws. */
   frame(margin: readonly [number, number] = [0, 0]): DrawnObject[] {
     this.batches.sync(new Sphere(new Vector3(), 10));
     this.batches.update(this.#camera, margin);
     return (this.batches.root.children as DrawnObject[]).filter(({ visible }) => visible);
   }
 
-  /** From behind now, or from the front again. */
+  /** Moves the camera to the other side. */
   turnCamera(): void {
     this.#camera.position.z *= -1;
     this.#camera.lookAt(0, 0, 0);
@@ -166,10 +166,10 @@ function meshIn({ geometry }: { geometry: BufferGeometry }) {
   };
 }
 
-describe("a stage in many instances", () => {
+describe("a stage with many instances", () => {
   const draw = drawOf(stageOf(0), false);
 
-  test("is one draw of those that the camera sees", () => {
+  test("is one draw call with the instances that the camera sees", () => {
     const scene = new Scene();
     const members = [-90, -2, 0, 2, 90].map((x) => scene.add(draw, x));
     const [drawn, ...others] = scene.frame();
@@ -181,7 +181,7 @@ describe("a stage in many instances", () => {
     );
   });
 
-  test("is drawn in as many instances as there are", () => {
+  test("has no upper limit on its instances", () => {
     const scene = new Scene();
     for (let n = 0; n < 300; ++n) scene.add(draw, 0);
     const [drawn] = scene.frame();
@@ -189,7 +189,7 @@ describe("a stage in many instances", () => {
     assert.equal(new Set(instancesIn(drawn)).size, 300);
   });
 
-  test("follows each place when it is hidden, moved, and gone", () => {
+  test("updates when an instance is hidden, moved, and removed", () => {
     const scene = new Scene();
     const [first, second, third] = [0, 1, 2].map((x) => scene.add(draw, x)) as [Member, Member, Member];
     const [drawn] = scene.frame();
@@ -218,7 +218,7 @@ describe("a stage in many instances", () => {
     assert.equal(scene.batches.root.children.length, 0, "the last one not even so long");
   });
 
-  test("is drawn apart where its place mirrors it, under a mirrored object, by a record that does not mirror", () => {
+  test("draws mirrored instances separately, under a mirrored object, with records that do not mirror", () => {
     const scene = new Scene();
     const member = scene.add(draw, 1, -1);
     scene.add(draw, 0);
@@ -230,10 +230,10 @@ describe("a stage in many instances", () => {
     assert.deepEqual(instancesIn(mirrored), [member.instanceIndex]);
     assert.deepEqual(scene.record(member).slice(0, 4), [1, 0, 0, -1]);
     scene.move(member, 1);
-    assert.equal(scene.frame().length, 1, "it has joined the others");
+    assert.equal(scene.frame().length, 1, "it has joined the other instances");
   });
 
-  test("stands in the scene's middle, so that single precision is enough", () => {
+  test("has matrices relative to the scene's centre, so that single precision is enough", () => {
     const scene = new Scene();
     const member = scene.add(draw, 1e7 + 0.25);
     scene.batches.sync(new Sphere(new Vector3(1e7, 0, 0), 10));
@@ -241,7 +241,7 @@ describe("a stage in many instances", () => {
   });
 });
 
-test("10,000 shapes, half of them of one mesh and half of meshes of their own, are five draws", () => {
+test("10,000 shapes, half of them one mesh and half meshes of their own, take five draw calls", () => {
   const scene = new Scene();
   const ball = drawOf(stageOf(0), false);
   for (let n = 0; n < 5000; ++n) {
@@ -252,7 +252,7 @@ test("10,000 shapes, half of them of one mesh and half of meshes of their own, a
 });
 
 describe("small meshes", () => {
-  test("are one mesh, whatever records their vertices come in", () => {
+  test("are merged into one mesh, whatever the stride of their vertices", () => {
     const scene = new Scene();
     const [a, b] = [scene.add(drawOf(stageOf(100), true), 0), scene.add(drawOf(stageOf(200, 3), true), 1)];
     const [drawn, ...others] = scene.frame();
@@ -279,7 +279,7 @@ describe("small meshes", () => {
     ]);
   });
 
-  test("say in their records whether they are shown, and leave no triangle behind", () => {
+  test("are hidden through their records, and leave no triangle when removed", () => {
     const scene = new Scene();
     const members = Array.from({ length: 5 }, (_, n) => scene.add(drawOf(stageOf(10 * n), true), 0)) as [
       Member,
@@ -309,7 +309,7 @@ describe("small meshes", () => {
     );
   });
 
-  test("do not name the vertices of others, whatever their index says", () => {
+  test("cannot refer to other meshes' vertices, whatever their index contains", () => {
     const scene = new Scene();
     scene.add(drawOf(stageOf(0, 4, [0, 1, 9]), true), 0);
     scene.add(drawOf(stageOf(50), true), 0);
@@ -318,7 +318,7 @@ describe("small meshes", () => {
     assert.deepEqual(meshIn(drawn).index, [0, 1, 2, 3, 4, 5]);
   });
 
-  test("are several meshes where 16 bits do not count them, and where some are mirrored", () => {
+  test("become several merged meshes beyond 16-bit indices, and separate ones where they are mirrored", () => {
     const scene = new Scene();
     const large = (first: number) => drawOf(stageOf(first), true, Math.ceil(maxVertices / 2));
     scene.add(large(0), 0);
@@ -330,7 +330,7 @@ describe("small meshes", () => {
     assert.equal(scene.frame().length, 3);
   });
 
-  test("are not drawn where the camera sees none of them", () => {
+  test("are culled when all of them are out of view", () => {
     const scene = new Scene();
     const [left, right] = [scene.add(drawOf(stageOf(0), true), -90), scene.add(drawOf(stageOf(9), true), -80)];
     assert.deepEqual(scene.frame(), []);
@@ -352,7 +352,7 @@ describe("wide lines", () => {
     };
   }
 
-  /** Of each line: the place, and the first coordinates of its ends. */
+  /** Per line: the instance, and the first coordinates of both ends. */
   function linesIn({ geometry }: DrawnObject): number[][] {
     assert.ok(geometry instanceof InstancedBufferGeometry);
     const [instances, begins, ends] = ["instanceIndex", "position", "positionEnd"].map(
@@ -370,7 +370,7 @@ describe("wide lines", () => {
     [own, start + 4, start + 8],
   ];
 
-  test("of small meshes are one draw, of which nothing is left of what is gone", () => {
+  test("of small meshes are one draw call, and nothing of removed ones remains", () => {
     const scene = new Scene();
     const members = [10, 20, 30].map((start) => scene.add(drawOf(linesOf(start), true), 0)) as [Member, Member, Member];
     const [drawn, ...others] = scene.frame();
@@ -387,7 +387,7 @@ describe("wide lines", () => {
     assert.deepEqual(linesIn(left), [...linesAt(members[0], 10), ...linesAt(members[2], 30)]);
   });
 
-  test("of one mesh are one draw in all its instances, line after line", () => {
+  test("of one mesh are one draw call for all instances, line by line", () => {
     const scene = new Scene();
     const draw = drawOf(linesOf(10), false);
     const first = scene.add(draw, 0);
@@ -402,7 +402,7 @@ describe("wide lines", () => {
     );
   });
 
-  test("of large meshes are a draw for as many instances as they may be stored again for", () => {
+  test("of large meshes are split into draw calls by the limit on repeated lines", () => {
     const scene = new Scene();
     const lineCount = Math.floor(maxRepeatedLines / 3) + 1;
     const stage = {
@@ -421,7 +421,7 @@ describe("wide lines", () => {
     );
   });
 
-  test("that blend have their turns, also among what is no line", () => {
+  test("that blend are drawn in depth order, also among surfaces", () => {
     const scene = new Scene();
     const [lines, panes] = [drawOf(linesOf(10), false, 3, true), drawOf(stageOf(0), true, 3, true)];
     const members = [
@@ -444,9 +444,9 @@ describe("wide lines", () => {
     );
   });
 
-  test("are drawn as long as their width reaches into the view", () => {
+  test("are drawn while their width reaches into the view", () => {
     const scene = new Scene();
-    const edge = 10 * Math.tan(Math.PI / 6); // of the view, at z = 0; their bounds are 1 around the middle
+    const edge = 10 * Math.tan(Math.PI / 6); // half the height of the view at z = 0; the bounds have radius 1
     const [merged, instanced] = [
       scene.add(drawOf(linesOf(10), true), edge + 1.3),
       scene.add(drawOf(linesOf(20), false), -edge - 1.3),
@@ -459,7 +459,7 @@ describe("wide lines", () => {
   });
 });
 
-test("what stored values are is told by place, so that shapes of several ranges are one draw", () => {
+test("the meaning of stored values is in the instance record, so that shapes of different ranges share a draw call", () => {
   const scene = new Scene();
   const members = [10, 20].map((start) => scene.add(drawOf(stageOf(start), true), 0));
   assert.equal(scene.frame().length, 1);
@@ -473,8 +473,8 @@ test("what stored values are is told by place, so that shapes of several ranges 
   );
 });
 
-describe("what blends", () => {
-  /** Which members the next frame draws, in their order, call by call. */
+describe("blended draws", () => {
+  /** Indices of the members that the next frame draws, in order, call by call. */
   function drawnMembers(scene: Scene, members: readonly Member[]): number[][] {
     const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
     return calls.map((call) =>
@@ -482,7 +482,7 @@ describe("what blends", () => {
     );
   }
 
-  /** One number for each triangle, or instance. */
+  /** One instance per triangle, or per instance. */
   function instancesDrawnBy(call: DrawnObject): number[] {
     const { geometry } = call;
     if (geometry instanceof InstancedBufferGeometry) return instancesIn(call);
@@ -497,7 +497,7 @@ describe("what blends", () => {
   const depths = [3, -2, 5, 0, -4];
 
   for (const isMerged of [false, true]) {
-    test(`is one draw, the farthest first, wherever the camera goes: ${isMerged ? "merged" : "instances"}`, () => {
+    test(`are one draw call, the farthest first, from every side: ${isMerged ? "merged" : "instances"}`, () => {
       const scene = new Scene();
       const draw = drawOf(stageOf(0), isMerged, 3, true);
       const members = depths.map((z) => scene.add(draw, 0, 1, z));
@@ -519,7 +519,7 @@ describe("what blends", () => {
     });
   }
 
-  test("is as many draws as batches take turns, and opaque ones are not among them", () => {
+  test("alternate between batches in depth order, without opaque draws", () => {
     const scene = new Scene();
     const [merged, instances] = [drawOf(stageOf(0), true, 3, true), drawOf(stageOf(9), false, 3, true)];
     const members = [-4, -3, 1, 2].map((z) => scene.add(merged, 0, 1, z));
@@ -539,7 +539,7 @@ describe("what blends", () => {
   });
 
   for (const isMerged of [false, true]) {
-    test(`and has two sides is drawn by its back faces, then by its front faces: ${isMerged ? "merged" : "instances"}`, () => {
+    test(`with two sides draw back faces, then front faces: ${isMerged ? "merged" : "instances"}`, () => {
       const scene = new Scene();
       const draw = drawOf(stageOf(0), isMerged, 3, true, false);
       const [near, far] = [scene.add(draw, 0, 1, 1), scene.add(draw, 0, 1, -1)];

@@ -1,6 +1,5 @@
-// All that is drawn together in a scene: finds for each draw those that it can be
-// drawn with, and keeps the table of their places true to the groups that they
-// stand in.
+// All batches of a scene. Finds a batch for each member, and keeps the instance table up to date
+// with the groups of the instances.
 
 import type { BufferGeometry, Camera } from "three";
 import { Group, Matrix4, Sphere, Vector3 } from "three";
@@ -21,33 +20,36 @@ import { instanceFields } from "../shaders/instanceRecord.ts";
 import { InstanceTable } from "./instanceTable.ts";
 
 export class Batches {
-  /** Hangs in the scene, near what is drawn: records of places count from it, in single precision. */
+  /** Parent of all drawn objects, at the scene's centre: records hold single-precision matrices relative to it. */
   readonly root = new Group();
   readonly #materialFactory: MaterialFactory;
   readonly #geometries: GeometryPool;
   readonly #buffers: BufferProvider;
   readonly #table = new InstanceTable();
   readonly #members = new Set<Member>();
-  /** Those that are drawn in the order of their distance. */
+  /** Members of draws that blend. */
   readonly #blended = new Set<Member>();
-  /** By what their members have in common; new ones join the last. */
+  /** By the key of their members; new members join the last batch. */
   readonly #batches = new Map<string, Batch[]>();
-  /** They were empty before the last frame; until the next, others may need their programs. */
+  /**
+   * Batches without members since the last frame. They are kept for one more frame, because new members may reuse
+   * their programs.
+   */
   #empty = new Set<Batch>();
-  /** Those whose members blend. */
+  /** Batches whose members blend. */
   readonly #inOrder = new WeakSet<Batch>();
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
 
-  constructor(look: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
-    this.#materialFactory = look;
+  constructor(materialFactory: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
+    this.#materialFactory = materialFactory;
     this.#geometries = geometries;
     this.#buffers = buffers;
     this.root.matrixAutoUpdate = false;
   }
 
-  /** From now on the draw is in the group's place too. `look`: the field of that name in a place's record. */
-  add(draw: BatchedDraw, look: readonly number[], group: ShapeGroup): Member {
+  /** Adds a draw of an instance. `numbers`: the field `material` of its record. */
+  add(draw: BatchedDraw, numbers: readonly number[], group: ShapeGroup): Member {
     const member: Member = {
       draw,
       group,
@@ -60,7 +62,7 @@ export class Batches {
     this.#table.write(member.instanceIndex, instanceFields.texCoordFrame, draw.texCoordFrame);
     this.#table.write(member.instanceIndex, instanceFields.valueMin, draw.valueFrame.min);
     this.#table.write(member.instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
-    this.#table.write(member.instanceIndex, instanceFields.material, look);
+    this.#table.write(member.instanceIndex, instanceFields.material, numbers);
     this.#members.add(member);
     if (draw.isBlended) this.#blended.add(member);
     this.#write(member, this.#rootFromScene);
@@ -68,9 +70,9 @@ export class Batches {
     return member;
   }
 
-  /** Another look, for the same material. */
-  setMaterialNumbers({ instanceIndex: place }: Member, look: readonly number[]): void {
-    this.#table.write(place, instanceFields.material, look);
+  /** Replaces the `material` field of its record. */
+  setMaterialNumbers({ instanceIndex }: Member, numbers: readonly number[]): void {
+    this.#table.write(instanceIndex, instanceFields.material, numbers);
   }
 
   remove(member: Member): void {
@@ -78,17 +80,17 @@ export class Batches {
     this.#blended.delete(member);
     member.batch?.remove(member);
     this.#table.release(member.instanceIndex);
-    if (this.#members.size === 0) this.#disposeBatches(); // of a lost context nothing may be left for the next
+    if (this.#members.size === 0) this.#disposeBatches(); // a restored context starts without objects of the lost one
   }
 
-  /** Its group has moved, is shown or hidden, or stands in another light scope. */
+  /** The group has moved, has become visible or invisible, or has another light scope. */
   follow(member: Member): void {
     this.#followIn(this.#rootFromScene, member);
   }
 
-  /** The scene's middle is there now. */
+  /** The scene's bounding sphere has changed. */
   sync({ center, radius }: Sphere): void {
-    // A new origin changes every record: not for every move.
+    // A new origin rewrites every record, so it moves only when it is outside of the sphere.
     const origin = new Vector3().setFromMatrixPosition(this.root.matrix);
     if (!(radius > 0) || origin.distanceTo(center) <= radius) return;
     this.root.matrix.setPosition(center);
@@ -96,13 +98,13 @@ export class Batches {
     this.followAll();
   }
 
-  /** All groups have moved, or stand in light scopes of other numbers. */
+  /** All groups have moved, or light scopes have new numbers. */
   followAll(): void {
     const rootFromScene = this.#rootFromScene;
     for (const member of this.#members) this.#followIn(rootFromScene, member);
   }
 
-  /** Before a frame. `margin`: how far what is drawn reaches beyond its bounds, as `frustumOf` takes it. */
+  /** Call before a frame. `margin`: as in `frustumOf`. */
   update(camera: Camera, margin: readonly [number, number]): void {
     if (this.#batches.size === 0) return;
     this.#table.update();
@@ -152,22 +154,23 @@ export class Batches {
     this.#join(member);
   }
 
-  /** Whether what its batch knows of it has changed. */
+  /** Writes the record. Returns whether anything that concerns the batch has changed. */
   #write(member: Member, rootFromScene: Matrix4): boolean {
     const {
       draw: { shapeFromStored, bounds, step },
       group,
-      instanceIndex: place,
+      instanceIndex,
       sphere,
     } = member;
     const rootFromStored = new Matrix4().multiplyMatrices(rootFromScene, group.matrixWorld).multiply(shapeFromStored);
     const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;
     member.isVisible = group.visible;
     member.isMirrored = rootFromStored.determinant() < 0;
-    // The object of what is mirrored is mirrored itself, so that three.js knows; its records are not.
+    // three.js detects mirroring by the object's matrix, so the object is mirrored, and the record
+    // is multiplied by the same mirror.
     const turn = member.isMirrored ? -1 : 1;
     sphere.copy(bounds).applyMatrix4(rootFromStored);
-    return this.#table.write(place, instanceFields.matrix, [
+    return this.#table.write(instanceIndex, instanceFields.matrix, [
       turn * xx,
       turn * yx,
       turn * zx,
@@ -204,14 +207,14 @@ export class Batches {
       uniforms: { ...draw.request.uniforms, instances: this.#table.uniform },
     };
     const material = this.#materialFactory.makeMaterial(request, draw.appearance, draw.surfaceTextures);
-    material.forceSinglePass = true; // three.js would draw all back faces of the batch before all front faces
+    material.forceSinglePass = true; // otherwise three.js draws all back faces of the batch before all front faces
     const addObject = (geometry: BufferGeometry) => {
       const object = makeDrawnObject(
         { primitive: request.primitive, isWide: request.wideLineStep > 0 },
         geometry,
         material,
       );
-      object.frustumCulled = false; // `update` knows better
+      object.frustumCulled = false; // `update` culls
       object.matrixAutoUpdate = false;
       if (isMirrored) object.matrix.makeScale(-1, 1, 1);
       this.#materialFactory.prepareObject(object, request, material);
@@ -219,17 +222,17 @@ export class Batches {
       object.updateMatrixWorld(true);
       return object;
     };
-    const parts = { draw, material, addObject };
+    const resources = { draw, material, addObject };
     const batch = !draw.isMerged
-      ? new InstancedBatch(parts, this.#geometries)
+      ? new InstancedBatch(resources, this.#geometries)
       : draw.isBlended
-        ? new OrderedMergedBatch(parts, this.#buffers)
-        : new MergedBatch(parts, this.#buffers);
+        ? new OrderedMergedBatch(resources, this.#buffers)
+        : new MergedBatch(resources, this.#buffers);
     if (draw.isBlended) this.#inOrder.add(batch);
     return batch;
   }
 
-  /** The same for what one batch can draw. */
+  /** A key that is equal for members that one batch can draw. */
   #keyOf({ draw: { stage, ranges, isMerged, request, materialKey: lookKey }, isMirrored }: Member): string {
     const mesh = isMerged
       ? layoutOf(stage as BufferStage)

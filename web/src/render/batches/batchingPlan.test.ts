@@ -10,45 +10,45 @@ function geometry(name: string, vertices: number, profile = "compact"): string {
   return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/></ImageGeometry>`;
 }
 
-function planOf(places: readonly ShapeDescription[]): BatchingPlan {
+function planOf(instances: readonly ShapeDescription[]): BatchingPlan {
   const plan = new BatchingPlan();
-  for (const { geometry: own } of places) if (own) plan.add(own);
+  for (const { geometry: own } of instances) if (own) plan.add(own);
   return plan;
 }
 
-/** How each of the scene's shapes is drawn, as what it `is`. */
+/** The draw mode of each of the scene's shapes. */
 function drawn(shapes: readonly string[], is: "opaque" | "blended" = "opaque"): string[] {
   const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
-  const places = shapesOf(scene.root);
-  const plan = planOf(places);
-  return places.map(({ geometry: own }) => (own ? plan.drawModesOf(own)[is] : "nothing"));
+  const instances = shapesOf(scene.root);
+  const plan = planOf(instances);
+  return instances.map(({ geometry: own }) => (own ? plan.drawModesOf(own)[is] : "nothing"));
 }
 
 const crowd = Array.from({ length: minInstances }, (_, n) => geometry(`small${n}`, 24));
 
-test("a scene of few shapes is drawn one by one, whatever they are", () => {
+test("in a scene of few shapes, each shape is drawn alone", () => {
   const shapes = [...crowd.slice(2), '<ImageGeometry USE="small3"/>'];
   assert.deepEqual(new Set(drawn(shapes)), new Set(["alone"]));
 });
 
-test("in a scene of many, small meshes become one, and large ones stand alone", () => {
+test("in a scene of many shapes, small meshes are merged and large ones are drawn alone", () => {
   const shapes = [...crowd, geometry("large", maxMergedVertices + 1), geometry("untold", 0)];
   assert.deepEqual(drawn(shapes), [...crowd.map(() => "merged"), "alone", "alone"]);
 });
 
-test("what blends is never alone in a scene of many: it has its turn among the others", () => {
+test("in a scene of many shapes, blended shapes are never drawn alone, so that they can be sorted", () => {
   const shapes = [...crowd, geometry("large", maxMergedVertices + 1), geometry("image", 24, "classic")];
   assert.deepEqual(drawn(shapes, "blended"), [...crowd.map(() => "merged"), "instanced", "instanced"]);
   assert.deepEqual(new Set(drawn(crowd.slice(1), "blended")), new Set(["alone"]));
 });
 
-test("a mesh is merged as long as all its places together are small, and instanced from then on", () => {
+test("a mesh is merged while all its instances together are small, and instanced beyond that", () => {
   const twice = (vertices: number) => [...crowd, geometry("twin", vertices), '<ImageGeometry USE="twin"/>'];
   assert.deepEqual(drawn(twice(maxMergedVertices / 2)).slice(-2), ["merged", "merged"]);
   assert.deepEqual(drawn(twice(maxMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
 });
 
-test("vertices that the GPU decodes are not merged, as they are in no buffers", () => {
+test("vertices that the GPU decodes are in images, not in buffers, and are never merged", () => {
   const shapes = [
     ...crowd,
     geometry("image", 24, "classic"),
@@ -58,7 +58,7 @@ test("vertices that the GPU decodes are not merged, as they are in no buffers", 
   assert.deepEqual(drawn(shapes).slice(-3), ["alone", "instanced", "instanced"]);
 });
 
-test("shapes that come and go are drawn as if those that are left had always been all", () => {
+test("after shapes come and go, the remaining ones are drawn as in a new scene", () => {
   const scene = readScene(
     elementsOf(
       `<X3D>${[...crowd, geometry("twin", maxMergedVertices / 2), '<ImageGeometry USE="twin"/>']

@@ -1,15 +1,14 @@
-// Which shapes are drawn together. A draw costs the page about as much as some
-// ten thousand vertices cost the GPU, so a scene of many shapes must not draw them
-// one by one: what stands in many places is drawn in all of them at once, and
-// small meshes become one large mesh. See docs/decisions/batches.md.
+// Decides which shapes are drawn together. A draw call costs the page about as much as ten thousand
+// vertices cost the GPU, so scenes of many shapes use few calls: instancing for meshes with several
+// instances, and merging of small meshes. See docs/decisions/batches.md.
 
 import type { GeometryDescription } from "../../document/description.ts";
 import { formatOf } from "../../document/encodings.ts";
 
-/** By itself; in all its places at once; or as a part of one mesh with others. */
+/** A call of its own per instance; one call for all instances; or merged into one mesh with other shapes. */
 export type DrawMode = "alone" | "instanced" | "merged";
 
-/** How a geometry is drawn: stages of it that blend, and others. */
+/** The draw modes of a geometry's opaque and blended stages. */
 export interface DrawModes {
   readonly opaque: DrawMode;
   readonly blended: DrawMode;
@@ -18,28 +17,28 @@ export interface DrawModes {
 export const alone: DrawModes = { opaque: "alone", blended: "alone" };
 const instanced: DrawModes = { opaque: "instanced", blended: "instanced" };
 const merged: DrawModes = { opaque: "merged", blended: "merged" };
-/** What blends has its turn among others that do, which batches know of. */
-const byItself: DrawModes = { opaque: "alone", blended: "instanced" };
+/** Blended draws must be sorted with all others, which only batches are. */
+const opaqueAlone: DrawModes = { opaque: "alone", blended: "instanced" };
 
-/** Scenes of fewer places are drawn one by one, each under its own matrix in double precision. */
+/** Scenes with fewer instances are drawn one by one, with double-precision matrices. */
 export const minInstances = 16;
-/** In all its places together, what is merged has no more vertices than this. */
+/** A geometry is merged if all its instances together have at most this many vertices. */
 export const maxMergedVertices = 16384;
 
 /**
- * How to draw each geometry of a scene, by the places where shapes show it. All patches
- * of a geometry are drawn alike: their common vertices go through the same arithmetic.
+ * The draw mode of each geometry of a scene, from the number of its instances. All patches of a geometry have the same
+ * mode, so that vertices that they share go through the same arithmetic.
  */
 export class BatchingPlan {
   readonly #counts = new Map<GeometryDescription, number>();
-  readonly #told = new Map<GeometryDescription, DrawModes>();
+  readonly #reported = new Map<GeometryDescription, DrawModes>();
   #touched = new Set<GeometryDescription>();
-  #placeCount = 0;
-  #wasCrowd = false;
+  #instanceCount = 0;
+  #hadManyInstances = false;
 
   add(geometry: GeometryDescription): void {
     this.#counts.set(geometry, this.#countOf(geometry) + 1);
-    this.#placeCount += 1;
+    this.#instanceCount += 1;
     this.#touched.add(geometry);
   }
 
@@ -47,36 +46,38 @@ export class BatchingPlan {
     const count = this.#countOf(geometry) - 1;
     if (count > 0) this.#counts.set(geometry, count);
     else this.#counts.delete(geometry);
-    this.#placeCount -= 1;
+    this.#instanceCount -= 1;
     this.#touched.add(geometry);
   }
 
   drawModesOf(geometry: GeometryDescription): DrawModes {
-    if (!this.#isCrowd) return alone;
+    if (!this.#hasManyInstances) return alone;
     const count = this.#countOf(geometry);
     if (formatOf(geometry).storage !== "bytePlanes" && verticesOf(geometry) * count <= maxMergedVertices) return merged;
-    return count > 1 ? instanced : byItself;
+    return count > 1 ? instanced : opaqueAlone;
   }
 
-  /** Geometries that are drawn in another way than when this was last called. */
+  /** Geometries whose draw modes have changed since the last call. */
   takeChanged(): ReadonlySet<GeometryDescription> {
-    const asked =
-      this.#isCrowd === this.#wasCrowd ? this.#touched : new Set([...this.#touched, ...this.#counts.keys()]);
+    const candidates =
+      this.#hasManyInstances === this.#hadManyInstances
+        ? this.#touched
+        : new Set([...this.#touched, ...this.#counts.keys()]);
     const changed = new Set<GeometryDescription>();
-    for (const geometry of asked) {
+    for (const geometry of candidates) {
       const drawing = this.#counts.has(geometry) ? this.drawModesOf(geometry) : undefined;
-      if (drawing === this.#told.get(geometry)) continue;
-      if (drawing === undefined) this.#told.delete(geometry);
-      else this.#told.set(geometry, drawing);
+      if (drawing === this.#reported.get(geometry)) continue;
+      if (drawing === undefined) this.#reported.delete(geometry);
+      else this.#reported.set(geometry, drawing);
       changed.add(geometry);
     }
-    this.#wasCrowd = this.#isCrowd;
+    this.#hadManyInstances = this.#hasManyInstances;
     this.#touched = new Set();
     return changed;
   }
 
-  get #isCrowd(): boolean {
-    return this.#placeCount >= minInstances;
+  get #hasManyInstances(): boolean {
+    return this.#instanceCount >= minInstances;
   }
 
   #countOf(geometry: GeometryDescription): number {
@@ -84,7 +85,7 @@ export class BatchingPlan {
   }
 }
 
-/** Infinity where the document does not tell. */
+/** Infinity where the document does not give the counts. */
 function verticesOf({ patches }: GeometryDescription): number {
   return patches.reduce((sum, { vertexCount }) => sum + (vertexCount || Infinity), 0);
 }

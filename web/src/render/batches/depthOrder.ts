@@ -1,10 +1,12 @@
-// The order in which what blends is drawn: the farthest first, whatever batch it is
-// in. Members of one batch that follow one another are one draw.
+// The draw order of everything that blends: back to front, across all batches. Consecutive members
+// of one batch are one draw call.
 
 import type { Frustum, Matrix4 } from "three";
 import type { Batch, Member, Run } from "./batch.ts";
 
-/** Of what a camera sees, by their batches; `viewFromRoot` leads from where their spheres are to the camera. */
+/**
+ * Runs of the visible members, by batch. `viewFromRoot`: from the coordinates of the members' spheres to the camera's.
+ */
 export function runsOf(members: Iterable<Member>, frustum: Frustum, viewFromRoot: Matrix4): Map<Batch, Run[]> {
   const [, , xz, , , , yz, , , , zz] = viewFromRoot.elements;
   const seen: { readonly member: Member; readonly batch: Batch; readonly height: number }[] = [];
@@ -12,7 +14,7 @@ export function runsOf(members: Iterable<Member>, frustum: Frustum, viewFromRoot
     const { batch, isVisible: isShown, sphere } = member;
     if (batch === undefined || !isShown || !frustum.intersectsSphere(sphere)) continue;
     const { x, y, z } = sphere.center;
-    seen.push({ member, batch, height: xz * x + yz * y + zz * z }); // the camera looks down its own -z
+    seen.push({ member, batch, height: xz * x + yz * y + zz * z }); // the camera looks along its -z
   }
   seen.sort((a, b) => a.height - b.height);
   const runs = new Map<Batch, Run[]>();

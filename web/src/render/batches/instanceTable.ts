@@ -1,6 +1,6 @@
-// What differs from place to place, as texels: a record for each place in which
-// something is drawn together with others. Draws carry no more of a place than
-// its number, so that moving, hiding or colouring it changes its record alone.
+// A float texture with one record per instance in batches (layout: shaders/instanceRecord.ts).
+// Draws refer to a record by its index, so that moving, hiding or colouring an instance changes its
+// record only.
 
 import { DataTexture, FloatType, RGBAFormat } from "three";
 import { texelsPerInstance } from "../shaders/instanceRecord.ts";
@@ -11,15 +11,15 @@ const numbersPerRow = numbersPerInstance * instancesPerRow;
 const minRows = 8;
 
 export class InstanceTable {
-  /** For all materials that read it. */
+  /** The uniform of all materials that read it. */
   readonly uniform: { value: DataTexture };
   #numbers = new Float32Array(numbersPerRow * minRows);
   readonly #free: number[] = [];
-  /** Places that have ever been given out, and those that are now. */
+  /** Indices that have ever been given out, and the number of those in use. */
   #end = 0;
   #used = 0;
   readonly #changedRows = new Set<number>();
-  /** The last texture that three.js has brought to the GPU. */
+  /** The last texture that three.js has uploaded. */
   #sent: DataTexture | undefined;
 
   constructor() {
@@ -28,24 +28,24 @@ export class InstanceTable {
 
   allocate(): number {
     this.#used += 1;
-    const place = this.#free.pop() ?? this.#end++;
-    if ((place + 1) * numbersPerInstance > this.#numbers.length) this.#grow();
-    return place;
+    const instanceIndex = this.#free.pop() ?? this.#end++;
+    if ((instanceIndex + 1) * numbersPerInstance > this.#numbers.length) this.#grow();
+    return instanceIndex;
   }
 
-  release(place: number): void {
+  release(instanceIndex: number): void {
     this.#used -= 1;
-    this.#free.push(place);
+    this.#free.push(instanceIndex);
     if (this.#used > 0) return;
-    // Nothing needs it: it begins anew, also where a lost context has taken the texture.
+    // Nothing uses it: it starts over, also after a lost context has taken the texture.
     this.#free.length = 0;
     this.#end = 0;
     this.#replace();
   }
 
-  /** Sets numbers of a place from number `first` of its record on; whether one of them was another. */
-  write(place: number, first: number, numbers: readonly number[]): boolean {
-    const begin = place * numbersPerInstance + first;
+  /** Writes `numbers` into the record of an instance from float `first` on. Returns whether any has changed. */
+  write(instanceIndex: number, first: number, numbers: readonly number[]): boolean {
+    const begin = instanceIndex * numbersPerInstance + first;
     let isChanged = false;
     for (let i = 0; i < numbers.length; ++i) {
       const rounded = Math.fround(numbers[i] ?? 0);
@@ -53,15 +53,15 @@ export class InstanceTable {
       this.#numbers[begin + i] = rounded;
       isChanged = true;
     }
-    if (isChanged) this.#changedRows.add(Math.floor(place / instancesPerRow));
+    if (isChanged) this.#changedRows.add(Math.floor(instanceIndex / instancesPerRow));
     return isChanged;
   }
 
-  /** Before a frame: rows that have changed go to the GPU with it. */
+  /** Call before a frame: changed rows are uploaded with it. */
   update(): void {
     if (this.#changedRows.size === 0) return;
     const texture = this.uniform.value;
-    // What has not been there yet goes as a whole.
+    // A new texture is uploaded as a whole.
     if (this.#sent === texture)
       for (const row of this.#changedRows) texture.addUpdateRange(row * numbersPerRow, numbersPerRow);
     texture.needsUpdate = true;
@@ -85,7 +85,7 @@ export class InstanceTable {
     this.#changedRows.clear();
   }
 
-  /** Goes to the GPU as a whole. */
+  /** three.js uploads it as a whole. */
   #newTexture(): DataTexture {
     const texture = new DataTexture(
       this.#numbers,

@@ -1,4 +1,4 @@
-// A draw in many places at once: an instance for each that the camera sees.
+// Instanced draws: one draw of a stage, with one instance per visible member.
 
 import type { BufferGeometry, Frustum } from "three";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
@@ -8,27 +8,27 @@ import { passesOf } from "./batch.ts";
 import { maxInstancesOf, InstancedGeometry } from "./instancedGeometry.ts";
 
 export class InstancedBatch implements Batch {
-  readonly #parts: BatchResources;
+  readonly #resources: BatchResources;
   readonly #geometries: GeometryPool;
   readonly #shape: BufferGeometry;
   readonly #passes: readonly number[];
-  readonly #mostPlaces: number;
+  readonly #maxInstances: number;
   readonly #members = new Set<Member>();
-  /** Those that the last frame has drawn come first. */
+  /** The first ones have been drawn in the last frame; the others are invisible. */
   readonly #calls: InstancedCall[] = [];
 
-  constructor(parts: BatchResources, geometries: GeometryPool) {
+  constructor(resources: BatchResources, geometries: GeometryPool) {
     const {
       stage,
       ranges: [range],
-    } = parts.draw;
+    } = resources.draw;
     const shape = range && geometries.acquire(stage)[stage.draws.indexOf(range)];
     if (shape === undefined) throw new RangeError("the draw is not one of its stage");
-    this.#parts = parts;
+    this.#resources = resources;
     this.#geometries = geometries;
     this.#shape = shape;
-    this.#passes = passesOf(parts.draw);
-    this.#mostPlaces = maxInstancesOf(shape);
+    this.#passes = passesOf(resources.draw);
+    this.#maxInstances = maxInstancesOf(shape);
   }
 
   get isEmpty(): boolean {
@@ -48,7 +48,7 @@ export class InstancedBatch implements Batch {
   }
 
   invalidateBounds(): void {
-    // Every frame looks at all of them.
+    // Every frame culls all members.
   }
 
   update(frustum: Frustum): void {
@@ -61,11 +61,11 @@ export class InstancedBatch implements Batch {
   drawRuns(runs: readonly Run[]): void {
     let count = 0;
     for (const { members, order } of runs) {
-      const places = members.flatMap(({ instanceIndex: place }) => this.#passes.map((pass) => place + pass));
-      for (let first = 0; first < places.length; first += this.#mostPlaces) {
-        const together = places.slice(first, first + this.#mostPlaces);
-        const call = (this.#calls[count] ??= new InstancedCall(this.#shape, this.#parts, together.length));
-        call.show(together, order);
+      const instanceIndices = members.flatMap(({ instanceIndex }) => this.#passes.map((pass) => instanceIndex + pass));
+      for (let first = 0; first < instanceIndices.length; first += this.#maxInstances) {
+        const indices = instanceIndices.slice(first, first + this.#maxInstances);
+        const call = (this.#calls[count] ??= new InstancedCall(this.#shape, this.#resources, indices.length));
+        call.show(indices, order);
         count += 1;
       }
     }
@@ -74,36 +74,39 @@ export class InstancedBatch implements Batch {
 
   dispose(): void {
     for (const call of this.#calls) call.dispose();
-    this.#parts.material.dispose();
-    this.#geometries.release(this.#parts.draw.stage);
+    this.#resources.material.dispose();
+    this.#geometries.release(this.#resources.draw.stage);
   }
 }
 
-/** One of its calls, with the numbers of the places that it draws. */
+/** One draw call, with the indices of its instances. */
 class InstancedCall {
   readonly object: DrawnObject;
   readonly #shape: BufferGeometry;
-  #placed: InstancedGeometry;
+  #instances: InstancedGeometry;
 
-  constructor(shape: BufferGeometry, { addObject: hang }: BatchResources, placeCount: number) {
+  constructor(shape: BufferGeometry, { addObject }: BatchResources, instanceCount: number) {
     this.#shape = shape;
-    this.#placed = new InstancedGeometry(shape, placeCount);
-    this.object = hang(this.#placed.geometry);
+    this.#instances = new InstancedGeometry(shape, instanceCount);
+    this.object = addObject(this.#instances.geometry);
   }
 
-  show(places: readonly number[], order: number): void {
-    if (places.length > this.#placed.capacity) {
-      this.#placed.dispose();
-      this.#placed = new InstancedGeometry(this.#shape, Math.min(maxInstancesOf(this.#shape), 2 * places.length));
-      this.object.geometry = this.#placed.geometry;
+  show(instanceIndices: readonly number[], order: number): void {
+    if (instanceIndices.length > this.#instances.capacity) {
+      this.#instances.dispose();
+      this.#instances = new InstancedGeometry(
+        this.#shape,
+        Math.min(maxInstancesOf(this.#shape), 2 * instanceIndices.length),
+      );
+      this.object.geometry = this.#instances.geometry;
     }
-    this.#placed.setInstances(places);
+    this.#instances.setInstances(instanceIndices);
     this.object.visible = true;
     this.object.renderOrder = order;
   }
 
   dispose(): void {
     this.object.removeFromParent();
-    this.#placed.dispose();
+    this.#instances.dispose();
   }
 }

@@ -1,15 +1,18 @@
-// A draw's geometry in many places: instances know by an attribute which place is
-// theirs. What consists of instances already, as wide lines do, has all of them in
-// one place, then all in the next.
+// The geometry of an instanced draw: the attribute `instanceIndex` says which record each instance
+// uses. Wide lines are instances themselves: all lines of the first shape instance come first, then
+// all of the next.
 
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute, InstancedBufferGeometry, Sphere } from "three";
 import { repeatedLines } from "../lines/wideLineGeometry.ts";
 
-/** Wide lines in buffers are stored again for each place of a draw, as no attribute begins anew; so many of them in a draw. */
+/**
+ * Wide lines in buffers are repeated for each shape instance, since instanced attributes cannot start over; this is
+ * the maximum of lines per draw.
+ */
 export const maxRepeatedLines = 65536;
 
-/** In which one draw can show the geometry. */
+/** The maximum of shape instances in one draw of the geometry. */
 export function maxInstancesOf(shape: BufferGeometry): number {
   if (!areStoredLines(shape)) return Infinity;
   return Math.max(1, Math.floor(maxRepeatedLines / shape.instanceCount));
@@ -17,40 +20,40 @@ export function maxInstancesOf(shape: BufferGeometry): number {
 
 export class InstancedGeometry {
   readonly geometry: InstancedBufferGeometry;
-  /** In how many places it can be. */
+  /** The number of shape instances that it has room for. */
   readonly capacity: number;
   readonly #shape: BufferGeometry;
-  readonly #places: InstancedBufferAttribute;
-  readonly #instancesPerPlace: number;
+  readonly #instanceIndices: InstancedBufferAttribute;
+  readonly #objectsPerInstance: number;
 
   constructor(shape: BufferGeometry, capacity: number) {
     this.capacity = capacity;
     this.#shape = shape;
-    this.#instancesPerPlace = shape instanceof InstancedBufferGeometry ? shape.instanceCount : 1;
+    this.#objectsPerInstance = shape instanceof InstancedBufferGeometry ? shape.instanceCount : 1;
     this.geometry = shape instanceof InstancedBufferGeometry ? repeatedLines(shape, capacity) : sharing(shape);
-    this.geometry.boundingSphere = new Sphere(); // three.js would make one of the stored numbers
-    // Of no place: the first frame writes them all.
-    this.#places = new InstancedBufferAttribute(
+    this.geometry.boundingSphere = new Sphere(); // otherwise three.js computes one from stored positions
+    // No valid index, so that the first frame writes all.
+    this.#instanceIndices = new InstancedBufferAttribute(
       new Uint32Array(capacity).fill(2 ** 32 - 1),
       1,
       false,
-      this.#instancesPerPlace,
+      this.#objectsPerInstance,
     );
-    this.geometry.setAttribute("instanceIndex", this.#places);
+    this.geometry.setAttribute("instanceIndex", this.#instanceIndices);
   }
 
-  /** From now on it is in these places, at most as many as its capacity. */
-  setInstances(places: readonly number[]): void {
-    this.geometry.instanceCount = places.length * this.#instancesPerPlace;
-    const numbers = this.#places.array;
-    if (places.every((place, n) => numbers[n] === place)) return;
-    numbers.set(places);
-    this.#places.clearUpdateRanges();
-    this.#places.addUpdateRange(0, places.length);
-    this.#places.needsUpdate = true;
+  /** Sets the instances, at most `capacity`. */
+  setInstances(instanceIndices: readonly number[]): void {
+    this.geometry.instanceCount = instanceIndices.length * this.#objectsPerInstance;
+    const numbers = this.#instanceIndices.array;
+    if (instanceIndices.every((index, n) => numbers[n] === index)) return;
+    numbers.set(instanceIndices);
+    this.#instanceIndices.clearUpdateRanges();
+    this.#instanceIndices.addUpdateRange(0, instanceIndices.length);
+    this.#instanceIndices.needsUpdate = true;
   }
 
-  /** The buffers that it shares stay. */
+  /** Shared buffers stay. */
   dispose(): void {
     if (this.geometry.index === this.#shape.index) this.geometry.setIndex(null);
     for (const [name, attribute] of Object.entries(this.#shape.attributes)) {

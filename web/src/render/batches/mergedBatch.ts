@@ -1,5 +1,5 @@
-// Many small meshes as one, drawn with one call by every browser, where
-// WEBGL_multi_draw would need the browser's help.
+// Small meshes merged into one, drawn with one call in every browser, also where WEBGL_multi_draw
+// is missing.
 
 import type { Frustum } from "three";
 import { BufferGeometry, Sphere } from "three";
@@ -10,7 +10,7 @@ import { MergedLines } from "./mergedLines.ts";
 import { MergedMesh } from "./mergedMesh.ts";
 
 export class MergedBatch implements Batch {
-  readonly #parts: BatchResources;
+  readonly #resources: BatchResources;
   readonly #mesh: MergedGeometry;
   readonly #object: DrawnObject;
   readonly #sphere = new Sphere();
@@ -18,11 +18,13 @@ export class MergedBatch implements Batch {
   #hasChanged = true;
   #isTouched = true;
 
-  constructor(parts: BatchResources, buffers: BufferProvider) {
-    this.#parts = parts;
+  constructor(resources: BatchResources, buffers: BufferProvider) {
+    this.#resources = resources;
     this.#mesh =
-      parts.draw.request.wideLineStep > 0 ? new MergedLines(parts.draw, buffers) : new MergedMesh(parts.draw, buffers);
-    this.#object = parts.addObject(this.#geometry);
+      resources.draw.request.wideLineStep > 0
+        ? new MergedLines(resources.draw, buffers)
+        : new MergedMesh(resources.draw, buffers);
+    this.#object = resources.addObject(this.#geometry);
   }
 
   get isEmpty(): boolean {
@@ -63,10 +65,10 @@ export class MergedBatch implements Batch {
   dispose(): void {
     this.#object.removeFromParent();
     this.#geometry.dispose();
-    this.#parts.material.dispose();
+    this.#resources.material.dispose();
   }
 
-  /** What has been added goes to the GPU with the next frame. */
+  /** Makes the geometry anew, which three.js uploads with the next frame. */
   #send(): void {
     this.#hasChanged = false;
     this.#geometry.dispose();

@@ -1,5 +1,5 @@
-// Wide lines of many shapes as those of one: instances of one outline, each with
-// both its ends and the number of its place.
+// Wide lines of several shapes merged: instances of one outline, each with both ends and the index
+// of its record.
 
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
@@ -10,17 +10,17 @@ import { lineCountOf } from "../lines/wideLines.ts";
 import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
 import { GrowingArray } from "../attributes/growingArray.ts";
 
-/** In one draw: they go to the GPU together whenever one comes or goes. */
+/** The maximum of lines in one draw: all are uploaded again whenever one is added or removed. */
 const maxLines = 65536;
 
 export class MergedLines implements MergedGeometry {
   readonly #buffers: BufferProvider;
   readonly #records: LineRecords;
-  readonly #places = new GrowingArray(Uint32Array);
+  readonly #instanceIndices = new GrowingArray(Uint32Array);
   readonly #members = new Set<Member>();
   #isWasteful = false;
 
-  /** For draws that are like this one in all that `layoutOf` says. */
+  /** For draws whose stages have the same `layoutOf` key. */
   constructor({ stage }: BatchedDraw, buffers: BufferProvider) {
     this.#buffers = buffers;
     this.#records = new LineRecords(stage as BufferStage);
@@ -34,20 +34,20 @@ export class MergedLines implements MergedGeometry {
     return this.#members.size === 0;
   }
 
-  /** Whatever is left of one that is gone would be seen. */
+  /** Lines of removed members would still be visible. */
   get needsRebuild(): boolean {
     return this.#isWasteful;
   }
 
   hasRoomFor({ draw: { ranges } }: Member): boolean {
-    return this.#places.length + ranges.reduce((sum, range) => sum + lineCountOf(range), 0) <= maxLines;
+    return this.#instanceIndices.length + ranges.reduce((sum, range) => sum + lineCountOf(range), 0) <= maxLines;
   }
 
   add(member: Member): void {
     const { ranges, stage } = member.draw;
     for (const range of ranges) {
       this.#records.add(stage as BufferStage, range, this.#buffers);
-      this.#places.extend(lineCountOf(range)).fill(member.instanceIndex);
+      this.#instanceIndices.extend(lineCountOf(range)).fill(member.instanceIndex);
     }
     this.#members.add(member);
   }
@@ -60,14 +60,14 @@ export class MergedLines implements MergedGeometry {
   rebuild(): void {
     this.#isWasteful = false;
     this.#records.clear();
-    this.#places.clear();
+    this.#instanceIndices.clear();
     for (const member of this.#members) this.add(member);
   }
 
   makeGeometry(): BufferGeometry {
-    const geometry = outlineGeometry(this.#places.length);
+    const geometry = outlineGeometry(this.#instanceIndices.length);
     this.#records.setOn(geometry);
-    geometry.setAttribute("instanceIndex", new InstancedBufferAttribute(this.#places.used, 1));
+    geometry.setAttribute("instanceIndex", new InstancedBufferAttribute(this.#instanceIndices.used, 1));
     return geometry;
   }
 }

@@ -1,5 +1,5 @@
-// Many small meshes as one: their vertices one after the other, each with the
-// number of its place, and the indices of each mesh together.
+// Small meshes merged into one: their vertices one mesh after the other, each with the index of its
+// record, and one common index.
 
 import { BufferAttribute, BufferGeometry } from "three";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
@@ -10,7 +10,7 @@ import { GrowingArray } from "../attributes/growingArray.ts";
 import type { Column } from "../attributes/vertexColumns.ts";
 import { appendVertices, attributeOf, columnsOf, indicesOf } from "../attributes/vertexColumns.ts";
 
-/** The largest 16-bit number means another primitive to WebGL. */
+/** Index 65,535 is WebGL's primitive restart. */
 export const maxVertices = 65535;
 
 interface Entry {
@@ -22,13 +22,13 @@ export class MergedMesh implements MergedGeometry {
   readonly #primitive: DrawRange["primitive"];
   readonly #buffers: BufferProvider;
   readonly #columns: readonly Column[];
-  readonly #places = new GrowingArray(Uint32Array);
+  readonly #instanceIndices = new GrowingArray(Uint32Array);
   readonly #index = new GrowingArray(Uint16Array);
   readonly #entries = new Map<Member, Entry>();
-  /** Of members that are gone. */
+  /** Indices of removed members. */
   #lostIndices = 0;
 
-  /** For draws that are like this one in all that `layoutOf` says. */
+  /** For draws whose stages have the same `layoutOf` key. */
   constructor({ stage, request }: BatchedDraw, buffers: BufferProvider) {
     this.#primitive = request.primitive;
     this.#buffers = buffers;
@@ -43,17 +43,17 @@ export class MergedMesh implements MergedGeometry {
     return this.#entries.size === 0;
   }
 
-  /** The share of its indices that belong to nobody, 0 … 1. */
+  /** The fraction of indices that belong to removed members, 0 … 1. */
   get lostShare(): number {
     return this.#lostIndices === 0 ? 0 : this.#lostIndices / this.#index.length;
   }
 
   get needsRebuild(): boolean {
-    // A point that is drawn twice would be seen in a place that is not its own.
+    // Indices of removed members point to vertex 0: degenerate triangles, but visible points.
     return this.lostShare > 0.5 || (this.lostShare > 0 && this.#primitive === "points");
   }
 
-  /** Of all members; those that are gone have left points, which show nothing. */
+  /** The common index; those of removed members are 0. */
   get index(): Uint16Array<ArrayBuffer> {
     return this.#index.used;
   }
@@ -64,7 +64,7 @@ export class MergedMesh implements MergedGeometry {
   }
 
   hasRoomFor({ draw }: Member): boolean {
-    return this.#places.length + draw.vertexCount * passesOf(draw).length <= maxVertices;
+    return this.#instanceIndices.length + draw.vertexCount * passesOf(draw).length <= maxVertices;
   }
 
   add(member: Member): void {
@@ -73,17 +73,17 @@ export class MergedMesh implements MergedGeometry {
     const indices = indicesOf(stage, ranges, this.#buffers);
     const firstIndex = this.#index.length;
     for (const pass of passesOf(member.draw)) {
-      const firstVertex = this.#places.length;
+      const firstVertex = this.#instanceIndices.length;
       for (const column of this.#columns) appendVertices(column, stage, vertexCount, this.#buffers);
-      this.#places.extend(vertexCount).fill(member.instanceIndex + pass);
+      this.#instanceIndices.extend(vertexCount).fill(member.instanceIndex + pass);
       const own = this.#index.extend(indices.length);
-      // Whatever a file says, it does not name others' vertices.
+      // Damaged indices must not refer to other meshes' vertices.
       for (let i = 0; i < indices.length; ++i) own[i] = firstVertex + Math.min(indices[i] ?? 0, vertexCount - 1);
     }
     this.#entries.set(member, { firstIndex, indexCount: this.#index.length - firstIndex });
   }
 
-  /** Its triangles become points, until there are so many of them that all is written anew. */
+  /** Its triangles become degenerate; `rebuild` removes them when there are many. */
   remove(member: Member): void {
     const own = this.indicesOf(member);
     own.fill(0);
@@ -95,7 +95,7 @@ export class MergedMesh implements MergedGeometry {
     const members = Array.from(this.#entries.keys());
     this.#entries.clear();
     for (const { data } of this.#columns) data.clear();
-    this.#places.clear();
+    this.#instanceIndices.clear();
     this.#index.clear();
     this.#lostIndices = 0;
     for (const member of members) this.add(member);
@@ -108,9 +108,9 @@ export class MergedMesh implements MergedGeometry {
     return geometry;
   }
 
-  /** Valid until it grows: they share its memory. */
+  /** They share memory with this object: valid until the next `add`. */
   setVerticesOf(geometry: BufferGeometry): void {
     for (const column of this.#columns) geometry.setAttribute(column.name, attributeOf(column));
-    geometry.setAttribute("instanceIndex", new BufferAttribute(this.#places.used, 1));
+    geometry.setAttribute("instanceIndex", new BufferAttribute(this.#instanceIndices.used, 1));
   }
 }

@@ -1,5 +1,5 @@
-// Many small meshes that blend, as one: their indices are laid out in the order in
-// which a frame draws them, and each run of them is a part of that.
+// Small blended meshes merged into one. The index is rewritten in draw order where that has
+// changed; each run is a range of it.
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere } from "three";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
@@ -8,20 +8,20 @@ import type { Batch, BatchResources, Member, Run } from "./batch.ts";
 import { MergedMesh } from "./mergedMesh.ts";
 
 export class OrderedMergedBatch implements Batch {
-  readonly #parts: BatchResources;
+  readonly #resources: BatchResources;
   readonly #mesh: MergedMesh;
-  /** An object for each run that there has been in a frame. */
+  /** One per run of the frame with the most runs. */
   readonly #objects: DrawnObject[] = [];
-  /** Has the vertices; those of the objects share them, and the index. */
+  /** Holds the vertices; the objects' geometries share them and the index. */
   #vertices = new BufferGeometry();
   #index = new BufferAttribute(new Uint16Array(), 1);
-  /** In the order of the index. */
-  #laid: readonly Member[] = [];
+  /** The members in the order of the index. */
+  #order: readonly Member[] = [];
   #hasChanged = true;
 
-  constructor(parts: BatchResources, buffers: BufferProvider) {
-    this.#parts = parts;
-    this.#mesh = new MergedMesh(parts.draw, buffers);
+  constructor(resources: BatchResources, buffers: BufferProvider) {
+    this.#resources = resources;
+    this.#mesh = new MergedMesh(resources.draw, buffers);
   }
 
   get isEmpty(): boolean {
@@ -43,7 +43,7 @@ export class OrderedMergedBatch implements Batch {
   }
 
   invalidateBounds(): void {
-    // Every frame looks at all of them.
+    // Every frame sorts all members.
   }
 
   update(): void {
@@ -53,8 +53,8 @@ export class OrderedMergedBatch implements Batch {
   drawRuns(runs: readonly Run[]): void {
     if (this.#hasChanged) this.#send();
     const members = runs.flatMap((run) => run.members);
-    if (members.length !== this.#laid.length || members.some((member, n) => member !== this.#laid[n]))
-      this.#lay(members);
+    if (members.length !== this.#order.length || members.some((member, n) => member !== this.#order[n]))
+      this.#writeIndex(members);
     let first = 0;
     runs.forEach((run, n) => {
       const object = this.#objectAt(n);
@@ -73,14 +73,14 @@ export class OrderedMergedBatch implements Batch {
       object.geometry.dispose();
     }
     this.#vertices.dispose();
-    this.#parts.material.dispose();
+    this.#resources.material.dispose();
   }
 
   #objectAt(n: number): DrawnObject {
-    return (this.#objects[n] ??= this.#parts.addObject(this.#shared()));
+    return (this.#objects[n] ??= this.#resources.addObject(this.#shared()));
   }
 
-  /** What has been added goes to the GPU with the next frame. */
+  /** Makes the geometry anew, which three.js uploads with the next frame. */
   #send(): void {
     this.#hasChanged = false;
     if (this.#mesh.lostShare > 0.5) this.#mesh.rebuild();
@@ -89,7 +89,7 @@ export class OrderedMergedBatch implements Batch {
     this.#vertices = new BufferGeometry();
     this.#mesh.setVerticesOf(this.#vertices);
     this.#index = new BufferAttribute(new Uint16Array(this.#mesh.index.length), 1).setUsage(DynamicDrawUsage);
-    this.#laid = [];
+    this.#order = [];
     for (const object of this.#objects) object.geometry = this.#shared();
   }
 
@@ -97,11 +97,11 @@ export class OrderedMergedBatch implements Batch {
     const geometry = new BufferGeometry();
     for (const [name, attribute] of Object.entries(this.#vertices.attributes)) geometry.setAttribute(name, attribute);
     geometry.setIndex(this.#index);
-    geometry.boundingSphere = new Sphere(); // three.js would make one of the stored numbers
+    geometry.boundingSphere = new Sphere(); // otherwise three.js computes one from stored positions
     return geometry;
   }
 
-  #lay(members: readonly Member[]): void {
+  #writeIndex(members: readonly Member[]): void {
     const { array } = this.#index;
     let first = 0;
     for (const member of members) {
@@ -109,7 +109,7 @@ export class OrderedMergedBatch implements Batch {
       (array as Uint16Array).set(indices, first);
       first += indices.length;
     }
-    this.#laid = members;
+    this.#order = members;
     this.#index.clearUpdateRanges();
     this.#index.addUpdateRange(0, first);
     this.#index.needsUpdate = true;
