@@ -1,12 +1,11 @@
-// What of three.js a page's runtime leaves behind: shader text and objects that it
-// would carry for materials and effects that X3D's looks never use. A bundler
-// cannot know, since three.js finds its shaders by name and makes its objects
-// whether or not they get work; so they are named here. The text of the other
-// shaders loses comments and indents, as in three.js' own build.
+// Leaves out parts of three.js that pages never use: shaders and objects for other materials and
+// effects. A bundler cannot find these, since three.js looks up shaders by name and creates its
+// objects unconditionally; so they are listed here. Comments and indentation of the remaining
+// shaders are removed, as in three.js' own build.
 //
-// Our modules import from three.js' list of all that it has. When a bundler splits a
-// page into parts, whoever imports from that list reaches all of it; so here each
-// name is imported from the file that it is of.
+// Our modules import from "three", which re-exports everything. When a bundler splits code, any
+// module that imports from it reaches all of it; so each name is imported from the file that
+// defines it.
 
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -15,7 +14,7 @@ import type { Plugin } from "esbuild";
 const three = join(import.meta.dirname, "../node_modules/three");
 const shaders = "renderers/shaders";
 
-/** Programs of materials that we have none of, and of shadows and environments. */
+/** Shader programs of unused materials, of shadows and of environments. */
 const unusedPrograms = [
   "backgroundCube",
   "cube",
@@ -34,7 +33,7 @@ const unusedPrograms = [
   "vsm",
 ];
 
-/** Included by these alone, or in whole of what is for shadows, probes and physical environments. */
+/** Chunks that only these programs include, and chunks for shadows, light probes and environments. */
 const unusedChunks = [
   "alphahash_fragment",
   "alphahash_pars_fragment",
@@ -58,7 +57,7 @@ const unusedChunks = [
   "transmission_pars_fragment",
 ];
 
-/** What WebGLRenderer asks of what it never uses. */
+/** Replacements for modules that WebGLRenderer imports and pages never use. */
 const standIns: Readonly<Record<string, string>> = {
   "extras/PMREMGenerator.js": "export class PMREMGenerator {}",
   "renderers/shaders/DFGLUTData.js": "export function getDFGLUT() { return null; }",
@@ -76,7 +75,7 @@ const standIns: Readonly<Record<string, string>> = {
   ...Object.fromEntries(unusedChunks.map((name) => [`${shaders}/ShaderChunk/${name}.glsl.js`, 'export default "";'])),
 };
 
-/** By the names that three.js exports, the files that they are of. */
+/** By the names that three.js exports, the files that define them. */
 function filesByName(): ReadonlyMap<string, string> {
   const files = new Map<string, string>();
   for (const list of ["Three.Core.js", "Three.js"]) {
@@ -92,7 +91,7 @@ function filesByName(): ReadonlyMap<string, string> {
   return files;
 }
 
-/** Of one of our modules. */
+/** Rewrites the imports of one of our modules. */
 function withNamesFromTheirFiles(module: string, files: ReadonlyMap<string, string>): string {
   return module.replaceAll(
     /^import \{([^}]*)\} from "three";$/gm,
@@ -111,7 +110,7 @@ export const leanThree: Plugin = {
   setup(build) {
     const missing = Object.keys(standIns).filter((path) => !existsSync(join(three, "src", path)));
     if (missing.length > 0) throw new Error(`three.js has no ${missing.join(", ")} any more`);
-    // Its sources carry no notice of their own.
+    // three.js' source files carry no licence notice of their own.
     const [notice] = /\/\*\*.*?\*\//s.exec(readFileSync(join(three, "build/three.module.js"), "utf8")) ?? [""];
     build.initialOptions.banner = { js: notice };
     build.onResolve({ filter: /^three$/ }, () => ({ path: join(three, "src/Three.js"), sideEffects: false }));
@@ -128,7 +127,7 @@ export const leanThree: Plugin = {
   },
 };
 
-/** Of GLSL in a module of three.js. */
+/** Removes comments and indentation of GLSL in a module of three.js. */
 function withoutComments(module: string): string {
   return module
     .replaceAll(/\/\*(?! glsl).*?\*\//gs, "")

@@ -1,10 +1,10 @@
-// How light becomes less with distance and towards the edge of a cone, as X3D says
-// it (ISO/IEC 19775-1, 17.2.2.4): at distance d by 1 / max(a + b d + c d^2, 1), to
-// nothing beyond the radius; between beamWidth and cutOffAngle evenly by angle.
+// Falloff of light in X3D (ISO/IEC 19775-1, 17.2.2.4). Distance d attenuates by 1 / max(a + b d + c
+// d^2, 1), and to nothing beyond the radius; between beamWidth and cutOffAngle, intensity falls
+// linearly with the angle.
 
 import type { Vec3 } from "../document/description.ts";
 
-/** GLSL, by a, b, c and the cosines of the angles. */
+/** GLSL functions of a, b, c and of the cosines of the angles. */
 export const falloffChunk = /* glsl */ `
 float attenuationAtDistance(const in float lightDistance, const in float radius, const in vec3 attenuation) {
   vec3 powers = vec3(1.0, lightDistance, lightDistance * lightDistance);
@@ -24,12 +24,12 @@ export interface Falloff {
   readonly attenuation: Vec3;
 }
 
-/** Lengths are those of a light's own coordinates (17.4.2): what is scaled up reaches further. */
+/** Lengths are in the light's coordinate system (17.4.2): a scaled-up light reaches further. */
 export function scaledFalloff({ radius, attenuation: [constant, linear, square] }: Falloff, scale: number): Falloff {
   return { radius: radius * scale, attenuation: [constant, linear / scale, square / scale ** 2] };
 }
 
-/** Of a SpotLight, in radians: where its light ends, and within what it is full. */
+/** A SpotLight's cone, in radians: where its light ends, and where it is full. */
 export function coneOf({ cutOffAngle, beamWidth }: { readonly cutOffAngle: number; readonly beamWidth: number }): {
   edge: number;
   beam: number;

@@ -1,9 +1,9 @@
-// What a material's fields are to the equations of light, whoever draws it.
+// The parameters of the lighting equations, from a material's fields.
 
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
 import { displayedOf } from "./physicalLighting.ts";
 
-/** `hasAlpha`: colours of vertices or a texture bring some. */
+/** `hasAlpha`: vertex colours or a texture have alpha. */
 export function isBlended(
   { alpha: { mode }, material: { transparency } }: AppearanceDescription,
   hasAlpha: boolean,
@@ -15,7 +15,10 @@ export function opacityOf({ alpha: { mode }, material: { transparency } }: Appea
   return mode === "OPAQUE" ? 1 : 1 - transparency;
 }
 
-/** X3D shows unlit points in the emissive colour. Scans without one would be black on black. Colours of vertices stand in for it. */
+/**
+ * The colour of unlit points and lines: vertex colours, else the emissive colour as in X3D, else the diffuse colour,
+ * since scans without an emissive colour would be black on black.
+ */
 export function unlitColorOf(description: MaterialDescription, hasColors: boolean): Vec3 {
   if (hasColors) return [1, 1, 1];
   const { emissiveColor } = description;
@@ -39,7 +42,7 @@ export interface LitParameters {
   readonly roughness: number;
 }
 
-/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
+/** Vertex colours replace the diffuse colour; glTF multiplies them with its base colour. */
 export function litParametersOf(description: MaterialDescription, hasColors: boolean): LitParameters {
   switch (description.kind) {
     case "physical":

@@ -1,19 +1,17 @@
-// PhysicalMaterial: the metallic-roughness model of glTF 2.0, appendix B (Lambert
-// below Schlick's Fresnel term and the GGX distribution, Walter et al. 2007), with
-// height-correlated Smith visibility (Heitz 2014). Colours and light are linear;
-// the result is encoded for the screen.
+// PhysicalMaterial: the metallic-roughness model of glTF 2.0, appendix B (Lambert below Schlick's
+// Fresnel term and the GGX distribution, Walter et al. 2007), with height-correlated Smith
+// visibility (Heitz 2014). Colours and light are linear; the result is encoded for the display.
 //
-// A light of intensity 1 that a white, rough surface faces makes it white, as with
-// X3D's Material, so the factor 1/pi of all reflectances is left out. Metals mirror
-// what surrounds them and nothing else; without any surroundings they would be
-// black, so they stand in a grey room (Karis 2014, "Physically based shading on
-// mobile", for its share).
+// A light of intensity 1 makes a white, rough surface that faces it white, as with X3D's Material,
+// so the factor 1/pi of all reflectances is left out. Metals reflect their surroundings only and
+// would be black without any, so a uniform grey environment surrounds them (reflectance after Karis
+// 2014, "Physically based shading on mobile").
 
 import type { Vec3 } from "../document/description.ts";
 
 export const physicalDefine = "PHYSICAL";
 
-/** The body of directX3d and ambientX3d for this model. */
+/** The functions directX3d and ambientX3d of this model. */
 export const physicalLighting = /* glsl */ `
 const float environmentRadiance = 0.3;
 
@@ -56,7 +54,7 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 }
 `;
 
-/** Instead of three's encoding, which stays off for the materials beside it. */
+/** Replaces three.js' output encoding, which is off for the scene's other materials. */
 export const physicalOutput = /* glsl */ `
 #include <colorspace_fragment>
 #ifdef ${physicalDefine}
@@ -65,7 +63,7 @@ export const physicalOutput = /* glsl */ `
 #endif
 `;
 
-/** Linear -> what the screen gets (IEC 61966-2-1). */
+/** Linear to display colours (IEC 61966-2-1). */
 export function displayedOf(linear: Vec3): Vec3 {
   const [red, green, blue] = linear.map((channel) =>
     channel <= 0.0031308 ? 12.92 * channel : 1.055 * channel ** (1 / 2.4) - 0.055,
@@ -73,12 +71,12 @@ export function displayedOf(linear: Vec3): Vec3 {
   return [red ?? 0, green ?? 0, blue ?? 0];
 }
 
-/** Makes an sRGB colour, a variable of GLSL, linear (IEC 61966-2-1). */
+/** GLSL that makes an sRGB colour variable linear (IEC 61966-2-1). */
 export function toLinearChunk(color: string): string {
   return `${color} = mix(pow((${color} + 0.055) / 1.055, vec3(2.4)), ${color} / 12.92, vec3(lessThanEqual(${color}, vec3(0.04045))));`;
 }
 
-/** The other way, of a colour in 0 … 1. */
+/** The inverse, for a colour in 0 … 1. */
 export function toDisplayedChunk(color: string): string {
   return `${color} = mix(pow(${color}, vec3(1.0 / 2.4)) * 1.055 - 0.055, ${color} * 12.92, vec3(lessThanEqual(${color}, vec3(0.0031308))));`;
 }

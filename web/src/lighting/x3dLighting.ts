@@ -1,17 +1,15 @@
-// The lighting of X3D (ISO/IEC 19775-1, 17.2.2) in GLSL, the same text for every
-// pass that lights: for each light, diffuse N.L + specular (N.H)^(128 shininess),
-// plus its ambient share.
+// X3D's lighting (ISO/IEC 19775-1, 17.2.2) in GLSL, for pages and for the preview: per light,
+// diffuse N.L + specular (N.H)^(128 shininess), plus its ambient part.
 //
-// Colours are not converted: a document's numbers are what the screen gets, and
-// light adds up in those numbers, as X3D's equations are written and as X3DOM
-// draws them. A grey of 0.5 that faces the headlight is 128 on the screen. The
-// colours of a PhysicalMaterial are linear, and so is its light: physicalLighting.ts.
+// Colours are not converted: the document's values are display values, and light adds up in them,
+// as X3D's equations are written and as X3DOM draws them. A grey of 0.5 that faces the headlight is
+// 128 on the screen. Colours and light of a PhysicalMaterial are linear: physicalLighting.ts.
 
 import { physicalDefine, physicalLighting } from "./physicalLighting.ts";
 
 /**
- * Needs three.js' IncidentLight (color, direction towards it) and ReflectedLight
- * (direct and indirect, Diffuse and Specular). Directions are of length 1.
+ * Needs three.js' IncidentLight (color, direction towards the light) and ReflectedLight (direct and indirect, Diffuse
+ * and Specular). Directions have length 1.
  */
 export const x3dLighting = /* glsl */ `
 struct X3dMaterial {

@@ -1,6 +1,5 @@
-// Arrays of vertex data as buffers of whatever renderer draws them first. They
-// keep their arrays, as three.js' own attributes do, so that a lost context comes
-// back by itself.
+// Vertex and index arrays for three.js apps. They stay in JavaScript, as in three.js' own
+// attributes, so that any renderer can upload them, and restored contexts get them back.
 
 import type { BufferGeometry } from "three";
 import { BufferAttribute, InterleavedBuffer } from "three";
@@ -12,7 +11,7 @@ import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 
 interface Kept {
   readonly array: ElementArray;
-  /** What three.js has been given of it, by how it looks at it: one buffer each. */
+  /** One three.js buffer per element type and stride. */
   readonly records: Map<string, InterleavedBuffer>;
 }
 

@@ -1,6 +1,5 @@
-// Images of vertex data, and pictures, as textures of whatever renderer draws them first. They
-// keep their bitmaps, as three.js' own textures do, so that a lost context comes
-// back by itself.
+// Images of vertex data, and textures, for three.js apps. They keep their bitmaps, as three.js' own
+// textures do, so that any renderer can upload them, and restored contexts get them back.
 
 import { NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage } from "../decode/image.ts";
@@ -15,7 +14,10 @@ import { setSampling } from "../render/uploads/textureSampling.ts";
 import { setDataSampling } from "../render/uploads/textureSampling.ts";
 import type { UploadThrottle } from "./uploadThrottle.ts";
 
-/** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
+/**
+ * Maximum width and height in texels: the limit must be known before there is a renderer, and every renderer in use
+ * supports 4096.
+ */
 export const maxTextureSize = 4096;
 
 export class BitmapTextures implements TextureProvider {
@@ -39,7 +41,7 @@ export class BitmapTextures implements TextureProvider {
     return { image: await this.#keep(bitmap, dataTextureOf(bitmap), signal), channels };
   }
 
-  /** The same for what is looked at. */
+  /** The same for a texture of an appearance. */
   async makePicture(
     bytes: Uint8Array<ArrayBuffer>,
     sampling: SamplingDescription,
@@ -47,7 +49,7 @@ export class BitmapTextures implements TextureProvider {
   ): Promise<Picture> {
     const { bitmap, hasAlpha } = await decodePicture(bytes, maxTextureSize, sampling);
     const texture = new Texture(bitmap);
-    texture.flipY = false; // the bitmap is already
+    texture.flipY = false; // the bitmap has been flipped
     texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;
     setSampling(texture, sampling);
     texture.needsUpdate = true;

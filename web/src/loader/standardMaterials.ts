@@ -1,7 +1,6 @@
-// How a scene looks in somebody's own three.js app: with three's materials, so
-// that the app's lights, shadows, tone mapping and colour space hold for it as
-// for everything else there. Only where vertices come from is ours, and it is
-// the same in every pass: what casts a shadow is what is seen.
+// The MaterialFactory of three.js apps: three.js' own materials, so that the app's lights, shadows,
+// tone mapping and colour space apply. The vertex chunk is added to the materials of every pass, so
+// that shadows have the shape of what is seen.
 
 import type { Camera, Material, Sphere, Texture, WebGLRenderer } from "three";
 import {
@@ -31,14 +30,16 @@ import { srgbColorsDefine } from "../render/shaders/vertexFormat.ts";
 import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
 /**
- * Makes the material of a shape from X3D's. `shading` says what there is to shade:
- * "smooth" by normals, "flat" by slope, "unlit" and "distance" are points and
- * lines. Any built-in material of three.js but its ShaderMaterials will do; each
- * call must make a new one. Called again for each stage of a patch.
+ * Makes the material of a shape from X3D's. `shading`: "smooth" by normals, "flat" by the surface's slope, "unlit" and
+ * "distance" for points and lines. May return any built-in material of three.js but ShaderMaterials; each call must
+ * make a new one. Called for each stage of a patch.
  */
 export type MaterialMaker = (material: MaterialDescription, shading: Shading) => Material;
 
-/** X3D's and glTF's physical material is three's own; of X3D's other one, a reading with its shininess as roughness, by the width of the highlight. */
+/**
+ * X3D's and glTF's physical material as three.js' standard material; X3D's Phong material as an approximation with a
+ * roughness of equal highlight width.
+ */
 export function standardMaterialOf(description: MaterialDescription, shading: Shading): Material {
   const opacity = 1 - description.transparency;
   const transparent = description.transparency > 0;
@@ -61,23 +62,23 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
     emissive,
     ...(description.kind === "physical"
       ? { roughness: description.roughness, metalness: description.metallic }
-      : // As of Blinn's exponent, Walter et al. 2007.
+      : // From Blinn's exponent, Walter et al. 2007.
         { roughness: Math.sqrt(2 / (description.shininess * 128 + 2)), metalness: 0 }),
   });
 }
 
-/** What a scene is in the app that it is hung into. */
+/** Properties of the scene in the app. */
 export interface SceneShadowOptions {
   readonly castShadow: boolean;
   readonly receiveShadow: boolean;
-  /** Around the scene, in the app's world. */
+  /** Around the scene, in the app's world coordinates. */
   readonly sphere: Sphere;
 }
 
 export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings: SceneShadowOptions): MaterialFactory {
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
-    batching: undefined, // three's Raycaster, and passes with materials of their own, want an object for each place
+    batching: undefined, // three.js' Raycaster, and passes with their own materials, need one object per instance
     makeMaterial(request, appearance, surfaceTextures) {
       const material = makeMaterial(appearance.material, request.shading);
       material.side = request.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
@@ -85,7 +86,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings:
       material.vertexColors = request.colors !== "none";
       if (request.colors === "rgba") material.transparent = true;
       if ("flatShading" in material && request.shading === "flat") material.flatShading = true;
-      // Colours of vertices stand in for the diffuse colour, as X3D has it.
+      // Vertex colours replace the diffuse colour, as in X3D.
       if (material.vertexColors && "color" in material && material.color instanceof Color) material.color.set(0xffffff);
       const shadows = shadowMaterialsOf(material, request);
       shadowMaterials.set(material, shadows);
@@ -96,7 +97,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings:
         request.shading === "smooth" && !("flatShading" in material && material.flatShading === true),
       );
     },
-    // The document is read once, so only its surfaceTextures come later.
+    // The document is read once, so only textures change later.
     applyAppearance: (material, appearance, _, surfaceTextures) => {
       setTextureMaps(material, shadowMaterials.get(material), appearance, surfaceTextures);
     },
@@ -106,7 +107,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings:
       const { depth, distance } = shadowMaterials.get(material) ?? {};
       object.customDepthMaterial = depth;
       object.customDistanceMaterial = distance;
-      // There are no vertices in JavaScript for a ray, and three does not expect that.
+      // JavaScript has no vertices to intersect, and three.js would fail on that.
       if (request.isFromImages || request.wideLineStep > 0) object.raycast = () => undefined;
       if (object instanceof Points || request.wideLineStep > 0)
         object.onBeforeRender = (renderer, _, camera) => {
@@ -115,7 +116,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings:
     },
   };
 
-  /** Points are as large in every app, and those that stand for a surface are darker the farther they are in the scene. */
+  /** Points are equally large in every app, and depth shading spans the depth of the scene. */
   function measure(renderer: WebGLRenderer, camera: Camera, { shared }: MaterialRequest): void {
     shared.pixelRatio.value = renderer.getPixelRatio();
     const { center, radius } = surroundings.sphere;
@@ -124,7 +125,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings:
   }
 }
 
-/** By role, the maps of three's materials that take it; what is there of each is multiplied by the number beside it, as in X3D. */
+/** The maps of three.js' materials for each role; each is multiplied with the field beside it, as in X3D. */
 const slots: Readonly<Record<TextureRole, readonly string[]>> = {
   color: ["map"],
   emissive: ["emissiveMap"],
@@ -136,7 +137,7 @@ const slots: Readonly<Record<TextureRole, readonly string[]>> = {
   shininess: [],
 };
 
-/** Over the material's own colour. A material with maps of the app's keeps them until there are others. */
+/** Applies textures. Maps that the app has set stay until the scene's textures replace them. */
 function setTextureMaps(
   material: Material,
   shadows: ShadowMaterials | undefined,
@@ -161,7 +162,7 @@ function setTextureMaps(
   }
   const areGlyphs = hasGlyphs(appearance);
   if (alpha.mode !== "MASK" && !areGlyphs) return;
-  // Holes let light through; letters have their edges in the middle of their field.
+  // Holes let light through; the outline of a glyph is at half of its field.
   for (const drawn of [areGlyphs ? undefined : material, shadows?.depth, shadows?.distance]) {
     if (drawn === undefined) continue;
     drawn.alphaTest = areGlyphs ? 0.5 : alpha.cutoff;
@@ -169,7 +170,7 @@ function setTextureMaps(
   }
 }
 
-/** Undefined: none of ours any more. */
+/** `texture` undefined: removes the scene's texture, but not the app's. */
 function setTextureMap(material: Material, slot: string, texture: Texture | undefined): void {
   if (!(slot in material)) return;
   const maps = material as unknown as Record<string, Texture | null>;
@@ -186,7 +187,7 @@ interface ShadowMaterials {
   readonly distance: Material;
 }
 
-/** For shadows of directional lights and spots, and for those of points; they go with the material that is seen. */
+/** For shadows of directional and spot lights, and of point lights; disposed of with the visible material. */
 function shadowMaterialsOf(material: Material, request: MaterialRequest): ShadowMaterials {
   const depth = addVertexReadingTo(new MeshDepthMaterial(), request, false);
   const distance = addVertexReadingTo(new MeshDistanceMaterial(), request, false);
@@ -199,7 +200,7 @@ function shadowMaterialsOf(material: Material, request: MaterialRequest): Shadow
   return { depth, distance };
 }
 
-/** Lets a material draw vertices of this form, whatever it does besides. */
+/** Adds the vertex chunk to a material, and keeps its own `onBeforeCompile`. */
 function addVertexReadingTo<Any extends Material>(material: Any, request: MaterialRequest, readsNormals: boolean): Any {
   const own = material.onBeforeCompile.bind(material);
   const ownKey = material.customProgramCacheKey();

@@ -1,7 +1,5 @@
-// Images and arrays on their way into somebody's three.js scene. Which renderer
-// draws them, and when, is the app's business; three.js uploads all that a frame
-// shows for the first time before that frame. So they are let into the scene a few
-// at a time, and no frame waits for many.
+// Spreads the upload of images and arrays over frames. three.js uploads everything that a frame
+// shows for the first time before that frame, so each frame gets only a few of them.
 
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
@@ -17,7 +15,7 @@ export class UploadThrottle {
     requestFrame: beforeNextFrame,
   });
 
-  /** Resolves before a frame that may show so many bytes more. Rejects with the signal's reason. */
+  /** Resolves before a frame that may upload this many more bytes. Rejects with the signal's reason. */
   waitForFrame(bytes: number, signal: AbortSignal): Promise<void> {
     return this.#work.run([bytes].values(), signal);
   }

@@ -1,4 +1,4 @@
-// Draws a described scene into a canvas, and only when something changed.
+// Draws a described scene into a canvas, only when something has changed.
 
 import type { Object3D, Sphere } from "three";
 import {
@@ -52,22 +52,22 @@ import { testVertexTextures } from "./picking/vertexTextureTest.ts";
 import { minVertexTextureUnits } from "./shaders/vertexFormat.ts";
 import type { CameraController, View } from "./view.ts";
 
-/** What has been drawn and what the GPU holds. */
+/** What has been drawn, and what is on the GPU. */
 export interface RenderStatistics {
   readonly frames: number;
-  /** That the last frame took. */
+  /** Of the last frame. */
   readonly drawCalls: number;
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
-  /** More has come than the last frame shows. */
+  /** A change has come that no frame shows yet. */
   readonly isFrameDue: boolean;
-  /** That vertex data take: images and buffers. */
+  /** Memory of vertex data: images and buffers. */
   readonly textureBytes: number;
   readonly bufferBytes: number;
 }
 
-/** An image on the GPU that is looked at. */
+/** A texture image on the GPU. */
 export interface Picture {
   readonly image: DecodedImage;
   readonly hasAlpha: boolean;
@@ -77,7 +77,7 @@ export class SceneRenderer {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera();
-  /** As it stood for the last frame. */
+  /** The camera of the last frame. */
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = {
@@ -101,10 +101,10 @@ export class SceneRenderer {
   #drawCalls = 0;
   #frameRequest = 0;
   #readsTextures: Promise<boolean> | undefined;
-  /** They keep their programs alive. */
+  /** Materials of these objects keep programs alive. */
   readonly #compiled = new Map<string, Object3D>();
 
-  /** `onFrame` is called after each frame that has been drawn. */
+  /** `onFrame` is called after each frame. */
   constructor(
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
@@ -128,15 +128,15 @@ export class SceneRenderer {
     this.#framePacer = new FramePacer(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
     this.#depthProbe = new DepthProbe(this.#renderer);
-    // The numbers of the document are the numbers of the screen: see materials.ts.
+    // Colours are not converted: see materials/x3dMaterials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
-    // The headlight stands in the camera's own frame and shines along its -z.
+    // The headlight is a child of the camera and shines along its -z.
     this.#headlight.position.set(0, 0, 0);
     this.#headlight.target.position.set(0, 0, -1);
     this.#camera.add(this.#headlight, this.#headlight.target);
     this.#scene.add(this.#camera);
-    this.#scene.matrixAutoUpdate = false; // a scene that moved would move all that is in it, in every frame
+    this.#scene.matrixAutoUpdate = false; // otherwise three.js updates all world matrices in every frame
   }
 
   get statistics(): RenderStatistics {
@@ -153,12 +153,12 @@ export class SceneRenderer {
     };
   }
 
-  /** No shape shows anything yet. */
+  /** No shape displays anything yet. */
   get isEmpty(): boolean {
     return this.#shapes.isEmpty;
   }
 
-  /** Nothing is drawn, and nothing is on the GPU, until the browser gives the context back. */
+  /** Until the browser restores the context, nothing is drawn, and nothing is on the GPU. */
   get isContextLost(): boolean {
     return this.#renderer.getContext().isContextLost();
   }
@@ -177,7 +177,7 @@ export class SceneRenderer {
     };
   }
 
-  /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
+  /** Displays this scene from now on. Shapes that have been removed free their GPU resources. */
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
@@ -194,48 +194,49 @@ export class SceneRenderer {
     this.#backgroundMesh?.removeFromParent();
     this.#backgroundMesh = background instanceof Mesh ? background : undefined;
     if (this.#backgroundMesh) this.#scene.add(this.#backgroundMesh);
-    // A colour is the scene's, not the renderer's to clear with: that one is lost with the context.
+    // scene.background instead of the renderer's clear colour, which would be lost with the
+    // context.
     this.#scene.background = background instanceof Color ? background : null;
   }
 
-  /** Texels of the longest edge that a texture may have. */
+  /** Maximum width and height of textures, in texels. */
   get largestTexture(): number {
     return this.#renderer.capabilities.maxTextureSize;
   }
 
-  /** Whether shaders of vertices have textures enough. */
+  /** Whether vertex shaders have enough texture units. */
   get mayReadTextures(): boolean {
     return this.#renderer.capabilities.maxVertexTextures >= minVertexTextureUnits;
   }
 
-  /** Whether vertices are read from textures as they should be; tried out once. */
+  /** Whether vertices can be read from textures; tested once. */
   readsTextures(): Promise<boolean> {
     this.#readsTextures ??= testVertexTextures(this.#renderer, this.#textures);
     return this.#readsTextures;
   }
 
-  /** Begins to bring an image to the GPU; stages may use it when all steps have been taken. */
+  /** Begins the upload of an image; stages may use it after the last step. */
   beginUpload(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
     return this.#textures.begin(bitmap, this.#renderer, sampling);
   }
 
-  /** The same of an array. */
+  /** Begins the upload of an array. */
   beginStoring(array: ElementArray, use: ArrayUse): BufferUpload {
     return this.#buffers.begin(array, use);
   }
 
-  /** Replaces what a patch of a shape of the current scene shows. */
+  /** Replaces the stage of a patch of a shape of the current scene. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     this.#shapes.setStage(element, geometry, patch, stage);
     this.requestFrameAtPace();
   }
 
-  /** Around all that is seen, in the scene's coordinates. Grows when vertices tell of a box that the document does not. */
+  /** Around all visible shapes, in scene coordinates. Grows with bounds that only vertices tell. */
   get sphere(): Sphere {
     return this.#shapes.sphere;
   }
 
-  /** Lays a picture over a shape; undefined: none. */
+  /** Applies a texture to a shape; undefined: removes it. */
   setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
     this.#shapes.setTexture(
       element,
@@ -245,13 +246,13 @@ export class SceneRenderer {
     this.requestFrameAtPace();
   }
 
-  /** Takes away what a shape shows. */
+  /** Removes everything that a shape displays. */
   clearShape(element: SceneElement): void {
     this.#shapes.clearShape(element);
     this.requestFrame();
   }
 
-  /** In device pixels, with the number of them in a CSS pixel. The canvas is empty until a frame is drawn. */
+  /** Sizes in device pixels, and device pixels per CSS pixel. The canvas is empty until the next frame. */
   setSize(width: number, height: number, pixelRatio: number): void {
     this.#size = { width, height };
     if (!this.#hasArea) return;
@@ -259,43 +260,43 @@ export class SceneRenderer {
     this.#renderer.setSize(width, height, false);
   }
 
-  /** The same, and draws before the browser shows the empty canvas. */
+  /** The same, with a frame before the browser shows the empty canvas. */
   resize(width: number, height: number, pixelRatio: number): void {
     this.setSize(width, height, pixelRatio);
     this.#drawNow();
   }
 
-  /** What the last frame shows at a pixel, counted in whole device pixels from the top left. Waits for the GPU. */
+  /** Picks in the last frame, at a pixel in device pixels from the top left. Blocks until the GPU is done. */
   pick(x: number, y: number): Hit | undefined {
     if (this.#frames === 0) return undefined;
     return this.#picker.pick({ ...this.#size, x, y }, this.#pickSlack);
   }
 
-  /** The same without waiting; no frame comes late for it. */
+  /** Picks without blocking or delaying a frame. */
   async pickAsync(x: number, y: number): Promise<Hit | undefined> {
     if (this.#frames === 0) return undefined;
     return this.#picker.pickAsync(() => ({ ...this.#size, x, y }), this.#pickSlack);
   }
 
-  /** The innermost Anchor around what was hit. */
+  /** The innermost Anchor around the hit. */
   anchorOf({ group }: Hit): AnchorDescription | undefined {
     return this.#shapes.anchorAround(group);
   }
 
-  /** Multiplies the light that reaches the eye; 1 leaves the document's numbers as they are. */
+  /** A factor on the light that reaches the eye; 1 keeps the document's colours. */
   setExposure(exposure: number): void {
     this.#renderer.toneMapping = exposure === 1 ? NoToneMapping : LinearToneMapping;
     this.#renderer.toneMappingExposure = exposure;
     this.requestFrame();
   }
 
-  /** Shows surfaces as they are, or their vertices. */
+  /** Draws surfaces, or only their vertices. */
   drawAsPoints(asPoints: boolean): void {
     this.#shapes.drawAsPoints(asPoints);
     this.requestFrame();
   }
 
-  /** Draws now, for whoever reads the canvas in this turn of the event loop. */
+  /** Draws at once, for callers that read the canvas in this turn of the event loop. */
   draw(): void {
     this.#drawNow();
   }
@@ -308,14 +309,17 @@ export class SceneRenderer {
       });
   }
 
-  /** The same for what nobody has asked for, when the GPU has rested: what comes while a scene loads would keep it busy without an end. */
+  /**
+   * Requests a frame that only refines the picture, with frame pacing: while a scene loads, such frames would keep the
+   * GPU busy without an end.
+   */
   requestFrameAtPace(): void {
     this.#framePacer.request(() => {
       this.requestFrame();
     });
   }
 
-  /** Frees the GPU; nothing may be called after. */
+  /** Frees the GPU. No method may be called afterwards. */
   dispose(): void {
     cancelAnimationFrame(this.#frameRequest);
     this.#shapes.dispose();
@@ -326,7 +330,7 @@ export class SceneRenderer {
     this.#renderer.forceContextLoss();
   }
 
-  /** Programs for what is to come, without waiting for them. */
+  /** Starts compiling programs for the given shapes, without waiting for them. */
   #compileAhead(shapes: Iterable<ShapeDescription>): void {
     if (this.isContextLost) return;
     const fresh = new Group();
@@ -346,7 +350,7 @@ export class SceneRenderer {
     return this.#size.width > 0 && this.#size.height > 0;
   }
 
-  /** How far, in device pixels, a vertex may be from what it covers. */
+  /** How far, in device pixels, a vertex may be from the pixels that it covers. */
   get #pickSlack(): number {
     const largest = Math.max(this.#shapes.maxWidth, defaultPointSize);
     return 1 + Math.ceil((largest * this.#shared.pixelRatio.value) / 2);
@@ -379,7 +383,7 @@ export class SceneRenderer {
     if (this.#cameraController.isMoving) this.requestFrame();
   }
 
-  /** Tells the camera man what he wants to know, when the GPU has drawn it. */
+  /** Samples the surroundings for the camera controller, when the GPU has drawn them. */
   async #lookAround(): Promise<void> {
     const lookout = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
     if (lookout === undefined) return;

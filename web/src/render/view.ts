@@ -1,28 +1,28 @@
-// Where the camera is, between those who move it and those who draw.
+// The camera, between its controllers and the renderer.
 
 import type { Pose } from "../navigation/cameraPose.ts";
 import type { DepthCamera, GroundSamples } from "../navigation/groundSamples.ts";
 
-/** Where the camera is and what it sees, as plain numbers. */
+/** The camera's position and projection, as plain numbers. */
 export interface View {
   readonly position: readonly [number, number, number];
-  /** 16 numbers, column by column. */
+  /** A column-major 4 x 4 matrix. */
   readonly clipFromScene: readonly number[];
-  /** Device pixels that something of length 1 covers at a distance of 1, in the middle of the view. */
+  /** Device pixels that a length of 1 covers at distance 1, in the middle of the view. */
   readonly pixelsPerUnit: number;
   readonly near: number;
 }
 
-/** Where the camera is. */
+/** Controls the camera. */
 export interface CameraController {
   readonly pose: Pose;
-  /** What is nearer need not be seen. */
+  /** Nearer objects need not be drawn. */
   readonly clearance: number;
-  /** At this moment, in milliseconds as of `performance.now()`. */
+  /** The pose at a time in milliseconds, as of `performance.now()`. */
   advance(nowMs: number): Pose;
-  /** Another frame is due after this one. */
+  /** Another frame is needed after this one. */
   readonly isMoving: boolean;
-  /** From where he wants to know what is around. */
+  /** Where to sample the surroundings; undefined: nowhere. */
   readonly depthCamera: DepthCamera | undefined;
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void;
 }

@@ -1,6 +1,6 @@
-// What the shader programs of shapes will be, from their document alone. They are
-// compiled while the first files are on their way: a driver takes a good part of a
-// second for them, and a page that draws with a program that is not ready waits.
+// Program warm-up: compiles the shader programs of shapes, as far as the document determines them,
+// while the first files are loading. Drivers take a good part of a second for them, and drawing
+// with a program that is not ready blocks the page.
 
 import type { Object3D } from "three";
 import { BufferAttribute, BufferGeometry, Texture } from "three";
@@ -21,8 +21,8 @@ const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () 
 const placeholderTexture: SurfaceTexture = { texture: new Texture(), hasAlpha: false };
 
 /**
- * An object for each program, by what makes it differ from others. Of images on the GPU, and of what stands in
- * for patches of compact: other buffers need no less, but tell it later.
+ * One object per program, by a key of what makes programs differ. Covers stages from images on the GPU and base meshes
+ * of compact; the formats of other buffers are known only when their files have come.
  */
 export function warmUpObjects(
   shapes: Iterable<ShapeDescription>,
@@ -32,7 +32,7 @@ export function warmUpObjects(
 ): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
   const bare = new BufferGeometry();
-  // Programs differ by what is in buffers.
+  // three.js' programs differ by the attributes of the geometry.
   const one = new BufferAttribute(new Int8Array(3), 3);
   const inBuffers = new BufferGeometry().setAttribute("position", one).setAttribute("normal", one);
   for (const { geometry: described, appearance, visible } of shapes) {
@@ -62,7 +62,7 @@ export function warmUpObjects(
   return objects;
 }
 
-/** Patches of one geometry hardly differ; the first speaks for all. */
+/** Patches of one geometry hardly differ, so only the first is considered. */
 function expectedStages(geometry: GeometryDescription, isTextured: boolean): Stage[] {
   const [patch] = geometry.patches;
   if (geometry.base !== undefined) return [expectedBase];
@@ -102,7 +102,7 @@ const placeholderVertices: StoredVertices = {
   offset: 0,
 };
 
-/** Without the colours that a base may have too. */
+/** Without vertex colours, which a base may also have. */
 const expectedBase: BufferStage = {
   kind: "buffers",
   vertexCount: 0,

@@ -18,7 +18,7 @@ const viewer = new PerspectiveCamera();
 viewer.position.set(3, 1, 5);
 viewer.updateMatrixWorld();
 
-/** The graph of a scene, and the shapes that it has told of. */
+/** A SceneGroups, and the shape instances that it has reported. */
 class Watched {
   readonly shapes = new Map<NodeInstance, { shape: ShapeDescription; group: ShapeGroup }>();
   readonly graph = new SceneGroups({
@@ -35,7 +35,7 @@ class Watched {
     },
   });
 
-  /** All that somebody who draws it can see. */
+  /** Everything that a renderer can see. */
   get seen(): unknown {
     this.graph.turnBillboards(viewer);
     const { box, boundedGroups: bounded, viewpoints, levels, lightUniforms, root } = this.graph;
@@ -65,7 +65,7 @@ function buildGraph(scene: SceneDescription): SceneGroups {
   return graph;
 }
 
-test("a graph that has followed a document shows it as one that is new to it", () => {
+test("groups that follow edits of a document equal groups that are made from the edited document", () => {
   let shapes = 0;
   for (let seed = 1; seed <= 30; ++seed) {
     const edited = new EditedDocument(new Dice(seed));
@@ -82,7 +82,7 @@ test("a graph that has followed a document shows it as one that is new to it", (
   assert.ok(shapes > 3000, `only ${shapes} shapes have been shown`);
 });
 
-test("what has not changed is not told of again", () => {
+test("shapes that have not changed are not reported again", () => {
   const x3d = elementsOf(
     "<X3D><Transform><Shape/></Transform><Transform><Shape/></Transform><Group><Shape/></Group></X3D>",
   );
@@ -104,35 +104,35 @@ const identity = Object.fromEntries(
   Object.entries(nodeFields.Transform).map(([name, field]) => [name, field.defaultValue]),
 ) as Parameters<typeof matrixOf>[0];
 
-function placed(changes: Partial<typeof identity>, point: [number, number, number]): number[] {
+function transformed(changes: Partial<typeof identity>, point: [number, number, number]): number[] {
   return new Vector3(...point)
     .applyMatrix4(matrixOf({ ...identity, ...changes }))
     .toArray()
     .map((value) => Math.round(value * 1e9) / 1e9);
 }
 
-test("a Transform scales, then turns, then moves", () => {
-  assert.deepEqual(placed({}, [1, 2, 3]), [1, 2, 3]);
+test("a Transform scales, then rotates, then translates", () => {
+  assert.deepEqual(transformed({}, [1, 2, 3]), [1, 2, 3]);
   assert.deepEqual(
-    placed({ translation: [10, 0, 0], rotation: [0, 0, 5, Math.PI / 2], scale: [2, 1, 1] }, [1, 0, 0]),
+    transformed({ translation: [10, 0, 0], rotation: [0, 0, 5, Math.PI / 2], scale: [2, 1, 1] }, [1, 0, 0]),
     [10, 2, 0],
   );
 });
 
-test("a Transform's centre stays where it is under turning and scaling", () => {
-  assert.deepEqual(placed({ center: [1, 2, 3], rotation: [1, 1, 0, 2], scale: [3, 4, 5] }, [1, 2, 3]), [1, 2, 3]);
+test("a Transform's center stays fixed under rotation and scaling", () => {
+  assert.deepEqual(transformed({ center: [1, 2, 3], rotation: [1, 1, 0, 2], scale: [3, 4, 5] }, [1, 2, 3]), [1, 2, 3]);
 });
 
 test("a Transform scales along the axes of its scaleOrientation", () => {
-  assert.deepEqual(placed({ scaleOrientation: [0, 0, 1, Math.PI / 4], scale: [3, 1, 1] }, [1, 1, 0]), [3, 3, 0]);
-  assert.deepEqual(placed({ scaleOrientation: [0, 0, 1, Math.PI / 4], scale: [3, 1, 1] }, [1, -1, 0]), [1, -1, 0]);
+  assert.deepEqual(transformed({ scaleOrientation: [0, 0, 1, Math.PI / 4], scale: [3, 1, 1] }, [1, 1, 0]), [3, 3, 0]);
+  assert.deepEqual(transformed({ scaleOrientation: [0, 0, 1, Math.PI / 4], scale: [3, 1, 1] }, [1, -1, 0]), [1, -1, 0]);
 });
 
-test("a rotation without an axis turns nothing", () => {
-  assert.deepEqual(placed({ rotation: [0, 0, 0, 1] }, [1, 2, 3]), [1, 2, 3]);
+test("a rotation without an axis has no effect", () => {
+  assert.deepEqual(transformed({ rotation: [0, 0, 0, 1] }, [1, 2, 3]), [1, 2, 3]);
 });
 
-test("a scene's box is that of what is seen, where it stands", () => {
+test("a scene's box contains its visible shapes, with their transforms", () => {
   const box = (size: string) => `<Shape bboxCenter="0 0 0" bboxSize="${size}"/>`;
   const scene = readScene(
     elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1">${box("2 2 2")}
@@ -150,7 +150,7 @@ test("a scene's box is that of what is seen, where it stands", () => {
   );
 });
 
-test("a light that is scaled up reaches further, and what lies there is as bright as it was", () => {
+test("a scaled-up light reaches further, and lights what it reaches as brightly as before", () => {
   const scene = readScene(
     elementsOf(`<X3D><Transform scale="4 4 4"><Transform scale="-1 1 1">
     <PointLight radius="10" attenuation="1 0.5 0.25"/></Transform></Transform></X3D>`),
@@ -169,7 +169,7 @@ test("a light that is scaled up reaches further, and what lies there is as brigh
   );
 });
 
-test("what absurd scales blow up, shrink to nothing or turn over leaves the rest in view", () => {
+test("shapes with infinite, zero or mirrored scales do not spoil the scene's box", () => {
   const shape = '<Shape bboxCenter="0 0 0" bboxSize="2 2 2"/>';
   const scaled = ["1e30 1e30 1e30", "1e308 1e308 1e308", "0 0 0", "1e-300 1 1", "-1 1 1"].map(
     (scale) => `<Transform scale="${scale}">${shape}</Transform>`,
@@ -188,7 +188,7 @@ test("what absurd scales blow up, shrink to nothing or turn over leaves the rest
   assert.match(scene.warnings[0]?.message ?? "", /scale="NaN 1 1" is no SFVec3f/);
 });
 
-test("the box that a group tells stands for those of its children, and lets them be passed over together", () => {
+test("a group's bounding box field stands for the boxes of its children, and lets them be culled together", () => {
   const scene = readScene(
     elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1" bboxCenter="1 0 0" bboxSize="4 2 2">
     <Shape bboxCenter="0 0 0" bboxSize="90 90 90"/><Group bboxCenter="0 0 0" bboxSize="1 1 1"><Shape/></Group></Transform>
@@ -214,7 +214,7 @@ test("the box that a group tells stands for those of its children, and lets them
   );
 });
 
-test("a billboard turns its z axis to the viewer, and what stands in it turns along", () => {
+test("a billboard turns its z axis to the viewer, together with its content", () => {
   const scene = readScene(
     elementsOf(`<X3D><Transform translation="3 0 0" rotation="0 1 0 1.5708"><Billboard><Transform translation="0 2 1">
     <Shape bboxCenter="0 0 0" bboxSize="0.1 0.1 0.1"/></Transform></Billboard></Transform></X3D>`),
@@ -242,10 +242,10 @@ test("a billboard turns its z axis to the viewer, and what stands in it turns al
     ],
   );
   const { min, max } = watched.graph.box;
-  for (const place of [
+  for (const corner of [
     [3, 2, 1.1],
     [1.9, 2, 0],
     [4.1, 2, 0],
   ] as const)
-    assert.ok(min.x <= place[0] && max.x >= place[0] && max.y >= 2.05 && max.z >= place[2]);
+    assert.ok(min.x <= corner[0] && max.x >= corner[0] && max.y >= 2.05 && max.z >= corner[2]);
 });

@@ -1,5 +1,5 @@
-// A scene as three.js' groups, kept true to where its nodes stand. Groups own
-// nothing on the GPU; what shapes show is for who makes their groups.
+// Mirrors a scene's instance tree (scene/) in three.js groups. Groups own nothing on the GPU; the
+// listener fills those of shapes.
 
 import type { Camera, Object3D } from "three";
 import { Box3, Group, Vector3 } from "three";
@@ -21,20 +21,20 @@ import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
 
-/** Who shows the shapes of a scene, in each place in a group, whose world matrix is up to date. */
+/** Is told of shape instances. The world matrix of the given group is up to date. */
 export interface ShapeInstanceListener {
-  /** The shape is in one more place. */
+  /** The shape has one more instance. */
   onEnter(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup): void;
-  /** It is described in another way there, stands elsewhere, or in another light. */
+  /** The description, the transform or the light scope of the instance has changed. */
   onChange(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
   onLeave(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup): void;
-  /** What stands in the scene for a group of it. Undefined: a plain one. */
+  /** The object for a group of the scene; undefined: a plain Group. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
-  /** Its group has turned with a billboard. */
+  /** The instance has turned with a billboard around it. */
   onTurn?(shape: ShapeDescription, group: ShapeGroup): void;
 }
 
-/** A group that is seen, with its box in the scene's coordinates. */
+/** A visible group with a bounding box, in scene coordinates. */
 export interface BoundedGroup {
   readonly group: Object3D;
   readonly box: Box3;
@@ -44,7 +44,7 @@ export class SceneGroups implements InstanceTreeListener {
   readonly root = new Group();
   readonly #tree = new InstanceTree(this);
   readonly #groups = new Map<NodeInstance, Object3D>();
-  /** Those of them that are shapes'. */
+  /** Those of shape instances. */
   readonly #shapeGroups = new Map<NodeInstance, ShapeGroup>();
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
   readonly #shapes: ShapeInstanceListener;
@@ -58,12 +58,12 @@ export class SceneGroups implements InstanceTreeListener {
     this.root.add(this.#lights.root);
   }
 
-  /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
+  /** Bounds of all visible shapes, in scene coordinates. */
   get box(): Box3 {
     return this.#tree.root.summary.box ?? new Box3();
   }
 
-  /** What may be passed over as a whole when it is out of the view. */
+  /** Groups that can be culled as a whole. */
   get boundedGroups(): readonly BoundedGroup[] {
     return this.#boundedGroups;
   }
@@ -77,12 +77,12 @@ export class SceneGroups implements InstanceTreeListener {
     return this.#tree.root.summary.lods;
   }
 
-  /** Those that are seen. */
+  /** Visible ones. */
   get anchors(): readonly AnchorDescription[] {
     return this.#tree.root.summary.anchors;
   }
 
-  /** The innermost that a shape's group stands in. */
+  /** The innermost Anchor around the group of a shape. */
   anchorAround(group: Object3D): AnchorDescription | undefined {
     for (let at: Object3D | null = group; at !== null; at = at.parent) {
       const anchor = this.#anchors.get(at);
@@ -95,7 +95,10 @@ export class SceneGroups implements InstanceTreeListener {
     return this.#lights.uniforms;
   }
 
-  /** Shows this scene from now on. Whether light scopes have other numbers than before, also those that nobody is told of. */
+  /**
+   * Follows a new description of the scene. Returns whether light scopes have been renumbered, also for instances that
+   * the listener is not told of.
+   */
   follow(root: GroupDescription): boolean {
     const { summary: reach } = this.#tree.update(root).root;
     this.#boundedGroups = reach.boundedGroups.flatMap((node) => {
@@ -111,12 +114,12 @@ export class SceneGroups implements InstanceTreeListener {
     return areRenumbered;
   }
 
-  /** Whether there is anything to turn. */
+  /** Whether the scene has billboards. */
   get hasBillboards(): boolean {
     return this.#tree.root.summary.billboards.length > 0;
   }
 
-  /** Before a frame: billboards turn to the viewer. The camera's matrix is up to date. */
+  /** Call before a frame: turns billboards to the camera, whose matrix must be up to date. */
   turnBillboards({ matrixWorld }: Camera): void {
     for (const node of this.#tree.root.summary.billboards) {
       const group = this.#groups.get(node);
@@ -127,12 +130,12 @@ export class SceneGroups implements InstanceTreeListener {
       const turn = billboardRotation(node.description.billboardAxis ?? [0, 1, 0], eye, up);
       if (turn.equals(group.matrix)) continue;
       group.matrix.copy(turn);
-      this.#placeAgain(node);
+      this.#updateMatrices(node);
     }
   }
 
-  /** Something around it has turned. */
-  #placeAgain(node: NodeInstance): void {
+  /** A billboard around the node has turned. */
+  #updateMatrices(node: NodeInstance): void {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup && node.description.kind === "shape") {
       shapeGroup.updateMatrixWorld(true);
@@ -141,18 +144,18 @@ export class SceneGroups implements InstanceTreeListener {
     }
     const group = this.#groups.get(node);
     if (group?.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
-    for (const child of node.children) this.#placeAgain(child);
+    for (const child of node.children) this.#updateMatrices(child);
   }
 
   onEnter(node: NodeInstance): void {
     const { description } = node;
     if (description.kind === "group")
-      this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
+      this.#addGroup(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
     if (description.kind !== "shape") return;
     const group: ShapeGroup = new Group();
     group.lightScope = node.lightScope;
     this.#shapeGroups.set(node, group);
-    this.#hang(node, description, group);
+    this.#addGroup(node, description, group);
     this.#shapes.onEnter(description, node, group);
   }
 
@@ -175,11 +178,11 @@ export class SceneGroups implements InstanceTreeListener {
     this.#shapeGroups.delete(node);
   }
 
-  #hang(node: NodeInstance, description: GroupDescription | ShapeDescription, group: Object3D): void {
+  #addGroup(node: NodeInstance, description: GroupDescription | ShapeDescription, group: Object3D): void {
     group.matrixAutoUpdate = false;
     this.#groups.set(node, group);
-    const around = node.parent === undefined ? this.root : this.#groups.get(node.parent);
-    around?.add(group);
+    const parent = node.parent === undefined ? this.root : this.#groups.get(node.parent);
+    parent?.add(group);
     this.#describe(description, group, true);
   }
 
@@ -199,6 +202,6 @@ function describe(description: GroupDescription | ShapeDescription, group: Objec
   }
   if (description.transform) group.matrix.copy(matrixOf(description.transform));
   else group.matrix.identity();
-  // Groups below it are told next.
+  // Groups below it are visited next.
   if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
 }

@@ -1,5 +1,4 @@
-// What of a scene is drawn: the shapes of its document by their elements, in the
-// groups that place them, and how far they reach.
+// The drawn shapes of a scene, by their elements, with their groups and bounds.
 
 import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Material, Vector3 } from "three";
@@ -30,14 +29,14 @@ import { ShapeObject } from "./shapeObject.ts";
 import { isVisibleInScene } from "./visibility.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 
-/** What the scene has in it, in the scene's coordinates. */
+/** What a scene contains, in scene coordinates. */
 export interface BuiltScene {
-  /** Around all that is seen. */
+  /** Around all visible shapes. */
   readonly sphere: Sphere;
   /** In document order. */
   readonly viewpoints: readonly ViewpointInstance[];
   readonly levels: readonly LodInstance[];
-  /** Those that are seen. */
+  /** Visible ones. */
   readonly anchors: readonly AnchorDescription[];
   readonly changes: SceneChanges;
 }
@@ -49,17 +48,17 @@ export class SceneShapes {
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #plan = new BatchingPlan();
   #changes = new ShapeChanges();
-  /** Shapes of whose extent the document does not tell all. */
+  /** Shapes with bounds that only their vertices tell. */
   readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
   #boundedGroups: readonly BoundedGroup[] = [];
-  /** As the document tells it, and as far as vertices do. */
-  #described = new Box3();
+  /** Bounds by the document, and these extended by bounds of vertices. */
+  #documentBox = new Box3();
   #box = new Box3();
   /** In CSS pixels. */
   #widestLine = 0;
 
-  /** What is drawn hangs in `scene`. */
+  /** Adds its objects to `scene`. */
   constructor(scene: Object3D, context: ShapeContext & { readonly batches: Batches }) {
     this.#context = context;
     this.#batches = context.batches;
@@ -89,30 +88,33 @@ export class SceneShapes {
     scene.add(this.#graph.root, this.#batches.root);
   }
 
-  /** How geometries are drawn in this scene. */
+  /** How the geometries of this scene are drawn. */
   get plan(): BatchingPlan {
     return this.#plan;
   }
 
-  /** No shape shows anything yet. */
+  /** No shape displays anything yet. */
   get isEmpty(): boolean {
     for (const { isEmpty } of this.#shapes.values()) if (!isEmpty) return false;
     return true;
   }
 
-  /** Around all that is seen, in the scene's coordinates. Grows when vertices tell of a box that the document does not. */
+  /** Around all visible shapes, in scene coordinates. Grows with bounds that only vertices tell. */
   get sphere(): Sphere {
     return this.#sphere;
   }
 
-  /** What points and lines may be wide, in CSS pixels; 0 where no shape says. */
+  /** Maximum width of points and lines in CSS pixels; 0 where no shape sets one. */
   get maxWidth(): number {
     let largest = 0;
     for (const { maxWidth: largestWidth } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
     return largest;
   }
 
-  /** Shows this scene from now on. Shapes that are gone, or have another geometry, give back what they hold on the GPU. */
+  /**
+   * Displays this scene from now on. Shapes that have been removed, or have another geometry, free their GPU
+   * resources.
+   */
   setScene(description: SceneDescription): BuiltScene {
     const areRenumbered = this.#graph.follow(description.root);
     this.#setLights(this.#graph.lightUniforms);
@@ -120,8 +122,8 @@ export class SceneShapes {
     if (areRenumbered) this.#batches.followAll();
     const { box, boundedGroups: bounded, viewpoints, levels, anchors } = this.#graph;
     this.#boundedGroups = bounded;
-    if (!box.equals(this.#described)) {
-      this.#described = box.clone();
+    if (!box.equals(this.#documentBox)) {
+      this.#documentBox = box.clone();
       this.#box = box.clone();
       this.#sphere = sphereAround(box);
     }
@@ -137,10 +139,10 @@ export class SceneShapes {
     shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
     if (hasLightScopes(shared) === wereScoped) return;
-    for (const root of [this.#graph.root, this.#batches.root]) root.traverse(compileAgain);
+    for (const root of [this.#graph.root, this.#batches.root]) root.traverse(recompile);
   }
 
-  /** What the graph has told since the last time. */
+  /** Applies the changes that the groups have reported since the last call. */
   #applyChanges(): SceneChanges {
     const changes = this.#changes;
     this.#changes = new ShapeChanges();
@@ -173,7 +175,7 @@ export class SceneShapes {
     return { shapes, removed: gone, instances: changes.instances };
   }
 
-  /** Replaces what a patch of a shape shows. */
+  /** Replaces the stage of a patch of a shape. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     const object = this.#shapes.get(element);
     object?.setStage(geometry, patch, stage);
@@ -186,40 +188,40 @@ export class SceneShapes {
     this.#shapes.get(element)?.setTexture(role, picture);
   }
 
-  /** Surfaces as they are, or their vertices. */
+  /** Draws surfaces, or only their vertices. */
   drawAsPoints(asPoints: boolean): void {
     if (asPoints === this.#context.drawing.asPoints) return;
     this.#context.drawing.asPoints = asPoints;
     for (const object of this.#shapes.values()) object.redraw();
   }
 
-  /** Takes away what a shape shows. */
+  /** Removes everything that a shape displays. */
   clearShape(element: SceneElement): void {
     this.#shapes.get(element)?.clear();
   }
 
-  /** What a click there leads to. */
+  /** The innermost Anchor around the group of a shape. */
   anchorAround(group: Object3D): AnchorDescription | undefined {
     return this.#graph.anchorAround(group);
   }
 
-  /** What is drawn and may be picked. */
+  /** Visible and pickable draws. */
   *pickCandidates(): Generator<PickCandidate> {
-    for (const object of this.#shapes.values()) if (object.isPickable) yield* shownDraws(object);
+    for (const object of this.#shapes.values()) if (object.isPickable) yield* visibleDraws(object);
   }
 
-  /** What the document shows, also where the last frame has not looked. */
+  /** All visible draws, including those that the last frame has culled. */
   candidatesIgnoringCulling(): PickCandidate[] {
-    const passedOver = this.#boundedGroups.filter(({ group }) => !group.visible);
-    for (const { group } of passedOver) group.visible = true;
-    const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(shownDraws(object)));
-    for (const { group } of passedOver) group.visible = false;
+    const culled = this.#boundedGroups.filter(({ group }) => !group.visible);
+    for (const { group } of culled) group.visible = true;
+    const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(visibleDraws(object)));
+    for (const { group } of culled) group.visible = false;
     return draws;
   }
 
   /**
-   * Before a frame: billboards turn to the camera, and groups that tell where they end are not looked into when
-   * they are out of the view. `picture`: its width and height in CSS pixels.
+   * Call before a frame: turns billboards to the camera, and hides groups with bounds outside of the view. `picture`:
+   * width and height in CSS pixels.
    */
   cull(camera: Camera, picture: readonly [width: number, height: number]): void {
     camera.updateMatrixWorld();
@@ -253,10 +255,10 @@ export class SceneShapes {
   }
 }
 
-function compileAgain(object: Object3D): void {
+function recompile(object: Object3D): void {
   if ("material" in object && object.material instanceof Material) object.material.needsUpdate = true;
 }
 
-function* shownDraws(object: ShapeObject): Generator<PickCandidate> {
+function* visibleDraws(object: ShapeObject): Generator<PickCandidate> {
   for (const drawn of object.pickCandidates()) if (isVisibleInScene(drawn.group)) yield drawn;
 }

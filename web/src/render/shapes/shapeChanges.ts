@@ -1,4 +1,4 @@
-// What becomes of the shapes of a scene while it is described anew.
+// Collects the changes of shapes while a scene is described anew.
 
 import type { ShapeDescription } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
@@ -6,16 +6,16 @@ import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import type { ShapeInstance } from "../../scene/instances.ts";
 
 export interface SceneChanges {
-  /** Shapes that are new, or of which something else is said, by their elements: visible where one of their places is. */
+  /** New and changed shapes by their elements; `visible` where one of their instances is. */
   readonly shapes: ReadonlyMap<SceneElement, ShapeDescription>;
-  /** Elements that are shapes no longer. */
+  /** Elements that are no shapes any more. */
   readonly removed: readonly SceneElement[];
-  /** Places that are new, have moved, or whose shapes say something else; undefined where one is gone. */
+  /** New, moved and changed instances; undefined where one has been removed. */
   readonly instances: ReadonlyMap<NodeInstance, ShapeInstance | undefined>;
 }
 
 export class ShapeChanges {
-  /** As they were described last, also those that may be gone. */
+  /** As they were described last; some may have been removed. */
   readonly shapes = new Map<SceneElement, ShapeDescription>();
   readonly instances = new Map<NodeInstance, ShapeInstance | undefined>();
 
@@ -24,7 +24,7 @@ export class ShapeChanges {
     this.instances.set(place, { shape, sceneFromShape: place.sceneFromNode, lightScope: place.lightScope });
   }
 
-  /** In its other places it says the same, or will be noted as what it is there. */
+  /** The shape's other instances are unchanged, or are recorded themselves. */
   recordRemoved(shape: ShapeDescription, place: NodeInstance): void {
     if (!this.shapes.has(shape.element)) this.shapes.set(shape.element, shape);
     this.instances.set(place, undefined);

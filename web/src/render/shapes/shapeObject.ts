@@ -1,5 +1,4 @@
-// A shape on the screen: the draws of each patch's newest stage, in a group for
-// each place where the shape stands in the scene.
+// A displayed shape: the draws of each patch's newest stage, in one group per instance.
 
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
@@ -32,17 +31,17 @@ export interface ShapeContext extends Pick<
 > {
   /** Undefined: each shape is drawn alone. */
   readonly batches: Batches | undefined;
-  /** Of surfaces, whether their vertices are drawn instead; ShapeObject.redraw follows a change. */
+  /** Whether surfaces are drawn as points; call ShapeObject.redraw after a change. */
   readonly drawing: { asPoints: boolean };
 }
 
-/** In CSS pixels; GPUs draw none that are larger. */
+/** In CSS pixels; the size limit of GPUs. */
 const maxPointSize = 1024;
 
 interface DisplayedPatch {
   readonly geometry: GeometryDescription;
   readonly stage: Stage;
-  /** What is drawn of it. */
+  /** The derived stage that is drawn. */
   readonly drawn: Stage;
   readonly drawMode: DrawMode;
   readonly draws: PatchDraws;
@@ -50,12 +49,12 @@ interface DisplayedPatch {
 
 export class ShapeObject {
   readonly #context: ShapeContext;
-  /** One for each place, with the page's element for it there. */
+  /** One group per instance, with the page's element for it. */
   readonly #groups = new Map<ShapeGroup, SceneElement>();
   readonly #patches = new Map<number, DisplayedPatch>();
   #appearance: AppearanceDescription;
   #geometry: GeometryDescription | undefined;
-  #drawing = alone;
+  #drawModes = alone;
   readonly #surfaceTextures = new Map<TextureRole, SurfaceTexture>();
   #isPickable: boolean;
 
@@ -66,13 +65,13 @@ export class ShapeObject {
     this.#isPickable = shape.isPickable;
   }
 
-  /** It stands in this group too, from now on; `host` is the page's element for it there. */
+  /** Adds an instance. `host`: the page's element for it. */
   addInstance(group: ShapeGroup, host: SceneElement): void {
     this.#groups.set(group, host);
     for (const { draws } of this.#patches.values()) draws.addInstance(group);
   }
 
-  /** The group has moved, is shown or hidden, or stands in another light scope. */
+  /** The group has moved, has become visible or invisible, or has another light scope. */
   updateInstance(group: ShapeGroup): void {
     for (const { draws } of this.#patches.values()) draws.updateInstance(group);
   }
@@ -82,22 +81,22 @@ export class ShapeObject {
     for (const { draws } of this.#patches.values()) draws.removeInstance(group);
   }
 
-  /** One for each place. */
+  /** One per instance. */
   get groups(): readonly ShapeGroup[] {
     return Array.from(this.#groups.keys());
   }
 
-  /** It stands somewhere. */
+  /** Whether it has any instances. */
   get hasInstances(): boolean {
     return this.#groups.size > 0;
   }
 
-  /** Of patches of which the document does not tell any. */
+  /** Bounds of patches for which the document gives none. */
   *bounds(): Generator<Bounds> {
     for (const { stage } of this.#patches.values()) if (stage.kind === "buffers" && stage.bounds) yield stage.bounds;
   }
 
-  /** In one of its places. */
+  /** Whether any instance is visible. */
   get isVisible(): boolean {
     for (const { visible } of this.#groups.keys()) if (visible) return true;
     return false;
@@ -115,7 +114,7 @@ export class ShapeObject {
     return this.#isPickable;
   }
 
-  /** Takes over what a changed document says; what shows another geometry than before is taken away. */
+  /** Follows a changed description. Stages of another geometry are removed. */
   setShape({ appearance, isPickable, geometry }: ShapeDescription): void {
     this.#isPickable = isPickable;
     if (geometry !== this.#geometry) this.clear();
@@ -125,26 +124,26 @@ export class ShapeObject {
     if (!isSame) this.#applyAppearance();
   }
 
-  /** How its geometry is drawn from now on. */
+  /** Sets how its geometry is drawn. */
   setDrawModes(drawing: DrawModes): void {
-    if (drawing === this.#drawing) return;
-    this.#drawing = drawing;
+    if (drawing === this.#drawModes) return;
+    this.#drawModes = drawing;
     this.#applyAppearance();
   }
 
-  /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
+  /** Applies a texture to surfaces with texture coordinates; undefined: removes it. */
   setTexture(role: TextureRole, picture: SurfaceTexture | undefined): void {
     if (picture) this.#surfaceTextures.set(role, picture);
     else this.#surfaceTextures.delete(role);
     this.#applyAppearance();
   }
 
-  /** Of its lines, in CSS pixels; 0 where they are as thin as can be. */
+  /** Width of its lines in CSS pixels; 0: as thin as possible. */
   get lineWidth(): number {
     return this.#appearance.lines?.width ?? 0;
   }
 
-  /** What its points and lines may be wide, in CSS pixels. */
+  /** Maximum width of its points and lines in CSS pixels. */
   get maxWidth(): number {
     const { points } = this.#appearance;
     const line = this.lineWidth;
@@ -168,7 +167,7 @@ export class ShapeObject {
     }
   }
 
-  /** The new stage takes the old one's place as a whole; textures that both use stay where they are. Undefined: nothing does. */
+  /** Replaces the stage of a patch at once; textures that both stages use stay on the GPU. Undefined: removes it. */
   setStage(geometry: GeometryDescription, place: number, stage: Stage | undefined): void {
     const patch = geometry.patches[place];
     if (patch === undefined) throw new RangeError(`no patch ${place}`);
@@ -198,7 +197,7 @@ export class ShapeObject {
     return { geometry, stage, drawn, drawMode, draws };
   }
 
-  /** The same object for the same stage, as long as nothing else is said of points and lines. */
+  /** The same object for the same stage, unless the drawing of points or lines changes. */
   #drawnOf(stage: Stage, { vertexCount }: PatchDescription): Stage {
     const shown = this.#context.drawing.asPoints ? surfaceAsPoints(stage, vertexCount) : stage;
     return this.#appearance.lines ? withWideLines(shown) : shown;
@@ -207,11 +206,11 @@ export class ShapeObject {
   #drawModeOf(stage: Stage): DrawMode {
     const { batching } = this.#context.materialFactory;
     return batching !== undefined
-      ? drawModeOf(stage, this.#drawing, this.#appearance, this.#surfaceTextures, batching)
+      ? drawModeOf(stage, this.#drawModes, this.#appearance, this.#surfaceTextures, batching)
       : "alone";
   }
 
-  /** Every draw in every place, with the number of its patch and the page's element. */
+  /** Every draw of every instance. */
   *pickCandidates(): Generator<PickCandidate> {
     for (const [
       patch,
@@ -223,7 +222,7 @@ export class ShapeObject {
     }
   }
 
-  /** Everything anew, as the context now says. */
+  /** Draws everything again, after a change of the context. */
   redraw(): void {
     for (const [place, { geometry, stage }] of Array.from(this.#patches)) this.setStage(geometry, place, stage);
   }

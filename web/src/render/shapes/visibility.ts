@@ -1,6 +1,6 @@
 import type { Object3D } from "three";
 
-/** It and all that it stands in are visible. */
+/** Whether the object and all its parents are visible. */
 export function isVisibleInScene(object: Object3D | null): boolean {
   return object === null || (object.visible && isVisibleInScene(object.parent));
 }
