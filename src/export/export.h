@@ -1,6 +1,5 @@
 #pragma once
-// export: Scene -> the bytes of a mesh file that other programs read. One file
-// per format; this header is all that other folders see.
+// Scene -> the bytes of a mesh file for other programs. One writer per format; other folders include only this header.
 
 #include "base/bytes.h"
 #include "scene/scene.h"
@@ -15,39 +14,34 @@ enum class MeshFormat : std::uint8_t { ply, obj, glb };
 /// "PLY", "OBJ", "GLB".
 const char* nameOf(MeshFormat format);
 
-/// The format that a file name's ending stands for, whatever its case.
+/// The format of a file name's extension, in upper or lower case.
 std::optional<MeshFormat> meshFormatOf(const std::filesystem::path& file);
 
-/// Writes a scene that shows at least one shape, whose meshes are consistent.
-/// Coordinates are written so that they read back as the same floats.
-/// Deterministic. Throws Error{limit} for more than the format can count.
+/// Writes a scene with at least one shape and consistent meshes. Coordinates read back as the same floats.
+/// Deterministic. Throws Error{limit} if the scene is too large for the format.
 Bytes exportScene(const Scene& scene, MeshFormat format);
 
-/// PLY, binary little-endian: all shapes where the world has them as one mesh, since
-/// PLY knows no objects.
-/// Each wedge is a vertex with x y z, nx ny nz, s t, red green blue (alpha);
-/// triangles are `face`, lines `edge` elements; the corners of points need none.
-/// Further attributes are floats of their names, those of several components NAME_0, NAME_1 ....
-/// Where only some shapes have an attribute, the others get (0, 0, 0) as
-/// normals, (0, 0) as texture coordinates, their diffuse colour, and zeros.
+/// PLY, binary little-endian: all shapes as one mesh in world coordinates, because PLY has no objects. Each wedge is a
+/// vertex with x y z, nx ny nz, s t, red green blue (alpha); triangles are `face`, lines `edge` elements; points need
+/// no elements. Further attributes are float properties NAME or, for several components, NAME_0, NAME_1 .... If only
+/// some shapes have an attribute, the others get (0, 0, 0) as normals, (0, 0) as texture coordinates, their diffuse
+/// colour, and zeros.
 Bytes writePly(const Scene& scene);
 
-/// Wavefront OBJ: an `o` for each shape, where the world has it; a position is a
-/// `v`, a wedge a `vt` and a `vn`. Colours follow the coordinates of `v`, as MeshLab writes and
-/// most programs read them; a position whose wedges differ in colour is written
-/// once a colour. Alpha and materials are left out.
+/// Wavefront OBJ: an `o` for each shape, in world coordinates; a position is a `v`, a wedge a `vt` and a `vn`. Colours
+/// follow the coordinates of `v`, as MeshLab writes them. A position whose wedges have several colours has a `v` for
+/// each. Alpha and materials are left out.
 Bytes writeObj(const Scene& scene);
 
-/// Binary glTF 2.0: the scene's nodes below which something is seen, with their
-/// transforms; a mesh that several shapes show is stored once. Each wedge is a vertex
-/// with POSITION, NORMAL, TEXCOORD_0 (v measured down, as glTF has it), COLOR_0
+/// Binary glTF 2.0: the scene's nodes that have shapes, viewpoints or lights below them, with their transforms. A mesh
+/// that several shapes use is stored once. Each wedge is a vertex
+/// with POSITION, NORMAL, TEXCOORD_0 (v points down in glTF), COLOR_0
 /// (linear, 16 bits a channel) and, of further attributes, _NAME. Physical and unlit materials are kept;
-/// others become rough dielectrics of their diffuse and emissive colour. Textures come along where their
-/// image is at hand. Viewpoints become cameras, and lights come along but for those of lightsLeftOut.
+/// others become rough dielectrics of their diffuse and emissive colour. Textures are written if their image is
+/// available. Viewpoints become cameras. Lights are written except those that lightsLeftOut counts.
 Bytes writeGlb(const Scene& scene);
 
-/// How many lights writeGlb leaves out: glTF's shine on everything and fall off by the
-/// square of the distance.
+/// Number of lights that writeGlb leaves out: lights of glTF are global and fall off with the square of the distance.
 std::size_t lightsLeftOut(const SceneGraph& graph);
 
 } // namespace imgeo

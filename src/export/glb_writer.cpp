@@ -3,16 +3,14 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "export/export.h"
+#include "export/gltf_arrays.h"
+#include "export/gltf_light.h"
 #include "export/gltf_material.h"
-#include "scene/color.h"
 #include "scene/mf_string.h"
 #include "scene/shape_instances.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -20,126 +18,7 @@ namespace imgeo {
 
 namespace {
 
-// The names that the specification gives its constants.
-constexpr int arrayBuffer = 34962, elementArrayBuffer = 34963;
-constexpr int unsignedShort = 5123, unsignedInt = 5125, floatType = 5126;
 constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942, magic = 0x46546c67;
-
-/// The binary chunk, and the views and accessors that say what lies where in it.
-class Arrays {
-public:
-  Bytes bytes;
-  Json views = Json::array(), accessors = Json::array();
-
-  /// To be called before the bytes of an array are appended.
-  void begin() { first_ = bytes.size(); }
-
-  /// Describes what has been appended since begin(); returns the accessor's number.
-  std::size_t end(int target, int componentType, const char* type, std::size_t count) {
-    views.push_back({{"buffer", 0}, {"byteOffset", first_}, {"byteLength", bytes.size() - first_}, {"target", target}});
-    accessors.push_back(
-        {{"bufferView", views.size() - 1}, {"componentType", componentType}, {"count", count}, {"type", type}});
-    bytes.resize((bytes.size() + 3) / 4 * 4); // arrays begin at whole words
-    return accessors.size() - 1;
-  }
-
-  /// Adds a file; returns the number of its view.
-  std::size_t addBytes(const Bytes& file) {
-    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", file.size()}});
-    bytes.insert(bytes.end(), file.begin(), file.end());
-    bytes.resize((bytes.size() + 3) / 4 * 4);
-    return views.size() - 1;
-  }
-
-private:
-  std::size_t first_ = 0;
-};
-
-std::size_t addPositions(Arrays& arrays, const Mesh& mesh) {
-  Vec3f min = mesh.positions[mesh.wedgePositions[0]], max = min;
-  arrays.begin();
-  for (const std::uint32_t position : mesh.wedgePositions)
-    for (int axis = 0; axis < 3; ++axis) {
-      const float value = mesh.positions[position][axis];
-      min[axis] = std::min(min[axis], value);
-      max[axis] = std::max(max[axis], value);
-      appendLittle(arrays.bytes, value);
-    }
-  const std::size_t accessor = arrays.end(arrayBuffer, floatType, "VEC3", mesh.wedgeCount());
-  arrays.accessors.back()["min"] = {min.x, min.y, min.z};
-  arrays.accessors.back()["max"] = {max.x, max.y, max.z};
-  return accessor;
-}
-
-std::size_t addNormals(Arrays& arrays, const Mesh& mesh) {
-  arrays.begin();
-  for (const Vec3f& normal : mesh.normals)
-    for (int axis = 0; axis < 3; ++axis)
-      appendLittle(arrays.bytes, normal[axis]);
-  return arrays.end(arrayBuffer, floatType, "VEC3", mesh.wedgeCount());
-}
-
-std::size_t addTexCoords(Arrays& arrays, const Mesh& mesh) {
-  arrays.begin();
-  for (const Vec2f& texCoord : mesh.texCoords) {
-    appendLittle(arrays.bytes, texCoord.x);
-    appendLittle(arrays.bytes, 1 - texCoord.y);
-  }
-  return arrays.end(arrayBuffer, floatType, "VEC2", mesh.wedgeCount());
-}
-
-std::size_t addColors(Arrays& arrays, const Mesh& mesh) {
-  std::array<std::uint16_t, 256> linearOf;
-  for (std::size_t i = 0; i < 256; ++i)
-    linearOf[i] = static_cast<std::uint16_t>(std::lround(65535 * linearOfSrgb(static_cast<double>(i) / 255)));
-  arrays.begin();
-  for (const Rgba8& color : mesh.colors) {
-    for (const std::uint8_t channel : {color.r, color.g, color.b})
-      appendLittle(arrays.bytes, linearOf[channel]);
-    appendLittle(arrays.bytes, static_cast<std::uint16_t>(257 * color.a)); // alpha is linear as it is
-  }
-  const std::size_t accessor = arrays.end(arrayBuffer, unsignedShort, "VEC4", mesh.wedgeCount());
-  arrays.accessors.back()["normalized"] = true;
-  return accessor;
-}
-
-std::size_t addNamed(Arrays& arrays, const NamedAttribute& attribute) {
-  constexpr const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-  arrays.begin();
-  for (const float value : attribute.values)
-    appendLittle(arrays.bytes, value);
-  return arrays.end(arrayBuffer, floatType, types[attribute.components - 1], attribute.count());
-}
-
-/// 65,535 itself is no index: it restarts primitives.
-std::size_t addIndices(Arrays& arrays, const Mesh& mesh) {
-  const bool shorts = mesh.wedgeCount() <= 65535;
-  arrays.begin();
-  for (const std::uint32_t corner : mesh.corners) {
-    if (shorts)
-      appendLittle(arrays.bytes, static_cast<std::uint16_t>(corner));
-    else
-      appendLittle(arrays.bytes, corner);
-  }
-  return arrays.end(elementArrayBuffer, shorts ? unsignedShort : unsignedInt, "SCALAR", mesh.corners.size());
-}
-
-/// Everything of a primitive but its material.
-Json primitiveOf(Arrays& arrays, const Mesh& mesh) {
-  Json attributes{{"POSITION", addPositions(arrays, mesh)}};
-  if (!mesh.normals.empty())
-    attributes["NORMAL"] = addNormals(arrays, mesh);
-  if (!mesh.texCoords.empty())
-    attributes["TEXCOORD_0"] = addTexCoords(arrays, mesh);
-  if (!mesh.colors.empty())
-    attributes["COLOR_0"] = addColors(arrays, mesh);
-  for (const NamedAttribute& attribute : mesh.namedAttributes)
-    attributes["_" + attribute.name] = addNamed(arrays, attribute);
-  constexpr int modes[] = {0, 1, 4}; // POINTS, LINES, TRIANGLES
-  return {{"attributes", attributes},
-          {"indices", addIndices(arrays, mesh)},
-          {"mode", modes[cornersPerElement(mesh.topology) - 1]}};
-}
 
 /// A map that turns -z to a direction and moves the origin.
 Affine3d facing(Vec3d direction, Vec3d origin) {
@@ -185,24 +64,24 @@ std::optional<PlacedLight> lightOf(const NodeContent& content) {
   return {};
 }
 
-/// Collects the lists of a glTF file. A mesh's arrays are written once, however
-/// many shapes show it in whatever materials.
+/// Collects the top-level arrays of a glTF file. The arrays of a mesh are written once, even if several shapes use it
+/// with several materials.
 class GltfBuilder {
 public:
   explicit GltfBuilder(const Scene& scene) : scene_(scene), primitives_(scene.meshes.size()) {
-    shapeInstances(scene.graph); // refuses more than can be listed: glTF knows no node in two places
+    shapeInstances(scene.graph); // throws if there are too many instances: glTF nodes have one parent
     for (const std::size_t root : scene.graph.roots)
       if (const std::optional<std::size_t> node = addNode(root))
         roots.push_back(*node);
   }
 
-  Arrays arrays;
+  GltfArrays arrays;
   Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
   Json images = Json::array(), samplers = Json::array(), textures = Json::array(), cameras = Json::array();
   Json lights = Json::array();
 
 private:
-  /// The glTF node of a viewpoint, of a light, or of a node below which something is seen.
+  /// Adds a node and its descendants. Returns its index; nothing if the node has no shape, viewpoint or light below it.
   std::optional<std::size_t> addNode(std::size_t index) {
     const Node& node = scene_.graph.nodes[index];
     Json json = Json::object();
@@ -210,16 +89,16 @@ private:
       json["name"] = node.name;
     if (const Shape* shape = std::get_if<Shape>(&node.content)) {
       json["mesh"] = meshOf(*shape, node.name);
-    } else if (const Node* placed = onlyShapeOf(node)) {
-      json["mesh"] = meshOf(std::get<Shape>(placed->content), placed->name);
-      if (node.name.empty() && !placed->name.empty())
-        json["name"] = placed->name;
+    } else if (const Node* onlyShape = onlyShapeOf(node)) {
+      json["mesh"] = meshOf(std::get<Shape>(onlyShape->content), onlyShape->name);
+      if (node.name.empty() && !onlyShape->name.empty())
+        json["name"] = onlyShape->name;
       if (const Transform* transform = std::get_if<Transform>(&node.content))
         addTransform(json, *transform);
     } else if (const Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content)) {
       addCamera(json, *viewpoint);
-    } else if (const std::optional<PlacedLight> light = lightOf(node.content)) {
-      addMatrix(json, light->place);
+    } else if (const std::optional<GltfLight> light = gltfLight(node.content)) {
+      addMatrix(json, light->nodeFromLight);
       json["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       lights.push_back(light->json);
     } else {
@@ -237,8 +116,7 @@ private:
     return nodes.size() - 1;
   }
 
-  /// The shape that is all there is in a Group or Transform: glTF has one node for the
-  /// two, unless each has a name.
+  /// The shape that is the only child of a Group or Transform: both become one glTF node, unless both have names.
   const Node* onlyShapeOf(const Node& node) const {
     if (node.children.size() != 1 ||
         !(std::holds_alternative<Transform>(node.content) || std::holds_alternative<Group>(node.content)))
@@ -248,12 +126,12 @@ private:
     return std::holds_alternative<Shape>(child.content) && !haveBothNames ? &child : nullptr;
   }
 
-  /// glTF's camera looks along -z of its node, as X3D's viewpoint does.
+  /// Adds a camera. Cameras of glTF look along -z of their node, as X3D viewpoints do.
   void addCamera(Json& json, const Viewpoint& viewpoint) {
-    Transform place;
-    place.translation = viewpoint.position;
-    place.rotation = viewpoint.orientation;
-    addTransform(json, place);
+    Transform pose;
+    pose.translation = viewpoint.position;
+    pose.rotation = viewpoint.orientation;
+    addTransform(json, pose);
     json["camera"] = cameras.size();
     Json camera{{"type", "perspective"}, {"perspective", {{"yfov", viewpoint.fieldOfView}, {"znear", 0.01}}}};
     if (!viewpoint.description.empty())
@@ -282,7 +160,7 @@ private:
     const Mesh& mesh = scene_.meshes.at(shape.mesh);
     Json& primitive = primitives_[shape.mesh];
     if (primitive.is_null())
-      primitive = primitiveOf(arrays, mesh);
+      primitive = gltfPrimitive(arrays, mesh);
     Json withMaterial = primitive;
     withMaterial["material"] = materialIndexOf(shape, mesh);
     Json json{{"primitives", Json::array({std::move(withMaterial)})}};
@@ -333,9 +211,9 @@ private:
   static constexpr auto replaceBadUtf8 = Json::error_handler_t::replace;
 
   const Scene& scene_;
-  std::vector<Json> primitives_; ///< by mesh
+  std::vector<Json> primitives_; ///< by index of the mesh
   std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool>, std::size_t> meshOf_;
-  std::map<std::string, std::size_t> materialOf_; ///< by its text
+  std::map<std::string, std::size_t> materialOf_; ///< by the JSON text
   std::map<std::size_t, std::optional<std::size_t>> textureOf_;
   std::map<std::size_t, std::size_t> imageOf_;
 };
@@ -348,7 +226,7 @@ void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t pad
   glb.resize(glb.size() + padded - data.size(), padding);
 }
 
-/// The types of the first NavigationInfo that has any: glTF has no word for them.
+/// The types of the first NavigationInfo that states any. glTF has no such property: they are written as extras.
 std::vector<std::string> navigationTypes(const SceneGraph& graph) {
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
@@ -364,11 +242,12 @@ std::vector<std::string> navigationTypes(const SceneGraph& graph) {
 
 Bytes writeGlb(const Scene& scene) {
   const GltfBuilder gltf(scene);
-  const Arrays& arrays = gltf.arrays;
+  const GltfArrays& arrays = gltf.arrays;
   Json root{{"asset", {{"version", "2.0"}, {"generator", "imgeo"}}}};
-  const std::string looks = Json{gltf.materials, gltf.textures}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string materialText =
+      Json{gltf.materials, gltf.textures}.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp"})
-    if (looks.find(extension) != looks.npos)
+    if (materialText.find(extension) != materialText.npos)
       root["extensionsUsed"].push_back(extension);
   root["scene"] = 0;
   root["scenes"] = Json::array({{{"nodes", gltf.roots}}});
@@ -403,16 +282,6 @@ Bytes writeGlb(const Scene& scene) {
   appendChunk(glb, jsonChunk, asBytes(json), ' ');
   appendChunk(glb, binaryChunk, arrays.bytes, 0);
   return glb;
-}
-
-std::size_t lightsLeftOut(const SceneGraph& graph) {
-  const auto isLeftOut = [&](std::size_t node) {
-    const NodeContent& content = graph.nodes[node].content;
-    const bool isLight = std::holds_alternative<DirectionalLight>(content) ||
-                         std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
-    return isLight && !lightOf(content);
-  };
-  return static_cast<std::size_t>(std::ranges::count_if(nodesInOrder(graph), isLeftOut));
 }
 
 } // namespace imgeo

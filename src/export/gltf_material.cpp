@@ -19,7 +19,7 @@ Vec3f linearOf(Vec3f srgb) {
           static_cast<float>(linearOfSrgb(srgb.z))};
 }
 
-/// Materials of X3D in glTF's terms: its own as they are, those of Phong as rough dielectrics.
+/// glTF material of an X3D material: physical and unlit ones unchanged, Phong ones as rough dielectrics.
 struct MaterialJson {
   Json json;
   float transparency = 0;
@@ -47,7 +47,7 @@ struct MaterialJson {
   }
 };
 
-/// Vertex colours take the place of the diffuse colour in X3D, and multiply it in glTF.
+/// The material for a mesh with vertex colours: in X3D they replace the diffuse colour, in glTF they multiply it.
 AnyMaterial withVertexColors(AnyMaterial material) {
   if (Material* phong = std::get_if<Material>(&material))
     phong->diffuseColor = {1, 1, 1};
@@ -58,8 +58,8 @@ AnyMaterial withVertexColors(AnyMaterial material) {
   return material;
 }
 
-/// KHR_texture_transform of X3D's (ISO/IEC 19775-1, 18.4.9), with v measured down.
-/// glTF scales before it turns, X3D after; where both do something unlike, nothing is left of it.
+/// KHR_texture_transform of an X3D TextureTransform (ISO/IEC 19775-1, 18.4.9); v of glTF points down. Returns null for
+/// non-uniform scale with rotation: glTF scales before it rotates, X3D after.
 Json gltfTransform(const TextureTransform& transform) {
   const double c = std::cos(transform.rotation), s = std::sin(transform.rotation);
   const bool isUniform = transform.scale.x == transform.scale.y;
@@ -103,7 +103,7 @@ void addTexture(Json& material, const TextureUse& use, std::size_t index, const 
       info["strength"] = physical->occlusionStrength;
     material["occlusionTexture"] = std::move(info);
     break;
-  default: // Phong's own, which glTF has no word for
+  default: // glTF has no such texture: ambient, specular, shininess
     break;
   }
 }
@@ -120,11 +120,12 @@ Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& 
   for (const TextureUse& use : appearance.textures)
     if (const std::optional<std::size_t> index = textureIndex(use.texture))
       addTexture(json, use, *index, appearance.material);
-  const bool clear = material.transparency > 0 || (!mesh.colors.empty() && mesh.colorComponents == 4);
+  const bool isTransparent = material.transparency > 0 || (!mesh.colors.empty() && mesh.colorComponents == 4);
   if (appearance.alphaMode == AlphaMode::mask) {
     json["alphaMode"] = "MASK";
     json["alphaCutoff"] = appearance.alphaCutoff;
-  } else if (appearance.alphaMode == AlphaMode::blend || (appearance.alphaMode == AlphaMode::automatic && clear)) {
+  } else if (appearance.alphaMode == AlphaMode::blend ||
+             (appearance.alphaMode == AlphaMode::automatic && isTransparent)) {
     json["alphaMode"] = "BLEND";
   }
   if (!shape.solid)

@@ -18,7 +18,7 @@ template <typename... Values> void print(Text& out, fmt::format_string<Values...
   fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
 }
 
-/// A shape's `v` lines, counted from 0, and which of them each wedge uses.
+/// The `v` lines of a shape: their number, and the index of each wedge's line, from 0.
 struct PositionLines {
   std::uint64_t count = 0;
   std::vector<std::uint64_t> ofWedge;
@@ -46,7 +46,7 @@ PositionLines printPositions(Text& out, const Mesh& mesh) {
   return written;
 }
 
-/// How many lines of a kind stand before a shape's own.
+/// Number of lines of each kind before those of a shape.
 struct LinesBefore {
   std::uint64_t positions = 0, texCoords = 0, normals = 0;
 };
@@ -69,7 +69,7 @@ void printElements(Text& out, const Mesh& mesh, const PositionLines& positions, 
   }
 }
 
-/// A name without what would end its line.
+/// A name without control characters, which would end its line.
 std::string oneLine(std::string name) {
   for (char& c : name)
     if (static_cast<unsigned char>(c) < ' ')

@@ -16,21 +16,21 @@ namespace imgeo {
 
 namespace {
 
-/// What some shape has, and therefore every vertex; and what there is of each element.
-struct Layout {
+/// The properties of the vertex element, which are those that any shape has, and the number of each element.
+struct PlyLayout {
   bool normals = false, texCoords = false, colors = false, alpha = false;
-  std::map<std::string, std::uint32_t> named; ///< further attributes and how many components they have
+  std::map<std::string, std::uint32_t> named; ///< components of further attributes, by name
   std::uint64_t vertices = 0, faces = 0, edges = 0;
 };
 
-/// Calls `visit` for the mesh of every shape, where its positions do not count.
+/// Calls `visit` for the mesh of every instance of a shape, in local coordinates.
 template <typename Visit> void forEachMesh(const Scene& scene, Visit visit) {
-  for (const ShapeInstance& placed : shapeInstances(scene.graph))
-    visit(scene.meshes[shapeOf(scene.graph, placed.node).mesh]);
+  for (const ShapeInstance& instance : shapeInstances(scene.graph))
+    visit(scene.meshes[shapeOf(scene.graph, instance.node).mesh]);
 }
 
-Layout layoutOf(const Scene& scene) {
-  Layout layout;
+PlyLayout layoutOf(const Scene& scene) {
+  PlyLayout layout;
   forEachMesh(scene, [&](const Mesh& mesh) {
     layout.normals |= !mesh.normals.empty();
     layout.texCoords |= !mesh.texCoords.empty();
@@ -47,7 +47,7 @@ Layout layoutOf(const Scene& scene) {
   return layout;
 }
 
-std::string headerOf(const Layout& layout) {
+std::string headerOf(const PlyLayout& layout) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   const auto properties = [&](const char* type, std::initializer_list<const char*> names) {
     for (const char* name : names)
@@ -85,16 +85,16 @@ Rgba8 diffuseColorOf(const Material& material) {
   return {byte(material.diffuseColor.x), byte(material.diffuseColor.y), byte(material.diffuseColor.z), 255};
 }
 
-/// 0 where a mesh has no such attribute.
+/// A component of a further attribute; 0 if the mesh does not have it.
 float numberOf(const Mesh& mesh, const std::string& name, std::uint32_t components, std::size_t wedge,
                std::uint32_t component) {
   const auto found = std::ranges::find(mesh.namedAttributes, name, &NamedAttribute::name);
-  const bool isThere = found != mesh.namedAttributes.end() && found->components == components;
-  return isThere ? found->values[wedge * components + component] : 0;
+  const bool isPresent = found != mesh.namedAttributes.end() && found->components == components;
+  return isPresent ? found->values[wedge * components + component] : 0;
 }
 
-void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, const Layout& layout) {
-  const Rgba8 plain = diffuseColorOf(phongOf(appearance.material));
+void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, const PlyLayout& layout) {
+  const Rgba8 defaultColor = diffuseColorOf(phongOf(appearance.material));
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
     const auto append = [&](Vec3f v) {
       for (int axis = 0; axis < 3; ++axis)
@@ -109,7 +109,7 @@ void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, 
       appendLittle(out, texCoord.y);
     }
     if (layout.colors) {
-      const Rgba8 color = mesh.colors.empty() ? plain : mesh.colors[wedge];
+      const Rgba8 color = mesh.colors.empty() ? defaultColor : mesh.colors[wedge];
       out.insert(out.end(), {color.r, color.g, color.b});
       if (layout.alpha)
         out.push_back(color.a);
@@ -120,7 +120,7 @@ void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, 
   }
 }
 
-/// The corners of a mesh's elements, as vertices of the whole file.
+/// Appends the vertex indices of a mesh's elements. `firstVertex`: index of the mesh's first vertex in the file.
 void appendElements(Bytes& out, const Mesh& mesh, std::uint64_t firstVertex) {
   for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
     if (mesh.topology == Topology::triangles && corner % 3 == 0)
@@ -132,7 +132,7 @@ void appendElements(Bytes& out, const Mesh& mesh, std::uint64_t firstVertex) {
 } // namespace
 
 Bytes writePly(const Scene& scene) {
-  const Layout layout = layoutOf(scene);
+  const PlyLayout layout = layoutOf(scene);
   if (layout.vertices > INT32_MAX)
     throw Error(ErrorKind::limit, "", fmt::format("{} vertices are more than a PLY file can count", layout.vertices));
   const std::string header = headerOf(layout);

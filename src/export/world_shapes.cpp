@@ -11,9 +11,9 @@ Mesh transformed(Mesh mesh, const Affine3d& world) {
     position = Vec3f(world.point(Vec3d(position)));
   const Affine3d normalMap = normalMapOf(world);
   for (Vec3f& normal : mesh.normals) {
-    const Vec3d turned = normalMap.direction(Vec3d(normal));
-    const double size = length(turned);
-    normal = size > 0 ? Vec3f(turned * (1 / size)) : Vec3f{0, 0, 1};
+    const Vec3d direction = normalMap.direction(Vec3d(normal));
+    const double size = length(direction);
+    normal = size > 0 ? Vec3f(direction * (1 / size)) : Vec3f{0, 0, 1};
   }
   if (mesh.topology == Topology::triangles && world.determinant() < 0)
     for (std::size_t corner = 0; corner + 2 < mesh.corners.size(); corner += 3)
@@ -22,16 +22,16 @@ Mesh transformed(Mesh mesh, const Affine3d& world) {
 }
 
 void forEachWorldShape(const Scene& scene, const VisitWorldShape& visit) {
-  static const Appearance plain;
-  for (const ShapeInstance& placed : shapeInstances(scene.graph)) {
-    const Shape& shape = shapeOf(scene.graph, placed.node);
-    const Appearance& appearance = shape.appearance ? scene.graph.appearances.at(*shape.appearance) : plain;
-    const std::string& name = scene.graph.nodes[placed.node].name;
+  static const Appearance defaultAppearance;
+  for (const ShapeInstance& instance : shapeInstances(scene.graph)) {
+    const Shape& shape = shapeOf(scene.graph, instance.node);
+    const Appearance& appearance = shape.appearance ? scene.graph.appearances.at(*shape.appearance) : defaultAppearance;
+    const std::string& name = scene.graph.nodes[instance.node].name;
     const Mesh& mesh = scene.meshes[shape.mesh];
-    if (placed.worldFromShape == Affine3d{})
+    if (instance.worldFromShape == Affine3d{})
       visit(name, appearance, mesh);
     else
-      visit(name, appearance, transformed(mesh, placed.worldFromShape));
+      visit(name, appearance, transformed(mesh, instance.worldFromShape));
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Scenes for formats that know no hierarchy: every shape with its mesh where the
-// world has it.
+// Scenes for formats without hierarchy: every shape with its mesh in world coordinates.
 
 #include "scene/scene.h"
 
@@ -10,11 +9,11 @@ namespace imgeo {
 
 using VisitWorldShape = std::function<void(const std::string& name, const Appearance& appearance, const Mesh& mesh)>;
 
-/// Calls `visit` for every shape as often as it is seen; the mesh is gone with the call.
+/// Calls `visit` for every instance of a shape. The mesh is valid during the call.
 void forEachWorldShape(const Scene& scene, const VisitWorldShape& visit);
 
-/// The mesh where `world` puts it: normals follow, and a mirror image keeps its
-/// front sides.
+/// The mesh with transformed positions and normals. A mirroring transform reverses triangles, so that front faces stay
+/// front faces.
 Mesh transformed(Mesh mesh, const Affine3d& world);
 
 } // namespace imgeo

@@ -19,7 +19,7 @@ namespace imgeo {
 
 namespace {
 
-/// A bundle as a file of a site. Repositions the bundle names of the modules that it imports by their file names.
+/// A bundle as a file of a site. Replaces the bundle names of the modules that it imports by their file names.
 RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
                      std::initializer_list<std::pair<const char*, const RuntimeFile*>> used) {
   std::string text(bundle);

@@ -1,0 +1,104 @@
+#include "export/gltf_arrays.h"
+
+#include "scene/color.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace imgeo {
+
+namespace {
+
+// Constants of glTF, named as in its specification.
+constexpr int arrayBuffer = 34962, elementArrayBuffer = 34963;
+constexpr int unsignedShort = 5123, unsignedInt = 5125, floatType = 5126;
+
+std::size_t addPositions(GltfArrays& arrays, const Mesh& mesh) {
+  Vec3f min = mesh.positions[mesh.wedgePositions[0]], max = min;
+  arrays.begin();
+  for (const std::uint32_t position : mesh.wedgePositions)
+    for (int axis = 0; axis < 3; ++axis) {
+      const float value = mesh.positions[position][axis];
+      min[axis] = std::min(min[axis], value);
+      max[axis] = std::max(max[axis], value);
+      appendLittle(arrays.bytes, value);
+    }
+  const std::size_t accessor = arrays.end(arrayBuffer, floatType, "VEC3", mesh.wedgeCount());
+  arrays.accessors.back()["min"] = {min.x, min.y, min.z};
+  arrays.accessors.back()["max"] = {max.x, max.y, max.z};
+  return accessor;
+}
+
+std::size_t addNormals(GltfArrays& arrays, const Mesh& mesh) {
+  arrays.begin();
+  for (const Vec3f& normal : mesh.normals)
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(arrays.bytes, normal[axis]);
+  return arrays.end(arrayBuffer, floatType, "VEC3", mesh.wedgeCount());
+}
+
+std::size_t addTexCoords(GltfArrays& arrays, const Mesh& mesh) {
+  arrays.begin();
+  for (const Vec2f& texCoord : mesh.texCoords) {
+    appendLittle(arrays.bytes, texCoord.x);
+    appendLittle(arrays.bytes, 1 - texCoord.y);
+  }
+  return arrays.end(arrayBuffer, floatType, "VEC2", mesh.wedgeCount());
+}
+
+std::size_t addColors(GltfArrays& arrays, const Mesh& mesh) {
+  std::array<std::uint16_t, 256> linearOf;
+  for (std::size_t i = 0; i < 256; ++i)
+    linearOf[i] = static_cast<std::uint16_t>(std::lround(65535 * linearOfSrgb(static_cast<double>(i) / 255)));
+  arrays.begin();
+  for (const Rgba8& color : mesh.colors) {
+    for (const std::uint8_t channel : {color.r, color.g, color.b})
+      appendLittle(arrays.bytes, linearOf[channel]);
+    appendLittle(arrays.bytes, static_cast<std::uint16_t>(257 * color.a)); // alpha is already linear
+  }
+  const std::size_t accessor = arrays.end(arrayBuffer, unsignedShort, "VEC4", mesh.wedgeCount());
+  arrays.accessors.back()["normalized"] = true;
+  return accessor;
+}
+
+std::size_t addNamedAttribute(GltfArrays& arrays, const NamedAttribute& attribute) {
+  constexpr const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  arrays.begin();
+  for (const float value : attribute.values)
+    appendLittle(arrays.bytes, value);
+  return arrays.end(arrayBuffer, floatType, types[attribute.components - 1], attribute.count());
+}
+
+/// Indices have 16 bits for at most 65,535 vertices: the index 65,535 would restart primitives.
+std::size_t addIndices(GltfArrays& arrays, const Mesh& mesh) {
+  const bool shorts = mesh.wedgeCount() <= 65535;
+  arrays.begin();
+  for (const std::uint32_t corner : mesh.corners) {
+    if (shorts)
+      appendLittle(arrays.bytes, static_cast<std::uint16_t>(corner));
+    else
+      appendLittle(arrays.bytes, corner);
+  }
+  return arrays.end(elementArrayBuffer, shorts ? unsignedShort : unsignedInt, "SCALAR", mesh.corners.size());
+}
+
+} // namespace
+
+Json gltfPrimitive(GltfArrays& arrays, const Mesh& mesh) {
+  Json attributes{{"POSITION", addPositions(arrays, mesh)}};
+  if (!mesh.normals.empty())
+    attributes["NORMAL"] = addNormals(arrays, mesh);
+  if (!mesh.texCoords.empty())
+    attributes["TEXCOORD_0"] = addTexCoords(arrays, mesh);
+  if (!mesh.colors.empty())
+    attributes["COLOR_0"] = addColors(arrays, mesh);
+  for (const NamedAttribute& attribute : mesh.namedAttributes)
+    attributes["_" + attribute.name] = addNamedAttribute(arrays, attribute);
+  constexpr int modes[] = {0, 1, 4}; // POINTS, LINES, TRIANGLES
+  return {{"attributes", attributes},
+          {"indices", addIndices(arrays, mesh)},
+          {"mode", modes[cornersPerElement(mesh.topology) - 1]}};
+}
+
+} // namespace imgeo
