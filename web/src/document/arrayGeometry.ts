@@ -1,12 +1,11 @@
-// Arrays that stand for geometry -> GeometryDescription: BG in data: URLs, so that
-// everything behind the document treats it like any other.
+// Describes vertex arrays as BG geometry in data: URLs, so that delivery treats them like files.
 
 import { dataUrl } from "./dataUrl.ts";
 import type { Box3, GeometryDescription, Reference } from "./description.ts";
 import type { VertexArrays } from "../tessellate/faces.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 
-/** Undefined where there is nothing to draw. */
+/** Undefined for absent or empty arrays. */
 export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolean): GeometryDescription | undefined {
   if (arrays === undefined || arrays.positions.length === 0) return undefined;
   const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
@@ -62,7 +61,7 @@ function boxAroundAll(positions: Float32Array): Box3 {
   return { min: edge(Math.min, Infinity), max: edge(Math.max, -Infinity) };
 }
 
-/** Typed arrays are little-endian there, as they are on every machine with a browser. */
+/** BG is little-endian, as are typed arrays on every machine with a browser. */
 function dataReference(array: Float32Array | Uint8Array): Reference {
   const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   return { url: dataUrl("application/octet-stream", bytes), byteOffset: 0, byteStride: 0 };

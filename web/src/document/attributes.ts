@@ -47,7 +47,9 @@ function filesOf(
   return references.slice(first, first + attribute.fileCount);
 }
 
-/** The geometry with the values of one of its attributes beside its vertices; undefined where it has none of the name. */
+/**
+ * The geometry with the values of one of its attributes beside its vertices; undefined where it has none of the name.
+ */
 export function withValues(geometry: GeometryDescription, name: string): GeometryDescription | undefined {
   const value = geometry.attributes.find((attribute) => attribute.name === name);
   if (value === undefined) return undefined;

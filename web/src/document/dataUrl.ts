@@ -1,4 +1,4 @@
-// Bytes as a url: what a document makes of its own numbers goes the way of files.
+// Bytes as a data: URL, so that generated data is delivered like files.
 
 export function dataUrl(type: string, bytes: Uint8Array): string {
   let text = "";

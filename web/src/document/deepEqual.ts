@@ -1,4 +1,4 @@
-/** Whether two descriptions say the same. Plain data only. */
+/** Whether two values of plain data are equal. */
 export function deepEqual(a: unknown, b: unknown): boolean {
   if (Object.is(a, b)) return true;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;

@@ -1,5 +1,4 @@
-// A scene as plain data: what the document says, with every default filled in.
-// The names are those of src/scene/scene.h and src/containers/geometry.h.
+// A scene as plain data: the fields of a document's nodes with every default filled in. Descriptions are immutable.
 
 import type { SceneElement } from "./element.ts";
 import type { Rotation, Vec2, Vec3 } from "./fieldTypes.ts";
@@ -12,7 +11,9 @@ export interface Box3 {
 
 export type Primitive = "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
 
-/** `count` indices (records, where there is no index) drawn as one kind of primitive, following the previous draw's. */
+/**
+ * `count` indices (vertices, where there is no index) drawn as one kind of primitive, following the previous draw's.
+ */
 export interface Draw {
   readonly primitive: Primitive;
   readonly count: number;
@@ -42,7 +43,7 @@ export interface PatchReference {
 /** Where data lies in a file. All references of a geometry are of the kind that its encoding has. */
 export type Reference = TexelReference | ByteReference | PatchReference;
 
-/** A surface over a grid of texels: stage/stage.ts says the same to those who draw it. */
+/** A surface over a grid of texels. */
 export interface GridDescription {
   readonly kind: Exclude<MeshMode, "sig">;
   readonly columns: number;
@@ -50,17 +51,17 @@ export interface GridDescription {
 }
 
 export interface PatchDescription {
-  /** Tight, for culling and priority; undefined where the document has none. */
+  /** The tight bounding box; undefined where the document has none. */
   readonly box: Box3 | undefined;
-  /** Records in coord, normal, …; 0: as many as there are. */
+  /** Vertices in coord, normal, …; 0: as many as the data has. */
   readonly vertexCount: number;
   readonly draws: readonly Draw[];
-  /** Running number n is texel (n mod implicitWidth, n div implicitWidth). Images only. */
+  /** Vertex n is texel (n mod implicitWidth, n div implicitWidth). Images only. */
   readonly implicitWidth: number;
   readonly implicitHeight: number;
-  /** Instead of draws in the document. Images only. */
+  /** A surface over the texels, which replaces the document's draws. Images only. */
   readonly grid: GridDescription | undefined;
-  /** Absent: records are drawn in order. */
+  /** Undefined: vertices are drawn in order. */
   readonly index: Reference | undefined;
   /** Images: byte planes, most significant first. Typed arrays: one. */
   readonly coord: readonly Reference[];
@@ -69,43 +70,48 @@ export interface PatchDescription {
   readonly color: Reference | undefined;
   /** Compact only: all of the patch. */
   readonly data: Reference | undefined;
-  /** Of all further attributes, one after the other: each has `files`. */
+  /** The files of all further attributes, one after the other, `fileCount` each. */
   readonly attributes: readonly Reference[];
-  /** Of the attribute that colours the geometry. */
+  /** The files of the attribute that colors the geometry. */
   readonly value: readonly Reference[];
 }
 
-/** A further attribute of vertices. */
+/** A custom vertex attribute (FloatVertexAttribute). */
 export interface AttributeDescription {
   readonly name: string;
   readonly components: 1 | 2 | 3 | 4;
-  /** Files that it has in each patch: byte planes, most significant first, or one array; none in compact, whose patches hold it. */
+  /**
+   * Its files in each patch: byte planes, most significant first, or one array; 0 for compact, whose patches hold it.
+   */
   readonly fileCount: number;
-  /** Bits of a stored integer; undefined: numbers are stored as they are. */
+  /** Bits of a stored integer; undefined: floats are stored as they are. */
   readonly bits: number | undefined;
-  /** By component: the box that stored integers are spread over, or that numbers lie in. */
+  /** By component: the range that stored integers are quantized over, or that floats lie in. */
   readonly min: readonly number[];
   readonly size: readonly number[];
 }
 
-/** The colours that values have: the first at the range's begin, the last at its end. */
+/** Maps values to colors: the first color at the beginning of the range, the last at its end. */
 export interface ColorMapDescription {
   readonly colors: readonly Vec3[];
   readonly range: Vec2;
 }
 
-/** What an image geometry's texels mean: vertices and indices, or a surface over their grid. */
+/** The meaning of an image geometry's texels: vertices and indices, or a surface over their grid. */
 export const meshModes = ["sig", "heightMap", "geometryImage", "sculpt"] as const;
 export type MeshMode = (typeof meshModes)[number];
 
 export const elementTypes = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"] as const;
 export type ElementType = (typeof elementTypes)[number];
 
-/** How unit normals are stored: as three components, as two numbers, or as RGB out of a palette. */
+/** The encoding of unit normals: three components, two numbers, or RGB from a palette. */
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
 export type NormalEncoding = (typeof normalEncodings)[number];
 
-/** How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), or as typed arrays (BG). */
+/**
+ * How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), or as
+ * typed arrays (BG).
+ */
 export type Encoding = "compact" | "classic" | "bg";
 
 /** The encodings of an ImageGeometry, by the values of its `profile` field. */
@@ -117,69 +123,72 @@ export type DecodeMode = (typeof decodeModes)[number];
 
 export interface GeometryDescription {
   readonly encoding: Encoding;
-  /** Centre and extent of the box over which stored integers are spread. */
+  /** Center and size of the box that stored integers are quantized over. */
   readonly position: Vec3;
   readonly size: Vec3;
-  /** Bits that carry the lattice, left-justified in the stored bytes; 0: all of them. */
+  /** Quantization bits, left-justified in the stored bytes; 0: all bits. */
   readonly positionBits: number;
-  /** False: both sides are seen. */
+  /** False: both sides are drawn. */
   readonly solid: boolean;
   readonly texCoordMin: Vec2;
   readonly texCoordSize: Vec2;
   readonly colorComponents: 3 | 4;
   readonly normalEncoding: NormalEncoding;
-  /** Where images are decoded: by the shader, in workers, or as is best. */
+  /** Where images are decoded: by the shader, in workers, or wherever is better. */
   readonly decode: DecodeMode;
-  /** In images Uint16: column and row of the record, or Uint32: its number. */
+  /** In images Uint16: the vertex's column and row, or Uint32: its index. */
   readonly indexType: ElementType;
-  /** Typed arrays only, as the types below. */
+  /** This and the types below: typed arrays only. */
   readonly coordType: ElementType;
   readonly normalType: ElementType;
   readonly texCoordType: ElementType;
   readonly colorType: ElementType;
   readonly attributes: readonly AttributeDescription[];
-  /** The one whose values come with the vertices, and colour them. */
+  /** The attribute whose values color the vertices. */
   readonly value: AttributeDescription | undefined;
   readonly patches: readonly PatchDescription[];
   /** The base mesh that stands in for the patches until they are here. */
   readonly base: Reference | undefined;
-  /** Of a text: the picture that its letters are cut out with. */
+  /** Text only: the URL of the glyph atlas. */
   readonly glyphAtlas?: string;
 }
 
-/** Phong's model in the numbers of the screen, glTF's metallic-roughness model in linear ones, or a colour that no light changes. */
+/** X3D's Phong model, lit in sRGB; glTF's metallic-roughness model, lit in linear color; or an unlit color. */
 export type MaterialDescription =
   | ({ readonly kind: "phong" } & Values<typeof nodeFields.Material>)
   | ({ readonly kind: "physical" } & Values<typeof nodeFields.PhysicalMaterial>)
   | ({ readonly kind: "unlit" } & Values<typeof nodeFields.UnlitMaterial>);
 
-/** What alpha means: AUTO blends where there is any. */
+/** The meaning of alpha. AUTO blends where the material or a texture is transparent. */
 export interface AlphaDescription {
   readonly mode: "AUTO" | "OPAQUE" | "MASK" | "BLEND";
-  /** Of MASK: what has less is not seen. */
+  /** MASK only: less alpha is not drawn. */
   readonly cutoff: number;
 }
 
 export type WrapMode = "repeat" | "clamp" | "mirror";
 
-/** How a texture is read between and beyond its texels. */
+/** How a texture is filtered and wrapped. */
 export interface SamplingDescription {
-  /** Numbers that shading computes with, not colours that people look at. */
+  /** Numbers for shading instead of colors. */
   readonly isData: boolean;
   readonly wrapS: WrapMode;
   readonly wrapT: WrapMode;
-  /** False: seen large, its texels are squares. */
+  /** False: magnification shows square texels (nearest filter). */
   readonly isSmooth: boolean;
   readonly hasMipmaps: boolean;
   readonly anisotropy: number;
-  /** Alpha is no share but how far an edge is, as render/letterField.ts reads it. */
+  /** Alpha is a signed distance to the nearest edge instead of an opacity. */
   readonly isDistanceField?: true;
 }
 
 /** 3 x 3, column by column. */
 export type TextureMatrix = readonly [number, number, number, number, number, number, number, number, number];
 
-/** The part of a material that a texture modulates. `color` is that of diffuseColor, baseColor or an UnlitMaterial's emissiveColor. */
+/**
+ * The material property that a texture modulates. `color` is diffuseColor, baseColor or an UnlitMaterial's
+ * emissiveColor.
+ */
 export const textureRoles = [
   "color",
   "emissive",
@@ -195,10 +204,10 @@ export type TextureRole = (typeof textureRoles)[number];
 export interface TextureDescription {
   readonly role: TextureRole;
   readonly url: string;
-  /** Of the same picture in few pixels, shown until it is here; empty: there is none. */
+  /** The URL of a small version, shown until the texture is here; empty: none. */
   readonly preview: string;
   readonly sampling: SamplingDescription;
-  /** From a vertex's texture coordinates to the image's. */
+  /** Maps a vertex's texture coordinates to the image's. */
   readonly transform: TextureMatrix;
 }
 
@@ -207,15 +216,15 @@ export interface PointDescription {
   readonly size: number;
   readonly minSize: number;
   readonly maxSize: number;
-  /** At distance r points are 1 / (a + b r + c r^2) as large. */
+  /** The size at distance r is divided by a + b r + c r². */
   readonly attenuation: Vec3;
 }
 
-/** X3D's LineProperties, of lines that are not solid and as thin as can be. */
+/** X3D's LineProperties, for lines that are wider than one pixel or dashed. */
 export interface LineDescription {
   /** In CSS pixels. */
   readonly width: number;
-  /** Lengths that are drawn and left out in turn, in widths, an even number of them; none of a solid line. */
+  /** Alternating lengths of dashes and gaps, in line widths, an even number of them; empty for a solid line. */
   readonly dashes: readonly number[];
 }
 
@@ -225,13 +234,13 @@ export interface AppearanceDescription {
   /** At most one of each role. */
   readonly textures: readonly TextureDescription[];
   readonly points: PointDescription | undefined;
-  /** Undefined: as thin as the GPU draws them. */
+  /** Undefined: thin solid lines. */
   readonly lines: LineDescription | undefined;
-  /** In place of the material's diffuse colour, of a geometry whose vertices have values. */
+  /** Replaces the material's diffuse color where the geometry's vertices have values. */
   readonly colorMap: ColorMapDescription | undefined;
 }
 export interface ViewpointDescription extends Values<typeof nodeFields.Viewpoint> {
-  /** Width over height of what a view of any shape has to show at least; 1 where nothing is said. */
+  /** Width over height of the area that every view must show; 1 where absent. */
   readonly aspectRatio?: number;
 }
 export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;
@@ -244,74 +253,79 @@ export type TransformDescription = Values<typeof nodeFields.Transform>;
 export interface ShapeDescription {
   readonly kind: "shape";
   /**
-   * Who this is: two readings of a document speak of one shape when their elements
-   * are the same. It stands in several places where a group around it is USEd.
+   * The shape's identity: descriptions of two readings are of one shape where their elements are the same. A shape
+   * has several instances where a group around it is USEd.
    */
   readonly element: SceneElement;
-  /** The element of the page that stands for it: itself, or the Inline whose document it is in. */
+  /** The page's element for it: itself, or the Inline element whose document it is in. */
   readonly host: SceneElement;
-  /** False where it or a group around it is hidden. */
+  /** False where the shape or a group around it is hidden. */
   readonly visible: boolean;
-  /** Whether the scene ends no nearer than it: it is seen, or would be in another level of a LOD. */
+  /** Whether the scene's bounds include it: it is visible, or would be at another level of its LOD. */
   readonly contributesToBounds: boolean;
-  /** What the author says of it, of its geometry and of the groups around it, multiplied. */
+  /** The product of its own priority, its geometry's, and those of the groups around it. */
   readonly priority: number;
-  /** False: the pointer goes through it to what lies behind. */
+  /** False: picking ignores it. */
   readonly isPickable: boolean;
-  /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
+  /**
+   * The tight bounding box in the shape's own coordinates; undefined where neither the shape nor its geometry has one.
+   */
   readonly box: Box3 | undefined;
   readonly appearance: AppearanceDescription;
-  /** Undefined where the shape has no geometry that we can show; the same object for shapes that USE one. */
+  /** Undefined where there is no geometry that can be drawn; the same object for shapes that USE one geometry. */
   readonly geometry: GeometryDescription | undefined;
-  /** It has a geometry all the same: damaged, or of a kind that the reader has no means for. */
+  /** It has a geometry element that could not be read: malformed, or of a kind without reader. */
   readonly isUnread: boolean;
 }
 
 export interface GroupDescription {
   readonly kind: "group";
   readonly visible: boolean;
-  /** Around its children, in their coordinates, where the document tells. */
+  /** Bounds of its children, in their coordinates; undefined where the document has none. */
   readonly box: Box3 | undefined;
   /** Undefined for a plain Group. */
   readonly transform: TransformDescription | undefined;
-  /** Of a LOD, whose children these are, one of them visible. */
+  /** Present for a LOD, whose levels are the children, one of them visible. */
   readonly lod?: LodDescription;
-  /** Of an Inline that names a document: who this is, as a shape's. */
+  /** The identity of an Inline that names a document. */
   readonly inline?: SceneElement;
-  /** Of a Billboard: it turns about this axis so that its z axis points to the viewer; 0 0 0: and its y axis up in the picture. */
+  /**
+   * Present for a Billboard: it rotates about this axis so that its z axis faces the viewer; 0 0 0: and its y axis is
+   * up on the screen.
+   */
   readonly billboardAxis?: Vec3;
   readonly anchor?: AnchorDescription;
   readonly children: readonly NodeDescription[];
 }
 
-/** What a click on something in an Anchor leads to. */
+/** The link that a click on an Anchor's descendant follows. */
 export interface AnchorDescription {
-  /** Who this is, as a shape's. */
+  /** Its identity. */
   readonly element: SceneElement;
-  /** The first that may be followed counts; as the document has them. */
+  /** As written in the document; the first one that may be followed counts. */
   readonly urls: readonly string[];
   readonly description: string;
-  /** As of an `<a>`; empty: this window. */
+  /** The browsing context, as in `<a target>`; empty: this one. */
   readonly target: string;
 }
 
-/** A LOD whose level depends on how far the viewer is from it. */
+/** A LOD, whose visible level depends on the viewer's distance. */
 export interface LodDescription {
-  /** Who this is, as a shape's. */
+  /** Its identity. */
   readonly element: SceneElement;
   readonly center: Vec3;
-  /** Where one level ends and the next begins, ascending. */
+  /** The distances where one level ends and the next begins, ascending. */
   readonly range: readonly number[];
-  /** The last one is that of all greater distances. */
+  /** The last level is that of all greater distances. */
   readonly levelCount: number;
 }
 
-/** A document to be shown where an Inline stands. */
+/** A document to be loaded for an Inline. */
 export interface InlineDescription {
   readonly element: SceneElement;
-  /** The first that leads to a document counts. */
+  /** Tried in order until one loads. */
   readonly urls: readonly string[];
-  /** What is hidden is not asked for. */
+  /** A hidden Inline is not loaded. */
   readonly visible: boolean;
   readonly priority: number;
 }
@@ -323,46 +337,46 @@ export interface LightNodeDescription {
 
 export interface ViewpointNodeDescription {
   readonly kind: "viewpoint";
-  /** Who this is, as a shape's. */
+  /** Its identity. */
   readonly element: SceneElement;
   readonly viewpoint: ViewpointDescription;
 }
 
 export type NodeDescription = GroupDescription | ShapeDescription | LightNodeDescription | ViewpointNodeDescription;
 
-/** The colour at an angle, in radians, from the zenith or the nadir. */
+/** A color at an angle, in radians, from the zenith or the nadir. */
 export interface Ring {
   readonly angle: number;
   readonly color: Vec3;
 }
 
 export interface BackgroundDescription {
-  /** From the zenith on; at least one. */
+  /** From the zenith downwards; at least one. */
   readonly sky: readonly Ring[];
-  /** From the nadir on, before the sky. */
+  /** From the nadir upwards, in front of the sky. */
   readonly ground: readonly Ring[];
 }
 
 export interface SceneDescription {
   readonly root: GroupDescription;
-  /** The one that is bound: the first in the document, or the last that says so. */
+  /** The bound one: the first in the document, or the last that asks to be bound. */
   readonly navigation: NavigationDescription;
-  /** Undefined: nothing behind the scene, the page shows through. */
+  /** Undefined: the page shows through behind the scene. */
   readonly background: BackgroundDescription | undefined;
-  /** Changes to the weights of what files hold, as the author writes them. */
+  /** Author's changes to the weights of file contents in request order, as written. */
   readonly chunkPriority: string;
-  /** In document order, those in inlined documents too; one that is USEd, and one of a document that is shown twice, once for each place. */
+  /** In document order, including those of inlined documents; one entry for each instance. */
   readonly inlines: readonly InlineDescription[];
   readonly warnings: readonly Warning[];
 }
 
-/** Every shape below a node, in document order, once for each place where it stands. */
+/** All shapes below a node, in document order, once for each instance. */
 export function shapesOf(node: NodeDescription): ShapeDescription[] {
   if (node.kind === "shape") return [node];
   return node.kind === "group" ? node.children.flatMap(shapesOf) : [];
 }
 
-/** Every viewpoint below a node, in document order. */
+/** All viewpoints below a node, in document order. */
 export function viewpointsOf(node: NodeDescription): ViewpointNodeDescription[] {
   if (node.kind === "viewpoint") return [node];
   return node.kind === "group" ? node.children.flatMap(viewpointsOf) : [];

@@ -1,5 +1,4 @@
-// The little that reading a scene needs of an element, so that a live DOM, a
-// parsed XML file and a test's own tree serve alike.
+// The subset of DOM Element that reading a scene needs: a live DOM, a parsed XML file and a test's own tree provide it.
 
 export interface SceneElement {
   /** The tag's name, in any case. */
@@ -9,25 +8,25 @@ export interface SceneElement {
   getAttributeNames(): string[];
 }
 
-/** The tag's name as the node table writes it: names are matched without regard to case. */
+/** The tag's name in lower case: names are matched case-insensitively. */
 export function lowerNameOf(element: SceneElement): string {
   return element.localName.toLowerCase();
 }
 
 /**
- * An attribute by name without regard to case; undefined where it is absent.
+ * An attribute by case-insensitive name; undefined where it is absent.
  * HTML lower-cases attributes when it parses them, XML keeps what was written.
  */
 export function attributeOf(element: SceneElement, name: string): string | undefined {
   const exact = element.getAttribute(name);
   if (exact !== null) return exact;
-  const wanted = name.toLowerCase();
-  const found = element.getAttributeNames().find((candidate) => candidate.toLowerCase() === wanted);
+  const lowerName = name.toLowerCase();
+  const found = element.getAttributeNames().find((candidate) => candidate.toLowerCase() === lowerName);
   return found === undefined ? undefined : (element.getAttribute(found) ?? undefined);
 }
 
-/** What `user` USEs, in its place: of what the two say of that, `user` counts. */
-export function inPlaceOf(user: SceneElement, used: SceneElement): SceneElement {
+/** The element that `user` USEs, with the containerField of `user`. */
+export function substitutedFor(user: SceneElement, used: SceneElement): SceneElement {
   if (user === used) return used;
   const field = attributeOf(user, "containerField") ?? null;
   return {
@@ -41,7 +40,7 @@ export function inPlaceOf(user: SceneElement, used: SceneElement): SceneElement 
   };
 }
 
-/** The same for many names of one element, which is asked once for all it has. */
+/** Like `attributeOf`, for many names of one element: reads the element's attributes once. */
 export function attributesOf(element: SceneElement): (name: string) => string | undefined {
   const names = element.getAttributeNames();
   if (names.length === 0) return () => undefined;
@@ -56,6 +55,6 @@ export function attributesOf(element: SceneElement): (name: string) => string | 
 }
 
 export function childrenOf({ children }: SceneElement): SceneElement[] {
-  // The iterator of a live collection takes several times as long as its indices.
-  return Array.from({ length: children.length }, (_, place) => children[place]).filter((child) => child !== undefined);
+  // Iterating a live collection takes several times as long as indexing it.
+  return Array.from({ length: children.length }, (_, index) => children[index]).filter((child) => child !== undefined);
 }

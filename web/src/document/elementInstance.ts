@@ -1,36 +1,37 @@
-// An element in one of the places where it stands: several where a group around it
-// is USEd, or its document is shown twice. Keeps what the element said there.
+// One occurrence of an element in the scene, with the fragment last read from it. An element has several instances
+// where
+// a group around it is USEd or its document is inlined twice.
 
 import type { SceneElement } from "./element.ts";
 import type { ElementTree } from "./elementTree.ts";
 import type { InlinedDocument } from "./readNode.ts";
 import type { Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
 
-/** The document that a place is in. */
+/** The document that an instance is in. */
 export interface DocumentContext {
   readonly tree: ElementTree;
-  /** The page's element that stands for all of it; undefined in the page itself. */
+  /** The page's Inline element for the document; undefined in the page's own document. */
   readonly host: SceneElement | undefined;
-  /** The documents that it is inlined by, outermost first. */
+  /** The documents around it, outermost first. */
   readonly inlinedBy: readonly InlinedDocument[];
 }
 
 export class ElementInstance {
   readonly element: SceneElement;
   readonly context: DocumentContext;
-  /** What describes it: the same but for USE. */
+  /** The element that describes it: another one where it USEs a node. */
   node: SceneElement;
-  /** It is made of all that is in its sources, not of these alone. */
+  /** It depends on all descendants of its sources. */
   dependsOnDescendants = false;
-  /** Undefined where the element is to be read (again). */
+  /** Undefined where the element must be read (again). */
   reader: FragmentReader | undefined;
-  /** Elements that it was read from, those below it apart. */
+  /** The elements that it was read from, without those of its child instances. */
   readonly sources = new Set<SceneElement>();
-  /** Names that it has asked for. */
+  /** The DEF names that it has looked up. */
   readonly names = new Set<string>();
   readonly #parent: ElementInstance | undefined;
   #children: readonly ElementInstance[] = [];
-  #said: SceneFragment | undefined;
+  #fragment: SceneFragment | undefined;
   #inherited: Inherited | undefined;
   #inlined: { readonly x3d: SceneElement; readonly surroundings: DocumentContext } | undefined;
 
@@ -41,102 +42,105 @@ export class ElementInstance {
     this.context = surroundings;
   }
 
-  /** What it says; undefined where something of that, or below it, is to be asked for again. */
+  /** Undefined where it, or an instance below it, must be read again. */
   get fragment(): SceneFragment | undefined {
-    return this.#said;
+    return this.#fragment;
   }
 
   get children(): readonly ElementInstance[] {
     return this.#children;
   }
 
-  /** What it has said where this was handed down. */
+  /** The fragment, if it was read with this inherited state. */
   fragmentFor(inherited: Inherited): SceneFragment | undefined {
-    const before = this.#inherited;
-    return before?.visible === inherited.visible &&
-      before.contributesToBounds === inherited.contributesToBounds &&
-      before.priority === inherited.priority
-      ? this.#said
+    const previous = this.#inherited;
+    return previous?.visible === inherited.visible &&
+      previous.contributesToBounds === inherited.contributesToBounds &&
+      previous.priority === inherited.priority
+      ? this.#fragment
       : undefined;
   }
 
-  setFragment(inherited: Inherited, said: SceneFragment, children: readonly ElementInstance[]): void {
+  setFragment(inherited: Inherited, fragment: SceneFragment, children: readonly ElementInstance[]): void {
     this.#inherited = inherited;
-    this.#said = said;
+    this.#fragment = fragment;
     this.#children = children;
   }
 
-  /** The element is to be read again. */
+  /** Marks the element to be read again. */
   invalidateReader(): void {
     this.reader = undefined;
     this.#inlined = undefined;
     this.invalidate();
   }
 
-  /** Something of what it said is another now. Where that is known, it is known up to the root. */
+  /**
+   * Marks the fragment as outdated, up to the root; an instance with an outdated fragment has outdated ancestors
+   * already.
+   */
   invalidate(): void {
-    if (this.#said === undefined) return;
-    this.#said = undefined;
+    if (this.#fragment === undefined) return;
+    this.#fragment = undefined;
     this.#parent?.invalidate();
   }
 
-  /** Whether the node is USEd by something that this stands in. */
+  /** Whether an ancestor USEs the node. */
   isBelowUseOf(node: SceneElement): boolean {
-    for (let place = this.#parent; place !== undefined; place = place.#parent) {
-      if (place.node === node && place.element !== node) return true;
+    for (let ancestor = this.#parent; ancestor !== undefined; ancestor = ancestor.#parent) {
+      if (ancestor.node === node && ancestor.element !== node) return true;
     }
     return false;
   }
 
-  /** From now on a document's element stands in it. */
+  /** Sets the root element of the document that this Inline shows. */
   setInlined(x3d: SceneElement, surroundings: DocumentContext): void {
     this.#inlined = { x3d, surroundings };
   }
 
-  /** Of something that stands in it. */
+  /** The context of a child element. */
   contextOf(element: SceneElement): DocumentContext {
     return this.#inlined?.x3d === element ? this.#inlined.surroundings : this.context;
   }
 
-  /** Its children, to be taken one by one. */
+  /** Its child instances, to be reused one by one. */
   takeChildren(): ReusableChildren {
     return new ReusableChildren(this.#children);
   }
 }
 
-/** Places that find themselves again by their elements, fast where the order has stayed. */
+/** Finds instances by their elements, in constant time where the order is the same as before. */
 class ReusableChildren {
-  readonly #places: readonly ElementInstance[];
-  readonly #gone: ElementInstance[] = [];
+  readonly #instances: readonly ElementInstance[];
+  readonly #skipped: ElementInstance[] = [];
   #next = 0;
   #others: Map<SceneElement, ElementInstance> | undefined;
 
-  constructor(places: readonly ElementInstance[]) {
-    this.#places = places;
+  constructor(instances: readonly ElementInstance[]) {
+    this.#instances = instances;
   }
 
-  /** Each once. */
+  /** The instance of the element; each can be taken once. */
   take(element: SceneElement): ElementInstance | undefined {
     if (this.#others === undefined) {
-      const [next, second] = [this.#places[this.#next], this.#places[this.#next + 1]];
+      const [next, second] = [this.#instances[this.#next], this.#instances[this.#next + 1]];
       if (next !== undefined && second?.element === element && next.element !== element) {
-        this.#gone.push(next);
+        this.#skipped.push(next);
         this.#next += 1;
       }
-      const place = this.#places[this.#next];
-      if (place?.element === element) {
+      const instance = this.#instances[this.#next];
+      if (instance?.element === element) {
         this.#next += 1;
-        return place;
+        return instance;
       }
     }
-    this.#others ??= new Map(this.#places.slice(this.#next).map((place) => [place.element, place]));
+    this.#others ??= new Map(this.#instances.slice(this.#next).map((instance) => [instance.element, instance]));
     const found = this.#others.get(element);
     this.#others.delete(element);
     return found;
   }
 
-  /** Those that nobody has taken. */
+  /** The instances that have not been taken. */
   rest(): readonly ElementInstance[] {
-    return [...this.#gone, ...(this.#others?.values() ?? this.#places.slice(this.#next))];
+    return [...this.#skipped, ...(this.#others?.values() ?? this.#instances.slice(this.#next))];
   }
 }

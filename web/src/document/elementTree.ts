@@ -1,43 +1,42 @@
-// The elements of a document as they were when they were last looked at: what stands
-// in what, and what names mean. A live document says only that something of an
-// element is another; compared with this, it is known what has come and gone.
+// A snapshot of a document's tree and DEF names. A live document reports only that an element has changed; comparing it
+// with the snapshot tells which elements and names have come and gone.
 
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf } from "./element.ts";
 
-interface Known {
+interface Entry {
   readonly parent: SceneElement | undefined;
   children: readonly SceneElement[];
-  /** Its DEF. */
+  /** DEF. */
   name: string | undefined;
 }
 
 export class ElementTree {
   readonly #root: SceneElement;
-  readonly #known = new Map<SceneElement, Known>();
-  /** Who has a name, in no order. */
+  readonly #entries = new Map<SceneElement, Entry>();
+  /** The elements of each DEF name, unordered. */
   readonly #named = new Map<string, Set<SceneElement>>();
-  /** Names that several have, with the first of these once somebody has asked. */
+  /** Names of several elements, with the first of these once it has been looked up. */
   readonly #ambiguous = new Map<string, SceneElement | undefined>();
-  /** Names whose meaning may have changed since the last time somebody asked. */
-  #renamed = new Set<string>();
+  /** Names whose first element may have changed since `takeChangedNames`. */
+  #changedNames = new Set<string>();
 
   constructor(root: SceneElement) {
     this.#root = root;
     this.#enter(root, undefined);
-    this.#renamed.clear();
+    this.#changedNames.clear();
   }
 
-  /** Of an element that has left, or never was here: none. */
+  /** Empty for an element that is not in the document. */
   childrenOf(element: SceneElement): readonly SceneElement[] {
-    return this.#known.get(element)?.children ?? [];
+    return this.#entries.get(element)?.children ?? [];
   }
 
   parentOf(element: SceneElement): SceneElement | undefined {
-    return this.#known.get(element)?.parent;
+    return this.#entries.get(element)?.parent;
   }
 
-  /** The first element in the document of that DEF. */
+  /** The first element in the document with this DEF. */
   definedAs(name: string): SceneElement | undefined {
     const named = this.#named.get(name);
     if (!this.#ambiguous.has(name)) return named?.values().next().value;
@@ -46,62 +45,62 @@ export class ElementTree {
     return first;
   }
 
-  /** Looks again at what the element says of itself. */
+  /** Reads the element's DEF again. */
   updateName(element: SceneElement): void {
-    const known = this.#known.get(element);
+    const entry = this.#entries.get(element);
     const name = attributeOf(element, "DEF");
-    if (known === undefined || known.name === name) return;
-    this.#unname(element, known);
-    this.#name(element, known, name);
+    if (entry === undefined || entry.name === name) return;
+    this.#unname(element, entry);
+    this.#name(element, entry, name);
   }
 
-  /** Looks again at what stands in the element. */
+  /** Reads the element's children again. */
   updateChildren(element: SceneElement): void {
-    const known = this.#known.get(element);
-    if (known === undefined) return;
-    const before = known.children;
-    known.children = childrenOf(element);
-    const now = new Set(known.children);
+    const entry = this.#entries.get(element);
+    if (entry === undefined) return;
+    const before = entry.children;
+    entry.children = childrenOf(element);
+    const now = new Set(entry.children);
     for (const child of before) if (!now.has(child)) this.#leave(child, element);
-    for (const child of known.children) if (this.parentOf(child) !== element) this.#enter(child, element);
-    // Which one is the first may have changed.
+    for (const child of entry.children) if (this.parentOf(child) !== element) this.#enter(child, element);
+    // The order may have changed, and with it the first element of a name.
     for (const name of this.#ambiguous.keys()) this.#change(name);
   }
 
-  /** Names whose meaning may have changed since this was last called. */
+  /** The names whose first element may have changed since the last call. */
   takeChangedNames(): ReadonlySet<string> {
-    const renamed = this.#renamed;
-    if (renamed.size > 0) this.#renamed = new Set();
-    return renamed;
+    const names = this.#changedNames;
+    if (names.size > 0) this.#changedNames = new Set();
+    return names;
   }
 
   #enter(element: SceneElement, parent: SceneElement | undefined): void {
-    const before = this.#known.get(element);
-    if (before !== undefined) this.#leave(element, before.parent); // it has come here before it has been missed there
-    const known: Known = { parent, children: childrenOf(element), name: undefined };
-    this.#known.set(element, known);
-    this.#name(element, known, attributeOf(element, "DEF"));
-    for (const child of known.children) this.#enter(child, element);
+    const before = this.#entries.get(element);
+    if (before !== undefined) this.#leave(element, before.parent); // it has moved; its old parent is updated later
+    const entry: Entry = { parent, children: childrenOf(element), name: undefined };
+    this.#entries.set(element, entry);
+    this.#name(element, entry, attributeOf(element, "DEF"));
+    for (const child of entry.children) this.#enter(child, element);
   }
 
-  /** Unless it stands elsewhere by now. */
+  /** Does nothing for an element that has moved to another parent. */
   #leave(element: SceneElement, parent: SceneElement | undefined): void {
-    const known = this.#known.get(element);
-    if (known === undefined || known.parent !== parent) return;
-    this.#known.delete(element);
-    this.#unname(element, known);
-    for (const child of known.children) this.#leave(child, element);
+    const entry = this.#entries.get(element);
+    if (entry === undefined || entry.parent !== parent) return;
+    this.#entries.delete(element);
+    this.#unname(element, entry);
+    for (const child of entry.children) this.#leave(child, element);
   }
 
-  #name(element: SceneElement, known: Known, name: string | undefined): void {
-    known.name = name;
+  #name(element: SceneElement, entry: Entry, name: string | undefined): void {
+    entry.name = name;
     if (name === undefined) return;
     const named = this.#named.get(name) ?? new Set();
     this.#named.set(name, named.add(element));
     this.#change(name);
   }
 
-  #unname(element: SceneElement, { name }: Known): void {
+  #unname(element: SceneElement, { name }: Entry): void {
     if (name === undefined) return;
     const named = this.#named.get(name);
     named?.delete(element);
@@ -110,15 +109,15 @@ export class ElementTree {
   }
 
   #change(name: string): void {
-    this.#renamed.add(name);
+    this.#changedNames.add(name);
     if ((this.#named.get(name)?.size ?? 0) > 1) this.#ambiguous.set(name, undefined);
     else this.#ambiguous.delete(name);
   }
 
-  #firstOf(element: SceneElement, wanted: ReadonlySet<SceneElement>): SceneElement | undefined {
-    if (wanted.has(element)) return element;
+  #firstOf(element: SceneElement, candidates: ReadonlySet<SceneElement>): SceneElement | undefined {
+    if (candidates.has(element)) return element;
     for (const child of this.childrenOf(element)) {
-      const first = this.#firstOf(child, wanted);
+      const first = this.#firstOf(child, candidates);
       if (first !== undefined) return first;
     }
     return undefined;

@@ -98,7 +98,9 @@ export function latticeBitsOf({ positionBits }: GeometryDescription): number {
   return positionBits > 0 ? positionBits : 16;
 }
 
-/** The box is spread over whole bytes, of which the lattice has the upper bits; its numbers come without the lower ones. */
+/**
+ * The box is spread over whole bytes, of which the lattice has the upper bits; its numbers come without the lower ones.
+ */
 function maxLatticeValue(bits: number): number {
   const bytes = Math.ceil(bits / 8);
   return (256 ** bytes - 1) / 2 ** (8 * bytes - bits);

@@ -1,52 +1,52 @@
-// What has been read of geometry elements, kept from one reading of the document
-// to the next: a geometry that did not change, and one that several shapes USE,
-// is one and the same object, so that comparing geometries is comparing objects.
-// So are geometries that name the same files in the same way: people copy shapes
-// where they could USE them, and what is copied is neither loaded nor drawn twice.
+// A cache of geometry descriptions between readings of a document. An unchanged geometry, and one that several shapes
+// USE, is the same object, so that geometries are compared by identity. So are geometries that reference the same files
+// with the same fields: a shape that was copied instead of USEd is neither loaded nor drawn twice.
 
 import type { GeometryDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import type { Warning } from "./nodes.ts";
 
-/** The element that a DEF names. */
+/** Finds the element with a DEF. */
 export type Lookup = (name: string) => SceneElement | undefined;
 
-/** Makes a geometry of an element, or nothing of what is none. */
+/** Reads an element; undefined for one that is no geometry. */
 export type ReadGeometry = (
   element: SceneElement,
   lookup: Lookup,
   warnings: Warning[],
 ) => GeometryDescription | undefined;
 
-interface Remembered {
+interface Entry {
   readonly geometry: GeometryDescription;
   readonly warnings: readonly Warning[];
-  /** What parts of it USE. */
+  /** The names that descendants USE. */
   readonly names: readonly string[];
-  /** In which reading it was made, or found to be as before. */
+  /** The number of the reading in which it was last checked. */
   checkedIn: number;
 }
 
 export class GeometryCache {
-  readonly #known = new WeakMap<SceneElement, Remembered>();
+  readonly #known = new WeakMap<SceneElement, Entry>();
   readonly #variants = new WeakMap<GeometryDescription, Map<string, GeometryDescription>>();
-  /** By all that they say. */
-  readonly #alike = new Map<string, WeakRef<GeometryDescription>>();
-  #mostAlike = 1024;
+  /** By their JSON. */
+  readonly #interned = new Map<string, WeakRef<GeometryDescription>>();
+  #maxInterned = 1024;
   #touched = new WeakSet<SceneElement>();
   #reading = 0;
 
-  /** Another reading of the document begins. */
+  /** Begins another reading of the document. */
   begin(): void {
     this.#reading += 1;
   }
 
-  /** Says that the element, or something in it, may have changed. */
+  /** Call where the element or a descendant may have changed. */
   touch(element: SceneElement): void {
     this.#touched.add(element);
   }
 
-  /** What `read` makes of the element, which is called only where that is not known; `lookup` is asked for all that it USEs either way. */
+  /**
+   * The element's geometry, read where it is not known. `lookup` is called for every name that it USEs in both cases.
+   */
   recall(
     element: SceneElement,
     lookup: Lookup,
@@ -54,7 +54,7 @@ export class GeometryCache {
     read: ReadGeometry,
   ): GeometryDescription | undefined {
     const known = this.#known.get(element);
-    if (known !== undefined && this.#isSure(element, known)) {
+    if (known !== undefined && this.#isCurrent(element, known)) {
       known.names.forEach(lookup);
       warnings.push(...known.warnings);
       return known.geometry;
@@ -81,7 +81,7 @@ export class GeometryCache {
     return geometry;
   }
 
-  /** What `make` makes of the geometry, which is called once for each key; the geometry itself where that is nothing. */
+  /** The result of `make`, called once for each key; the geometry itself where the result is undefined. */
   variant(
     geometry: GeometryDescription,
     key: string,
@@ -94,23 +94,26 @@ export class GeometryCache {
     return known;
   }
 
-  /** The geometry that says the same as this one and is still somewhere; this one where there is none. For geometries of files: what it says is its key. */
+  /**
+   * An equal geometry that is still in use, or this one where there is none. For geometries of files, whose
+   * descriptions are small.
+   */
   intern(geometry: GeometryDescription): GeometryDescription {
     const key = JSON.stringify(geometry);
-    const known = this.#alike.get(key)?.deref();
+    const known = this.#interned.get(key)?.deref();
     if (known !== undefined) return known;
-    this.#alike.set(key, new WeakRef(geometry));
-    if (this.#alike.size > this.#mostAlike) this.#forgetGone();
+    this.#interned.set(key, new WeakRef(geometry));
+    if (this.#interned.size > this.#maxInterned) this.#removeCollected();
     return geometry;
   }
 
-  #forgetGone(): void {
-    for (const [key, geometry] of this.#alike) if (geometry.deref() === undefined) this.#alike.delete(key);
-    this.#mostAlike = 2 * this.#alike.size;
+  #removeCollected(): void {
+    for (const [key, geometry] of this.#interned) if (geometry.deref() === undefined) this.#interned.delete(key);
+    this.#maxInterned = 2 * this.#interned.size;
   }
 
-  /** What it USEs stands elsewhere, and may have changed there: once a reading it is read anew. */
-  #isSure(element: SceneElement, { names, checkedIn }: Remembered): boolean {
+  /** Elements that it USEs are elsewhere and may have changed: such a geometry is read anew in each reading. */
+  #isCurrent(element: SceneElement, { names, checkedIn }: Entry): boolean {
     return checkedIn === this.#reading || (!this.#touched.has(element) && names.length === 0);
   }
 }

@@ -1,6 +1,5 @@
-// Geometry that stands in the document -> GeometryDescription: its arrays become
-// BG in data: URLs, so that everything behind the document treats it like any
-// other, and what has not changed is the same text.
+// Reads geometry nodes whose numbers are in the document. Their arrays become BG in data: URLs, so that delivery treats
+// them like files, and an unchanged geometry has the same URL.
 
 import { geometryOfArrays } from "./arrayGeometry.ts";
 import type { GeometryDescription, Warning } from "./description.ts";
@@ -23,12 +22,12 @@ import { nodeFields, readFields } from "./nodes.ts";
 import type { Solid } from "../tessellate/solids.ts";
 import { box, cylinderOrCone, sphere } from "../tessellate/solids.ts";
 
-/** The element that a USE names, or the element itself; undefined where there is none. */
+/** The element that a USE names, or the element itself; undefined where the name is unknown. */
 export type Resolve = (element: SceneElement) => SceneElement | undefined;
 
 type Fields = Values<typeof nodeFields.InlineGeometry>;
 
-/** Runs of vertices, a polygon or line each. */
+/** Runs of corners: a polygon, polyline or point each. */
 type Runs = readonly (readonly Corner[])[];
 
 const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[]) => Solid>> = {
@@ -47,22 +46,22 @@ const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[
 const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => Runs>> = {
   indexedfaceset: (fields, data) => indexedRuns(fields, data),
   indexedlineset: (fields, data) => indexedRuns(fields, data),
-  triangleset: (fields, data) => byVertex(fields, data, triplesOf(numbersTo(data.positions.length / 3))),
+  triangleset: (fields, data) => byVertex(fields, data, triplesOf(indicesTo(data.positions.length / 3))),
   indexedtriangleset: (fields, data) => byVertex(fields, data, triplesOf(fields.index.filter((vertex) => vertex >= 0))),
-  trianglestripset: (fields, data) => byVertex(fields, data, counted(fields.stripCount).flatMap(strip)),
-  indexedtrianglestripset: (fields, data) => byVertex(fields, data, between(fields.index).flatMap(strip)),
-  trianglefanset: (fields, data) => byVertex(fields, data, counted(fields.fanCount).flatMap(fan)),
-  indexedtrianglefanset: (fields, data) => byVertex(fields, data, between(fields.index).flatMap(fan)),
-  lineset: (fields, data) => byVertex(fields, data, counted(fields.vertexCount)),
+  trianglestripset: (fields, data) => byVertex(fields, data, consecutiveRuns(fields.stripCount).flatMap(strip)),
+  indexedtrianglestripset: (fields, data) => byVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(strip)),
+  trianglefanset: (fields, data) => byVertex(fields, data, consecutiveRuns(fields.fanCount).flatMap(fan)),
+  indexedtrianglefanset: (fields, data) => byVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(fan)),
+  lineset: (fields, data) => byVertex(fields, data, consecutiveRuns(fields.vertexCount)),
   pointset: (fields, data) =>
     byVertex(
       fields,
       data,
-      numbersTo(data.positions.length / 3).map((vertex) => [vertex]),
+      indicesTo(data.positions.length / 3).map((vertex) => [vertex]),
     ),
 };
 
-/** Surfaces that are made of other numbers than their vertices'. */
+/** Nodes whose vertices are computed from other fields. */
 const surfaces: Readonly<
   Record<string, (element: SceneElement, given: VertexData, warnings: Warning[]) => Surface | undefined>
 > = {
@@ -77,7 +76,7 @@ const primitives: Readonly<Record<string, VertexArrays["primitive"]>> = {
   pointset: "points",
 };
 
-/** How geometry is read whose numbers stand in the document: undefined for nodes that are none, and for those without elements. */
+/** Reads a geometry node; undefined for other nodes and for empty geometry. */
 export type InlineGeometryReader = (
   element: SceneElement,
   resolve: Resolve,
@@ -113,12 +112,12 @@ function drawnOf(
 ): VertexArrays | undefined {
   if (primitive === "points") return vertexArraysOf(primitive, given, runs.flat());
   if (primitive === "lines") return vertexArraysOf(primitive, given, linesOf(runs));
-  const turned = fields.ccw ? runs : runs.map((run) => run.toReversed());
+  const oriented = fields.ccw ? runs : runs.map((run) => run.toReversed());
   const { data, faces } =
-    given.texCoords.length > 0 ? { data: given, faces: turned } : withDefaultTexCoords(given, turned);
+    given.texCoords.length > 0 ? { data: given, faces: oriented } : withDefaultTexCoords(given, oriented);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
   if (data.normals.length > 0) return vertexArraysOf(primitive, data, cornersOf(faces));
-  // Triangles of one number are smooth, faces have edges unless creaseAngle says otherwise.
+  // Sets of triangles are smooth across shared vertices; faces have hard edges up to creaseAngle.
   const angle = isCreased ? fields.creaseAngle : fields.normalPerVertex ? Math.PI : 0;
   const creased = withCreasedNormals(data, faces, angle);
   return vertexArraysOf(primitive, creased.data, cornersOf(creased.faces));
@@ -144,11 +143,11 @@ function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning
   };
 }
 
-/** Runs of coordIndex between its -1s, with the indices of attributes beside it (ISO/IEC 19775-1, 11.2.2.4). */
+/** The runs of coordIndex between its -1s, with the indices of the other attributes (ISO/IEC 19775-1, 11.2.2.4). */
 function indexedRuns(fields: Fields, data: VertexData): Runs {
   const { coordIndex, normalIndex, colorIndex, texCoordIndex } = fields;
   const runs: Corner[][] = [[]];
-  const beside = (index: readonly number[], perVertex: boolean, at: number, position: number) => {
+  const indexOf = (index: readonly number[], perVertex: boolean, at: number, position: number) => {
     const place = perVertex ? at : runs.length - 1;
     return index.length > 0 ? (index[place] ?? -1) : perVertex ? position : place;
   };
@@ -159,15 +158,15 @@ function indexedRuns(fields: Fields, data: VertexData): Runs {
     }
     runs.at(-1)?.push({
       position,
-      normal: data.normals.length > 0 ? beside(normalIndex, fields.normalPerVertex, at, position) : -1,
-      texCoord: data.texCoords.length > 0 ? beside(texCoordIndex, true, at, position) : -1,
-      color: data.colors.length > 0 ? beside(colorIndex, fields.colorPerVertex, at, position) : -1,
+      normal: data.normals.length > 0 ? indexOf(normalIndex, fields.normalPerVertex, at, position) : -1,
+      texCoord: data.texCoords.length > 0 ? indexOf(texCoordIndex, true, at, position) : -1,
+      color: data.colors.length > 0 ? indexOf(colorIndex, fields.colorPerVertex, at, position) : -1,
     });
   });
   return runs;
 }
 
-/** Corners all of whose values have the vertex's number, or the face's. */
+/** Corners whose attributes are indexed by the vertex, or by the face. */
 function byVertex(fields: Fields, data: VertexData, runs: readonly (readonly number[])[]): Runs {
   return runs.map((run, face) =>
     run.map((position) => ({
@@ -179,21 +178,21 @@ function byVertex(fields: Fields, data: VertexData, runs: readonly (readonly num
   );
 }
 
-function numbersTo(count: number): number[] {
-  return Array.from({ length: count }, (_, number) => number);
+function indicesTo(count: number): number[] {
+  return Array.from({ length: count }, (_, index) => index);
 }
 
 function triplesOf(vertices: readonly number[]): number[][] {
-  return numbersTo(Math.floor(vertices.length / 3)).map((triple) => vertices.slice(3 * triple, 3 * triple + 3));
+  return indicesTo(Math.floor(vertices.length / 3)).map((triple) => vertices.slice(3 * triple, 3 * triple + 3));
 }
 
-/** Consecutive vertices, so many a run. */
-function counted(counts: readonly number[]): number[][] {
+/** Runs of consecutive vertices of these lengths. */
+function consecutiveRuns(counts: readonly number[]): number[][] {
   let next = 0;
-  return counts.map((count) => numbersTo(Math.max(count, 0)).map(() => next++));
+  return counts.map((count) => indicesTo(Math.max(count, 0)).map(() => next++));
 }
 
-function between(index: readonly number[]): number[][] {
+function runsBetweenNegatives(index: readonly number[]): number[][] {
   const runs: number[][] = [[]];
   for (const vertex of index) {
     if (vertex < 0) runs.push([]);

@@ -15,7 +15,10 @@ export const noPixels: PixelImage = { width: 0, height: 0, components: 1, pixels
 /** Edges beyond it are no textures anywhere. */
 const largestEdge = 16384;
 
-/** Of the numbers of an SFImage; undefined where they are none: another number of pixels, or pixels that are larger than their components. */
+/**
+ * Of the numbers of an SFImage; undefined where they are none: another number of pixels, or pixels that are larger than
+ * their components.
+ */
 export function pixelImageOf([width, height, count, ...pixels]: readonly number[]): PixelImage | undefined {
   if (width === undefined || height === undefined) return undefined;
   const isEdge = (edge: number) => Number.isInteger(edge) && edge >= 0 && edge <= largestEdge;

@@ -1,5 +1,4 @@
-// A node -> what it says: for itself at once, for those below it when it is known
-// what is handed down to them.
+// Reads a node: its own fields at once; its descendants when the state that they inherit is known.
 
 import type { AnchorDescription, BackgroundDescription, GroupDescription, NodeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -14,102 +13,105 @@ import { readShape } from "./readShape.ts";
 import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
 import { declarationsOf, joinDeclarations, warningsOnly } from "./sceneFragment.ts";
 
-/** A document that an Inline shows. */
+/** A loaded document of an Inline. */
 export interface InlinedDocument {
   readonly url: string;
-  /** Its <X3D>; the urls in it are absolute. */
+  /** Its <X3D> element, whose URLs are absolute. */
   readonly x3d: SceneElement;
 }
 
-/** What reading a node needs besides its element. */
+/** The context that reading a node needs besides its element. */
 export interface NodeReading extends ShapeReading {
-  /** The element of the page that stands for it. */
+  /** The page's element for it. */
   readonly host: SceneElement;
   readonly childrenOf: (element: SceneElement) => readonly SceneElement[];
   readonly levelOf: (lod: SceneElement) => number | undefined;
-  /** The elements of the document that an Inline shows; undefined where there is none, or none that may be shown. */
+  /** The root element of an Inline's document; undefined where it is not loaded or must not be shown. */
   readonly inlined: (inline: SceneElement) => SceneElement | undefined;
 }
 
-/** What is below other nodes are nodes too. */
+/** Whether a node is read together with all its descendants, which are not nodes of the scene tree. */
 export function isReadAsWhole(node: SceneElement): boolean {
   return lowerNameOf(node) === "shape";
 }
 
-/** `element` is who says it, `node` what it is: the same but for USE. */
+/** `element` stands in the document; `node` describes it: another element where `element` USEs a node. */
 export function readNode(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
   const { warnings } = reading;
   switch (lowerNameOf(node)) {
     case "shape":
-      return sayShape(element, node, reading);
+      return shapeReader(element, node, reading);
     case "group":
     case "staticgroup":
-      return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
+      return groupReader(node, readFields(node, nodeFields.Group, warnings), reading);
     case "anchor": {
       const { url, description, parameter, ...fields } = readFields(node, nodeFields.Anchor, warnings);
       const anchor: AnchorDescription = { element: node, urls: url, description, target: targetIn(parameter) };
-      return sayGroup(node, fields, reading, url.length > 0 ? { anchor } : {});
+      return groupReader(node, fields, reading, url.length > 0 ? { anchor } : {});
     }
     case "collision":
-      return sayGroup(node, readFields(node, nodeFields.Group, warnings), {
+      return groupReader(node, readFields(node, nodeFields.Group, warnings), {
         ...reading,
-        childrenOf: (of) => reading.childrenOf(of).filter(isSeenChild),
+        childrenOf: (of) => reading.childrenOf(of).filter(isVisibleChild),
       });
     case "billboard": {
       const { axisOfRotation, ...fields } = readFields(node, nodeFields.Billboard, warnings);
-      return sayGroup(node, fields, reading, { billboardAxis: axisOfRotation });
+      return groupReader(node, fields, reading, { billboardAxis: axisOfRotation });
     }
     case "transform": {
       const transform = readFields(node, nodeFields.Transform, warnings);
-      return sayGroup(node, transform, reading, { transform });
+      return groupReader(node, transform, reading, { transform });
     }
     case "switch":
-      return saySwitch(node, reading);
+      return switchReader(node, reading);
     case "lod":
-      return sayLevels(node, reading);
+      return lodReader(node, reading);
     case "inline":
-      return sayInline(node, reading);
+      return inlineReader(node, reading);
     case "directionallight":
-      return sayLight({ kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) }, warnings);
+      return lightReader({ kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) }, warnings);
     case "pointlight":
-      return sayLight({ kind: "point", ...readFields(node, nodeFields.PointLight, warnings) }, warnings);
+      return lightReader({ kind: "point", ...readFields(node, nodeFields.PointLight, warnings) }, warnings);
     case "spotlight":
-      return sayLight({ kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) }, warnings);
+      return lightReader({ kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) }, warnings);
     case "viewpoint":
-      return say(
+      return constantReader(
         [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }],
         warningsOnly(warnings),
       );
     case "orthoviewpoint":
-      return say(
+      return constantReader(
         [{ kind: "viewpoint", element, viewpoint: asViewpoint(readFields(node, nodeFields.OrthoViewpoint, warnings)) }],
         warningsOnly(warnings),
       );
     case "navigationinfo":
-      return say([], declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }));
+      return constantReader(
+        [],
+        declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }),
+      );
     case "background":
-      return say([], declarationsOf({ background: readBackground(node, warnings), warnings }));
+      return constantReader([], declarationsOf({ background: readBackground(node, warnings), warnings }));
     default:
-      return (inherited, below) => below(reading.childrenOf(node), inherited);
+      return (inherited, readChildren) => readChildren(reading.childrenOf(node), inherited);
   }
 }
 
-/** The same whatever is handed down. */
-function say(nodes: readonly NodeDescription[], asides: SceneDeclarations): FragmentReader {
-  const said: SceneFragment = { nodes, declarations: asides };
-  return () => said;
+/** Gives the same fragment for every inherited state. */
+function constantReader(nodes: readonly NodeDescription[], declarations: SceneDeclarations): FragmentReader {
+  const fragment: SceneFragment = { nodes, declarations };
+  return () => fragment;
 }
 
-function sayLight(
+function lightReader(
   light: Extract<NodeDescription, { kind: "light" }>["light"],
   warnings: readonly Warning[],
 ): FragmentReader {
-  return say([{ kind: "light", light }], warningsOnly(warnings));
+  return constantReader([{ kind: "light", light }], warningsOnly(warnings));
 }
 
-function sayShape(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
+function shapeReader(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
   const shape = readShape(element, reading.host, node, reading);
-  const asides = warningsOnly(reading.warnings);
+  const declarations = warningsOnly(reading.warnings);
   return ({ visible, contributesToBounds: reaches, priority }) => ({
     nodes: [
       {
@@ -119,7 +121,7 @@ function sayShape(element: SceneElement, node: SceneElement, reading: NodeReadin
         priority: priority * shape.priority,
       },
     ],
-    declarations: asides,
+    declarations,
   });
 }
 
@@ -142,21 +144,21 @@ interface GroupFields {
   readonly bboxSize: Vec3;
 }
 
-function isSeen({ visible, render }: Pick<GroupFields, "visible" | "render">): boolean {
+function isVisible({ visible, render }: Pick<GroupFields, "visible" | "render">): boolean {
   return visible && render;
 }
 
-/** What a node with these fields hands down. */
+/** The state that a node with these fields passes down. */
 function within(fields: GroupFields, inherited: Inherited): Inherited {
-  const seen = isSeen(fields);
+  const visible = isVisible(fields);
   return {
-    visible: inherited.visible && seen,
-    contributesToBounds: inherited.contributesToBounds && seen,
+    visible: inherited.visible && visible,
+    contributesToBounds: inherited.contributesToBounds && visible,
     priority: inherited.priority * fields.priority,
   };
 }
 
-/** What groups of a kind have besides. */
+/** Optional properties of groups. */
 type GroupTraits = Partial<Pick<GroupDescription, "transform" | "billboardAxis" | "anchor">>;
 
 function groupOf(
@@ -164,66 +166,77 @@ function groupOf(
   children: readonly NodeDescription[],
   traits: GroupTraits = {},
 ): GroupDescription {
-  return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform: undefined, ...traits, children };
+  return { kind: "group", visible: isVisible(fields), box: boxOf(fields), transform: undefined, ...traits, children };
 }
 
-/** An Anchor's parameters are pairs `name=value`. */
+/** The `target` among an Anchor's parameters, which are pairs `name=value`. */
 function targetIn(parameter: readonly string[]): string {
   return (
     parameter.map((pair) => /^\s*target\s*=\s*(\S+)\s*$/i.exec(pair)?.[1]).find((target) => target !== undefined) ?? ""
   );
 }
 
-/** A Collision's proxy stands in for its children where people walk, not where they look. */
-function isSeenChild(child: SceneElement): boolean {
+/** False for a Collision's proxy, which replaces the children for collisions only. */
+function isVisibleChild(child: SceneElement): boolean {
   return attributeOf(child, "containerField") !== "proxy";
 }
 
-function sayGroup(
+function groupReader(
   node: SceneElement,
   fields: GroupFields,
   { warnings, childrenOf }: NodeReading,
   traits?: GroupTraits,
 ): FragmentReader {
-  const own = warningsOnly(warnings);
-  return (inherited, below) => {
-    const { nodes, declarations: asides } = below(childrenOf(node), within(fields, inherited));
-    return { nodes: [groupOf(fields, nodes, traits)], declarations: joinDeclarations([own, asides]) };
+  const ownDeclarations = warningsOnly(warnings);
+  return (inherited, readChildren) => {
+    const { nodes, declarations } = readChildren(childrenOf(node), within(fields, inherited));
+    return { nodes: [groupOf(fields, nodes, traits)], declarations: joinDeclarations([ownDeclarations, declarations]) };
   };
 }
 
-/** One of its children is seen, or none; the others stay in the scene, so that choosing them shows at once what they have. */
-function saySwitch(node: SceneElement, { warnings, childrenOf }: NodeReading): FragmentReader {
+/**
+ * At most one child is visible. The others stay in the scene, so that choosing them shows at once what is loaded of
+ * them.
+ */
+function switchReader(node: SceneElement, { warnings, childrenOf }: NodeReading): FragmentReader {
   const fields = readFields(node, nodeFields.Switch, warnings);
-  const own = warningsOnly(warnings);
-  return (inherited, below) =>
-    sayChoice(choicesIn(childrenOf(node)), fields.whichChoice, false, fields, inherited, below, own);
+  const ownDeclarations = warningsOnly(warnings);
+  return (inherited, readChildren) =>
+    choiceFragment(
+      choicesIn(childrenOf(node)),
+      fields.whichChoice,
+      false,
+      fields,
+      inherited,
+      readChildren,
+      ownDeclarations,
+    );
 }
 
-/** Children that are no nodes of their own are none of the choices. */
+/** Metadata children are not choices. */
 function choicesIn(children: readonly SceneElement[]): SceneElement[] {
   return children.filter((child) => !lowerNameOf(child).startsWith("metadata"));
 }
 
-/** `allReach`: the scene reaches as far as those that are not chosen. */
-function sayChoice(
+/** `allContributeToBounds`: the scene's bounds include the choices that are not chosen. */
+function choiceFragment(
   choices: readonly SceneElement[],
   choice: number,
-  allReach: boolean,
+  allContributeToBounds: boolean,
   fields: GroupFields,
   inherited: Inherited,
-  below: ReadChildren,
-  own: SceneDeclarations,
+  readChildren: ReadChildren,
+  ownDeclarations: SceneDeclarations,
   levels?: GroupDescription["lod"],
 ): SceneFragment {
-  const each = choices.map((child, place) => {
-    const visible = place === choice;
-    const said = below(
+  const each = choices.map((child, index) => {
+    const visible = index === choice;
+    const fragment = readChildren(
       [child],
       within(fields, {
         ...inherited,
         visible: inherited.visible && visible,
-        contributesToBounds: inherited.contributesToBounds && (visible || allReach),
+        contributesToBounds: inherited.contributesToBounds && (visible || allContributeToBounds),
       }),
     );
     const group: GroupDescription = {
@@ -231,33 +244,35 @@ function sayChoice(
       box: undefined,
       visible,
       transform: undefined,
-      children: said.nodes,
+      children: fragment.nodes,
     };
-    return { group, asides: said.declarations };
+    return { group, declarations: fragment.declarations };
   });
   const children = each.map(({ group }) => group);
   const group: GroupDescription = {
     kind: "group",
     box: undefined,
-    visible: isSeen(fields),
+    visible: isVisible(fields),
     transform: undefined,
     children,
   };
   return {
     nodes: [levels === undefined ? group : { ...group, lod: levels }],
-    declarations: joinDeclarations([own, ...each.map(({ asides }) => asides)]),
+    declarations: joinDeclarations([ownDeclarations, ...each.map(({ declarations }) => declarations)]),
   };
 }
 
-/** A choice that the distance makes. Until it is known the last level is seen, which asks for least. */
-function sayLevels(node: SceneElement, { warnings, childrenOf, levelOf }: NodeReading): FragmentReader {
+/**
+ * Chooses a level by distance. While the distance is unknown the last level is visible, which needs the fewest files.
+ */
+function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeReading): FragmentReader {
   const { center, range, ...fields } = readFields(node, nodeFields.LOD, warnings);
-  const own = warningsOnly(warnings);
-  return (inherited, below) => {
+  const ownDeclarations = warningsOnly(warnings);
+  return (inherited, readChildren) => {
     const choices = choicesIn(childrenOf(node));
     const last = choices.length - 1;
     const level = Math.min(levelOf(node) ?? last, last);
-    return sayChoice(choices, level, true, fields, inherited, below, own, {
+    return choiceFragment(choices, level, true, fields, inherited, readChildren, ownDeclarations, {
       element: node,
       center,
       range,
@@ -266,20 +281,20 @@ function sayLevels(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
   };
 }
 
-/** The document stands where the Inline does, with names of its own; what it says of the whole scene counts for nothing. */
-function sayInline(node: SceneElement, { warnings, inlined }: NodeReading): FragmentReader {
+/** The document replaces the Inline and has its own DEF names; its NavigationInfo and Background are ignored. */
+function inlineReader(node: SceneElement, { warnings, inlined }: NodeReading): FragmentReader {
   const { load, url, ...fields } = readFields(node, nodeFields.Inline, warnings);
   const x3d = load ? inlined(node) : undefined;
-  const own = warningsOnly(warnings);
-  return (inherited, below) => {
+  const ownDeclarations = warningsOnly(warnings);
+  return (inherited, readChildren) => {
     const inner = within(fields, inherited);
     const inlines =
       load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
-    const { nodes, declarations: asides } = below(x3d ? [x3d] : [], inner);
-    const ofItsScene = { ...asides, navigation: undefined, background: undefined };
+    const { nodes, declarations } = readChildren(x3d ? [x3d] : [], inner);
+    const localDeclarations = { ...declarations, navigation: undefined, background: undefined };
     return {
       nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }],
-      declarations: joinDeclarations([declarationsOf({ inlines }), own, ofItsScene]),
+      declarations: joinDeclarations([declarationsOf({ inlines }), ownDeclarations, localDeclarations]),
     };
   };
 }

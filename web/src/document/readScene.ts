@@ -7,7 +7,7 @@ import { SceneReader } from "./sceneReader.ts";
 export type { InlinedDocument } from "./readNode.ts";
 export type { SceneReaderOptions } from "./sceneReader.ts";
 
-/** An <X3D> element -> SceneDescription, once, with what stands in it. Who follows a document that changes keeps a SceneReader. */
-export function readScene(x3d: SceneElement, supplements: SceneReaderOptions = {}): SceneDescription {
-  return new SceneReader(x3d, { inlineGeometry: readInlineGeometry, ...supplements }).read();
+/** Reads an <X3D> element once, its inline geometry included. For a document that changes, keep a SceneReader. */
+export function readScene(x3d: SceneElement, options: SceneReaderOptions = {}): SceneDescription {
+  return new SceneReader(x3d, { inlineGeometry: readInlineGeometry, ...options }).read();
 }

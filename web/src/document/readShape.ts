@@ -1,10 +1,10 @@
-// A Shape -> what it is, for itself: what groups around it hand down is not in it.
+// Reads a Shape without the state that it inherits from groups.
 
 import { colorMapOf, withValues } from "./attributes.ts";
 import { readAppearance } from "./appearance.ts";
 import type { Box3, GeometryDescription, ShapeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf, childrenOf, inPlaceOf, lowerNameOf } from "./element.ts";
+import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import type { GeometryCache, Lookup } from "./geometryCache.ts";
@@ -13,20 +13,23 @@ import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
-/** What reading a shape needs besides its element. */
+/** The context that reading a shape needs besides its element. */
 export interface ShapeReading {
   readonly geometries: GeometryCache;
   readonly lookup: Lookup;
   readonly warnings: Warning[];
-  /** Undefined: nothing is seen of what stands in the document. */
+  /** Undefined: geometry whose numbers are in the document is not drawn. */
   readonly inlineGeometry: InlineGeometryReader | undefined;
-  /** Undefined: nothing is seen of texts. */
+  /** Undefined: Text is not drawn. */
   readonly text: TextReader | undefined;
-  /** Says that the shape is read again when this element of it is touched, in whatever document that stands. */
+  /** Registers an element, of any document, whose change makes the shape be read again. */
   readonly listen: (element: SceneElement) => void;
 }
 
-/** `element` is the shape's identity, `host` the page's element for it, `node` what describes it: the same but for USE. */
+/**
+ * `element` is the shape's identity, `host` the page's element for it, and `node` describes it: another element where
+ * `element` USEs a shape.
+ */
 export function readShape(
   element: SceneElement,
   host: SceneElement,
@@ -35,50 +38,58 @@ export function readShape(
 ): ShapeDescription {
   const { warnings } = reading;
   const values = readFields(node, nodeFields.Shape, warnings);
-  const parts = childrenOf(node);
+  const children = childrenOf(node);
   const ownBox = boxOf(values);
-  const [geometry, priorityOfGeometry] = readGeometryOf(parts, reading, ownBox, values.colorBy);
-  const nodesIn = (part: SceneElement) =>
-    childrenOf(part).flatMap((child) => {
-      const used = usedBy(child, reading);
-      return used === undefined ? [] : [inPlaceOf(child, used)];
+  const [geometry, priorityOfGeometry] = readGeometryOf(children, reading, ownBox, values.colorBy);
+  const nodesIn = (parent: SceneElement) =>
+    childrenOf(parent).flatMap((child) => {
+      const used = resolveUse(child, reading);
+      return used === undefined ? [] : [substitutedFor(child, used)];
     });
-  const appearance = firstOf(parts, reading, (part) => (lowerNameOf(part) === "appearance" ? part : undefined));
-  const isSeen = values.visible && values.render;
-  const look = readAppearance(appearance, colorMapOf(node, values, geometry, warnings), nodesIn, warnings);
+  const appearance = firstOf(children, reading, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
+  const isVisible = values.visible && values.render;
+  const appearanceDescription = readAppearance(
+    appearance,
+    colorMapOf(node, values, geometry, warnings),
+    nodesIn,
+    warnings,
+  );
   return {
     kind: "shape",
     element,
     geometry,
     host,
-    isUnread: geometry === undefined && parts.some(isGeometry),
-    visible: isSeen,
-    contributesToBounds: isSeen,
+    isUnread: geometry === undefined && children.some(isGeometry),
+    visible: isVisible,
+    contributesToBounds: isVisible,
     priority: values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
     appearance:
       geometry?.glyphAtlas === undefined || reading.text === undefined
-        ? look
-        : reading.text.appearanceOf(look, geometry.glyphAtlas, node, warnings),
+        ? appearanceDescription
+        : reading.text.appearanceOf(appearanceDescription, geometry.glyphAtlas, node, warnings),
   };
 }
 
-/** The geometry of a shape that has these parts, with its priority: beside it, as with another it is the same geometry. */
+/**
+ * The geometry among a shape's children, and its priority, which is separate because it does not change the geometry's
+ * identity.
+ */
 function readGeometryOf(
-  parts: readonly SceneElement[],
+  children: readonly SceneElement[],
   reading: ShapeReading,
   box: Box3 | undefined,
   colorBy: string,
 ): readonly [geometry: GeometryDescription | undefined, priority: number] {
   const { geometries, lookup, warnings } = reading;
-  const found = firstOf(parts, reading, (part) => {
-    if (lowerNameOf(part) === "text") reading.listen(part);
-    const geometry = geometries.recall(part, lookup, warnings, (...of) => readGeometry(reading, ...of));
-    return geometry && { part, geometry };
+  const found = firstOf(children, reading, (child) => {
+    if (lowerNameOf(child) === "text") reading.listen(child);
+    const geometry = geometries.recall(child, lookup, warnings, (...of) => readGeometry(reading, ...of));
+    return geometry && { child, geometry };
   });
   if (found === undefined) return [undefined, 1];
-  const { priority } = readFields(found.part, { priority: nodeFields.ImageGeometry.priority }, []);
+  const { priority } = readFields(found.child, { priority: nodeFields.ImageGeometry.priority }, []);
   const boxed =
     box === undefined
       ? found.geometry
@@ -91,16 +102,16 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
   binarygeometry: readBinaryGeometry,
 };
 
-/** Undefined for what is no geometry. */
+/** Undefined for an element that is no geometry. */
 function readGeometry(
   { geometries, inlineGeometry, text }: ShapeReading,
   element: SceneElement,
   lookup: Lookup,
   warnings: Warning[],
 ): GeometryDescription | undefined {
-  const resolve = (part: SceneElement) => {
-    const name = attributeOf(part, "USE");
-    return name === undefined ? part : lookup(name);
+  const resolve = (child: SceneElement) => {
+    const name = attributeOf(child, "USE");
+    return name === undefined ? child : lookup(name);
   };
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
@@ -108,21 +119,21 @@ function readGeometry(
   return ofFiles ? geometries.intern(ofFiles) : inlineGeometry?.(element, resolve, warnings);
 }
 
-/** As far as can be said without reading it: nothing else stands in shapes. */
-function isGeometry(part: SceneElement): boolean {
-  const name = lowerNameOf(part);
+/** Whether a child of a Shape is a geometry, judged by its name: all but Appearance and metadata are. */
+function isGeometry(child: SceneElement): boolean {
+  const name = lowerNameOf(child);
   return name !== "appearance" && !name.startsWith("metadata");
 }
 
-/** The shape's box is that of a geometry's only patch which says nothing of its own. */
+/** Gives the shape's box to a geometry's only patch where that has no box; else undefined. */
 function withBox(geometry: GeometryDescription, box: Box3): GeometryDescription | undefined {
   const [patch, ...others] = geometry.patches;
   if (!patch || patch.box || others.length > 0) return undefined;
   return { ...geometry, patches: [{ ...patch, box }] };
 }
 
-/** The element, or what its USE names; undefined where that is nothing. */
-function usedBy(element: SceneElement, { lookup, warnings }: ShapeReading): SceneElement | undefined {
+/** The element, or the one that its USE names; undefined where there is none. */
+function resolveUse(element: SceneElement, { lookup, warnings }: ShapeReading): SceneElement | undefined {
   const name = attributeOf(element, "USE");
   if (name === undefined) return element;
   const node = lookup(name);
@@ -136,14 +147,17 @@ function firstOf<Result>(
   read: (element: SceneElement) => Result | undefined,
 ): Result | undefined {
   for (const element of elements) {
-    const used = usedBy(element, reading);
+    const used = resolveUse(element, reading);
     const result = used && read(used);
     if (result !== undefined) return result;
   }
   return undefined;
 }
 
-/** The union of the patches' boxes; undefined where only vertices can tell; the decode box, which holds them all, where one of them has none. */
+/**
+ * The union of the patches' boxes; the quantization box, which contains them all, where a patch has none; undefined
+ * where only the vertices tell.
+ */
 function boxOfGeometry(geometry: GeometryDescription): Box3 | undefined {
   if (geometry.patches.some((patch) => isUnbounded(geometry, patch))) return undefined;
   const boxes = geometry.patches.map((patch) => patch.box);

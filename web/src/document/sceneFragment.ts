@@ -1,5 +1,4 @@
-// What elements say: nodes of the scene where they stand, and things that count for
-// the scene as a whole. What has nothing to say says one and the same nothing.
+// The contribution of elements to a scene: nodes, and declarations that count for the scene as a whole.
 
 import type {
   BackgroundDescription,
@@ -16,16 +15,17 @@ export interface SceneFragment {
   readonly declarations: SceneDeclarations;
 }
 
-/** Lists are in document order. */
+/** Declarations for the scene as a whole. Lists are in document order. */
 export interface SceneDeclarations {
   readonly warnings: readonly Warning[];
   readonly inlines: readonly InlineDescription[];
-  /** The one that counts of these. */
+  /** The bound NavigationInfo among those of these elements. */
   readonly navigation: NavigationDescription | undefined;
-  /** The first. */
+  /** The first Background. */
   readonly background: BackgroundDescription | undefined;
 }
 
+/** The only object for empty declarations, so that they are compared by identity. */
 export const noDeclarations: SceneDeclarations = {
   warnings: [],
   inlines: [],
@@ -33,43 +33,43 @@ export const noDeclarations: SceneDeclarations = {
   background: undefined,
 };
 
-/** What groups hand down to what stands in them. */
+/** State that groups pass down to their descendants. */
 export interface Inherited {
   readonly visible: boolean;
-  /** The same, but that every level of a LOD is seen. */
+  /** Like `visible`, but counts every level of a LOD as visible. */
   readonly contributesToBounds: boolean;
   readonly priority: number;
 }
 
-/** What these elements say where groups around them hand this down. */
+/** Reads these elements with the state that they inherit. */
 export type ReadChildren = (elements: readonly SceneElement[], inherited: Inherited) => SceneFragment;
 
-/** What an element says, as far as itself and what it USEs tell; the rest is told by who asks. */
-export type FragmentReader = (inherited: Inherited, below: ReadChildren) => SceneFragment;
+/** Gives an element's fragment for the state that it inherits. The element's own fields have been read already. */
+export type FragmentReader = (inherited: Inherited, readChildren: ReadChildren) => SceneFragment;
 
-export function declarationsOf(asides: Partial<SceneDeclarations>): SceneDeclarations {
-  return { ...noDeclarations, ...asides };
+export function declarationsOf(declarations: Partial<SceneDeclarations>): SceneDeclarations {
+  return { ...noDeclarations, ...declarations };
 }
 
 export function warningsOnly(warnings: readonly Warning[]): SceneDeclarations {
   return warnings.length === 0 ? noDeclarations : declarationsOf({ warnings });
 }
 
-/** Asides one after the other. */
+/** Merges declarations of elements in document order. */
 export function joinDeclarations(all: readonly SceneDeclarations[]): SceneDeclarations {
-  const some = all.filter((asides) => asides !== noDeclarations);
-  const [only = noDeclarations] = some;
-  if (some.length < 2) return only;
+  const nonEmpty = all.filter((declarations) => declarations !== noDeclarations);
+  const [only = noDeclarations] = nonEmpty;
+  if (nonEmpty.length < 2) return only;
   return {
-    warnings: some.flatMap(({ warnings }) => warnings),
-    inlines: some.flatMap(({ inlines }) => inlines),
-    navigation: some.map(({ navigation }) => navigation).reduce(laterOf),
-    background: some.find(({ background }) => background)?.background,
+    warnings: nonEmpty.flatMap(({ warnings }) => warnings),
+    inlines: nonEmpty.flatMap(({ inlines }) => inlines),
+    navigation: nonEmpty.map(({ navigation }) => navigation).reduce(boundOf),
+    background: nonEmpty.find(({ background }) => background)?.background,
   };
 }
 
-/** Of two NavigationInfos in document order the first counts, unless the second wants to be bound. */
-function laterOf(
+/** Of two NavigationInfos in document order, the first is bound unless the second asks to be. */
+function boundOf(
   first: NavigationDescription | undefined,
   second: NavigationDescription | undefined,
 ): NavigationDescription | undefined {

@@ -1,9 +1,8 @@
-// An <X3D> element -> SceneDescription, again and again while the document changes.
+// Reads an <X3D> element into a SceneDescription, incrementally while the document changes.
 //
-// What elements say is kept for each of the places where they stand, and only what
-// may have changed is asked for again. A description is never changed: what says the
-// same as before is the same object, so that whoever follows a scene finds what has
-// changed by comparing objects, from the root on.
+// The reader keeps the fragment of every element instance and reads only those anew that may have changed. Descriptions
+// are immutable, and an unchanged description is the same object as before, so that users of a scene find changes by
+// comparing objects from the root on.
 
 import type { SceneDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -20,84 +19,84 @@ import type { ReadChildren, Inherited, SceneFragment, FragmentReader } from "./s
 import { joinDeclarations, warningsOnly } from "./sceneFragment.ts";
 import type { TextReader } from "./textReader.ts";
 
-/** What a scene shows beyond what its own elements say. Who says something else of an element than before touches it. */
+/** What reading needs besides the document. When a result for an element changes, call `touch` with the element. */
 export interface SceneReaderOptions {
-  /** The absolute url of the document, which it cannot inline; undefined: nobody knows. */
+  /** The absolute URL of the document, which it must not inline itself; undefined: unknown. */
   readonly url?: string;
-  /** Undefined while it is not here. */
+  /** The document of an Inline; undefined while it is not loaded. */
   readonly inlined?: (inline: SceneElement) => InlinedDocument | undefined;
-  /** The level of a LOD; undefined while nobody knows how far it is. */
+  /** The visible level of a LOD; undefined while its distance is unknown. */
   readonly levelOf?: (lod: SceneElement) => number | undefined;
-  /** How geometry is read that stands in the document; without it nothing is seen of it. */
+  /** Reads geometry whose numbers are in the document; without it such geometry is not drawn. */
   readonly inlineGeometry?: InlineGeometryReader;
-  /** How texts are read; without it nothing is seen of them. */
+  /** Reads Text nodes; without it they are not drawn. */
   readonly text?: TextReader;
 }
 
-/** Documents that inline one another deeper than this are no scene. */
+/** Inlined documents nested deeper than this are refused. */
 const maxInlineDepth = 16;
 
-/** Groups of groups that are USEd, and documents that inline documents, grow without measure: the rest is left out. */
+/** Nested USEs and Inlines multiply instances exponentially: instances beyond this number are left out. */
 const defaultMaxInstances = 500_000;
 
 const everything: Inherited = { visible: true, contributesToBounds: true, priority: 1 };
 
-/** Unknown nodes are passed over, as a browser passes over unknown tags; what they hold still counts. */
+/** Unknown elements are ignored, as browsers ignore unknown tags; their children are read. */
 export class SceneReader {
   readonly #x3d: SceneElement;
-  readonly #supplements: SceneReaderOptions;
-  readonly #mostPlaces: number;
+  readonly #options: SceneReaderOptions;
+  readonly #maxInstances: number;
   readonly #page: ElementTree;
   readonly #geometries = new GeometryCache();
   readonly #inlinedTrees = new WeakMap<SceneElement, ElementTree>();
-  /** Who has read an element, and who has asked for a name. */
+  /** The instances that were read from an element, and those that have looked up a name. */
   readonly #readers = new Map<SceneElement, Set<ElementInstance>>();
-  readonly #askers = new Map<string, Set<ElementInstance>>();
+  readonly #nameUsers = new Map<string, Set<ElementInstance>>();
   readonly #root: ElementInstance;
   readonly #touched = new Set<SceneElement>();
   readonly #rearranged = new Set<SceneElement>();
-  /** How many there are, and those of which some children are left out. */
-  #placeCount = 0;
-  readonly #cutPlaces = new Set<ElementInstance>();
+  /** The number of instances, and those of which some children are left out. */
+  #instanceCount = 0;
+  readonly #truncated = new Set<ElementInstance>();
   #scene: SceneDescription | undefined;
 
-  constructor(x3d: SceneElement, supplements: SceneReaderOptions = {}, mostPlaces = defaultMaxInstances) {
+  constructor(x3d: SceneElement, options: SceneReaderOptions = {}, maxInstances = defaultMaxInstances) {
     this.#x3d = x3d;
-    this.#supplements = supplements;
-    this.#mostPlaces = mostPlaces;
+    this.#options = options;
+    this.#maxInstances = maxInstances;
     this.#page = new ElementTree(x3d);
     this.#root = new ElementInstance(x3d, undefined, { tree: this.#page, host: undefined, inlinedBy: [] });
   }
 
-  /** Says that attributes of the element may have changed, or what supplements say of it. */
+  /** Call where attributes of the element, or what the options return for it, may have changed. */
   touch(element: SceneElement): void {
     this.#touched.add(element);
   }
 
-  /** Says that letters may look otherwise than before. */
+  /** Call where fonts may have changed. */
   touchTexts(): void {
     for (const element of this.#readers.keys()) if (lowerNameOf(element) === "text") this.touch(element);
   }
 
-  /** Says that children of the element may have come or gone. */
+  /** Call where children of the element may have been added, removed or reordered. */
   rearrange(element: SceneElement): void {
     this.#rearranged.add(element);
     this.#touched.add(element);
   }
 
-  /** The scene now; the same object as before where nothing has been touched. */
+  /** The current scene; the same object as before where nothing has been touched. */
   read(): SceneDescription {
-    this.#forgetTouched();
+    this.#invalidateTouched();
     if (this.#scene !== undefined && this.#root.fragment !== undefined) return this.#scene;
     this.#geometries.begin();
-    this.#ask(this.#root, everything);
-    if (this.#placeCount < this.#mostPlaces) for (const place of this.#cutPlaces) place.invalidate(); // others have left
-    const { nodes, declarations: asides } = this.#ask(this.#root, everything);
+    this.#fragmentOf(this.#root, everything);
+    if (this.#instanceCount < this.#maxInstances) for (const instance of this.#truncated) instance.invalidate(); // other instances have left
+    const { nodes, declarations: asides } = this.#fragmentOf(this.#root, everything);
     const warnings: Warning[] = [...asides.warnings];
-    if (this.#cutPlaces.size > 0) {
+    if (this.#truncated.size > 0) {
       warnings.push({
         element: this.#x3d,
-        message: `has more than ${this.#mostPlaces} nodes in all their places: the rest is left out`,
+        message: `has more than ${this.#maxInstances} nodes in all their places: the rest is left out`,
       });
     }
     const { chunkPriority } = readFields(this.#x3d, nodeFields.X3D, warnings);
@@ -112,151 +111,151 @@ export class SceneReader {
     return this.#scene;
   }
 
-  #forgetTouched(): void {
+  #invalidateTouched(): void {
     const page = this.#page;
     for (const touched of this.#touched) {
       for (let element: SceneElement | undefined = touched; element !== undefined; element = page.parentOf(element)) {
         this.#geometries.touch(element);
-        for (const place of this.#readers.get(element) ?? [])
-          if (element === touched || place.dependsOnDescendants) place.invalidateReader();
+        for (const instance of this.#readers.get(element) ?? [])
+          if (element === touched || instance.dependsOnDescendants) instance.invalidateReader();
       }
       page.updateName(touched);
     }
     for (const element of this.#rearranged) page.updateChildren(element);
     for (const name of page.takeChangedNames()) {
-      for (const place of this.#askers.get(name) ?? []) place.invalidateReader();
+      for (const instance of this.#nameUsers.get(name) ?? []) instance.invalidateReader();
     }
     this.#touched.clear();
     this.#rearranged.clear();
   }
 
-  /** What the place's element says there. */
-  #ask(place: ElementInstance, inherited: Inherited): SceneFragment {
-    const known = place.fragmentFor(inherited);
+  /** The instance's fragment for this inherited state, read where it is not known. */
+  #fragmentOf(instance: ElementInstance, inherited: Inherited): SceneFragment {
+    const known = instance.fragmentFor(inherited);
     if (known !== undefined) return known;
-    const saying = (place.reader ??= this.#read(place));
-    const [before, now] = [place.takeChildren(), [] as ElementInstance[]];
-    this.#cutPlaces.delete(place);
-    const below: ReadChildren = (elements, inner) => {
-      const said: SceneFragment[] = [];
+    const reader = (instance.reader ??= this.#read(instance));
+    const [previous, children] = [instance.takeChildren(), [] as ElementInstance[]];
+    this.#truncated.delete(instance);
+    const readChildren: ReadChildren = (elements, inner) => {
+      const fragments: SceneFragment[] = [];
       for (const element of elements) {
-        const child = before.take(element) ?? this.#newPlace(element, place);
+        const child = previous.take(element) ?? this.#newInstance(element, instance);
         if (child === undefined) break;
-        now.push(child);
-        said.push(this.#ask(child, inner));
+        children.push(child);
+        fragments.push(this.#fragmentOf(child, inner));
       }
       return {
-        nodes: said.flatMap(({ nodes }) => nodes),
-        declarations: joinDeclarations(said.map(({ declarations: asides }) => asides)),
+        nodes: fragments.flatMap(({ nodes }) => nodes),
+        declarations: joinDeclarations(fragments.map(({ declarations: asides }) => asides)),
       };
     };
-    const said = saying(inherited, below);
-    for (const child of before.rest()) this.#leave(child);
-    place.setFragment(inherited, said, now);
-    return said;
+    const fragment = reader(inherited, readChildren);
+    for (const child of previous.rest()) this.#leave(child);
+    instance.setFragment(inherited, fragment, children);
+    return fragment;
   }
 
-  /** Undefined where there are too many. */
-  #newPlace(element: SceneElement, parent: ElementInstance): ElementInstance | undefined {
-    if (this.#placeCount >= this.#mostPlaces) {
-      this.#cutPlaces.add(parent);
+  /** Undefined where the limit is reached. */
+  #newInstance(element: SceneElement, parent: ElementInstance): ElementInstance | undefined {
+    if (this.#instanceCount >= this.#maxInstances) {
+      this.#truncated.add(parent);
       return undefined;
     }
-    this.#placeCount += 1;
+    this.#instanceCount += 1;
     return new ElementInstance(element, parent, parent.contextOf(element));
   }
 
-  #read(place: ElementInstance): FragmentReader {
-    this.#stopListening(place);
+  #read(instance: ElementInstance): FragmentReader {
+    this.#removeReader(instance);
     const {
       element,
       context: { tree, host },
-    } = place;
+    } = instance;
     const warnings: Warning[] = [];
-    this.#listen(place, element);
+    this.#addReader(instance, element);
     const lookup = (name: string) => {
       const used = tree.definedAs(name);
-      this.#listenToName(place, name);
-      if (used !== undefined) this.#listen(place, used);
+      this.#addNameUser(instance, name);
+      if (used !== undefined) this.#addReader(instance, used);
       return used;
     };
     const name = attributeOf(element, "USE");
     const node = name === undefined ? element : lookup(name);
-    if (node === undefined || place.isBelowUseOf(node)) {
+    if (node === undefined || instance.isBelowUseOf(node)) {
       warnings.push({ element, message: `USE="${name ?? ""}" names ${node ? "itself" : "no DEF of this scene"}` });
       return () => ({ nodes: [], declarations: warningsOnly(warnings) });
     }
-    place.node = node;
-    place.dependsOnDescendants = isReadAsWhole(node);
+    instance.node = node;
+    instance.dependsOnDescendants = isReadAsWhole(node);
     return readNode(element, node, {
       warnings,
       lookup,
       geometries: this.#geometries,
-      inlineGeometry: this.#supplements.inlineGeometry,
-      text: this.#supplements.text,
+      inlineGeometry: this.#options.inlineGeometry,
+      text: this.#options.text,
       host: host ?? element,
       childrenOf: (of) => tree.childrenOf(of),
       listen: (part) => {
-        this.#listen(place, part);
+        this.#addReader(instance, part);
       },
-      levelOf: (lod) => this.#supplements.levelOf?.(lod),
-      inlined: (inline) => this.#inlinedAt(place, inline, warnings),
+      levelOf: (lod) => this.#options.levelOf?.(lod),
+      inlined: (inline) => this.#inlinedAt(instance, inline, warnings),
     });
   }
 
-  #inlinedAt(place: ElementInstance, inline: SceneElement, warnings: Warning[]): SceneElement | undefined {
-    const found = this.#supplements.inlined?.(inline);
+  #inlinedAt(instance: ElementInstance, inline: SceneElement, warnings: Warning[]): SceneElement | undefined {
+    const found = this.#options.inlined?.(inline);
     if (found === undefined) return undefined;
-    const { inlinedBy, host } = place.context;
-    const problem = problemWith(found, inlinedBy, this.#supplements.url);
+    const { inlinedBy, host } = instance.context;
+    const problem = problemWith(found, inlinedBy, this.#options.url);
     if (problem !== undefined) {
-      warnings.push({ element: place.element, message: problem });
+      warnings.push({ element: instance.element, message: problem });
       return undefined;
     }
     const tree = this.#inlinedTrees.get(found.x3d) ?? new ElementTree(found.x3d);
     this.#inlinedTrees.set(found.x3d, tree);
-    place.setInlined(found.x3d, { tree, host: host ?? place.element, inlinedBy: [...inlinedBy, found] });
+    instance.setInlined(found.x3d, { tree, host: host ?? instance.element, inlinedBy: [...inlinedBy, found] });
     return found.x3d;
   }
 
-  #listen(place: ElementInstance, element: SceneElement): void {
-    place.sources.add(element);
+  #addReader(instance: ElementInstance, element: SceneElement): void {
+    instance.sources.add(element);
     const readers = this.#readers.get(element);
-    if (readers === undefined) this.#readers.set(element, new Set([place]));
-    else readers.add(place);
+    if (readers === undefined) this.#readers.set(element, new Set([instance]));
+    else readers.add(instance);
   }
 
-  /** Documents that are inlined do not change: their names are not listened to. */
-  #listenToName(place: ElementInstance, name: string): void {
-    if (place.context.tree !== this.#page) return;
-    place.names.add(name);
-    const askers = this.#askers.get(name);
-    if (askers === undefined) this.#askers.set(name, new Set([place]));
-    else askers.add(place);
+  /** Names of inlined documents are not recorded: those documents do not change. */
+  #addNameUser(instance: ElementInstance, name: string): void {
+    if (instance.context.tree !== this.#page) return;
+    instance.names.add(name);
+    const users = this.#nameUsers.get(name);
+    if (users === undefined) this.#nameUsers.set(name, new Set([instance]));
+    else users.add(instance);
   }
 
-  #stopListening(place: ElementInstance): void {
-    for (const element of place.sources) leaveSet(this.#readers, element, place);
-    for (const name of place.names) leaveSet(this.#askers, name, place);
-    place.sources.clear();
-    place.names.clear();
+  #removeReader(instance: ElementInstance): void {
+    for (const element of instance.sources) removeFromSet(this.#readers, element, instance);
+    for (const name of instance.names) removeFromSet(this.#nameUsers, name, instance);
+    instance.sources.clear();
+    instance.names.clear();
   }
 
-  #leave(place: ElementInstance): void {
-    this.#placeCount -= 1;
-    this.#cutPlaces.delete(place);
-    this.#stopListening(place);
-    for (const child of place.children) this.#leave(child);
+  #leave(instance: ElementInstance): void {
+    this.#instanceCount -= 1;
+    this.#truncated.delete(instance);
+    this.#removeReader(instance);
+    for (const child of instance.children) this.#leave(child);
   }
 }
 
-const withoutAttributes: SceneElement = {
+const emptyElement: SceneElement = {
   localName: "",
   children: [],
   getAttribute: () => null,
   getAttributeNames: () => [],
 };
-const defaultNavigation = readFields(withoutAttributes, nodeFields.NavigationInfo, []);
+const defaultNavigation = readFields(emptyElement, nodeFields.NavigationInfo, []);
 
 function problemWith(
   { url }: InlinedDocument,
@@ -267,8 +266,8 @@ function problemWith(
   return inlinedBy.length >= maxInlineDepth ? `names ${url}, more than ${maxInlineDepth} documents deep` : undefined;
 }
 
-function leaveSet<Key>(sets: Map<Key, Set<ElementInstance>>, key: Key, place: ElementInstance): void {
+function removeFromSet<Key>(sets: Map<Key, Set<ElementInstance>>, key: Key, instance: ElementInstance): void {
   const set = sets.get(key);
-  set?.delete(place);
+  set?.delete(instance);
   if (set?.size === 0) sets.delete(key);
 }
