@@ -1,6 +1,5 @@
-// The header fields and targets of a request, one a line in this order: target,
-// Range, Accept-Encoding, If-None-Match. Whatever they are, the answers keep to
-// their bounds.
+// Parses the target and header fields of a request, one a line: target, Range, Accept-Encoding, If-None-Match. Results
+// must stay within their bounds for all inputs.
 #include "base/bytes.h"
 #include "serve/content_coding.h"
 #include "serve/range_header.h"
@@ -44,7 +43,7 @@ void checkRange(std::string_view header, std::uint64_t size) {
   const ByteRange range = parseRange(header, size);
   if (range.kind == ByteRange::Kind::whole)
     require(range.first == 0 && range.count == size);
-  if (range.kind == ByteRange::Kind::part)
+  if (range.kind == ByteRange::Kind::partial)
     require(range.count > 0 && range.first < size && range.count <= size - range.first);
 }
 
@@ -57,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::uint64_t fileSize : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1000}, ~std::uint64_t{0}})
     checkRange(range, fileSize);
   const std::string_view accepted = takeLine(text);
-  // Nothing is compressed for those who never named a coding.
+  // Without the name of a coding, the response is not compressed.
   if (accepted.find_first_of("bBgGxX*") == std::string_view::npos)
     require(chooseCoding(accepted) == ContentCoding::identity);
   const std::string_view tags = takeLine(text);

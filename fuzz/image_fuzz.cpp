@@ -4,14 +4,14 @@
 
 #include <cstdlib>
 
-/// What is read comes back from being written.
+/// A decoded image survives encoding and decoding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
-  constexpr std::uint64_t mostPixels = 1 << 12;
+  constexpr std::uint64_t maxPixels = 1 << 12;
   try {
-    const Raster raster = decodeRaster({data, size}, "fuzz.image", mostPixels);
-    if (raster.pixels.size() != std::size_t{4} * raster.width * raster.height ||
-        raster.pixels.size() > 4 * mostPixels || decodeRaster(encodeLosslessWebp(raster), "again") != raster)
+    const Raster raster = decodeRaster({data, size}, "fuzz.image", maxPixels);
+    if (raster.pixels.size() != std::size_t{4} * raster.width * raster.height || raster.pixels.size() > 4 * maxPixels ||
+        decodeRaster(encodeLosslessWebp(raster), "again") != raster)
       std::abort();
   } catch (const Error& error) {
     if (error.message().empty() || error.location() != "fuzz.image")

@@ -1,6 +1,6 @@
 #pragma once
-// What holds for every input of an importer: an Error with a message, or a scene
-// that keeps import.h's promises. Anything else ends the process.
+// The check of all fuzz targets of input formats: every input gives an Error with a message, or a scene that keeps the
+// promises of import.h. Aborts otherwise.
 
 #include "base/error.h"
 #include "import/import.h"
@@ -21,7 +21,7 @@ inline bool isFinite(Vec3f p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Every index names something, and something is seen.
+/// Requires that all indices are in range and that the scene is not empty.
 inline void requireGraph(const Scene& scene) {
   const SceneGraph& graph = scene.graph;
   for (const Node& node : graph.nodes) {

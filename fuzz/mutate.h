@@ -26,46 +26,46 @@ public:
 
 private:
   std::size_t below(std::size_t bound) { return bound == 0 ? 0 : engine_() % bound; }
-  static auto at(Input& input, std::size_t place) { return input.begin() + static_cast<std::ptrdiff_t>(place); }
+  static auto at(Input& input, std::size_t offset) { return input.begin() + static_cast<std::ptrdiff_t>(offset); }
 
   void mutate(Input& input) {
-    const std::size_t place = below(input.size() + 1),
-                      length = below(std::min<std::size_t>(input.size() - place, 64) + 1);
+    const std::size_t offset = below(input.size() + 1),
+                      length = below(std::min<std::size_t>(input.size() - offset, 64) + 1);
     switch (below(8)) {
     case 0: // one bit
-      if (place < input.size())
-        input[place] ^= static_cast<std::uint8_t>(1u << below(8));
+      if (offset < input.size())
+        input[offset] ^= static_cast<std::uint8_t>(1u << below(8));
       break;
     case 1: // a byte at the edge of its range
-      if (place < input.size())
-        input[place] = std::array<std::uint8_t, 5>{0, 1, 0x7f, 0x80, 0xff}[below(5)];
+      if (offset < input.size())
+        input[offset] = std::array<std::uint8_t, 5>{0, 1, 0x7f, 0x80, 0xff}[below(5)];
       break;
     case 2: // cut short
-      input.resize(place);
+      input.resize(offset);
       break;
     case 3: // a piece lost
-      input.erase(at(input, place), at(input, place + length));
+      input.erase(at(input, offset), at(input, offset + length));
       break;
     case 4: { // a piece doubled
-      const Input piece(at(input, place), at(input, place + length));
+      const Input piece(at(input, offset), at(input, offset + length));
       input.insert(at(input, below(input.size() + 1)), piece.begin(), piece.end());
       break;
     }
     case 5: { // the end of another seed
       const Input& other = corpus_[below(corpus_.size())];
-      input.resize(place);
+      input.resize(offset);
       input.insert(input.end(), other.begin() + static_cast<std::ptrdiff_t>(below(other.size() + 1)), other.end());
       break;
     }
     case 6: // four bytes that make a count or a size absurd
-      for (std::size_t i = place; i < std::min(input.size(), place + 4); ++i)
+      for (std::size_t i = offset; i < std::min(input.size(), offset + 4); ++i)
         input[i] = static_cast<std::uint8_t>(engine_());
       break;
     case 7: { // a number that text readers stumble over
       static constexpr std::array<std::string_view, 8> numbers{
           "-1", "4294967296", "nan", "1e999", "99999999999999999999", " ", "\n", "0"};
       const std::string_view number = numbers[below(numbers.size())];
-      input.insert(at(input, place), number.begin(), number.end());
+      input.insert(at(input, offset), number.begin(), number.end());
       break;
     }
     }

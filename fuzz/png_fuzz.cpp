@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-/// What is read comes back from being written, whatever chunks it had before.
+/// A decoded PNG survives encoding and decoding, whatever chunks it had.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   try {

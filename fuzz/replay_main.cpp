@@ -66,13 +66,13 @@ Input readWhole(const fs::path& path) {
 }
 
 /// Files in the order of their names, so that every run mutates alike.
-std::vector<Input> readCorpus(const std::vector<fs::path>& places) {
+std::vector<Input> readCorpus(const std::vector<fs::path>& arguments) {
   std::vector<fs::path> paths;
-  for (const fs::path& place : places) {
-    if (!fs::is_directory(place))
-      paths.push_back(place);
+  for (const fs::path& argument : arguments) {
+    if (!fs::is_directory(argument))
+      paths.push_back(argument);
     else
-      for (const auto& entry : fs::recursive_directory_iterator(place))
+      for (const auto& entry : fs::recursive_directory_iterator(argument))
         if (entry.is_regular_file())
           paths.push_back(entry.path());
   }
@@ -87,14 +87,14 @@ std::vector<Input> readCorpus(const std::vector<fs::path>& places) {
 
 int main(int argc, char** argv) {
   std::size_t rounds = 0;
-  std::vector<fs::path> places;
+  std::vector<fs::path> paths;
   for (int i = 1; i < argc; ++i) {
     if (std::string_view(argv[i]) == "--rounds" && i + 1 < argc)
       rounds = std::strtoull(argv[++i], nullptr, 10);
     else
-      places.emplace_back(argv[i]);
+      paths.emplace_back(argv[i]);
   }
-  const std::vector<Input> corpus = readCorpus(places);
+  const std::vector<Input> corpus = readCorpus(paths);
   if (corpus.empty()) {
     std::fprintf(stderr, "%s: no corpus\nusage: %s [--rounds N] FILE|DIRECTORY...\n", argv[0], argv[0]);
     return 1;

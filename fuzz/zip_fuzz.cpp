@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-/// What an archive unpacks to is known, or that it is too much, whatever its bytes.
+/// Computing the unpacked size and refusing archives beyond the limit is safe for all inputs.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   const std::uint64_t unpacked = unpackedZipBytes({data, size});

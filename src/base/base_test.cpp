@@ -18,7 +18,7 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-TEST(Error, SaysWhereAndWhat) {
+TEST(Error, CombinesLocationAndMessage) {
   const Error error(ErrorKind::malformed, "a.ply:3", "two words expected");
   EXPECT_STREQ(error.what(), "a.ply:3: two words expected");
   EXPECT_STREQ(Error(ErrorKind::usage, "", "no input").what(), "no input");
@@ -31,7 +31,7 @@ TEST(Error, HasTheDocumentedExitCodes) {
     EXPECT_EQ(exitCode(kind), 3);
 }
 
-TEST(DynamicLibrary, CallsWhatItFindsAndNamesWhatItDoesNot) {
+TEST(DynamicLibrary, CallsAFunctionAndNamesAMissingOne) {
   struct Maths : DynamicLibrary {
     explicit Maths(const char* name, const char* function = "fabs") : DynamicLibrary(name), fabs(find(function)) {}
     double (*fabs)(double);
@@ -50,7 +50,7 @@ TEST(DynamicLibrary, CallsWhatItFindsAndNamesWhatItDoesNot) {
   EXPECT_EQ(messageOf("libm.so.6", "cubeRoot"), "libm.so.6: has no function cubeRoot");
 }
 
-TEST(File, ComesBackAsItWasWritten) {
+TEST(File, IsReadAsItWasWritten) {
   const TemporaryDirectory directory;
   for (const std::size_t size : {0u, 1u, 65536u, 200001u}) {
     Bytes bytes(size);
@@ -75,7 +75,7 @@ TEST(File, NamesThePathAndTheReasonItCannotBeRead) {
   EXPECT_THROW(readFile(directory.path()), Error);
 }
 
-TEST(File, LeavesNothingWhereItCannotWrite) {
+TEST(File, IsRemovedAfterAFailedWrite) {
   const TemporaryDirectory directory;
   EXPECT_THROW(writeFile(directory.path() / "no-such-folder" / "file", {}), Error);
   if (std::filesystem::exists("/dev/full")) {
@@ -123,7 +123,7 @@ TEST(ParallelForBlocks, VisitsEveryIndexOnce) {
   }
 }
 
-TEST(ParallelFor, PassesOnWhatABodyThrows) {
+TEST(ParallelFor, RethrowsAnExceptionOfABody) {
   EXPECT_THROW(parallelFor(100,
                            [](std::size_t i) {
                              if (i == 50)
@@ -141,7 +141,7 @@ TEST(Bytes, KeepTheirByteOrder) {
   EXPECT_EQ(loadBig<std::uint16_t>(bytes.data() + 4), 0x0506u);
 }
 
-TEST(Box, GrowsByWhatIsAdded) {
+TEST(Box, ContainsTheAddedPoints) {
   Box3d box;
   EXPECT_TRUE(box.empty());
   EXPECT_EQ(box.size(), Vec3d{});
@@ -151,7 +151,7 @@ TEST(Box, GrowsByWhatIsAdded) {
   EXPECT_EQ(box.longestEdge(), 3);
 }
 
-TEST(WithFewDigits, StaysWithinTheTolerance) {
+TEST(ShortestWithin, StaysWithinTheTolerance) {
   EXPECT_EQ(shortestWithin(2.009999990463257, 3e-8), 2.01);
   EXPECT_EQ(shortestWithin(-0.29999, 1e-4), -0.3);
   EXPECT_EQ(shortestWithin(123456.789, 0.5), 123457);

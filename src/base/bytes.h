@@ -36,8 +36,7 @@ template <typename T> T byteSwap(T value) {
   return value;
 }
 
-/// Reads a scalar from unaligned bytes of the stated order. The caller has
-/// checked that sizeof(T) bytes are there.
+/// Reads a scalar from unaligned bytes of the stated order. The caller checks that sizeof(T) bytes are available.
 template <typename T> T loadLittle(const std::uint8_t* at) {
   T value;
   std::memcpy(&value, at, sizeof(T));

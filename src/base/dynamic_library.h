@@ -1,13 +1,13 @@
 #pragma once
-// Libraries that are loaded when they are first needed, since a program pays at every
-// start for those that it names, and for all that they name in turn.
+// Shared libraries that are loaded at first use. A library that is linked costs loading time at every start, with all
+// libraries that it depends on.
 
 #include <bit>
 
 namespace imgeo {
 
-/// A shared library that stays loaded until the process ends. To be made once, as the
-/// base of a list of the functions that are called of it:
+/// A shared library that stays loaded until the process ends. Derive a struct that lists the functions to call, and
+/// construct it once:
 ///
 ///   struct Zlib : DynamicLibrary {
 ///     Zlib() : DynamicLibrary("libz.so.1") {}
@@ -19,7 +19,7 @@ public:
   explicit DynamicLibrary(const char* name);
 
 protected:
-  /// What a name stands for, to be kept as the pointer that its header declares.
+  /// The address of a function; converts to the function pointer type that the member declares.
   struct Symbol {
     void* address;
     template <typename Function> operator Function*() const { return std::bit_cast<Function*>(address); }

@@ -39,8 +39,7 @@ Bytes readFile(const std::filesystem::path& path) {
 
   Bytes bytes(S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0);
   std::size_t used = 0;
-  // A regular file is read in one call and one more that finds its end; a pipe
-  // grows the buffer as it goes.
+  // A regular file takes one read call and a second that finds its end; for a pipe the buffer grows.
   for (;;) {
     if (used == bytes.size()) {
       std::uint8_t more[1];
@@ -67,7 +66,7 @@ void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
   const bool wrote = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!wrote || std::fclose(file.release()) != 0) {
     const int reason = errno;
-    std::error_code ignored; // a device or a pipe is not ours to remove
+    std::error_code ignored; // devices and pipes are not removed
     if (std::filesystem::is_regular_file(path, ignored))
       std::filesystem::remove(path, ignored);
     errno = reason;

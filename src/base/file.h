@@ -1,5 +1,5 @@
 #pragma once
-// Whole files in and out.
+// Reading and writing whole files, and the content hash in file names.
 
 #include "base/bytes.h"
 
@@ -12,12 +12,12 @@ namespace imgeo {
 /// Throws Error{io} naming the path and the system's reason.
 Bytes readFile(const std::filesystem::path& path);
 
-/// Writes a whole new file, or replaces one. Throws Error{io}; a regular
-/// file that could not be written whole is removed.
+/// Writes a file, replacing an existing one. Throws Error{io}; removes a regular file that could not be written
+/// completely.
 void writeFile(const std::filesystem::path& path, ByteSpan bytes);
 
-/// The first 16 hexadecimal digits of the content's 128-bit xxHash (XXH3): names
-/// files by what they hold, so that they may be cached for ever.
+/// The first 16 hexadecimal digits of the content's 128-bit xxHash (XXH3). Files named by it never change, so that
+/// caches may keep them indefinitely.
 std::string contentName(ByteSpan bytes);
 
 } // namespace imgeo

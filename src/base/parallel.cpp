@@ -10,12 +10,12 @@ namespace imgeo {
 
 namespace {
 
-std::atomic<std::size_t> threadLimit = 0; ///< 0: none
+std::atomic<std::size_t> threadLimit = 0; ///< 0: no limit
 
 } // namespace
 
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
-  // TBB's start takes longer than many a small mesh: a millisecond.
+  // Starting TBB takes a millisecond, longer than converting many small meshes.
   if (count == 1 || threadLimit == 1)
     for (std::size_t i = 0; i < count; ++i)
       body(i);

@@ -1,10 +1,9 @@
 #pragma once
-// Numbers for documents, which say no more than they have to.
+// Rounding of numbers that are written as decimal text.
 
 namespace imgeo {
 
-/// The number with the fewest significant digits that is off from `value` by no more than
-/// `tolerance`; never -0.
+/// The number with the fewest significant decimal digits within `tolerance` of `value`; 0 rather than -0.
 double shortestWithin(double value, double tolerance);
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// For tests alone: a place for files that goes away with the test.
+// For tests: a temporary directory.
 
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace imgeo::testing {
 
-/// A new empty directory, removed with all it holds at the end of its scope.
+/// A new empty directory, removed with its content at the end of its scope.
 class TemporaryDirectory {
 public:
   TemporaryDirectory() {

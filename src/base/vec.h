@@ -1,5 +1,5 @@
 #pragma once
-// Small vectors and axis-aligned boxes: plain data, no operators beyond those used.
+// Small vectors, an sRGB colour and axis-aligned boxes: plain data.
 
 #include <algorithm>
 #include <array>
@@ -46,13 +46,13 @@ template <typename T> T length(Vec3<T> a) {
   return std::sqrt(dot(a, a));
 }
 
-/// A colour of 8 bits a channel, as files store it (sRGB where they say nothing).
+/// A colour of 8 bits a channel, in sRGB unless stated otherwise.
 struct Rgba8 {
   std::uint8_t r = 0, g = 0, b = 0, a = 255;
   friend bool operator==(const Rgba8&, const Rgba8&) = default;
 };
 
-/// An axis-aligned box; empty until something is added.
+/// An axis-aligned box; empty until a point is added.
 struct Box3d {
   Vec3d min{+std::numeric_limits<double>::infinity(), +std::numeric_limits<double>::infinity(),
             +std::numeric_limits<double>::infinity()};

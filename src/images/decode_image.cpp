@@ -13,7 +13,7 @@ namespace imgeo {
 
 namespace {
 
-/// What we call of GraphicsMagick, which brings fifty libraries with it.
+/// The functions of GraphicsMagick that are used. The library depends on fifty others.
 struct Magick : DynamicLibrary {
   Magick() : DynamicLibrary(IMGEO_GRAPHICSMAGICK) {}
 
@@ -40,13 +40,13 @@ struct Destroy {
 using Info = std::unique_ptr<ImageInfo, Destroy>;
 using Decoded = std::unique_ptr<::Image, Destroy>;
 
-/// What GraphicsMagick says of a call.
-class Outcome {
+/// The errors and warnings of GraphicsMagick calls.
+class MagickExceptions {
 public:
-  explicit Outcome(const Magick& library) : library_(library) { library.getExceptionInfo(&info_); }
-  ~Outcome() { library_.destroyExceptionInfo(&info_); }
-  Outcome(const Outcome&) = delete;
-  Outcome& operator=(const Outcome&) = delete;
+  explicit MagickExceptions(const Magick& library) : library_(library) { library.getExceptionInfo(&info_); }
+  ~MagickExceptions() { library_.destroyExceptionInfo(&info_); }
+  MagickExceptions(const MagickExceptions&) = delete;
+  MagickExceptions& operator=(const MagickExceptions&) = delete;
 
   ExceptionInfo* info() { return &info_; }
   bool isError() const { return info_.severity >= ErrorException; }
@@ -56,10 +56,10 @@ private:
   ExceptionInfo info_;
 };
 
-/// Pixels stay in memory, and the library within its one thread.
+/// Initialises the library with limits: pixels stay in memory, and the library uses one thread.
 void start(const Magick& library) {
-  Outcome outcome(library);
-  library.initializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, outcome.info());
+  MagickExceptions exceptions(library);
+  library.initializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, exceptions.info());
   library.setMagickResourceLimit(PixelsResource, maxRasterPixels);
   library.setMagickResourceLimit(WidthResource, maxRasterEdge);
   library.setMagickResourceLimit(HeightResource, maxRasterEdge);
@@ -67,7 +67,7 @@ void start(const Magick& library) {
   library.setMagickResourceLimit(ThreadsResource, 1);
 }
 
-/// Loaded and started once a process.
+/// Loads and initialises the library at the first call.
 const Magick& magick() {
   static const Magick library = [] {
     const Magick loaded;
@@ -77,7 +77,7 @@ const Magick& magick() {
   return library;
 }
 
-/// The first picture of a file of exactly this type: nothing is guessed from its content.
+/// Settings that decode the first image of a file as exactly this type, without guessing from its content.
 Info infoFor(const std::string& type) {
   std::string format = type == ".jpg" ? "JPEG" : type == ".tif" ? "TIFF" : type.substr(1);
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 32 : c; });
@@ -89,24 +89,17 @@ Info infoFor(const std::string& type) {
   return info;
 }
 
-void requireSize(const ::Image& image, const std::string& location, std::uint64_t mostPixels) {
+void requireSize(const ::Image& image, const std::string& location, std::uint64_t maxPixels) {
   const auto width = static_cast<std::uint64_t>(image.columns), height = static_cast<std::uint64_t>(image.rows);
-  if (width > maxRasterEdge || height > maxRasterEdge || width * height > mostPixels)
+  if (width > maxRasterEdge || height > maxRasterEdge || width * height > maxPixels)
     throw Error(ErrorKind::limit, location,
                 fmt::format("is an image of {} x {} pixels; more than {} along an edge or {} in all are not decoded",
-                            width, height, maxRasterEdge, mostPixels));
+                            width, height, maxRasterEdge, maxPixels));
 }
 
 } // namespace
 
-bool hasAlpha(const Raster& raster) {
-  for (std::size_t at = 3; at < raster.pixels.size(); at += 4)
-    if (raster.pixels[at] != 255)
-      return true;
-  return false;
-}
-
-Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t mostPixels) {
+Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t maxPixels) {
   const std::string type = imageType(bytes);
   if (!isDecodable(type))
     throw Error(ErrorKind::unsupported, location, "is an image of a kind that imgeo does not decode");
@@ -114,26 +107,26 @@ Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t m
     throw Error(ErrorKind::malformed, location, fmt::format("is a {} image that does not decode", type.substr(1)));
   };
   const Info info = infoFor(type);
-  Outcome outcome(magick());
-  if (const Decoded header(magick().pingBlob(info.get(), bytes.data(), bytes.size(), outcome.info())); header)
-    requireSize(*header, location, mostPixels);
+  MagickExceptions exceptions(magick());
+  if (const Decoded header(magick().pingBlob(info.get(), bytes.data(), bytes.size(), exceptions.info())); header)
+    requireSize(*header, location, maxPixels);
   else
     refuse();
-  Decoded image(magick().blobToImage(info.get(), bytes.data(), bytes.size(), outcome.info()));
-  if (!image || outcome.isError())
+  Decoded image(magick().blobToImage(info.get(), bytes.data(), bytes.size(), exceptions.info()));
+  if (!image || exceptions.isError())
     refuse();
-  requireSize(*image, location, mostPixels);
+  requireSize(*image, location, maxPixels);
   if (image->orientation > TopLeftOrientation)
-    if (Decoded upright(magick().autoOrientImage(image.get(), image->orientation, outcome.info())); upright)
+    if (Decoded upright(magick().autoOrientImage(image.get(), image->orientation, exceptions.info())); upright)
       image = std::move(upright);
   if (!IsRGBCompatibleColorspace(image->colorspace))
     magick().transformColorspace(image.get(), RGBColorspace);
   Raster raster{static_cast<std::uint32_t>(image->columns), static_cast<std::uint32_t>(image->rows), {}};
   raster.pixels.resize(std::size_t{4} * raster.width * raster.height);
   if (magick().dispatchImage(image.get(), 0, 0, image->columns, image->rows, "RGBA", CharPixel, raster.pixels.data(),
-                             outcome.info()) == MagickFail)
+                             exceptions.info()) == MagickFail)
     refuse();
-  if (!image->matte) // nothing is said of alpha then, not even that there is none
+  if (!image->matte) // the library leaves alpha undefined for opaque images
     for (std::size_t at = 3; at < raster.pixels.size(); at += 4)
       raster.pixels[at] = 255;
   return raster;

@@ -12,14 +12,13 @@ namespace imgeo {
 
 namespace {
 
-/// The raster and the settings are as the library wants them, so that it fails for want
-/// of memory alone.
+/// Throws where a library call has failed. Rasters and settings are valid, so that the reason is lack of memory.
 void require(bool isDone) {
   if (!isDone)
     throw std::bad_alloc();
 }
 
-/// What we call of libavif, which brings seven codecs with it.
+/// The functions of libavif that are used. The library depends on seven codecs.
 struct Avif : DynamicLibrary {
   Avif() : DynamicLibrary(IMGEO_AVIF) {}
 
@@ -38,8 +37,8 @@ Bytes encoded(const Raster& raster, const WebPConfig& config) {
   require(WebPPictureInit(&picture));
   WebPMemoryWriter writer;
   WebPMemoryWriterInit(&writer);
-  const std::unique_ptr<WebPPicture, decltype(&WebPPictureFree)> picturesEnd(&picture, WebPPictureFree);
-  const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> writersEnd(&writer, WebPMemoryWriterClear);
+  const std::unique_ptr<WebPPicture, decltype(&WebPPictureFree)> freePicture(&picture, WebPPictureFree);
+  const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> freeWriter(&writer, WebPMemoryWriterClear);
   picture.use_argb = 1;
   picture.width = static_cast<int>(raster.width);
   picture.height = static_cast<int>(raster.height);
@@ -57,7 +56,7 @@ Bytes encoded(const Raster& raster, const WebPConfig& config) {
 Bytes encodeWebp(const Raster& raster, int quality) {
   WebPConfig config;
   require(WebPConfigPreset(&config, WEBP_PRESET_DEFAULT, static_cast<float>(quality)));
-  config.use_sharp_yuv = 1; // otherwise red on dark loses its edges
+  config.use_sharp_yuv = 1; // without it, edges between saturated red and dark colours blur
   return encoded(raster, config);
 }
 
@@ -69,7 +68,7 @@ Bytes encodeLosslessWebp(const Raster& raster) {
 }
 
 Bytes encodeAvif(const Raster& raster, int quality) {
-  static const Avif avif; // loaded once a process
+  static const Avif avif; // loaded at the first call
   const std::unique_ptr<avifImage, decltype(avif.imageDestroy)> image(
       avif.imageCreate(static_cast<int>(raster.width), static_cast<int>(raster.height), 8, AVIF_PIXEL_FORMAT_YUV420),
       avif.imageDestroy);
@@ -90,10 +89,10 @@ Bytes encodeAvif(const Raster& raster, int quality) {
   encoder->minQuantizer = encoder->maxQuantizer = quantizer;
   encoder->minQuantizerAlpha = encoder->maxQuantizerAlpha = quantizer;
   encoder->speed = 6;
-  encoder->maxThreads = 1; // images are encoded side by side
+  encoder->maxThreads = 1; // several images are encoded in parallel
   avifRWData output = AVIF_DATA_EMPTY;
   const avifResult result = avif.encoderWrite(encoder.get(), image.get(), &output);
-  const std::unique_ptr<avifRWData, decltype(avif.freeData)> outputsEnd(&output, avif.freeData);
+  const std::unique_ptr<avifRWData, decltype(avif.freeData)> freeOutput(&output, avif.freeData);
   require(result == AVIF_RESULT_OK);
   return Bytes(output.data, output.data + output.size);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Pixels -> image files that every browser shows. Deterministic. The raster is not
-// empty and its edges are at most `maxRasterEdge`.
+// Pixels -> image files that browsers show. The same raster gives the same bytes. The raster must not be empty, and its
+// edges are at most `maxRasterEdge`.
 
 #include "images/raster.h"
 
@@ -9,10 +9,10 @@ namespace imgeo {
 /// WebP, lossy; `quality` 0 .. 100.
 Bytes encodeWebp(const Raster& raster, int quality);
 
-/// WebP that gives every byte back.
+/// Lossless WebP; decoding restores every byte, also under an alpha of 0.
 Bytes encodeLosslessWebp(const Raster& raster);
 
-/// AVIF with a color sample for every four pixels; `quality` 0 .. 100.
+/// AVIF with 4:2:0 chroma subsampling; `quality` 0 .. 100.
 Bytes encodeAvif(const Raster& raster, int quality);
 
 } // namespace imgeo

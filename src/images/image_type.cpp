@@ -76,13 +76,13 @@ std::string imageType(ByteSpan bytes) {
   return isTga(bytes) ? ".tga" : "";
 }
 
-bool isForPages(std::string_view type) {
+bool isShownByBrowsers(std::string_view type) {
   static constexpr std::array types{".png", ".jpg", ".webp", ".avif", ".gif"};
   return std::ranges::find(types, type) != types.end();
 }
 
 bool isDecodable(std::string_view type) {
-  // A GIF may move, and GraphicsMagick in Debian 12 has no decoder for AVIF.
+  // A GIF may be animated, and GraphicsMagick in Debian 12 has no decoder for AVIF.
   return !type.empty() && type != ".gif" && type != ".avif";
 }
 

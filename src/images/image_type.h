@@ -1,5 +1,5 @@
 #pragma once
-// What kind of image a file is.
+// Recognising image files by their first bytes.
 
 #include "base/bytes.h"
 
@@ -8,15 +8,14 @@
 
 namespace imgeo {
 
-/// The ending that says what an image is, ".png" …, told by its first bytes; empty for
-/// kinds that neither browsers show nor we can read.
+/// The file extension of the image's type, such as ".png"; empty for types that neither browsers show nor imgeo
+/// decodes.
 std::string imageType(ByteSpan bytes);
 
-/// Whether browsers show images of this type as a matter of course. They do show .bmp, at
-/// many times the bytes of any other.
-bool isForPages(std::string_view type);
+/// Whether pages use images of this type as they are. Browsers show .bmp too, but it takes many times the bytes.
+bool isShownByBrowsers(std::string_view type);
 
-/// Whether `decodeRaster` reads it.
+/// Whether `decodeRaster` decodes this type.
 bool isDecodable(std::string_view type);
 
 } // namespace imgeo

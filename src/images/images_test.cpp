@@ -13,14 +13,14 @@
 namespace imgeo::testing {
 namespace {
 
-int largestDifference(const Raster& a, const Raster& b) {
+int maxDifference(const Raster& a, const Raster& b) {
   int most = a.width == b.width && a.height == b.height ? 0 : 256;
   for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
     most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
   return most;
 }
 
-/// Slow enough in all directions for a lossy encoder to keep.
+/// A gradient that a lossy encoder keeps.
 Raster smoothRaster() {
   Raster raster{32, 16, {}};
   for (std::uint32_t y = 0; y < 16; ++y)
@@ -34,7 +34,7 @@ Raster rasterOf(std::uint32_t width, std::uint32_t height, Bytes pixels) {
   return {width, height, std::move(pixels)};
 }
 
-TEST(ImageType, IsToldByTheFirstBytes) {
+TEST(ImageType, IsRecognisedByTheFirstBytes) {
   EXPECT_EQ(imageType(asBytes("\x89PNG\r\n\x1a\n...")), ".png");
   EXPECT_EQ(imageType(asBytes("RIFF....WEBPVP8L")), ".webp");
   EXPECT_EQ(imageType(asBytes({"II*\0....", 8})), ".tif");
@@ -51,7 +51,7 @@ TEST(DecodeRaster, ReadsWhatBrowsersDoNotShow) {
   EXPECT_EQ(gray, rasterOf(2, 1, {7, 7, 7, 255, 200, 200, 200, 255}));
 }
 
-TEST(DecodeRaster, GivesLosslessWebpBackToTheByteAlsoWhereNothingIsSeen) {
+TEST(DecodeRaster, RestoresLosslessWebpExactlyAlsoUnderZeroAlpha) {
   for (const bool isClear : {false, true}) {
     const Raster raster = testRaster(17, 11, isClear);
     EXPECT_EQ(decodeRaster(encodeLosslessWebp(raster), "a.webp"), raster);
@@ -85,43 +85,43 @@ TEST(DecodeRaster, RefusesEveryPrefixOfAFile) {
     EXPECT_THROW(decodeRaster({tga.data(), size}, "cut.tga"), Error) << size;
 }
 
-TEST(EncodeImage, LosesLittleOfSmoothPictures) {
+TEST(EncodeImage, LosesLittleOfSmoothImages) {
   const Raster raster = smoothRaster();
   const Bytes webp = encodeWebp(raster, 90);
-  EXPECT_LE(largestDifference(decodeRaster(webp, "a.webp"), raster), 12);
+  EXPECT_LE(maxDifference(decodeRaster(webp, "a.webp"), raster), 12);
   EXPECT_LT(encodeWebp(raster, 10).size(), webp.size());
   EXPECT_EQ(imageType(encodeAvif(raster, 60)), ".avif");
   EXPECT_LT(encodeAvif(testRaster(64, 64), 20).size(), encodeAvif(testRaster(64, 64), 90).size());
 }
 
-TEST(Shrunk, AveragesColorsAsLightAndNumbersAsNumbers) {
+TEST(Downscaled, AveragesColorsAsLightAndNumbersAsNumbers) {
   const Raster checkers = rasterOf(2, 1, {0, 0, 0, 255, 255, 255, 255, 255});
-  EXPECT_EQ(shrunk(checkers, {1, 1}, PixelContent::color), rasterOf(1, 1, {188, 188, 188, 255}));
-  EXPECT_EQ(shrunk(checkers, {1, 1}, PixelContent::numbers), rasterOf(1, 1, {128, 128, 128, 255}));
+  EXPECT_EQ(downscaled(checkers, {1, 1}, PixelContent::color), rasterOf(1, 1, {188, 188, 188, 255}));
+  EXPECT_EQ(downscaled(checkers, {1, 1}, PixelContent::numbers), rasterOf(1, 1, {128, 128, 128, 255}));
 }
 
-TEST(Shrunk, LetsWhatIsClearAddNoColor) {
+TEST(Downscaled, IgnoresTheColorOfTransparentPixels) {
   const Raster raster = rasterOf(2, 1, {255, 0, 0, 0, 0, 0, 255, 255});
-  EXPECT_EQ(shrunk(raster, {1, 1}, PixelContent::color), rasterOf(1, 1, {0, 0, 255, 128}));
+  EXPECT_EQ(downscaled(raster, {1, 1}, PixelContent::color), rasterOf(1, 1, {0, 0, 255, 128}));
 }
 
-TEST(Shrunk, KeepsDirectionsOfLengthOne) {
+TEST(Downscaled, KeepsDirectionsAtUnitLength) {
   const Raster raster = rasterOf(2, 1, {255, 128, 128, 255, 128, 128, 255, 255}); // along x, along z
-  const Raster mean = shrunk(raster, {1, 1}, PixelContent::directions);
+  const Raster mean = downscaled(raster, {1, 1}, PixelContent::directions);
   EXPECT_NEAR(mean.pixels[0], 127.5 + 127.5 * std::sqrt(0.5), 1);
   EXPECT_NEAR(mean.pixels[1], 127.5, 1);
   EXPECT_NEAR(mean.pixels[2], 127.5 + 127.5 * std::sqrt(0.5), 1);
 }
 
-TEST(Shrunk, WeighsPixelsByWhatIsCoveredOfThem) {
+TEST(Downscaled, WeighsPixelsByTheirCoveredArea) {
   // 3 -> 2: each covers one and a half.
   const Raster raster = rasterOf(3, 1, {30, 0, 0, 255, 60, 0, 0, 255, 90, 0, 0, 255});
-  EXPECT_EQ(shrunk(raster, {2, 1}, PixelContent::numbers), rasterOf(2, 1, {40, 0, 0, 255, 80, 0, 0, 255}));
+  EXPECT_EQ(downscaled(raster, {2, 1}, PixelContent::numbers), rasterOf(2, 1, {40, 0, 0, 255, 80, 0, 0, 255}));
 }
 
-TEST(FittedSize, KeepsProportionsAndEnlargesNothing) {
+TEST(SizeWithin, KeepsProportionsAndEnlargesNothing) {
   const auto fitted = [](std::uint32_t width, std::uint32_t height, std::uint32_t longest) {
-    const RasterSize size = fittedSize({width, height}, longest);
+    const RasterSize size = sizeWithin({width, height}, longest);
     return std::pair(size.width, size.height);
   };
   EXPECT_EQ(fitted(4000, 1000, 512), std::pair(512u, 128u));

@@ -1,5 +1,5 @@
 #pragma once
-// Pixels in memory: what images are decoded to, made smaller as, and encoded from.
+// Pixels in memory.
 
 #include "base/bytes.h"
 
@@ -7,19 +7,18 @@
 
 namespace imgeo {
 
-/// Rows from the top, pixels from the left, four bytes each: red, green, blue, and
-/// alpha that they are not multiplied with.
+/// Rows from the top, pixels from the left, four bytes each: red, green, blue and straight (not premultiplied) alpha.
 struct Raster {
   std::uint32_t width = 0, height = 0;
   Bytes pixels; ///< width * height * 4
   friend bool operator==(const Raster&, const Raster&) = default;
 };
 
-/// More pixels are not decoded: 8192 x 8192.
+/// The largest images that are decoded have 8192 x 8192 pixels.
 inline constexpr std::uint64_t maxRasterPixels = std::uint64_t{1} << 26;
-inline constexpr std::uint32_t maxRasterEdge = 16383; ///< what WebP holds
+inline constexpr std::uint32_t maxRasterEdge = 16383; ///< the limit of WebP
 
-/// Whether any pixel lets through what lies behind.
+/// Whether any pixel is not opaque.
 bool hasAlpha(const Raster& raster);
 
 } // namespace imgeo

@@ -11,7 +11,7 @@ namespace {
 
 using Pixel = std::array<float, 4>;
 
-/// IEC 61966-2-1, 0 .. 1.
+/// The sRGB transfer function (IEC 61966-2-1), 0 .. 1.
 float linearOf(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
@@ -23,7 +23,7 @@ std::uint8_t byteOf(float share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255));
 }
 
-/// Bytes -> numbers that may be averaged, and back.
+/// Converts pixels between bytes and numbers whose mean is meaningful.
 class Averaging {
 public:
   explicit Averaging(PixelContent content) : content_(content) {
@@ -62,60 +62,61 @@ private:
   std::array<float, 256> values_{};
 };
 
-/// What a pixel of the smaller edge covers of the larger: `shares` of pixels from `first` on.
-struct Cover {
+/// The source pixels that a pixel of the result covers along one axis, from `first` on, with their weights.
+struct Coverage {
   std::size_t first = 0;
-  std::vector<float> shares;
+  std::vector<float> weights;
 };
 
-std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
-  std::vector<Cover> covers(to);
-  const double step = static_cast<double>(from) / to;
-  for (std::uint32_t i = 0; i < to; ++i) {
-    const double begin = i * step, end = std::min<double>((i + 1) * step, from);
-    covers[i].first = static_cast<std::size_t>(begin);
-    for (std::size_t at = covers[i].first; static_cast<double>(at) < end; ++at) {
-      const double least = std::max(begin, static_cast<double>(at)), most = std::min(end, static_cast<double>(at) + 1);
-      covers[i].shares.push_back(static_cast<float>((most - least) / step));
+std::vector<Coverage> coverageOf(std::uint32_t sourceSize, std::uint32_t size) {
+  std::vector<Coverage> coverage(size);
+  const double step = static_cast<double>(sourceSize) / size;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const double begin = i * step, end = std::min<double>((i + 1) * step, sourceSize);
+    coverage[i].first = static_cast<std::size_t>(begin);
+    for (std::size_t at = coverage[i].first; static_cast<double>(at) < end; ++at) {
+      const double from = std::max(begin, static_cast<double>(at)), until = std::min(end, static_cast<double>(at) + 1);
+      coverage[i].weights.push_back(static_cast<float>((until - from) / step));
     }
   }
-  return covers;
+  return coverage;
 }
 
-/// Adds a row, made shorter and weighted, to a row of means.
-void addRow(const std::uint8_t* row, const std::vector<Cover>& covers, float weight, const Averaging& averaging,
+/// Adds a source row, downscaled horizontally and weighted, to a row of means.
+void addRow(const std::uint8_t* row, const std::vector<Coverage>& coverage, float weight, const Averaging& averaging,
             std::vector<Pixel>& means) {
-  for (std::size_t x = 0; x < covers.size(); ++x)
-    for (std::size_t i = 0; i < covers[x].shares.size(); ++i) {
-      const Pixel numbers = averaging.numbersOf(row + 4 * (covers[x].first + i));
+  for (std::size_t x = 0; x < coverage.size(); ++x)
+    for (std::size_t i = 0; i < coverage[x].weights.size(); ++i) {
+      const Pixel numbers = averaging.numbersOf(row + 4 * (coverage[x].first + i));
       for (std::size_t c = 0; c < 4; ++c)
-        means[x][c] += weight * covers[x].shares[i] * numbers[c];
+        means[x][c] += weight * coverage[x].weights[i] * numbers[c];
     }
 }
 
 } // namespace
 
-RasterSize fittedSize(RasterSize size, std::uint32_t longest) {
+RasterSize sizeWithin(RasterSize size, std::uint32_t maxEdge) {
   const std::uint32_t edge = std::max(size.width, size.height);
-  if (edge <= longest)
+  if (edge <= maxEdge)
     return size;
   const auto scaled = [&](std::uint32_t length) {
-    const double exact = static_cast<double>(length) * longest / edge;
+    const double exact = static_cast<double>(length) * maxEdge / edge;
     return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(exact)));
   };
   return {scaled(size.width), scaled(size.height)};
 }
 
-Raster shrunk(const Raster& raster, RasterSize size, PixelContent content) {
+Raster downscaled(const Raster& raster, RasterSize size, PixelContent content) {
   assert(size.width > 0 && size.width <= raster.width && size.height > 0 && size.height <= raster.height);
-  const std::vector<Cover> across = coversOf(raster.width, size.width), down = coversOf(raster.height, size.height);
+  const std::vector<Coverage> across = coverageOf(raster.width, size.width),
+                              down = coverageOf(raster.height, size.height);
   const Averaging averaging(content);
   Raster smaller{size.width, size.height, Bytes(std::size_t{4} * size.width * size.height)};
   std::vector<Pixel> means(size.width);
   for (std::size_t y = 0; y < size.height; ++y) {
     std::ranges::fill(means, Pixel{});
-    for (std::size_t i = 0; i < down[y].shares.size(); ++i)
-      addRow(&raster.pixels[std::size_t{4} * raster.width * (down[y].first + i)], across, down[y].shares[i], averaging,
+    for (std::size_t i = 0; i < down[y].weights.size(); ++i)
+      addRow(&raster.pixels[std::size_t{4} * raster.width * (down[y].first + i)], across, down[y].weights[i], averaging,
              means);
     for (std::size_t x = 0; x < size.width; ++x)
       averaging.store(means[x], &smaller.pixels[4 * (y * size.width + x)]);

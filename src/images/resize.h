@@ -1,26 +1,26 @@
 #pragma once
-// Rasters made smaller, so that what they say stays what it was.
+// Downscaling of rasters by area averaging, in a way that suits their content.
 
 #include "images/raster.h"
 
 namespace imgeo {
 
-/// What the bytes of a raster say.
+/// The meaning of the channels of a raster.
 enum class PixelContent : std::uint8_t {
-  color,      ///< sRGB, weighted by alpha, averaged as light
-  numbers,    ///< averaged one by one
-  directions, ///< red, green, blue are a unit vector, as in normal maps: averaged and of length 1 again
+  color,      ///< sRGB: averaged in linear light, weighted by alpha
+  numbers,    ///< each channel averaged on its own
+  directions, ///< red, green, blue are a unit vector, as in normal maps: averaged and normalised
 };
 
-/// The size of an image whose longest edge is `longest`, in the same proportions; its own
-/// where that is no longer.
+/// Width and height in pixels.
 struct RasterSize {
   std::uint32_t width = 0, height = 0;
 };
-RasterSize fittedSize(RasterSize size, std::uint32_t longest);
+/// `size` scaled to a longest edge of `maxEdge` in the same proportions; `size` itself where its edges are no longer.
+RasterSize sizeWithin(RasterSize size, std::uint32_t maxEdge);
 
-/// Every pixel is the mean of what it covers. `size` is no larger than the raster along
-/// either edge, and not empty.
-Raster shrunk(const Raster& raster, RasterSize size, PixelContent content);
+/// Each pixel of the result is the mean of the pixels that it covers. `size` is not empty and no larger than the raster
+/// along either edge.
+Raster downscaled(const Raster& raster, RasterSize size, PixelContent content);
 
 } // namespace imgeo

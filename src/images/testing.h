@@ -1,5 +1,5 @@
 #pragma once
-// Images for tests. Header-only and for tests alone.
+// Images for tests.
 
 #include "images/raster.h"
 
@@ -16,7 +16,7 @@ inline Raster testRaster(std::uint32_t width, std::uint32_t height, bool isClear
   return raster;
 }
 
-/// What no format makes small.
+/// Noise, which no format compresses well.
 inline Raster noiseRaster(std::uint32_t width, std::uint32_t height) {
   Raster raster{width, height, {}};
   std::uint32_t state = 1; // of a linear congruential generator
@@ -27,7 +27,7 @@ inline Raster noiseRaster(std::uint32_t width, std::uint32_t height) {
   return raster;
 }
 
-/// As an uncompressed TGA of 32 bits a pixel, rows from the bottom.
+/// The raster as an uncompressed TGA of 32 bits a pixel, rows from the bottom.
 inline Bytes tgaOf(const Raster& raster) {
   Bytes tga{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   appendLittle(tga, static_cast<std::uint16_t>(raster.width));

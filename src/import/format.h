@@ -10,7 +10,7 @@
 
 namespace imgeo {
 
-/// What a positive answer of a format's `sniff` proves.
+/// How reliable a positive answer of a format's `sniff` is.
 enum class Sniffing {
   signature, ///< the bytes can be of no other format: decides before the file's name is looked at
   heuristic, ///< the bytes resemble the format: decides after the name's extension has named no other reader

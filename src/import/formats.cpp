@@ -30,17 +30,17 @@ constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 
 constexpr std::array<Format, 7> rows{{
-    {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = looksLikeX3d, .read = readX3d},
-    {.name = "VRML", .help = "VRML", .extensions = vrmlExtensions, .sniff = looksLikeVrml, .read = readVrml},
-    {.name = "glTF", .help = "glTF, GLB", .extensions = gltfExtensions, .sniff = looksLikeGltf, .read = readGltf},
-    {.name = "PLY", .help = "PLY", .extensions = plyExtensions, .sniff = looksLikePly, .read = readPly},
+    {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .read = readX3d},
+    {.name = "VRML", .help = "VRML", .extensions = vrmlExtensions, .sniff = isVrml, .read = readVrml},
+    {.name = "glTF", .help = "glTF, GLB", .extensions = gltfExtensions, .sniff = isGltf, .read = readGltf},
+    {.name = "PLY", .help = "PLY", .extensions = plyExtensions, .sniff = isPly, .read = readPly},
     {.name = "OBJ",
      .help = "OBJ",
      .extensions = objExtensions,
-     .sniff = looksLikeObj,
+     .sniff = resemblesObj,
      .sniffing = Sniffing::heuristic,
      .read = readObj},
-    {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = looksLikeStl, .read = readStl},
+    {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = isStl, .read = readStl},
     {.name = "those of Assimp (Collada, FBX, 3DS ...)", .readsExtension = isReadByAssimp, .read = readByAssimp},
 }};
 

@@ -19,16 +19,16 @@ namespace imgeo {
 
 namespace {
 
-/// Names of nodes become DEFs, which must differ: "wheel", "wheel-2", ...
+/// Makes node names unique, since they become DEFs: "wheel", "wheel-2", ...
 void makeNamesUnique(SceneGraph& graph) {
-  std::map<std::string, std::size_t> next; // name -> the number to try for its next holder
+  std::map<std::string, std::size_t> next; // name -> the number to try for the next node of that name
   for (const std::size_t index : nodesOfDocument(graph, graph.roots)) {
     std::string& name = graph.nodes[index].name;
     if (name.empty())
       continue;
-    const std::string wanted = name;
+    const std::string original = name;
     while (!next.try_emplace(name, 2).second)
-      name = fmt::format("{}-{}", wanted, next[wanted]++);
+      name = fmt::format("{}-{}", original, next[original]++);
   }
 }
 
@@ -46,8 +46,8 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
     bytes = bytes.subspan(3); // byte order mark
 
   Imported imported = formatOf(bytes, name).read(bytes, name, options);
-  const auto hasElements = [&](const ShapeInstance& placed) {
-    return !imported.scene.meshes[shapeOf(imported.scene.graph, placed.node).mesh].corners.empty();
+  const auto hasElements = [&](const ShapeInstance& instance) {
+    return !imported.scene.meshes[shapeOf(imported.scene.graph, instance.node).mesh].corners.empty();
   };
   if (!imported.scene.graph.isComplete && std::ranges::none_of(shapeInstances(imported.scene.graph, name), hasElements))
     throw Error(ErrorKind::malformed, name,

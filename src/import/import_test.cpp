@@ -7,27 +7,27 @@
 namespace imgeo::testing {
 namespace {
 
-const std::string kPly = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                         "property float z\nend_header\n0 0 0\n";
-const std::string kObj = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-const std::string kStl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
-                         "endloop\nendfacet\nendsolid a\n";
+const std::string plyText = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                            "property float z\nend_header\n0 0 0\n";
+const std::string objText = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string stlText = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                            "endloop\nendfacet\nendsolid a\n";
 
-TEST(Import, TellsTheFormatFromTheContentWhateverTheName) {
+TEST(Import, RecognisesTheFormatByItsContentUnderAnyName) {
   for (const char* name : {"a.ply", "a.obj", "a.stl", "a", "a.gz", "-"}) {
-    EXPECT_EQ(importBytes(asBytes(kPly), name).format, "PLY");
-    EXPECT_EQ(importBytes(asBytes(kObj), name).format, "OBJ");
-    EXPECT_EQ(importBytes(asBytes(kStl), name).format, "STL");
+    EXPECT_EQ(importBytes(asBytes(plyText), name).format, "PLY");
+    EXPECT_EQ(importBytes(asBytes(objText), name).format, "OBJ");
+    EXPECT_EQ(importBytes(asBytes(stlText), name).format, "STL");
   }
 }
 
-TEST(Import, TellsTheFormatFromTheNameWhereTheContentDoesNot) {
+TEST(Import, RecognisesTheFormatByTheExtensionWhereTheContentDoesNot) {
   EXPECT_NE(errorOf("no such thing", "a.PLY").message().find("'ply'"), std::string::npos);
   EXPECT_NE(errorOf("no such thing", "a.stl").message().find("STL"), std::string::npos);
   EXPECT_EQ(importBytes(asBytes("parm u 0\nv 0 0 0\n"), "a.obj.gz").format, "OBJ");
 }
 
-TEST(Import, NamesTheFormatsItReadsWhereItKnowsNone) {
+TEST(Import, ListsTheFormatsWhereItRecognisesNone) {
   const Error error = errorOf("BC....", "a.bc");
   EXPECT_EQ(error.kind(), ErrorKind::unsupported);
   EXPECT_EQ(error.location(), "a.bc");
@@ -38,23 +38,23 @@ TEST(Import, RefusesAnEmptyFile) {
   EXPECT_EQ(errorOf("", "a.ply").kind(), ErrorKind::truncated);
 }
 
-TEST(Import, PassesOverAByteOrderMark) {
-  EXPECT_EQ(importBytes(asBytes("\xef\xbb\xbf" + kObj), "a.obj").format, "OBJ");
+TEST(Import, SkipsAByteOrderMark) {
+  EXPECT_EQ(importBytes(asBytes("\xef\xbb\xbf" + objText), "a.obj").format, "OBJ");
 }
 
-TEST(Import, SaysThatItDoesNotReadUtf16) {
+TEST(Import, RefusesUtf16) {
   EXPECT_NE(errorOf(std::string_view("\xff\xfev\0 \0", 6), "a.obj").message().find("UTF-16"), std::string::npos);
 }
 
 TEST(Import, NamesTheSceneAfterTheFile) {
   for (const char* name : {"models/bunny.ply", "bunny.ply.gz", "bunny"}) {
-    const Scene scene = importBytes(asBytes(kPly), name).scene;
+    const Scene scene = importBytes(asBytes(plyText), name).scene;
     EXPECT_EQ(scene.graph.title, "bunny");
     EXPECT_EQ(scene.meshes.at(0).name, "bunny");
   }
 }
 
-TEST(Import, SaysThatAFileIsMissing) {
+TEST(Import, ThrowsForAMissingFile) {
   try {
     importFile("no/such/file.ply");
     FAIL();

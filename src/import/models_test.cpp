@@ -1,4 +1,4 @@
-// Real files, where they are present: scans as people have them.
+// Well-known scans, where the files are present.
 #include "import/import.h"
 
 #include <cstdlib>
@@ -13,7 +13,7 @@ std::filesystem::path sharedModel(const char* name) {
   return shared ? std::filesystem::path(shared) / "models" / name : std::filesystem::path(name);
 }
 
-TEST(Models, TheBunnyIsReadWhole) {
+TEST(Models, TheBunnyIsReadCompletely) {
   const auto path = sharedModel("stanford-bunny.obj");
   if (!std::filesystem::exists(path))
     GTEST_SKIP() << "no " << path;

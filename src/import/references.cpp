@@ -21,7 +21,7 @@ int hexDigit(char c) {
                                 : -1;
 }
 
-/// RFC 3986: a letter, then letters, digits and "+-.", then a colon.
+/// Whether a URL has a scheme (RFC 3986): a letter, then letters, digits and "+-.", then a colon.
 bool hasScheme(std::string_view url) {
   const std::size_t colon = url.find(':');
   return colon != url.npos && colon > 0 && std::isalpha(static_cast<unsigned char>(url[0])) &&
@@ -29,7 +29,7 @@ bool hasScheme(std::string_view url) {
                              [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
 }
 
-/// The url as far as messages need it.
+/// The first 60 characters of a URL, for messages.
 std::string shortened(std::string_view url) {
   return std::string(url.substr(0, 60)) + (url.size() > 60 ? "..." : "");
 }
@@ -100,7 +100,7 @@ fs::path References::fileOf(std::string_view url) const {
     refuse("which names no file");
   fs::path file = folder_ / name;
   std::error_code none;
-  if (!fs::exists(file, none)) // exporters write names with % and # as they are
+  if (!fs::exists(file, none)) // some exporters write % and # without escapes
     if (const fs::path asWritten = folder_ / std::string(url); fs::exists(asWritten, none))
       file = asWritten;
   const fs::path folder = fs::weakly_canonical(within_, none), real = fs::weakly_canonical(file, none);

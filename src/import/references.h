@@ -1,5 +1,5 @@
 #pragma once
-// The files that a source refers to by url.
+// Resolves the URLs in a source to local files and data: bytes.
 
 #include "base/bytes.h"
 #include "import/import.h"
@@ -17,25 +17,24 @@ public:
       : folder_(options.folder), within_(options.within.empty() ? options.folder : options.within),
         allowsOutside_(options.outside), sourceName_(std::move(sourceName)) {}
 
-  /// The bytes that a url stands for: a data: url's own, or those of a file relative
-  /// to the source's folder. Throws Error{unsupported} for other hosts and for files
-  /// outside of that folder (symbolic links followed) where the options do not
-  /// allow them, Error{io} for a file that cannot be read.
+  /// The bytes of a data: URL, or of a file relative to the source's folder. Throws Error{unsupported} for URLs of
+  /// other hosts, and for files outside of that folder (symbolic links resolved) unless the options allow them;
+  /// Error{io} for a file that cannot be read.
   Bytes fetch(std::string_view url) const;
 
-  /// The file that a relative url names, under the same conditions; it may not be there.
+  /// The path of the file that a relative URL names, under the same conditions; the file need not exist.
   std::filesystem::path fileOf(std::string_view url) const;
 
 private:
-  std::filesystem::path folder_, within_; ///< where urls begin; what they may not lead out of
+  std::filesystem::path folder_, within_; ///< the base of relative URLs; the folder that they must stay in
   bool allowsOutside_ = false;
   std::string sourceName_;
 };
 
-/// "a%20b" -> "a b"; what is no escape stays as it is.
+/// "a%20b" -> "a b"; malformed escapes stay as they are.
 std::string percentDecoded(std::string_view text);
 
-/// RFC 4648, blanks and padding left out. Throws Error{malformed} naming `location`.
+/// Decodes base64 (RFC 4648), ignoring blanks and padding. Throws Error{malformed} naming `location`.
 Bytes base64Decoded(std::string_view text, const std::string& location);
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// What a reader says of bytes that it refuses, for tests.
+// Helpers for tests of readers.
 
 #include "base/error.h"
 #include "import/import.h"
@@ -8,7 +8,7 @@
 
 namespace imgeo::testing {
 
-/// The Error with which `bytes` are refused; a test failure where they are read.
+/// The Error that reading `bytes` throws; a test failure where it throws none.
 inline Error errorOf(ByteSpan bytes, const std::string& name, const ImportOptions& options = {}) {
   try {
     importBytes(bytes, name, options);
@@ -22,7 +22,7 @@ inline Error errorOf(std::string_view text, const std::string& name, const Impor
   return errorOf(asBytes(text), name, options);
 }
 
-/// The only mesh of what is read.
+/// The mesh of a source that has exactly one.
 inline Mesh onlyMesh(ByteSpan bytes, const std::string& name, const ImportOptions& options = {}) {
   const Imported imported = importBytes(bytes, name, options);
   EXPECT_EQ(imported.scene.meshes.size(), 1u);

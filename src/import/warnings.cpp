@@ -17,11 +17,11 @@ std::string withoutFullStop(const std::string& sentence) {
   return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
 }
 
-void addLosses(std::vector<std::string>& warnings, const std::vector<std::string>& losses, bool isStrict,
-               const std::string& sourceName) {
-  if (isStrict && !losses.empty())
-    throw Error(ErrorKind::malformed, sourceName, withoutFullStop(losses.front()));
-  std::ranges::copy(losses, std::back_inserter(warnings));
+void addOmissions(std::vector<std::string>& warnings, const std::vector<std::string>& omissions, bool isStrict,
+                  const std::string& sourceName) {
+  if (isStrict && !omissions.empty())
+    throw Error(ErrorKind::malformed, sourceName, withoutFullStop(omissions.front()));
+  std::ranges::copy(omissions, std::back_inserter(warnings));
 }
 
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {
@@ -32,7 +32,7 @@ void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {
 void warnOfFans(std::vector<std::string>& warnings, std::uint64_t polygons) {
   if (polygons > 0)
     warnings.push_back(fmt::format("{} cut as a fan, which may overlap itself: concave, with more than {} corners.",
-                                   counted(polygons, "polygon was", "polygons were"), kMaxEarClippedCorners));
+                                   counted(polygons, "polygon was", "polygons were"), maxEarClippedCorners));
 }
 
 void warnOfNormals(std::vector<std::string>& warnings, std::uint64_t normals) {

@@ -1,5 +1,5 @@
 #pragma once
-// Compressed files kept in memory, so that each is compressed once.
+// A cache of compressed files in memory.
 
 #include "serve/content_coding.h"
 
@@ -12,19 +12,17 @@
 
 namespace imgeo {
 
-/// Least recently used entries go first. Safe to use from several threads.
+/// Evicts the least recently used entries first. Safe to use from several threads.
 class CodingCache {
 public:
-  /// Holds at most `limitBytes` of encoded content; one entry alone may be larger
-  /// than that and is then not kept.
+  /// Holds at most `limitBytes` of encoded content; larger content is returned but not kept.
   explicit CodingCache(std::size_t limitBytes) : limitBytes_(limitBytes) {}
 
-  /// The content under `key`, which names one version of a file and a coding;
-  /// made by `encode` if it is not there. Two threads that miss at once both
-  /// encode, which costs time and nothing else.
+  /// The content of `key`, which names one version of a file and a coding; calls `encode` where the cache lacks it. Two
+  /// threads that miss at the same time both encode.
   std::shared_ptr<const Bytes> get(const std::string& key, const std::function<Bytes()>& encode);
 
-  /// Bytes held now.
+  /// Bytes of content in the cache.
   std::size_t heldBytes() const;
 
 private:

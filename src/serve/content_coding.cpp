@@ -12,9 +12,9 @@ namespace imgeo {
 
 namespace {
 
-// Fast enough to answer a first request without a pause (measured on HTML of a
-// large scene), and within a few percent of the slow levels.
-constexpr int brotliQuality = 5;
+// Fast enough for the first request of a large scene's HTML, and within a few percent of the size of the slowest
+// levels.
+constexpr int brotliLevel = 5;
 constexpr int gzipLevel = 6;
 
 struct FreeCompressor {
@@ -34,14 +34,14 @@ Bytes gzip(ByteSpan bytes) {
 Bytes brotli(ByteSpan bytes) {
   std::size_t size = BrotliEncoderMaxCompressedSize(bytes.size());
   Bytes out(size);
-  if (!BrotliEncoderCompress(brotliQuality, BROTLI_DEFAULT_WINDOW, BROTLI_MODE_TEXT, bytes.size(), bytes.data(), &size,
+  if (!BrotliEncoderCompress(brotliLevel, BROTLI_DEFAULT_WINDOW, BROTLI_MODE_TEXT, bytes.size(), bytes.data(), &size,
                              out.data()))
     throw std::bad_alloc();
   out.resize(size);
   return out;
 }
 
-/// Cuts the text up to the first `separator` off `rest`, without blanks around it.
+/// Removes the text up to the first `separator` from `rest` and returns it without surrounding blanks.
 std::string_view takeUntil(std::string_view& rest, char separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   std::string_view part = rest.substr(0, end);
@@ -104,13 +104,13 @@ ContentCoding chooseCoding(std::string_view acceptEncoding) {
     else if (name == "*")
       anyQ = quality;
   }
-  const int noQuality = anyQ.value_or(0);
-  const int ofBrotli = brotliQ.value_or(noQuality), ofGzip = gzipQ.value_or(noQuality);
-  // Plain bytes need no invitation, but lose against any coding that has one.
-  const int ofIdentity = identityQ.value_or(1);
-  if (ofBrotli > 0 && ofBrotli >= ofGzip && ofBrotli >= ofIdentity)
+  const int defaultQ = anyQ.value_or(0);
+  const int brotliQuality = brotliQ.value_or(defaultQ), gzipQuality = gzipQ.value_or(defaultQ);
+  // Identity is allowed by default, but any coding that the client names precedes it.
+  const int identityQuality = identityQ.value_or(1);
+  if (brotliQuality > 0 && brotliQuality >= gzipQuality && brotliQuality >= identityQuality)
     return ContentCoding::brotli;
-  if (ofGzip > 0 && ofGzip >= ofIdentity)
+  if (gzipQuality > 0 && gzipQuality >= identityQuality)
     return ContentCoding::gzip;
   return ContentCoding::identity;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Content codings: which one a client takes, and the compressors.
+// Content codings: choice by the Accept-Encoding header, and compression.
 // RFC 9110, section 12.5.3 (Accept-Encoding); RFC 7932 (brotli).
 
 #include "base/bytes.h"
@@ -10,15 +10,15 @@ namespace imgeo {
 
 enum class ContentCoding { identity, gzip, brotli };
 
-/// As Content-Encoding names it: "br", "gzip"; "identity" is never sent.
+/// The name in Content-Encoding: "br", "gzip"; "identity" is not sent.
 std::string_view codingName(ContentCoding coding);
 
 /// The best coding that an Accept-Encoding header allows: the one with the highest
-/// q, brotli before gzip before identity where they are equal. Nonsense allows
-/// nothing but identity. Safe for untrusted bytes.
+/// q; brotli before gzip before identity where q is equal. A malformed header allows identity only. Safe for untrusted
+/// bytes.
 ContentCoding chooseCoding(std::string_view acceptEncoding);
 
-/// `bytes` in that coding; identity copies. Deterministic.
+/// Encodes `bytes`; identity copies them. The same bytes give the same result.
 Bytes encodeContent(ContentCoding coding, ByteSpan bytes);
 
 } // namespace imgeo

@@ -9,7 +9,7 @@
 namespace imgeo {
 namespace {
 
-TEST(ContentCoding, BrotliIsTakenBeforeGzipWhereBothAreWelcome) {
+TEST(ContentCoding, BrotliPrecedesGzipWhereBothAreAccepted) {
   EXPECT_EQ(chooseCoding("gzip, deflate, br, zstd"), ContentCoding::brotli);
   EXPECT_EQ(chooseCoding("gzip"), ContentCoding::gzip);
   EXPECT_EQ(chooseCoding("GZIP ; q=0.5 , BR;Q=0.5"), ContentCoding::brotli);
@@ -23,7 +23,7 @@ TEST(ContentCoding, TheHigherQualityWins) {
   EXPECT_EQ(chooseCoding("gzip;q=0.001"), ContentCoding::gzip);
 }
 
-TEST(ContentCoding, WhatIsForbiddenOrUnknownIsNotSent) {
+TEST(ContentCoding, ForbiddenAndUnknownCodingsAreNotChosen) {
   for (const char* header : {"", ",", "br;q=0", "br;q=0.000, *;q=0", "zstd", "br;q=", "br;q=2", "br;q=1.x",
                              "br;q=0.1234567", "br;quality=1", "brotli", "b r", "deflate"})
     EXPECT_EQ(chooseCoding(header), ContentCoding::identity) << header;
@@ -37,7 +37,7 @@ Bytes sampleText() {
   return text;
 }
 
-TEST(ContentCoding, BrotliComesBackAsItWas) {
+TEST(ContentCoding, BrotliDecodesToTheInput) {
   const Bytes text = sampleText(), packed = encodeContent(ContentCoding::brotli, text);
   Bytes unpacked(text.size());
   std::size_t size = unpacked.size();
@@ -48,7 +48,7 @@ TEST(ContentCoding, BrotliComesBackAsItWas) {
   EXPECT_LT(packed.size(), text.size() / 10);
 }
 
-TEST(ContentCoding, GzipComesBackAsItWas) {
+TEST(ContentCoding, GzipDecodesToTheInput) {
   const Bytes text = sampleText(), packed = encodeContent(ContentCoding::gzip, text);
   Bytes unpacked(text.size());
   libdeflate_decompressor* decompressor = libdeflate_alloc_decompressor();
@@ -69,14 +69,14 @@ TEST(CodingCache, EachContentIsEncodedOnce) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(CodingCache, TheLeastRecentlyUsedGoesFirstWhenTheBoundIsReached) {
+TEST(CodingCache, TheLeastRecentlyUsedEntryIsEvictedFirst) {
   CodingCache cache(100);
   int calls = 0;
   const auto encode = [&] { return ++calls, Bytes(40, 1); };
   cache.get("a", encode);
   cache.get("b", encode);
   cache.get("a", encode);
-  cache.get("c", encode); // sends b away
+  cache.get("c", encode); // evicts b
   EXPECT_EQ(cache.heldBytes(), 80u);
   EXPECT_EQ(calls, 3);
   cache.get("a", encode);
@@ -85,7 +85,7 @@ TEST(CodingCache, TheLeastRecentlyUsedGoesFirstWhenTheBoundIsReached) {
   EXPECT_EQ(calls, 4);
 }
 
-TEST(CodingCache, WhatIsLargerThanTheBoundIsSentButNotKept) {
+TEST(CodingCache, ContentLargerThanTheLimitIsReturnedButNotKept) {
   CodingCache cache(100);
   EXPECT_EQ(cache.get("a", [] { return Bytes(101, 1); })->size(), 101u);
   EXPECT_EQ(cache.heldBytes(), 0u);

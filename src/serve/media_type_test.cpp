@@ -7,19 +7,19 @@
 namespace imgeo {
 namespace {
 
-TEST(MediaType, TheExtensionDecidesWithoutRegardToCase) {
+TEST(MediaType, TheExtensionDecidesIgnoringCase) {
   EXPECT_EQ(mediaTypeOf("index.html").name, "text/html; charset=utf-8");
   EXPECT_EQ(mediaTypeOf("imgeo.0123.JS").name, "text/javascript; charset=utf-8");
   EXPECT_EQ(mediaTypeOf("scene.x3d").name, "model/x3d+xml");
   EXPECT_EQ(mediaTypeOf("a.b.png").name, "image/png");
 }
 
-TEST(MediaType, UnknownNamesAreBytes) {
+TEST(MediaType, UnknownExtensionsAreOctetStreams) {
   for (const char* name : {"", "README", "a.unknown", "html", "a.", "."})
     EXPECT_EQ(mediaTypeOf(name).name, "application/octet-stream") << name;
 }
 
-TEST(MediaType, OnlyTextIsWorthCompressing) {
+TEST(MediaType, OnlyTextIsCompressible) {
   EXPECT_TRUE(mediaTypeOf("a.html").isCompressible);
   EXPECT_TRUE(mediaTypeOf("a.x3d").isCompressible);
   EXPECT_FALSE(mediaTypeOf("a.png").isCompressible);
@@ -33,7 +33,7 @@ TEST(MediaType, AFileNamedByItsContentIsRecognised) {
   EXPECT_TRUE(isContentNamed("imgeo." + hash + ".js"));
 }
 
-TEST(MediaType, OtherNamesMayChangeTheirContent) {
+TEST(MediaType, OtherNamesAreNotContentNames) {
   const std::string hash = contentName(asBytes("content"));
   for (const std::string& name : {std::string("index.html"), hash + "-old.png", "a" + hash + ".png",
                                   hash.substr(1) + ".png", std::string("0123456789ABCDEF.png"), std::string()})

@@ -45,17 +45,17 @@ std::size_t OpenFile::readAt(std::uint64_t offset, std::span<std::uint8_t> out) 
 }
 
 std::variant<std::shared_ptr<const OpenFile>, Absence> openBelow(const fs::path& root, const RequestPath& path) {
-  fs::path wanted = root;
+  fs::path requested = root;
   for (const std::string& name : path.names) {
     if (name.starts_with('.'))
       return Absence::notFound;
-    wanted /= name;
+    requested /= name;
   }
   if (path.isDirectory)
-    wanted /= "index.html";
+    requested /= "index.html";
 
   std::error_code failure;
-  const fs::path real = fs::canonical(wanted, failure);
+  const fs::path real = fs::canonical(requested, failure);
   if (failure || !isBelow(root, real))
     return Absence::notFound;
 

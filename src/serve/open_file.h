@@ -1,5 +1,5 @@
 #pragma once
-// A regular file that stays open while it is being sent.
+// Regular files below the served directory, opened for sending.
 
 #include "base/bytes.h"
 #include "serve/request_path.h"
@@ -12,8 +12,7 @@
 
 namespace imgeo {
 
-/// Owns a descriptor: the file's bytes stay readable although its site is
-/// exchanged for a newer one meanwhile.
+/// Owns a file descriptor, so that the bytes stay readable while a newer site replaces the file.
 class OpenFile {
 public:
   OpenFile(int descriptor, std::uint64_t size, std::string version);
@@ -22,8 +21,8 @@ public:
   OpenFile& operator=(const OpenFile&) = delete;
 
   std::uint64_t size() const { return size_; }
-  /// Another string whenever the bytes may be others: from inode, size and the
-  /// time of the last change in nanoseconds. Letters, digits and dashes.
+  /// Changes whenever the bytes may have changed: made of inode, size and modification time in nanoseconds. Letters,
+  /// digits and dashes.
   const std::string& version() const { return version_; }
   /// Reads up to out.size() bytes from `offset`; fewer only at the file's end.
   /// Throws Error{io}. Safe to call from several threads.
@@ -37,11 +36,11 @@ private:
 
 enum class Absence {
   notFound,  ///< no such file, not readable, no regular file, or outside the root
-  directory, ///< a directory, whose path wants a slash behind it
+  directory, ///< a directory, requested without a trailing slash
 };
 
-/// Opens the file of a path below `root`, a canonical path; the index.html of a
-/// directory. Names that start with a dot and links that leave the root are not found.
+/// Opens the file of a path below `root`, a canonical path; for a directory, its index.html. Names that start with a
+/// dot and symbolic links that leave the root are not found.
 std::variant<std::shared_ptr<const OpenFile>, Absence> openBelow(const std::filesystem::path& root,
                                                                  const RequestPath& path);
 

@@ -50,13 +50,13 @@ ByteRange parseRange(std::string_view header, std::uint64_t size) {
       return whole;
     // "-n": the last n bytes.
     const std::uint64_t count = std::min(*last, size);
-    return count == 0 ? ByteRange{Kind::unsatisfiable, 0, 0} : ByteRange{Kind::part, size - count, count};
+    return count == 0 ? ByteRange{Kind::unsatisfiable, 0, 0} : ByteRange{Kind::partial, size - count, count};
   }
   if (last && *last < *first)
     return whole;
   if (*first >= size)
     return {Kind::unsatisfiable, 0, 0};
-  return {Kind::part, *first, std::min(last.value_or(size - 1), size - 1) - *first + 1};
+  return {Kind::partial, *first, std::min(last.value_or(size - 1), size - 1) - *first + 1};
 }
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// The Range header of a request for one part of a file (RFC 9110, section 14).
+// The Range header of a request (RFC 9110, section 14).
 
 #include <cstdint>
 #include <string_view>
@@ -8,8 +8,8 @@ namespace imgeo {
 
 struct ByteRange {
   enum class Kind {
-    whole,         ///< no range, one we need not honour, or nonsense: send everything
-    part,          ///< `count` bytes from `first`
+    whole,         ///< no range, several ranges, or a malformed one: send everything
+    partial,       ///< `count` bytes from `first`
     unsatisfiable, ///< well-formed, but the file has no such byte
   };
   Kind kind = Kind::whole;

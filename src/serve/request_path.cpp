@@ -35,7 +35,7 @@ std::optional<std::string> percentDecode(std::string_view text) {
   return decoded;
 }
 
-/// Proxies send "http://host/path"; what follows the authority is the path.
+/// The path of an absolute target, "http://host/path", which proxies send.
 std::string_view withoutOrigin(std::string_view target) {
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (!target.starts_with(scheme))
@@ -64,7 +64,7 @@ std::optional<RequestPath> parseRequestTarget(std::string_view target) {
   for (std::size_t at = 1; at < target.size();) {
     const std::size_t end = std::min(target.find('/', at), target.size());
     std::optional<std::string> name = percentDecode(target.substr(at, end - at));
-    // Decoding comes after splitting: an escaped slash belongs to no name we serve.
+    // Decoding comes after splitting: a name with an escaped slash is refused.
     if (!name || *name == ".." || name->find_first_of(std::string_view("/\0", 2)) != std::string::npos)
       return std::nullopt;
     const bool isSkipped = name->empty() || *name == ".";

@@ -1,5 +1,5 @@
 #pragma once
-// The path of a request: percent-decoding, and the names it may contain.
+// The path of a request: percent-decoding and validation.
 // RFC 9112 (request target), RFC 3986 (percent-encoding).
 
 #include <optional>
@@ -10,19 +10,18 @@
 namespace imgeo {
 
 struct RequestPath {
-  std::vector<std::string> names; ///< decoded, from the root; never empty, "." , ".." or with '/' or NUL
+  std::vector<std::string> names; ///< decoded, from the root; none is empty, "." or "..", or contains '/' or NUL
   bool isDirectory = false;       ///< ends in a slash (the root does)
 
   friend bool operator==(const RequestPath&, const RequestPath&) = default;
 };
 
-/// Reads a request target, "/a%20b/c?query" or "http://host/a". Nothing comes back
-/// for what is no path, for a broken escape, and for "..", which no browser sends.
-/// Safe for untrusted bytes.
+/// Parses a request target, "/a%20b/c?query" or "http://host/a". Empty for a target without a path, a malformed escape,
+/// or "..", which browsers resolve before they send. Safe for untrusted bytes.
 std::optional<RequestPath> parseRequestTarget(std::string_view target);
 
-/// The path as a target again: a slash in front, one behind if it is a directory,
-/// everything but unreserved characters escaped.
+/// The path as a request target: a slash in front, one behind a directory, every character percent-encoded that is not
+/// unreserved.
 std::string formatRequestPath(const RequestPath& path);
 
 } // namespace imgeo

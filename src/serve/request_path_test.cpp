@@ -33,11 +33,11 @@ TEST(RequestPath, ASlashAtTheEndMeansADirectory) {
   EXPECT_FALSE(parseRequestTarget("/a?/")->isDirectory);
 }
 
-TEST(RequestPath, EmptyNamesAndSingleDotsAreNothing) {
+TEST(RequestPath, EmptyNamesAndSingleDotsAreSkipped) {
   EXPECT_EQ(namesOf("//a/./b//c"), (Names{"a", "b", "c"}));
 }
 
-TEST(RequestPath, WhatLeadsUpwardsIsRefusedHoweverItIsWritten) {
+TEST(RequestPath, ParentDirectoriesAreRefusedInEveryEscapedForm) {
   for (const char* target :
        {"/..", "/../etc/passwd", "/a/../../b", "/%2e%2e/x", "/%2E./x", "/.%2e", "/a/..", "/a/..?x"})
     EXPECT_FALSE(parseRequestTarget(target)) << target;
@@ -48,12 +48,12 @@ TEST(RequestPath, NamesHoldNeitherSlashNorNul) {
     EXPECT_FALSE(parseRequestTarget(target)) << target;
 }
 
-TEST(RequestPath, BrokenEscapesAndForeignFormsAreRefused) {
+TEST(RequestPath, MalformedEscapesAndOtherTargetFormsAreRefused) {
   for (const char* target : {"", "a", "*", "/%", "/%4", "/%zz", "/%-1", "http:/a", "ftp://h/a", "?a", "host:80"})
     EXPECT_FALSE(parseRequestTarget(target)) << target;
 }
 
-TEST(RequestPath, AFormattedPathReadsAsTheSamePath) {
+TEST(RequestPath, AFormattedPathParsesToTheSamePath) {
   for (const char* target : {"/", "/a", "/a/", "/b%20c/%25%3F%23/%C3%A4%5C", "//x"}) {
     const auto path = parseRequestTarget(target);
     EXPECT_EQ(parseRequestTarget(formatRequestPath(*path)), path) << target;

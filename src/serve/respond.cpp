@@ -10,9 +10,8 @@ namespace imgeo {
 
 namespace {
 
-// Below, a compressed file is hardly smaller; above, compressing would keep a
-// thread for too long.
-constexpr std::uint64_t leastEncodedBytes = 256, mostEncodedBytes = 16u << 20;
+// Smaller files hardly shrink; compressing larger ones would block a thread for too long.
+constexpr std::uint64_t minEncodedBytes = 256, maxEncodedBytes = 16u << 20;
 
 constexpr std::string_view contentPolicy = "default-src 'self'";
 
@@ -44,7 +43,7 @@ Bytes readAll(const OpenFile& file) {
   return bytes;
 }
 
-/// The whole file, compressed.
+/// Sends the whole file, compressed.
 void sendEncoded(Response& response, const Site& site, const OpenFile& file, const std::string& tag,
                  const MediaType& type, ContentCoding coding) {
   response.content = site.codings.get(tag, [&] { return encodeContent(coding, readAll(file)); });
@@ -52,12 +51,12 @@ void sendEncoded(Response& response, const Site& site, const OpenFile& file, con
   response.fields.emplace_back("Content-Encoding", codingName(coding));
 }
 
-/// The file's own bytes, or the part of them that `range` asks for.
+/// Sends the file's own bytes, or the range of them.
 void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const MediaType& type, ByteRange range) {
   response.fileFirst = range.first;
   response.fileCount = range.count;
   response.fields.emplace_back("Accept-Ranges", "bytes");
-  if (range.kind == ByteRange::Kind::part) {
+  if (range.kind == ByteRange::Kind::partial) {
     response.status = 206;
     response.fields.emplace_back(
         "Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.first + range.count - 1, file->size()));
@@ -69,8 +68,8 @@ void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const M
 Response respondWithFile(const Site& site, const RequestHead& request, std::string_view fileName,
                          std::shared_ptr<const OpenFile> file) {
   const MediaType type = mediaTypeOf(fileName);
-  const bool varies = type.isCompressible && file->size() >= leastEncodedBytes && file->size() <= mostEncodedBytes;
-  // Ranges count the bytes of the file as it is, so a request for one gets no coding.
+  const bool varies = type.isCompressible && file->size() >= minEncodedBytes && file->size() <= maxEncodedBytes;
+  // Ranges count uncompressed bytes, so a range request gets no coding.
   const ContentCoding coding =
       varies && request.range.empty() ? chooseCoding(request.acceptEncoding) : ContentCoding::identity;
   const std::string suffix = coding == ContentCoding::identity ? "" : fmt::format("-{}", codingName(coding));
@@ -86,7 +85,7 @@ Response respondWithFile(const Site& site, const RequestHead& request, std::stri
     sendEncoded(response, site, *file, tag, type, coding);
     return response;
   }
-  // If-Range with another tag, or with a date, which we never sent: the whole file.
+  // If-Range with another tag, or with a date (this server sends no dates): the whole file.
   const bool hasRange =
       request.method == "GET" && !request.range.empty() && (request.ifRange.empty() || request.ifRange == tag);
   const ByteRange range = parseRange(hasRange ? request.range : "", file->size());
@@ -141,7 +140,7 @@ bool matchesAnyTag(std::string_view ifNoneMatch, std::string_view tag) {
       return true;
     if (ifNoneMatch.starts_with("W/"))
       ifNoneMatch.remove_prefix(2);
-    // No tag of ours holds a comma, so one that does may be cut anywhere.
+    // This server's tags hold no comma, so cutting at one cannot cut a tag that matches.
     const std::size_t end = std::min(ifNoneMatch.find_first_of(", \t"), ifNoneMatch.size());
     if (ifNoneMatch.substr(0, end) == tag)
       return true;

@@ -71,7 +71,7 @@ TEST_F(Respond, ADirectoryWithoutItsSlashIsRedirectedWithinTheSite) {
   }
 }
 
-TEST_F(Respond, WhatIsNotThereIsNotFound) {
+TEST_F(Respond, AMissingFileIsNotFound) {
   std::filesystem::create_directory(root() / "empty");
   for (const char* target : {"/missing", "/empty/", "/plane.bin/", "/plane.bin/x", "/index.html/"})
     EXPECT_EQ(get(target).status, 404u) << target;
@@ -105,14 +105,14 @@ TEST_F(Respond, HiddenFilesAndPipesAreNotServed) {
   EXPECT_EQ(get("/pipe").status, 404u);
 }
 
-TEST_F(Respond, ContentNamedFilesAreCachedForEverAndOthersAskAgain) {
+TEST_F(Respond, ContentNamedFilesAreImmutableAndOthersAreRevalidated) {
   EXPECT_EQ(get("/coord0-0123456789abcdef.png").field("Cache-Control"), "public, max-age=31536000, immutable");
   EXPECT_EQ(get("/plane.bin").field("Cache-Control"), "no-cache");
   EXPECT_EQ(get("/").field("Cache-Control"), "no-cache");
   EXPECT_EQ(get("/missing-0123456789abcdef.png").field("Cache-Control"), "no-cache");
 }
 
-TEST_F(Respond, AKnownTagIsAnsweredWithoutABody) {
+TEST_F(Respond, AMatchingTagIsAnsweredWithoutABody) {
   const std::string tag(get("/plane.bin").field("ETag"));
   for (const std::string& header : {tag, "W/" + tag, "\"other\", " + tag, std::string("*")}) {
     RequestHead head;
@@ -134,7 +134,7 @@ TEST_F(Respond, AChangedFileHasAnotherTag) {
   EXPECT_NE(get("/plane.bin").field("ETag"), tag);
 }
 
-TEST_F(Respond, APartOfAFileIsSentAlone) {
+TEST_F(Respond, ARangeOfAFileIsSentAlone) {
   RequestHead head;
   head.range = "bytes=2-4";
   const Response response = get("/plane.bin", head);
@@ -144,7 +144,7 @@ TEST_F(Respond, APartOfAFileIsSentAlone) {
   EXPECT_EQ(bodyOf(response), "234");
 }
 
-TEST_F(Respond, APartBehindTheEndIsRefusedWithTheSize) {
+TEST_F(Respond, ARangeBeyondTheEndIsRefusedWithTheSize) {
   RequestHead head;
   head.range = "bytes=10-";
   const Response response = get("/plane.bin", head);
@@ -152,7 +152,7 @@ TEST_F(Respond, APartBehindTheEndIsRefusedWithTheSize) {
   EXPECT_EQ(response.field("Content-Range"), "bytes */10");
 }
 
-TEST_F(Respond, IfRangeTurnsAPartIntoTheWholeUnlessTheTagIsTheSame) {
+TEST_F(Respond, IfRangeWithAnotherTagSendsTheWholeFile) {
   const std::string tag(get("/plane.bin").field("ETag"));
   RequestHead head;
   head.range = "bytes=2-4";
@@ -165,7 +165,7 @@ TEST_F(Respond, IfRangeTurnsAPartIntoTheWholeUnlessTheTagIsTheSame) {
   }
 }
 
-TEST_F(Respond, TextIsCompressedForThoseWhoTakeIt) {
+TEST_F(Respond, TextIsCompressedWhereTheClientAcceptsIt) {
   RequestHead head;
   head.acceptEncoding = "gzip, br";
   const Response packed = get("/", head), plain = get("/");
@@ -174,7 +174,7 @@ TEST_F(Respond, TextIsCompressedForThoseWhoTakeIt) {
   EXPECT_EQ(plain.field("Vary"), "Accept-Encoding");
   EXPECT_LT(bodyOf(packed).size(), 100u);
   EXPECT_EQ(packed.field("Content-Length"), std::to_string(bodyOf(packed).size()));
-  // A strong tag names one sequence of bytes.
+  // A strong tag identifies one sequence of bytes, so each coding needs its own.
   EXPECT_NE(packed.field("ETag"), plain.field("ETag"));
   head.ifNoneMatch = packed.field("ETag");
   EXPECT_EQ(get("/", head).status, 304u);
@@ -182,7 +182,7 @@ TEST_F(Respond, TextIsCompressedForThoseWhoTakeIt) {
   EXPECT_EQ(get("/", head).status, 200u);
 }
 
-TEST_F(Respond, PicturesAndPartsOfTextAreSentAsTheyAre) {
+TEST_F(Respond, ImagesAndRangesOfTextAreNotCompressed) {
   put("large.png", std::string(5000, 'x'));
   RequestHead head;
   head.acceptEncoding = "br";
@@ -215,8 +215,8 @@ TEST_F(Respond, OtherMethodsAreRefused) {
   }
 }
 
-TEST_F(Respond, NoFieldCarriesAnythingOfTheRequest) {
-  // Else a request could write fields into its own answer.
+TEST_F(Respond, NoResponseFieldContainsTextOfTheRequest) {
+  // Otherwise a request could inject fields into its response.
   std::filesystem::create_directory(root() / "a\r\nSet-Cookie: b");
   const Response response = get("/a%0d%0aSet-Cookie:%20b");
   EXPECT_EQ(response.field("Location"), "/a%0D%0ASet-Cookie%3A%20b/");

@@ -31,9 +31,9 @@ using ErrorCode = boost::system::error_code;
 namespace {
 
 constexpr std::size_t codingCacheBytes = std::size_t{128} << 20;
-constexpr auto pauseWithoutDescriptors = std::chrono::milliseconds(100);
+constexpr auto retryDelay = std::chrono::milliseconds(100);
 
-/// Every connection needs a descriptor, and Debian's soft limit is 1024.
+/// Every connection needs a file descriptor, and the usual soft limit is 1024.
 void raiseOpenFileLimit() {
   struct rlimit limit {};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0)
@@ -61,7 +61,7 @@ tcp::acceptor listenOn(asio::io_context& context, const std::string& host, std::
   const tcp::endpoint endpoint = addresses.begin()->endpoint();
   tcp::acceptor acceptor(asio::make_strand(context));
   acceptor.open(endpoint.protocol());
-  // A port whose last server is gone may be had again at once.
+  // Allows rebinding a port immediately after its last server has ended.
   acceptor.set_option(tcp::acceptor::reuse_address(true));
   acceptor.bind(endpoint, failure);
   if (!failure)
@@ -73,8 +73,8 @@ tcp::acceptor listenOn(asio::io_context& context, const std::string& host, std::
   return acceptor;
 }
 
-unsigned threadCount(unsigned wanted) {
-  return wanted > 0 ? wanted : std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
+unsigned threadCount(unsigned requested) {
+  return requested > 0 ? requested : std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
 }
 
 } // namespace
@@ -83,7 +83,7 @@ struct Server::State {
   explicit State(const ServeOptions& o)
       : options(o), codings(codingCacheBytes), site{canonicalDirectory(o.directory), codings},
         acceptor(listenOn(context, o.host, o.port)), endpoint(acceptor.local_endpoint()),
-        signals(acceptor.get_executor()), patience(acceptor.get_executor()), pause(acceptor.get_executor()) {}
+        signals(acceptor.get_executor()), stopTimer(acceptor.get_executor()), retryTimer(acceptor.get_executor()) {}
 
   asio::awaitable<void> acceptConnections();
   void startSession(tcp::socket socket);
@@ -98,7 +98,7 @@ struct Server::State {
   tcp::acceptor acceptor;
   const tcp::endpoint endpoint;
   asio::signal_set signals;
-  asio::steady_timer patience, pause;
+  asio::steady_timer stopTimer, retryTimer;
   std::set<std::shared_ptr<Session>> sessions;
   bool isStopping = false;
 };
@@ -111,9 +111,9 @@ asio::awaitable<void> Server::State::acceptConnections() {
     if (!failure && !isStopping)
       startSession(std::move(socket));
     if (failure && !isStopping) {
-      // Out of descriptors, most likely: those who wait in the queue are served when others leave.
-      pause.expires_after(pauseWithoutDescriptors);
-      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, failure));
+      // Probably out of file descriptors: waits until other connections close, while new ones stay in the queue.
+      retryTimer.expires_after(retryDelay);
+      co_await retryTimer.async_wait(asio::redirect_error(asio::use_awaitable, failure));
     }
   }
 }
@@ -132,7 +132,7 @@ void Server::State::startSession(tcp::socket socket) {
 void Server::State::endSession(const std::shared_ptr<Session>& session) {
   sessions.erase(session);
   if (isStopping && sessions.empty())
-    patience.cancel();
+    stopTimer.cancel();
 }
 
 void Server::State::beginStop() {
@@ -142,13 +142,13 @@ void Server::State::beginStop() {
   ErrorCode ignored;
   acceptor.close(ignored);
   signals.cancel(ignored);
-  pause.cancel();
+  retryTimer.cancel();
   for (const auto& session : sessions)
     asio::post(session->executor(), [session] { session->finish(); });
   if (sessions.empty())
     return;
-  patience.expires_after(std::chrono::milliseconds(options.stopTimeoutMs));
-  patience.async_wait([this](ErrorCode cancelled) {
+  stopTimer.expires_after(std::chrono::milliseconds(options.stopTimeoutMs));
+  stopTimer.async_wait([this](ErrorCode cancelled) {
     if (cancelled)
       return;
     for (const auto& session : sessions)
@@ -158,7 +158,7 @@ void Server::State::beginStop() {
 
 Server::Server(const ServeOptions& options) : state_(std::make_unique<State>(options)) {
   raiseOpenFileLimit();
-  // Caught from here on: a Ctrl-C before run() is kept for it.
+  // Registers the signals now, so that one that arrives before run() is not lost.
   if (options.stopOnSignals) {
     state_->signals.add(SIGINT);
     state_->signals.add(SIGTERM);

@@ -17,7 +17,7 @@
 namespace imgeo {
 namespace {
 
-/// A client of one connection, bytes as they are: what a polite library would not send.
+/// A client of one connection that sends raw bytes, also invalid requests.
 class Client {
 public:
   explicit Client(std::uint16_t port, int receiveBuffer = 0) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -40,14 +40,14 @@ public:
     return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
   void sendEnd() const { ::shutdown(socket_, SHUT_WR); }
-  /// Everything up to the end of the connection.
+  /// All bytes up to the end of the connection.
   std::string receiveAll() const {
     std::string all;
     while (const std::optional<std::string> more = receiveSome())
       all += *more;
     return all;
   }
-  /// One answer with a Content-Length.
+  /// One response with a Content-Length.
   std::string receiveAnswer() const {
     std::string answer;
     for (;;) {
@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  /// Nothing at the end of the connection, or when nothing came for ten seconds.
+  /// Empty at the end of the connection, or after ten seconds without bytes.
   std::optional<std::string> receiveSome(std::size_t most = 1 << 16) const {
     std::string part(most, '\0');
     const ssize_t got = ::recv(socket_, part.data(), part.size(), 0);
@@ -125,20 +125,20 @@ TEST_F(ServerOverLoopback, ServesAFile) {
   EXPECT_NE(answer.find("\r\nConnection: close\r\n"), std::string::npos);
 }
 
-TEST_F(ServerOverLoopback, NamesTheAddressThatItIsReachedAt) {
+TEST_F(ServerOverLoopback, ReturnsItsUrl) {
   const std::uint16_t port = start();
   EXPECT_NE(port, 0);
   EXPECT_EQ(server_->url(), fmt::format("http://127.0.0.1:{}/", port));
 }
 
-TEST_F(ServerOverLoopback, ALargeFileComesWholeAndInOrder) {
+TEST_F(ServerOverLoopback, ALargeFileArrivesCompleteAndInOrder) {
   Client client(start());
   client.send(requestFor("/large.bin", lastRequest));
   const std::string answer = client.receiveAll();
   EXPECT_TRUE(answer.ends_with(asText(large_)));
 }
 
-TEST_F(ServerOverLoopback, APartOfALargeFileIsThatPart) {
+TEST_F(ServerOverLoopback, ARangeOfALargeFileIsExact) {
   Client client(start());
   client.send(requestFor("/large.bin", "Range: bytes=1000001-1200000\r\nConnection: close\r\n"));
   const std::string answer = client.receiveAll();
@@ -146,7 +146,7 @@ TEST_F(ServerOverLoopback, APartOfALargeFileIsThatPart) {
   EXPECT_EQ(answer.substr(answer.find("\r\n\r\n") + 4), asText(large_).substr(1'000'001, 200'000));
 }
 
-TEST_F(ServerOverLoopback, AConnectionServesOneRequestAfterAnother) {
+TEST_F(ServerOverLoopback, AConnectionServesSeveralRequests) {
   Client client(start());
   for (int i = 0; i < 3; ++i) {
     client.send(requestFor("/"));
@@ -167,7 +167,7 @@ TEST_F(ServerOverLoopback, PipelinedRequestsAreAnsweredInOrder) {
   EXPECT_TRUE(answers.ends_with("<p>hello</p>"));
 }
 
-TEST_F(ServerOverLoopback, ARequestThatComesByteByByteIsUnderstood) {
+TEST_F(ServerOverLoopback, ARequestThatArrivesByteByByteIsAnswered) {
   Client client(start());
   for (const char c : requestFor("/", lastRequest)) {
     client.send({&c, 1});
@@ -176,7 +176,7 @@ TEST_F(ServerOverLoopback, ARequestThatComesByteByByteIsUnderstood) {
   EXPECT_TRUE(client.receiveAll().ends_with("<p>hello</p>"));
 }
 
-TEST_F(ServerOverLoopback, HostileRequestsAreRefusedAndTheServerLives) {
+TEST_F(ServerOverLoopback, HostileRequestsAreRefusedAndTheServerContinues) {
   const std::uint16_t port = start();
   const std::pair<std::string, const char*> cases[] = {
       {"\r\n\r\n\r\n", "400"},
@@ -211,7 +211,7 @@ TEST_F(ServerOverLoopback, HostileRequestsAreRefusedAndTheServerLives) {
   EXPECT_TRUE(client.receiveAll().ends_with("<p>hello</p>"));
 }
 
-TEST_F(ServerOverLoopback, WhatFollowsABodyIsNeverTakenForARequest) {
+TEST_F(ServerOverLoopback, BytesBehindABodyAreNotReadAsARequest) {
   Client client(start());
   const std::string hidden = requestFor("/large.bin");
   client.send(fmt::format("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: {}\r\n\r\n{}", hidden.size(), hidden));
@@ -219,7 +219,7 @@ TEST_F(ServerOverLoopback, WhatFollowsABodyIsNeverTakenForARequest) {
   EXPECT_TRUE(answer.ends_with("<p>hello</p>")) << answer.size();
 }
 
-TEST_F(ServerOverLoopback, AHeadThatNeverEndsIsGivenUp) {
+TEST_F(ServerOverLoopback, AnUnfinishedHeadTimesOut) {
   ServeOptions options;
   options.headTimeoutMs = 200;
   Client client(start(options));
@@ -229,7 +229,7 @@ TEST_F(ServerOverLoopback, AHeadThatNeverEndsIsGivenUp) {
   EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5));
 }
 
-TEST_F(ServerOverLoopback, AClientThatTakesNothingIsGivenUp) {
+TEST_F(ServerOverLoopback, AClientThatDoesNotReadTimesOut) {
   ServeOptions options;
   options.writeTimeoutMs = 200;
   Client client(start(options), 4096);
@@ -238,7 +238,7 @@ TEST_F(ServerOverLoopback, AClientThatTakesNothingIsGivenUp) {
   EXPECT_LT(client.receiveAll().size(), large_.size());
 }
 
-TEST_F(ServerOverLoopback, ManyConnectionsAtOnceAreAllServed) {
+TEST_F(ServerOverLoopback, ManySimultaneousConnectionsAreServed) {
   ServeOptions options;
   options.threads = 2;
   const std::uint16_t port = start(options);
@@ -253,7 +253,7 @@ TEST_F(ServerOverLoopback, ManyConnectionsAtOnceAreAllServed) {
     EXPECT_TRUE(client->receiveAnswer().ends_with("<p>hello</p>"));
 }
 
-TEST_F(ServerOverLoopback, StoppingClosesIdleConnectionsAtOnce) {
+TEST_F(ServerOverLoopback, StopClosesIdleConnectionsImmediately) {
   Client client(start());
   client.send(requestFor("/"));
   client.receiveAnswer();
@@ -263,7 +263,7 @@ TEST_F(ServerOverLoopback, StoppingClosesIdleConnectionsAtOnce) {
   EXPECT_EQ(client.receiveAll(), "");
 }
 
-TEST_F(ServerOverLoopback, StoppingFinishesAnswersThatAreUnderWay) {
+TEST_F(ServerOverLoopback, StopFinishesResponsesThatHaveBegun) {
   const std::uint16_t port = start();
   Client client(port, 4096);
   client.send(requestFor("/large.bin"));
@@ -274,7 +274,7 @@ TEST_F(ServerOverLoopback, StoppingFinishesAnswersThatAreUnderWay) {
   EXPECT_FALSE(Client(port).isConnected());
 }
 
-TEST_F(ServerOverLoopback, StoppingWaitsForNobodyLongerThanItsTimeout) {
+TEST_F(ServerOverLoopback, StopWaitsNoLongerThanItsTimeout) {
   ServeOptions options;
   options.stopTimeoutMs = 200;
   Client client(start(options), 4096);
@@ -285,7 +285,7 @@ TEST_F(ServerOverLoopback, StoppingWaitsForNobodyLongerThanItsTimeout) {
   EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(3));
 }
 
-TEST_F(ServerOverLoopback, StoppedBeforeItRunsItReturnsAtOnce) {
+TEST_F(ServerOverLoopback, RunReturnsImmediatelyAfterAnEarlierStop) {
   ServeOptions options;
   options.directory = site_.path();
   options.port = 0;
@@ -295,7 +295,7 @@ TEST_F(ServerOverLoopback, StoppedBeforeItRunsItReturnsAtOnce) {
   server.run();
 }
 
-TEST_F(ServerOverLoopback, AnInterruptStopsItAsStopDoes) {
+TEST_F(ServerOverLoopback, AnInterruptSignalStopsTheServer) {
   ServeOptions options;
   options.directory = site_.path();
   options.port = 0;
@@ -306,7 +306,7 @@ TEST_F(ServerOverLoopback, AnInterruptStopsItAsStopDoes) {
   thread.join();
 }
 
-TEST_F(ServerOverLoopback, APortThatIsTakenIsSaidInOneSentence) {
+TEST_F(ServerOverLoopback, APortInUseIsAnErrorOfOneSentence) {
   ServeOptions options;
   options.directory = site_.path();
   options.port = start();
@@ -319,7 +319,7 @@ TEST_F(ServerOverLoopback, APortThatIsTakenIsSaidInOneSentence) {
   }
 }
 
-TEST_F(ServerOverLoopback, ADirectoryThatIsNoneAndAHostThatIsNoneAreErrors) {
+TEST_F(ServerOverLoopback, AMissingDirectoryAndAnInvalidHostAreErrors) {
   ServeOptions options;
   options.port = 0;
   options.directory = site_.path() / "missing";

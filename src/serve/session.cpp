@@ -21,9 +21,9 @@ namespace http = boost::beast::http;
 
 namespace {
 
-constexpr std::uint32_t mostHeadBytes = 16 * 1024;
+constexpr std::uint32_t maxHeadBytes = 16 * 1024;
 constexpr std::size_t chunkBytes = 64 * 1024;
-constexpr std::size_t mostDrainedBytes = 1024 * 1024;
+constexpr std::size_t maxDrainedBytes = 1024 * 1024;
 constexpr auto drainTimeout = std::chrono::seconds(2);
 
 std::string_view view(boost::string_view text) {
@@ -59,7 +59,7 @@ Response refusalOf(beast::error_code failure) {
   return refuse(400, "The request is malformed.");
 }
 
-/// A failure of the parser, which deserves an answer, unlike one of the network.
+/// Whether a failure is one of the parser, which is answered, and not one of the network.
 bool isMalformed(beast::error_code failure) {
   return failure.category() == make_error_code(http::error::bad_method).category() &&
          failure != http::error::end_of_stream && failure != http::error::partial_message;
@@ -68,15 +68,15 @@ bool isMalformed(beast::error_code failure) {
 } // namespace
 
 Session::Session(beast::tcp_stream stream, const Site& site, SessionLimits limits)
-    : stream_(std::move(stream)), site_(site), limits_(limits), received_(mostHeadBytes) {}
+    : stream_(std::move(stream)), site_(site), limits_(limits), received_(maxHeadBytes) {}
 
 asio::awaitable<void> Session::run() {
   try {
     co_await serveRequests();
   } catch (const boost::system::system_error&) {
-    // The client is gone or too slow: nobody is left to tell.
+    // The client has disconnected or is too slow.
   } catch (const Error&) {
-    // A file broke off after its head was sent: a short body tells the client.
+    // A file could not be read after the head was sent. The client sees a body shorter than Content-Length.
   }
   beast::error_code ignored;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
@@ -84,19 +84,19 @@ asio::awaitable<void> Session::run() {
 }
 
 asio::awaitable<void> Session::serveRequests() {
-  // A request may carry less than a packet: answers must not wait for more.
+  // Responses may be smaller than a packet; they must not wait for more data.
   stream_.socket().set_option(asio::ip::tcp::no_delay(true));
   for (bool keepAlive = true; keepAlive && !isFinishing_;) {
     Parser parser;
     if (!co_await readHead(parser))
       co_return;
     const auto& request = parser.get();
-    // A body is never read; what follows it could be taken for a request.
+    // Request bodies are not read, so the connection closes: its next bytes could be mistaken for a request.
     const bool hasBody = parser.chunked() || parser.content_length().value_or(0) > 0;
     const bool isModern = request.version() >= 11;
     keepAlive = isModern && request.keep_alive() && !hasBody && !isFinishing_;
-    const bool isNameless = isModern && request.find(http::field::host) == request.end();
-    const Response response = isNameless ? refuse(400, "The request names no host.") : respond(site_, headOf(request));
+    const bool lacksHost = isModern && request.find(http::field::host) == request.end();
+    const Response response = lacksHost ? refuse(400, "The request names no host.") : respond(site_, headOf(request));
     co_await write(response, keepAlive);
     isAnswering_ = false;
   }
@@ -105,8 +105,8 @@ asio::awaitable<void> Session::serveRequests() {
 
 /// Reads the next request head; false if there is none.
 asio::awaitable<bool> Session::readHead(Parser& parser) {
-  parser.header_limit(mostHeadBytes);
-  // Once for the whole head: a client that sends a byte now and then gains nothing.
+  parser.header_limit(maxHeadBytes);
+  // One deadline for the whole head: sending single bytes slowly does not extend it.
   stream_.expires_after(std::chrono::milliseconds(limits_.headTimeoutMs));
   beast::error_code failure;
   co_await http::async_read_header(stream_, received_, parser, asio::redirect_error(asio::use_awaitable, failure));
@@ -129,25 +129,25 @@ asio::awaitable<void> Session::write(const Response& response, bool keepAlive) {
   std::uint64_t sent = 0;
   const std::uint64_t count = response.content ? response.content->size() : response.file ? response.fileCount : 0;
   do {
-    const std::size_t part = static_cast<std::size_t>(std::min<std::uint64_t>(count - sent, chunkBytes));
+    const std::size_t length = static_cast<std::size_t>(std::min<std::uint64_t>(count - sent, chunkBytes));
     asio::const_buffer body;
     if (response.content) {
-      body = asio::buffer(response.content->data() + sent, part);
+      body = asio::buffer(response.content->data() + sent, length);
     } else if (response.file) {
-      chunk.resize(part);
-      if (response.file->readAt(response.fileFirst + sent, chunk) < part)
+      chunk.resize(length);
+      if (response.file->readAt(response.fileFirst + sent, chunk) < length)
         throw Error(ErrorKind::truncated, "", "a file became shorter while it was sent");
       body = asio::buffer(chunk);
     }
     const std::array<asio::const_buffer, 2> buffers{sent == 0 ? asio::buffer(head) : asio::const_buffer(), body};
     stream_.expires_after(limit);
     co_await asio::async_write(stream_, buffers, asio::use_awaitable);
-    sent += part;
+    sent += length;
   } while (sent < count);
 }
 
-/// Lets the client read the last answer: closing while bytes of his are unread would
-/// reset the connection, and throw away what he has not yet taken (RFC 9112, section 9.6).
+/// Lets the client read the last response: closing while received bytes are unread would reset the connection and
+/// discard what the client has not yet received (RFC 9112, section 9.6).
 asio::awaitable<void> Session::drain() {
   beast::error_code failure;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, failure);
@@ -155,7 +155,7 @@ asio::awaitable<void> Session::drain() {
     co_return;
   stream_.expires_after(drainTimeout);
   Bytes discarded(4096);
-  for (std::size_t total = 0; !failure && total < mostDrainedBytes;)
+  for (std::size_t total = 0; !failure && total < maxDrainedBytes;)
     total +=
         co_await stream_.async_read_some(asio::buffer(discarded), asio::redirect_error(asio::use_awaitable, failure));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// One connection: requests are read and answered in turn until one side has enough.
+// One connection: requests are read and answered in order until either side closes it.
 
 #include "serve/respond.h"
 
@@ -17,17 +17,17 @@ struct SessionLimits {
   unsigned headTimeoutMs = 0, writeTimeoutMs = 0;
 };
 
-/// Runs on the strand of its stream; every member is called there.
+/// Every member runs on the strand of the stream.
 class Session {
 public:
   Session(boost::beast::tcp_stream stream, const Site& site, SessionLimits limits);
 
   boost::beast::tcp_stream::executor_type executor() { return stream_.get_executor(); }
-  /// Serves the connection to its end. Throws nothing: a connection that fails is closed.
+  /// Serves the connection to its end. Does not throw: a connection that fails is closed.
   boost::asio::awaitable<void> run();
-  /// Ends after the answer that is under way; at once if there is none.
+  /// Closes the connection after the current response; immediately where there is none.
   void finish();
-  /// Ends now.
+  /// Closes the connection immediately.
   void abort();
 
 private:

@@ -12,23 +12,22 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::size_t kMaxDeflateRatio = 1032;
-constexpr std::size_t kSmallestMember = 18;
+constexpr std::size_t maxDeflateRatio = 1032;
+constexpr std::size_t minMemberBytes = 18;
 
 struct FreeDecompressor {
   void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
 };
 
-/// The last member's size modulo 2^32, as the file says: exact for most files, a
-/// first guess for the others.
+/// The unpacked size modulo 2^32 that the last member states: exact for files of one member, a first guess for others.
 std::size_t statedSize(ByteSpan bytes) {
-  return bytes.size() < kSmallestMember ? 0 : loadLittle<std::uint32_t>(&bytes[bytes.size() - 4]);
+  return bytes.size() < minMemberBytes ? 0 : loadLittle<std::uint32_t>(&bytes[bytes.size() - 4]);
 }
 
 } // namespace
 
 std::size_t unpackedLimit(std::size_t packed) {
-  return std::min(packed * kMaxDeflateRatio, std::max(kAnyRatioBytes, packed * kMaxUnpackRatio));
+  return std::min(packed * maxDeflateRatio, std::max(unlimitedRatioBytes, packed * maxUnpackRatio));
 }
 
 bool isGzip(ByteSpan bytes) {

@@ -32,7 +32,7 @@ TEST(Gzip, UnpacksWhatWasPacked) {
     EXPECT_EQ(gunzip(gzip(countingBytes(size)), "m.gz"), countingBytes(size));
 }
 
-TEST(Gzip, UnpacksAllMembersAndPassesOverPadding) {
+TEST(Gzip, UnpacksAllMembersAndIgnoresPadding) {
   const Bytes a = countingBytes(100000), b = countingBytes(5), none;
   Bytes packed = joined(joined(gzip(a), gzip(none)), gzip(b));
   EXPECT_EQ(gunzip(packed, "m.gz"), joined(a, b));
@@ -46,7 +46,7 @@ TEST(Gzip, EveryProperPrefixIsRefused) {
     EXPECT_THROW(gunzip(ByteSpan(packed).first(size), "m.gz"), Error) << size;
 }
 
-TEST(Gzip, RefusesDamageAndWhatFollowsWithItsByte) {
+TEST(Gzip, NamesTheByteOfDamageAndOfTrailingData) {
   Bytes damaged = gzip(countingBytes(3000));
   damaged[damaged.size() - 6] ^= 1; // its check sum
   EXPECT_EQ(errorOf(damaged, "m.ply.gz").kind(), ErrorKind::malformed);
@@ -57,9 +57,9 @@ TEST(Gzip, RefusesDamageAndWhatFollowsWithItsByte) {
 }
 
 TEST(Gzip, RefusesABomb) {
-  const Bytes bomb = gzip(Bytes(kAnyRatioBytes + 1));
+  const Bytes bomb = gzip(Bytes(unlimitedRatioBytes + 1));
   EXPECT_EQ(errorOf(bomb, "bomb.ply.gz").kind(), ErrorKind::limit);
-  Bytes lie = gzip(countingBytes(1000)); // 4 GiB, says its last field
+  Bytes lie = gzip(countingBytes(1000)); // its last field states 4 GiB
   std::fill(lie.end() - 4, lie.end(), std::uint8_t{0xff});
   EXPECT_EQ(errorOf(lie, "lie.ply.gz").kind(), ErrorKind::malformed);
 }

@@ -11,11 +11,11 @@ namespace imgeo {
 namespace {
 
 constexpr std::string_view archive = "PK\3\4", entry = "PK\1\2", endOfDirectory = "PK\5\6";
-constexpr std::size_t entryBytes = 46, endBytes = 22, longestComment = 65535;
+constexpr std::size_t entryBytes = 46, endBytes = 22, maxCommentBytes = 65535;
 
-/// Where the central directory begins; the size of the archive where there is none.
+/// The offset of the central directory; the size of the archive where there is none.
 std::size_t directoryOf(ByteSpan bytes) {
-  const std::size_t tail = std::min(bytes.size(), endBytes + longestComment);
+  const std::size_t tail = std::min(bytes.size(), endBytes + maxCommentBytes);
   const std::size_t at = asText(bytes.last(tail)).rfind(endOfDirectory);
   if (at == std::string_view::npos || tail - at < endBytes)
     return bytes.size();
@@ -28,7 +28,7 @@ std::uint64_t unpackedZipBytes(ByteSpan bytes) {
   std::uint64_t sum = 0;
   ByteSpan rest = bytes.subspan(directoryOf(bytes));
   while (rest.size() >= entryBytes && asText(rest).starts_with(entry)) {
-    // Sizes beyond 32 bits are this one's largest and stand elsewhere.
+    // For sizes beyond 32 bits this field is 0xffffffff, which exceeds the limit anyway.
     sum += loadLittle<std::uint32_t>(&rest[24]);
     const std::size_t names = std::size_t{loadLittle<std::uint16_t>(&rest[28])} + loadLittle<std::uint16_t>(&rest[30]) +
                               loadLittle<std::uint16_t>(&rest[32]);

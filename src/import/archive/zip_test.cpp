@@ -13,7 +13,7 @@ void append(Bytes& bytes, std::string_view text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
 }
 
-/// An archive of `packed` bytes that are said to unpack to these sizes.
+/// An archive of `packed` bytes whose directory states these unpacked sizes.
 Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view comment = "", std::size_t packed = 0) {
   Bytes bytes;
   append(bytes, "PK\3\4 what it holds PK\1\2");
@@ -36,23 +36,23 @@ Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view commen
   return bytes;
 }
 
-TEST(Zip, AddsUpWhatItsEntriesUnpackTo) {
+TEST(Zip, SumsTheUnpackedSizesOfItsEntries) {
   EXPECT_EQ(unpackedZipBytes(archiveOf({})), 0u);
   EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 20, 3})), 1023u);
   EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 0xffffffff}, "a comment")), 1000 + 0xffffffffull);
 }
 
-TEST(Zip, IsReadToWhereItEndsAndNoFurther) {
+TEST(Zip, ReadsEveryTruncationSafely) {
   const Bytes whole = archiveOf({7, 7, 7});
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_LE(unpackedZipBytes(ByteSpan(whole).first(size)), 21u) << size;
   EXPECT_EQ(unpackedZipBytes(ByteSpan(whole).first(whole.size() - 1)), 0u);
 }
 
-TEST(Zip, OfMoreThanAModelUnpacksToIsRefused) {
-  const auto limit = static_cast<std::uint32_t>(kAnyRatioBytes);
+TEST(Zip, RefusesAnArchiveBeyondTheLimit) {
+  const auto limit = static_cast<std::uint32_t>(unlimitedRatioBytes);
   EXPECT_NO_THROW(refuseZipBomb(archiveOf({limit}, "", limit / 500), "m.3mf"));
-  EXPECT_NO_THROW(refuseZipBomb(Bytes(1000), "m.3mf")) << "no archive";
+  EXPECT_NO_THROW(refuseZipBomb(Bytes(1000), "m.3mf")) << "not an archive";
   try {
     refuseZipBomb(archiveOf({limit, 0xffffffff}), "m.3mf");
     FAIL();

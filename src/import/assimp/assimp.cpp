@@ -1,5 +1,3 @@
-// Every format that Assimp reads and we do not: its scene -> ours.
-
 #include "import/assimp/assimp.h"
 #include "import/archive/zip.h"
 #include "import/assimp/files.h"
@@ -30,8 +28,7 @@ namespace imgeo {
 namespace {
 
 constexpr std::size_t maxNodeDepth = 200;
-/// Of meshes without normals, edges sharper than this stay sharp: these formats are of
-/// things that were built, and walls that share shading with the next look like cushions.
+/// The crease angle of meshes without normals. These formats mostly hold man-made objects, whose edges should be sharp.
 constexpr double creaseAngle = 45 * std::numbers::pi / 180;
 
 Vec3d vectorOf(const aiVector3D& v) {
@@ -47,7 +44,7 @@ bool isFinite(const Affine3d& map) {
                              [](Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); });
 }
 
-/// Names that importers make up say nothing.
+/// A node's name; empty for names that Assimp generates.
 std::string nameOf(const aiString& name) {
   const std::string text = name.C_Str();
   const bool isMadeUp = text.starts_with('$') || text.starts_with('<') || text == "ROOT" || text == "RootNode";
@@ -79,12 +76,12 @@ public:
 private:
   SceneGraph& graph() { return imported_.scene.graph; }
 
-  /// The root of most formats is nobody's node.
+  /// Adds the root node, or its children where Assimp has generated the root.
   void readRoot(const aiNode& root) {
     const std::size_t node = readNode(root, 1);
     const Node& read = graph().nodes[node];
-    const bool isNothing = std::holds_alternative<Group>(read.content) && (read.name.empty() || root.mNumMeshes == 0);
-    graph().roots = isNothing ? read.children : std::vector{node};
+    const bool isGenerated = std::holds_alternative<Group>(read.content) && (read.name.empty() || root.mNumMeshes == 0);
+    graph().roots = isGenerated ? read.children : std::vector{node};
   }
 
   std::size_t readNode(const aiNode& source, std::size_t depth) {
@@ -107,7 +104,7 @@ private:
     return addNode(graph(), std::move(node));
   }
 
-  /// One shape a kind of element, which nodes then share.
+  /// Adds one shape per kind of element; all nodes with the mesh share it.
   void readMesh(unsigned index) {
     const aiMesh& source = *source_.mMeshes[index];
     std::vector<std::size_t>& shapes = shapesOf_.emplace_back();
@@ -134,13 +131,13 @@ private:
   }
 
   void addCorners(const aiMesh& source, Mesh& mesh) {
-    const std::uint32_t least = cornersPerElement(mesh.topology);
+    const std::uint32_t cornerCount = cornersPerElement(mesh.topology);
     std::vector<Vec3f> ring;
-    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> triangles;
     for (unsigned i = 0; i < source.mNumFaces; ++i) {
       const aiFace& face = source.mFaces[i];
       const bool isPolygon = mesh.topology == Topology::triangles && face.mNumIndices > 3;
-      if (face.mNumIndices != least && !isPolygon)
+      if (face.mNumIndices != cornerCount && !isPolygon)
         continue;
       for (unsigned c = 0; c < face.mNumIndices; ++c)
         if (face.mIndices[c] >= source.mNumVertices)
@@ -150,16 +147,16 @@ private:
         mesh.corners.insert(mesh.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
         continue;
       }
-      ring.clear(), places.clear();
+      ring.clear(), triangles.clear();
       for (unsigned c = 0; c < face.mNumIndices; ++c)
         ring.push_back(Vec3f(vectorOf(source.mVertices[face.mIndices[c]])));
-      fans_ += !triangulate(ring, places);
-      for (const std::uint32_t place : places)
-        mesh.corners.push_back(face.mIndices[place]);
+      fans_ += !triangulate(ring, triangles);
+      for (const std::uint32_t corner : triangles)
+        mesh.corners.push_back(face.mIndices[corner]);
     }
   }
 
-  /// Those that the corners use, in the order of their first use.
+  /// Adds the vertices that the corners use, in the order of first use.
   void addVertices(const aiMesh& source, Mesh& mesh) {
     std::vector<std::uint32_t> local(source.mNumVertices, ~0u);
     for (std::uint32_t& corner : mesh.corners) {
@@ -222,25 +219,26 @@ private:
       return;
     const aiLight& light = *found->second;
     const aiColor3D& c = light.mColorDiffuse;
-    // Sources have colours beyond 1, X3D an intensity.
-    const float most = std::max({c.r, c.g, c.b});
-    if (!(most > 0) || !std::isfinite(most))
+    // Assimp has colours beyond 1; X3D has an intensity.
+    const float intensity = std::max({c.r, c.g, c.b});
+    if (!(intensity > 0) || !std::isfinite(intensity))
       return;
-    const Vec3f color{std::max(c.r, 0.0f) / most, std::max(c.g, 0.0f) / most, std::max(c.b, 0.0f) / most};
+    const Vec3f color{std::max(c.r, 0.0f) / intensity, std::max(c.g, 0.0f) / intensity,
+                      std::max(c.b, 0.0f) / intensity};
     Vec3d attenuation{light.mAttenuationConstant, light.mAttenuationLinear, light.mAttenuationQuadratic};
     if (!(attenuation.x + attenuation.y + attenuation.z > 0))
       attenuation = {1, 0, 0};
-    constexpr double farthest = 1e6;
+    constexpr double radius = 1e6;
     const Vec3d position = vectorOf(light.mPosition), direction = vectorOf(light.mDirection);
     NodeContent content;
     if (light.mType == aiLightSource_DIRECTIONAL)
-      content = DirectionalLight{direction, color, most, true};
+      content = DirectionalLight{direction, color, intensity, true};
     else if (light.mType == aiLightSource_POINT)
-      content = PointLight{position, attenuation, farthest, color, most, true};
+      content = PointLight{position, attenuation, radius, color, intensity, true};
     else if (light.mType == aiLightSource_SPOT)
       content = SpotLight{
-          position, direction, light.mAngleInnerCone / 2.0, light.mAngleOuterCone / 2.0, attenuation, farthest, color,
-          most,     true};
+          position,  direction, light.mAngleInnerCone / 2.0, light.mAngleOuterCone / 2.0, attenuation, radius, color,
+          intensity, true};
     else {
       ++otherLights_;
       return;
@@ -264,7 +262,7 @@ private:
     add(lostTransforms_, "transform that is no number is", "transforms that are no numbers are");
     warnOfNormals(warnings, badNormals_);
     warnOfFans(warnings, fans_);
-    addLosses(warnings, materials_.losses(), isStrict_, name_);
+    addOmissions(warnings, materials_.omissions(), isStrict_, name_);
     materials_.addWarnings(warnings);
   }
 
@@ -297,7 +295,7 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
   SourceFiles files(bytes, name, references);
   const std::unique_ptr<aiPropertyStore, Release> properties(assimp().createPropertyStore());
   assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
-                                    false); // nodes, not their parts
+                                    false); // otherwise Assimp splits each node into several
   const std::unique_ptr<const aiScene, Release> scene(
       assimp().importFile(name.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));
   if (!scene) {
@@ -309,10 +307,10 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
   std::string format = extension;
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
   Imported imported = SceneReader(*scene, name, references, options.strict, extension).read(format);
-  std::vector<std::string> losses;
+  std::vector<std::string> omissions;
   for (const std::string& refused : files.refused())
-    losses.push_back(fmt::format("Not read: {}.", refused));
-  addLosses(imported.warnings, losses, options.strict, name);
+    omissions.push_back(fmt::format("Not read: {}.", refused));
+  addOmissions(imported.warnings, omissions, options.strict, name);
   return imported;
 }
 

@@ -9,7 +9,7 @@
 namespace imgeo::testing {
 namespace {
 
-/// Collada: a square, textured, that two nodes show; a camera and a light.
+/// Collada: a textured square that two nodes show; a camera and a light.
 const std::string collada = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
   <asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
@@ -48,7 +48,7 @@ const std::string collada = R"(<?xml version="1.0"?>
   <scene><instance_visual_scene url="#scene"/></scene>
 </COLLADA>)";
 
-TEST(Assimp, BringsNodesMaterialsTexturesCamerasAndLights) {
+TEST(Assimp, ReadsNodesMaterialsTexturesCamerasAndLights) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.dae", asBytes(collada));
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
@@ -58,10 +58,10 @@ TEST(Assimp, BringsNodesMaterialsTexturesCamerasAndLights) {
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].elementCount(), 2u);
   EXPECT_EQ(scene.meshes[0].texCoords.size(), 4u);
-  const std::vector<ShapeInstance> placed = shapeInstances(scene.graph);
-  ASSERT_EQ(placed.size(), 2u);
-  EXPECT_EQ(placed[0].worldFromShape.point({}), (Vec3d{-2, 0, 0}));
-  EXPECT_EQ(placed[1].worldFromShape.point({}), (Vec3d{2, 0, 0}));
+  const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
+  ASSERT_EQ(instances.size(), 2u);
+  EXPECT_EQ(instances[0].worldFromShape.point({}), (Vec3d{-2, 0, 0}));
+  EXPECT_EQ(instances[1].worldFromShape.point({}), (Vec3d{2, 0, 0}));
   const Appearance& oak = appearanceOf(scene.graph, 0);
   EXPECT_EQ(oak.name, "oak");
   EXPECT_EQ(std::get<Material>(oak.material).emissiveColor, (Vec3f{0, 0, 0.5f}));
@@ -73,7 +73,7 @@ TEST(Assimp, BringsNodesMaterialsTexturesCamerasAndLights) {
   EXPECT_EQ(firstOf<PointLight>(scene.graph)->color, (Vec3f{1, 0.5f, 0}));
 }
 
-TEST(Assimp, DoesWithoutTexturesThatAreNotThere) {
+TEST(Assimp, LeavesMissingTexturesOut) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.dae", asBytes(collada));
   const Imported imported = importFile(directory / "a.dae");
@@ -98,7 +98,7 @@ TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {
   }
 }
 
-TEST(Assimp, LetsTexturesMultiplyGlowWhereTheFormatsViewersDo) {
+TEST(Assimp, MultipliesEmissionByTheTextureInFormatsWhoseViewersDo) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
   const auto rolesOf = [&](const std::string& emissive, const std::string& texture) {
@@ -118,7 +118,7 @@ TEST(Assimp, LetsTexturesMultiplyGlowWhereTheFormatsViewersDo) {
   EXPECT_EQ(rolesOf("0.3 0.3 0.3", ""), (std::vector<TextureRole>{}));
 }
 
-TEST(Assimp, HasALookOnceHoweverManyMaterialsAreAlike) {
+TEST(Assimp, MergesEqualMaterials) {
   const auto glass = [](const std::string& color) {
     return "MATERIAL \"glass\" rgb " + color + " amb 0 0 0 emis 0 0 0 spec 0.5 0.5 0.5 shi 10 trans 0\n";
   };
@@ -132,7 +132,7 @@ TEST(Assimp, HasALookOnceHoweverManyMaterialsAreAlike) {
   EXPECT_EQ(graph.appearances.size(), 2u);
 }
 
-TEST(Assimp, RefusesWhatItCannotRead) {
+TEST(Assimp, RefusesUnreadableFiles) {
   const Error error = errorOf(collada.substr(0, 900), "a.dae");
   EXPECT_EQ(error.kind(), ErrorKind::malformed);
   EXPECT_EQ(error.location(), "a.dae");

@@ -12,7 +12,7 @@ namespace {
 
 struct OpenFile : aiFile {
   Bytes own;
-  ByteSpan bytes; ///< these or the source's
+  ByteSpan bytes; ///< `own`, or the source's bytes
   std::size_t at = 0;
 
   explicit OpenFile(ByteSpan all) : aiFile{}, bytes(all) {
@@ -49,7 +49,7 @@ struct OpenFile : aiFile {
   }
 };
 
-/// Paths that Assimp makes begin with the source's folder, or with "./".
+/// Removes the source's folder or "./", with which paths from Assimp begin.
 std::string withoutFolder(std::string path, const std::string& source) {
   std::ranges::replace(path, '\\', '/');
   const std::size_t slash = source.rfind('/');
@@ -71,7 +71,7 @@ SourceFiles::SourceFiles(ByteSpan bytes, const std::string& name, const Referenc
   io_.UserData = reinterpret_cast<aiUserData>(this);
 }
 
-/// Assimp also opens files to find out whether they are there.
+/// Opens a file; null where it cannot be read. Assimp also calls this to test whether files exist.
 aiFile* SourceFiles::open(const std::string& path, const std::string& mode) {
   if (mode.find_first_of("wa+") != mode.npos)
     return nullptr;
@@ -84,7 +84,7 @@ aiFile* SourceFiles::open(const std::string& path, const std::string& mode) {
     refused_.erase(fileName);
     return opened.release();
   } catch (const Error& error) {
-    if (!file.starts_with('/')) // those Assimp makes itself, of the ends of others
+    if (!file.starts_with('/')) // Assimp derives such paths from others
       refused_.try_emplace(fileName, error.what());
     return nullptr;
   }

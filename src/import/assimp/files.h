@@ -1,5 +1,5 @@
 #pragma once
-// The files that Assimp may open: the source's own bytes, and what its folder holds.
+// The files that Assimp may open: the source's own bytes, and files that import/references.h allows.
 
 #include "import/references.h"
 
@@ -17,10 +17,10 @@ public:
   SourceFiles(const SourceFiles&) = delete;
   SourceFiles& operator=(const SourceFiles&) = delete;
 
-  /// What Assimp opens and closes them with, as long as this lives.
+  /// The file interface for Assimp; valid as long as this object lives.
   aiFileIO& io() { return io_; }
 
-  /// What was asked for and given nowhere, a sentence each.
+  /// One sentence for each file that Assimp requested and did not get.
   std::vector<std::string> refused() const;
 
 private:
@@ -30,7 +30,7 @@ private:
   const std::string& name_;
   const References& references_;
   aiFileIO io_{};
-  /// By the file's name: the same may be sought in several folders.
+  /// Sentences by file name, since Assimp tries the same name in several folders.
   std::map<std::string, std::string> refused_;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-// Assimp by its C interface, since a library that is loaded late has no other, and this
-// one alone takes two milliseconds of every start.
+// Assimp's C functions, loaded at first use: linking the library would add two milliseconds to every start.
 
 #include "base/dynamic_library.h"
 
@@ -28,7 +27,7 @@ struct AssimpLibrary : DynamicLibrary {
   decltype(&::aiTextureTypeToString) textureTypeToString = find("aiTextureTypeToString");
 };
 
-/// Loads it when it is first called for.
+/// Loads the library at the first call.
 inline const AssimpLibrary& assimp() {
   static const AssimpLibrary library;
   return library;

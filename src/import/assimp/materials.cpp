@@ -44,7 +44,7 @@ Boundary boundaryOf(aiTextureMapMode mode) {
                                                                             : Boundary::repeat;
 }
 
-/// Embedded textures are named by their place: "*3".
+/// The index of an embedded texture, whose path is "*3"; empty for other paths.
 std::optional<std::size_t> embeddedIndex(const std::string& path) {
   std::size_t index = 0;
   if (!path.starts_with('*'))
@@ -53,15 +53,15 @@ std::optional<std::size_t> embeddedIndex(const std::string& path) {
   return fault == std::errc{} && end == path.data() + path.size() ? std::optional(index) : std::nullopt;
 }
 
-/// Formats of viewers that multiply all light by the texture, glow included: OpenGL's and
-/// Direct3D's fixed stages. X3D's emissiveColor alone would lie over it like a veil.
+/// Whether a format's viewers multiply all light by the texture, emission included (fixed-function OpenGL and
+/// Direct3D). An untextured emissiveColor would wash the texture out.
 bool multipliesAllLight(std::string_view extension) {
   constexpr std::string_view extensions[] = {"3ds", "ac", "acc", "ase", "lwo", "lws", "ms3d", "x"};
   return std::ranges::find(extensions, extension) != std::end(extensions);
 }
 
-/// Its colour's texture is its emissive colour's, too, where it has no other.
-void letTextureGlow(Appearance& appearance) {
+/// Uses the colour texture as the emissive texture too, where the appearance has no other.
+void useColorTextureAsEmissive(Appearance& appearance) {
   const Material* material = std::get_if<Material>(&appearance.material);
   const auto color = std::ranges::find(appearance.textures, TextureRole::color, &TextureUse::role);
   const bool hasOwn =
@@ -77,7 +77,7 @@ void letTextureGlow(Appearance& appearance) {
 
 AssimpMaterials::AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references,
                                  std::string_view extension)
-    : source_(source), graph_(graph), references_(references), texturesGlow_(multipliesAllLight(extension)) {}
+    : source_(source), graph_(graph), references_(references), colorTextureIsEmissive_(multipliesAllLight(extension)) {}
 
 AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
   Material phong;
@@ -90,8 +90,8 @@ AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
   return phong;
 }
 
-/// A texture's file beside the source; paths of the machine where it was made lead
-/// nowhere here, but the file often came along.
+/// The bytes of a texture's file. Absolute paths of the authoring machine do not exist here, so the file's name is
+/// tried in the source's folder too.
 Bytes AssimpMaterials::bytesOf(const std::string& path) const {
   if (const aiTexture* texture = source_.GetEmbeddedTexture(path.c_str())) {
     if (texture->mHeight != 0)
@@ -171,15 +171,15 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
   appearance.material = materialOf(material);
   for (const Role& role : roles)
     addTexture(material, role.type, role.role, appearance);
-  if (texturesGlow_)
-    letTextureGlow(appearance);
+  if (colorTextureIsEmissive_)
+    useColorTextureAsEmissive(appearance);
   const auto isCarried = [](int type) {
     return std::ranges::any_of(roles, [type](const Role& role) { return role.type == type; });
   };
   for (int type = 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
     if (!isCarried(type) && assimp().getMaterialTextureCount(&material, static_cast<aiTextureType>(type)) > 0)
       ++others_[assimp().textureTypeToString(static_cast<aiTextureType>(type))];
-  // Some of Assimp's readers make a material of its own for every mesh.
+  // Some of Assimp's importers make a separate material for every mesh.
   const auto same = std::ranges::find(graph_.appearances, appearance);
   found->second = static_cast<std::size_t>(same - graph_.appearances.begin());
   if (same == graph_.appearances.end())

@@ -14,16 +14,16 @@ namespace imgeo {
 
 class AssimpMaterials {
 public:
-  /// `extension` is that of the source's name, in lower case, without its dot.
+  /// `extension` of the source's name: in lower case, without its dot.
   AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references, std::string_view extension);
 
-  /// The appearance of a material; read when it is first asked for. Absent for the
-  /// material that Assimp makes where a source has none.
+  /// Index of the appearance of a material, which is read at the first call. Empty for the default material that Assimp
+  /// adds to sources without materials.
   std::optional<std::size_t> appearance(unsigned material);
   bool isSolid(unsigned material) const;
 
-  /// One sentence for each image that is left out.
-  const std::vector<std::string>& losses() const { return missing_; }
+  /// One warning for each image that is left out.
+  const std::vector<std::string>& omissions() const { return missing_; }
   void addWarnings(std::vector<std::string>& warnings) const;
 
 private:
@@ -35,10 +35,10 @@ private:
   const aiScene& source_;
   SceneGraph& graph_;
   const References& references_;
-  const bool texturesGlow_; ///< the colour's texture is that of the emissive colour, too
+  const bool colorTextureIsEmissive_; ///< the colour texture also modulates the emissive colour
   std::map<unsigned, std::optional<std::size_t>> appearances_;
   std::map<std::string, std::optional<std::size_t>> images_;
-  std::vector<std::string> missing_;          ///< one sentence for each image that is left out
+  std::vector<std::string> missing_;          ///< one warning for each image that is left out
   std::map<std::string, std::size_t> others_; ///< textures of other kinds, by kind
 };
 

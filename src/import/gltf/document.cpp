@@ -10,12 +10,12 @@ namespace imgeo::gltf {
 
 namespace {
 
-// The specification's names of component types.
+// Component types, as the specification names them.
 constexpr std::uint32_t byteType = 5120, unsignedByte = 5121, shortType = 5122, unsignedShort = 5123,
                         unsignedInt = 5125, floatType = 5126;
 
-/// What a document may unfold to: compression and sharing make more of bytes, but not without measure.
-constexpr std::uint64_t bytesPerSourceByte = 256, leastBudget = std::uint64_t{64} << 20;
+/// The budget of decoded data: compression and shared accessors expand the source, but not without limit.
+constexpr std::uint64_t bytesPerSourceByte = 256, minBudgetBytes = std::uint64_t{64} << 20;
 
 std::uint32_t sizeOfComponent(const Value& type) {
   switch (type.whole()) {
@@ -56,7 +56,9 @@ const std::uint8_t* Accessor::at(std::size_t element, std::uint32_t component) c
 
 double Accessor::real(std::size_t element, std::uint32_t component) const {
   const std::uint8_t* bytes = at(element, component);
-  const auto scaled = [this](double value, double most) { return normalized_ ? std::max(value / most, -1.0) : value; };
+  const auto scaled = [this](double value, double maximum) {
+    return normalized_ ? std::max(value / maximum, -1.0) : value;
+  };
   switch (componentType_) {
   case byteType:
     return scaled(static_cast<std::int8_t>(*bytes), 127);
@@ -84,7 +86,7 @@ std::uint32_t Accessor::whole(std::size_t element, std::uint32_t component) cons
 Document::Document(const Json& json, ByteSpan binary, const References& references, const std::string& name,
                    std::uint64_t sourceBytes)
     : root_(json, name, ", "), binary_(binary), references_(references),
-      budget_(std::max(leastBudget, sourceBytes * bytesPerSourceByte)) {}
+      budget_(std::max(minBudgetBytes, sourceBytes * bytesPerSourceByte)) {}
 
 void Document::spend(const Value& location, std::uint64_t bytes) {
   if (bytes > budget_)
@@ -133,8 +135,8 @@ ByteSpan Document::view(std::size_t index) {
   return within(value, this->buffer(*buffer), value["byteOffset"].whole(0), value["byteLength"].whole());
 }
 
-/// EXT_meshopt_compression. The library's decoders are made for bytes that nobody
-/// trusts; what they assert of sizes is checked here.
+/// Decompresses a view of EXT_meshopt_compression. The library's decoders are safe for untrusted bytes; their
+/// preconditions on sizes are checked here.
 Bytes Document::unpacked(const Value& value) {
   const std::optional<std::size_t> index = value.index("buffer", root_["buffers"]);
   if (!index)

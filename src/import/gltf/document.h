@@ -1,5 +1,5 @@
 #pragma once
-// A glTF document with its binary data: buffers, views of them, accessors.
+// A glTF document with its binary data: buffers, buffer views, accessors.
 
 #include "base/bytes.h"
 #include "import/gltf/value.h"
@@ -12,7 +12,7 @@
 
 namespace imgeo::gltf {
 
-/// Numbers in a buffer, checked to lie in it.
+/// A glTF accessor. Its elements are checked to lie in their buffer view.
 class Accessor {
 public:
   Accessor() = default;
@@ -22,10 +22,9 @@ public:
   std::size_t count() const { return count_; }
   std::uint32_t components() const { return components_; }
 
-  /// A component as the document means it: normalised integers are 0..1 or -1..1.
-  /// May be infinite or no number.
+  /// A component; normalised integers are scaled to 0..1 or -1..1. May be infinite or NaN.
   double real(std::size_t element, std::uint32_t component) const;
-  /// A component of an unsigned integer type as it is.
+  /// A component of an unsigned integer type, not scaled.
   std::uint32_t whole(std::size_t element, std::uint32_t component) const;
   bool isUnsigned() const { return componentType_ != 5120 && componentType_ != 5122 && componentType_ != 5126; }
 
@@ -33,7 +32,7 @@ private:
   friend class Document;
   const std::uint8_t* at(std::size_t element, std::uint32_t component) const;
 
-  Bytes own_; ///< where the numbers are not in a buffer as they stand
+  Bytes own_; ///< the elements of sparse accessors and of those without a buffer view
   const std::uint8_t* begin_ = nullptr;
   std::size_t stride_ = 0, count_ = 0;
   std::uint32_t components_ = 1, componentType_ = 5126, componentSize_ = 4;
@@ -49,14 +48,14 @@ public:
   const Value& root() const { return root_; }
   Value array(const char* name) const { return root_[name]; }
 
-  /// The bytes of a buffer view, unpacked where EXT_meshopt_compression packed them.
+  /// The bytes of a buffer view, decompressed where it uses EXT_meshopt_compression.
   ByteSpan view(std::size_t index);
 
-  /// Throws Error for one that does not lie in its view, and {limit} where this
-  /// and what was read before is out of all proportion to the source's bytes.
+  /// Throws Error for an accessor that does not lie in its view, and Error{limit} where all data read so far exceeds
+  /// the budget, a multiple of the source's bytes.
   Accessor accessor(std::size_t index);
 
-  /// Takes `count` from what may still be read; see accessor().
+  /// Subtracts `bytes` from the budget; throws Error{limit} at `location` where it is exhausted.
   void spend(const Value& location, std::uint64_t bytes);
 
   const References& references() const { return references_; }

@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression, unpacked by Draco's own library.
+// KHR_draco_mesh_compression, decoded by the Draco library.
 
 #include "import/gltf/primitive.h"
 
@@ -10,7 +10,7 @@ namespace imgeo::gltf {
 
 namespace {
 
-/// Numbers of one attribute, one a vertex.
+/// The components of an attribute, vertex by vertex.
 std::vector<float> valuesOf(const draco::PointCloud& cloud, const draco::PointAttribute& attribute,
                             const Value& location) {
   const auto components = static_cast<std::size_t>(attribute.num_components());

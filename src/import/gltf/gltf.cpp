@@ -58,7 +58,7 @@ Chunks chunksOf(ByteSpan bytes, const std::string& name) {
 
 void checkVersion(const Value& root) {
   const Value asset = root["asset"];
-  // Some files of glTF 1.0 have a number there.
+  // Some glTF 1.0 files have a number as their version.
   const Value stated = asset["version"];
   const std::string version =
       !stated.isAbsent() && stated.json().is_number() ? fmt::format("{:.1f}", stated.real(0)) : stated.text();
@@ -79,8 +79,8 @@ void addInfo(const Value& asset, SceneGraph& graph) {
       graph.info.push_back(fmt::format("{}: {}", field, text));
 }
 
-void addWarnings(const Value& root, const PrimitiveLosses& primitives, const MaterialLosses& materials,
-                 const NodeLosses& nodes, std::vector<std::string>& warnings) {
+void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const MaterialOmissions& materials,
+                 const NodeOmissions& nodes, std::vector<std::string>& warnings) {
   const auto add = [&](std::size_t count, const char* singular, const char* plural, const char* why = "") {
     if (count > 0)
       warnings.push_back(fmt::format("{} not carried over{}.", counted(count, singular, plural), why));
@@ -109,7 +109,7 @@ void addWarnings(const Value& root, const PrimitiveLosses& primitives, const Mat
 
 } // namespace
 
-bool looksLikeGltf(ByteSpan bytes) {
+bool isGltf(ByteSpan bytes) {
   if (isGlb(bytes))
     return true;
   const std::string_view text = asText(bytes);
@@ -132,7 +132,7 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   nodes.readScene();
   imported.attributes.assign(primitives.ownAttributes.begin(), primitives.ownAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
-  addWarnings(document.root(), primitives.losses, materials.losses, nodes.losses, imported.warnings);
+  addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, imported.warnings);
   return imported;
 }
 

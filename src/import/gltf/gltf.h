@@ -8,7 +8,7 @@
 namespace imgeo {
 
 /// True for a GLB header, and for a JSON object that mentions "asset".
-bool looksLikeGltf(ByteSpan bytes);
+bool isGltf(ByteSpan bytes);
 Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 } // namespace imgeo

@@ -23,7 +23,7 @@ Vec3f encodedSrgb(Vec3d linear) {
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
 
-/// KHR_materials_pbrSpecularGlossiness is Phong's model in other words.
+/// Converts KHR_materials_pbrSpecularGlossiness to Phong's model.
 Material phongOf(const Value& value) {
   Material material;
   const std::vector<double> diffuse = value["diffuseFactor"].reals(4, {1, 1, 1, 1});
@@ -49,7 +49,7 @@ void readSampler(const Value& value, Texture& texture) {
   texture.boundaryT = boundaryOf(value["wrapT"].whole(0));
   texture.magnification = filterOf(value["magFilter"].whole(0));
   const std::uint64_t minification = value["minFilter"].whole(0);
-  // NEAREST, LINEAR, and from 9984 on the four with mip maps: within, then between.
+  // 9984 to 9987 are the filters with mip maps: the filter within a level, then the one between levels.
   constexpr std::uint64_t firstWithMipMaps = 9984, lastWithMipMaps = 9987;
   texture.minification = filterOf(minification);
   texture.mipMaps = texture.minification == Filter::standard;
@@ -63,7 +63,7 @@ void readSampler(const Value& value, Texture& texture) {
 } // namespace
 
 std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x, double y) {
-  // Rows of the matrix, which X3D makes of a rotation, then a scale.
+  // X3D composes the matrix of a rotation, then a scale.
   const double sizeS = std::hypot(a, c), sizeT = std::hypot(b, d);
   if (!(sizeS > 0) || !(sizeT > 0) || std::abs(a * b + c * d) > 1e-6 * sizeS * sizeT)
     return {};
@@ -87,7 +87,7 @@ TextureTransform MaterialReader::transformOf(const Value& extension) {
   const double a = cosine * scale.x, b = sine * scale.x, c = -sine * scale.y, d = cosine * scale.y;
   const double x = offset.x + sine * scale.y, y = 1 - offset.y - cosine * scale.y;
   const std::optional<TextureTransform> transform = textureTransformOf(a, b, c, d, x, y);
-  losses.skewedTransforms += !transform;
+  omissions.skewedTransforms += !transform;
   return transform.value_or(TextureTransform{});
 }
 
@@ -112,7 +112,7 @@ std::optional<std::size_t> MaterialReader::image(std::size_t index) {
   } catch (const Error& error) {
     if (isStrict_)
       throw;
-    losses.images.push_back(fmt::format("A texture is left out: {}.", error.what()));
+    omissions.images.push_back(fmt::format("A texture is left out: {}.", error.what()));
     return {};
   }
   graph_.images.push_back(std::move(image));
@@ -128,7 +128,7 @@ std::optional<std::size_t> MaterialReader::texture(std::size_t index) {
   if (!source)
     source = value.index("source", images);
   if (!source) {
-    losses.images.push_back(
+    omissions.images.push_back(
         fmt::format("A texture is left out: {} has no image of a kind that browsers show.", value.location()));
     return {};
   }
@@ -150,7 +150,7 @@ void MaterialReader::addTexture(const Value& info, TextureRole role, Appearance&
     return;
   const Value transform = info["extensions"]["KHR_texture_transform"];
   if (transform["texCoord"].whole(info["texCoord"].whole(0)) != 0) {
-    ++losses.secondTexCoords;
+    ++omissions.secondTexCoords;
     return;
   }
   if (const std::optional<std::size_t> texture = this->texture(*index))
@@ -213,7 +213,7 @@ std::size_t MaterialReader::appearance(std::size_t index) {
   appearance.alphaCutoff = static_cast<float>(value["alphaCutoff"].real(0.5));
   if (const Value extensions = value["extensions"]; extensions.json().is_object())
     for (const auto& [name, unused] : extensions.json().items())
-      losses.extensions[name] += !knownExtensions.contains(name);
+      omissions.extensions[name] += !knownExtensions.contains(name);
   graph_.appearances.push_back(std::move(appearance));
   return appearances_[index] = graph_.appearances.size() - 1;
 }

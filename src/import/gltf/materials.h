@@ -10,11 +10,11 @@
 
 namespace imgeo::gltf {
 
-struct MaterialLosses {
-  std::map<std::string, std::size_t> extensions; ///< by name: materials whose extension was left out
-  std::size_t secondTexCoords = 0;               ///< textures that use coordinates beyond the first
-  std::size_t skewedTransforms = 0;              ///< texture transforms that X3D's cannot say
-  std::vector<std::string> images;               ///< one sentence for each image that is missing
+struct MaterialOmissions {
+  std::map<std::string, std::size_t> extensions; ///< number of materials by name of the extension that was left out
+  std::size_t secondTexCoords = 0;               ///< textures that use further texture coordinates
+  std::size_t skewedTransforms = 0;              ///< texture transforms that X3D cannot express
+  std::vector<std::string> images;               ///< one warning for each missing image
 };
 
 class MaterialReader {
@@ -22,13 +22,13 @@ public:
   MaterialReader(Document& document, SceneGraph& graph, bool isStrict)
       : document_(document), graph_(graph), isStrict_(isStrict) {}
 
-  /// The appearance of a material; read when it is first asked for.
+  /// Index of the appearance of a material, which is read at the first call.
   std::size_t appearance(std::size_t material);
 
-  /// Whether a material is seen from one side alone.
+  /// Whether a material is visible from the front side only.
   bool isSolid(std::size_t material) const;
 
-  MaterialLosses losses;
+  MaterialOmissions omissions;
 
 private:
   AnyMaterial materialOf(const Value& value);
@@ -45,8 +45,8 @@ private:
   std::map<std::size_t, std::optional<std::size_t>> textures_, images_;
 };
 
-/// X3D's form of an affine map of texture coordinates that are measured up:
-/// (a c; b d) and (x, y); nothing where it has none.
+/// X3D's form of an affine map of texture coordinates with v upwards: matrix (a c; b d) and translation (x, y). Empty
+/// for a map that shears.
 std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x, double y);
 
 } // namespace imgeo::gltf

@@ -20,7 +20,7 @@ Bytes bytesOf(const std::string& text) {
   return Bytes(text.begin(), text.end());
 }
 
-/// A triangle whose material is `material`.
+/// A document with one triangle of this material.
 GltfText withMaterial(Json material) {
   GltfText gltf;
   gltf.show(gltf.addTriangle());
@@ -29,12 +29,12 @@ GltfText withMaterial(Json material) {
   return gltf;
 }
 
-Appearance lookOf(const GltfText& gltf, const ImportOptions& options = {}) {
+Appearance readAppearance(const GltfText& gltf, const ImportOptions& options = {}) {
   return appearanceOf(read(gltf, options).scene.graph, 0);
 }
 
-TEST(GltfMaterial, IsAPhysicalMaterialWithItsNumbers) {
-  const Appearance look = lookOf(
+TEST(GltfMaterial, BecomesAPhysicalMaterial) {
+  const Appearance appearance = readAppearance(
       withMaterial({{"name", "steel"},
                     {"pbrMetallicRoughness",
                      {{"baseColorFactor", {0.5, 0.25, 0, 0.75}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
@@ -42,30 +42,31 @@ TEST(GltfMaterial, IsAPhysicalMaterialWithItsNumbers) {
                     {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}},
                     {"alphaMode", "MASK"},
                     {"alphaCutoff", 0.25}}));
-  EXPECT_EQ(look.name, "steel");
+  EXPECT_EQ(appearance.name, "steel");
   PhysicalMaterial expected;
   expected.baseColor = {0.5f, 0.25f, 0};
   expected.metallic = 0.5f;
   expected.roughness = 0.25f;
   expected.emissiveColor = {0, 2, 0};
   expected.transparency = 0.25f;
-  EXPECT_EQ(look.material, AnyMaterial(expected));
-  EXPECT_EQ(look.alphaMode, AlphaMode::mask);
-  EXPECT_EQ(look.alphaCutoff, 0.25f);
+  EXPECT_EQ(appearance.material, AnyMaterial(expected));
+  EXPECT_EQ(appearance.alphaMode, AlphaMode::mask);
+  EXPECT_EQ(appearance.alphaCutoff, 0.25f);
 }
 
-TEST(GltfMaterial, MayBeUnlitOrOfPhongsModel) {
-  const Appearance unlit = lookOf(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.214, 1, 0, 1}}}},
-                                                {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
+TEST(GltfMaterial, MayBeUnlitOrPhong) {
+  const Appearance unlit =
+      readAppearance(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.214, 1, 0, 1}}}},
+                                   {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
   EXPECT_NEAR(std::get<UnlitMaterial>(unlit.material).emissiveColor.x, 0.5, 1e-3);
-  const Appearance phong = lookOf(withMaterial(
+  const Appearance phong = readAppearance(withMaterial(
       {{"extensions",
         {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {1, 0, 0, 1}}, {"glossinessFactor", 0.5}}}}}}));
   EXPECT_EQ(std::get<Material>(phong.material).diffuseColor, (Vec3f{1, 0, 0}));
   EXPECT_EQ(std::get<Material>(phong.material).shininess, 0.5f);
 }
 
-TEST(GltfTexture, ComesWithItsSamplerFromABufferOrAUrl) {
+TEST(GltfTexture, IsReadWithItsSamplerFromABufferOrAUrl) {
   GltfText gltf = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                                 {"normalTexture", {{"index", 1}, {"scale", 0.5}}}});
   gltf.json["images"] = {{{"bufferView", gltf.addView(bytesOf(png))}, {"mimeType", "image/png"}, {"name", "wood"}},
@@ -73,19 +74,19 @@ TEST(GltfTexture, ComesWithItsSamplerFromABufferOrAUrl) {
   gltf.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9986}}};
   gltf.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
   const SceneGraph graph = read(gltf).scene.graph;
-  const Appearance& look = appearanceOf(graph, 0);
-  ASSERT_EQ(look.textures.size(), 2u);
-  EXPECT_EQ(look.textures[0].role, TextureRole::color);
-  EXPECT_EQ(look.textures[1].role, TextureRole::normal);
-  const Texture& wood = graph.textures[look.textures[0].texture];
+  const Appearance& appearance = appearanceOf(graph, 0);
+  ASSERT_EQ(appearance.textures.size(), 2u);
+  EXPECT_EQ(appearance.textures[0].role, TextureRole::color);
+  EXPECT_EQ(appearance.textures[1].role, TextureRole::normal);
+  const Texture& wood = graph.textures[appearance.textures[0].texture];
   EXPECT_EQ(wood, (Texture{"wood", 0, Boundary::clamp, Boundary::mirroredRepeat, Filter::nearest, Filter::nearest,
                            Filter::linear, true}));
   EXPECT_EQ(graph.images[wood.image].bytes, bytesOf(png));
   EXPECT_EQ(graph.images[1].bytes, bytesOf(png + "2"));
-  EXPECT_EQ(std::get<PhysicalMaterial>(look.material).normalScale, 0.5f);
+  EXPECT_EQ(std::get<PhysicalMaterial>(appearance.material).normalScale, 0.5f);
 }
 
-TEST(GltfTexture, IsLookedForBesideTheFileAndNowhereElse) {
+TEST(GltfTexture, IsReadFromTheFolderOfTheFileOnly) {
   const TemporaryDirectory directory;
   std::filesystem::create_directories(directory / "scene/maps");
   writeFile(directory / "scene/maps/a b.png", bytesOf(png));
@@ -120,7 +121,7 @@ TEST(GltfTexture, IsLookedForBesideTheFileAndNowhereElse) {
   EXPECT_TRUE(imported("../secret.png", true).warnings.empty());
 }
 
-TEST(GltfTexture, IsReadWhereItsTransformSaysInBothMeasures) {
+TEST(GltfTexture, HasTheSameTransformInX3d) {
   Random random(3);
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-5 * (1 + std::abs(a)); };
   for (int i = 0; i < 200; ++i) {
@@ -138,7 +139,7 @@ TEST(GltfTexture, IsReadWhereItsTransformSaysInBothMeasures) {
                              {{"offset", {x, y}}, {"scale", {scale.x, scale.y}}, {"rotation", angle}}}}}}}}}});
     gltf.json["images"] = {{{"uri", GltfText::dataUrl(bytesOf(png))}}};
     gltf.json["textures"] = {{{"source", 0}}};
-    const TextureTransform transform = lookOf(gltf).textures.at(0).transform;
+    const TextureTransform transform = readAppearance(gltf).textures.at(0).transform;
 
     const double u = random.between(0, 1), v = random.between(0, 1); // v down
     const double gltfU = std::cos(angle) * scale.x * u + std::sin(angle) * scale.y * v + x,

@@ -13,8 +13,8 @@ namespace imgeo::gltf {
 namespace {
 
 constexpr std::size_t maxNodeDepth = 200;
-/// Lights of glTF reach as far as they can be seen, those of X3D to their radius.
-constexpr double farthest = 1e6;
+/// The radius of X3D lights that stand for glTF lights of unlimited range.
+constexpr double unlimitedRadius = 1e6;
 
 std::string extrasOf(const Value& value) {
   const Value extras = value["extras"];
@@ -34,7 +34,7 @@ NodeContent groupUnlessMoved(Transform transform) {
   return transform == Transform{} ? NodeContent(Group{}) : NodeContent(transform);
 }
 
-/// X3D's field of view is along the shorter side, glTF's always vertical.
+/// X3D's field of view is that of the shorter side, glTF's the vertical one.
 double fieldOfViewOf(const Value& perspective) {
   const double vertical = std::clamp(perspective["yfov"].real(0.7854), 1e-3, std::numbers::pi - 1e-3);
   const double aspect = perspective["aspectRatio"].real(1);
@@ -49,11 +49,11 @@ template <typename Read> void NodeReader::attempt(const Read& read) {
   } catch (const Error& error) {
     if (isStrict_ || error.kind() == ErrorKind::limit)
       throw;
-    losses.damage.push_back(fmt::format("Left out: {}.", error.what()));
+    omissions.damage.push_back(fmt::format("Left out: {}.", error.what()));
   }
 }
 
-/// How one moves in an X3D scene, as our export says it; those of others may have anything there.
+/// Reads the NavigationInfo types that imgeo export writes into extras. Extras of other programs may hold anything.
 void NodeReader::addNavigation(const Value& extras) {
   if (!extras.has("NavigationInfo") || !extras["NavigationInfo"].has("type"))
     return;
@@ -70,7 +70,7 @@ void NodeReader::readScene() {
   visited_.assign(nodes.size(), false);
   std::vector<std::size_t> roots;
   const std::optional<std::size_t> chosen = document_.root().index("scene", scenes);
-  losses.otherScenes = std::max<std::size_t>(scenes.size(), 1) - 1;
+  omissions.otherScenes = std::max<std::size_t>(scenes.size(), 1) - 1;
   if (scenes.size() > 0) {
     const Value scene = scenes[chosen.value_or(0)];
     scene_.graph.title = scene["name"].text();
@@ -127,7 +127,7 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
     scale *= std::cbrt(std::abs(affineOf(*transform).determinant()));
   node.extras = extrasOf(value);
   if (const auto mesh = value.index("mesh", document_.array("meshes"))) {
-    losses.skins += value.has("skin");
+    omissions.skins += value.has("skin");
     addInstances(value, *mesh, node.children);
   }
   addCamera(value, node.children);
@@ -141,21 +141,21 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
     else if (const std::optional<std::size_t> read = readNode(child, depth + 1, scale))
       node.children.push_back(*read);
   }
-  // A node without a name that does nothing is its only child.
+  // A group without name, extras and transform is replaced by its only child.
   if (node.name.empty() && node.extras.empty() && node.children.size() == 1 &&
       std::holds_alternative<Group>(node.content))
     return node.children[0];
   return addNode(scene_.graph, std::move(node));
 }
 
-/// The node's mesh, or as many of it as EXT_mesh_gpu_instancing says.
+/// Adds the node's mesh, or its instances by EXT_mesh_gpu_instancing.
 void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<std::size_t>& children) {
-  const std::optional<std::size_t> shown = meshNode(mesh, node["name"].text());
-  if (!shown)
+  const std::optional<std::size_t> shape = meshNode(mesh, node["name"].text());
+  if (!shape)
     return;
   const Value instancing = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
   if (instancing.isAbsent()) {
-    children.push_back(*shown);
+    children.push_back(*shape);
     return;
   }
   std::optional<std::size_t> count;
@@ -187,11 +187,11 @@ void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<s
         vector(translations, 0),
         {number(rotations, 0, 0), number(rotations, 1, 0), number(rotations, 2, 0), number(rotations, 3, 1)},
         vector(scales, 1));
-    children.push_back(addNode(scene_.graph, {"", groupUnlessMoved(transform), {*shown}, ""}));
+    children.push_back(addNode(scene_.graph, {"", groupUnlessMoved(transform), {*shape}, ""}));
   }
 }
 
-/// A mesh that several nodes show is one node with several parents.
+/// The node of a mesh; one for all nodes that refer to the mesh.
 std::optional<std::size_t> NodeReader::meshNode(std::size_t index, const std::string& nodeName) {
   if (const auto found = meshNodes_.find(index); found != meshNodes_.end())
     return found->second;
@@ -221,7 +221,7 @@ std::optional<std::size_t> NodeReader::shapeNode(const Value& primitive, const s
   return addNode(scene_.graph, {name, shape, {}, ""});
 }
 
-/// Primitives of the same accessors share a mesh, whatever their materials.
+/// The mesh of a primitive; primitives that differ only in material and extras share one.
 std::size_t NodeReader::meshOf(const Value& primitive) {
   Json key = primitive.json();
   if (!key.is_object())
@@ -258,8 +258,8 @@ void NodeReader::addCamera(const Value& node, std::vector<std::size_t>& children
   }
 }
 
-/// KHR_lights_punctual: in photometric units, falling off by the square of the distance.
-/// Its range and falloff are lengths of the scene in glTF, of the node's own coordinates in X3D.
+/// KHR_lights_punctual: photometric units, falling off with the square of the distance. Range and falloff are measured
+/// in scene units in glTF, in the node's coordinate system in X3D.
 void NodeReader::addLight(const Value& node, double scale, std::vector<std::size_t>& children) {
   const Value lights = document_.root()["extensions"]["KHR_lights_punctual"]["lights"];
   const std::optional<std::size_t> index = node["extensions"]["KHR_lights_punctual"].index("light", lights);
@@ -269,7 +269,7 @@ void NodeReader::addLight(const Value& node, double scale, std::vector<std::size
   const Vec3f color = light["color"].vec3f({1, 1, 1});
   const auto intensity = static_cast<float>(light["intensity"].real(1));
   const double range = light["range"].real(0), unit = scale > 0 && std::isfinite(scale) ? scale : 1,
-               radius = (range > 0 ? range : farthest) / unit;
+               radius = (range > 0 ? range : unlimitedRadius) / unit;
   const Vec3d bySquare{0, 0, unit * unit};
   const std::string type = light["type"].text();
   NodeContent content;

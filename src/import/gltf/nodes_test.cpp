@@ -10,15 +10,15 @@
 namespace imgeo::testing {
 namespace {
 
-Vec3d originOf(const ShapeInstance& placed) {
-  return placed.worldFromShape.point({0, 0, 0});
+Vec3d originOf(const ShapeInstance& instance) {
+  return instance.worldFromShape.point({0, 0, 0});
 }
 
 bool warnsOf(const Imported& imported, const std::string& words) {
   return std::ranges::any_of(imported.warnings, [&](const std::string& w) { return w.find(words) != w.npos; });
 }
 
-TEST(GltfNodes, KeepNamesTransformsAndTheirTree) {
+TEST(GltfNodes, KeepNamesTransformsAndHierarchy) {
   GltfText gltf;
   const std::size_t mesh = gltf.addTriangle();
   gltf.addNode({{"name", "arm"}, {"translation", {1, 0, 0}}, {"children", {1}}});
@@ -32,9 +32,9 @@ TEST(GltfNodes, KeepNamesTransformsAndTheirTree) {
   EXPECT_EQ(arm.name, "arm");
   EXPECT_EQ(std::get<Transform>(arm.content).translation, (Vec3d{1, 0, 0}));
   EXPECT_EQ(graph.nodes[arm.children.at(0)].name, "hand");
-  const std::vector<ShapeInstance> placed = shapeInstances(graph);
-  ASSERT_EQ(placed.size(), 1u);
-  EXPECT_LE(length(placed[0].worldFromShape.point({1, 0, 0}) - Vec3d{1, 1, 0}), 1e-7);
+  const std::vector<ShapeInstance> instances = shapeInstances(graph);
+  ASSERT_EQ(instances.size(), 1u);
+  EXPECT_LE(length(instances[0].worldFromShape.point({1, 0, 0}) - Vec3d{1, 1, 0}), 1e-7);
 }
 
 TEST(GltfNodes, ShareTheMeshThatTheyShow) {
@@ -45,9 +45,9 @@ TEST(GltfNodes, ShareTheMeshThatTheyShow) {
   const Scene scene = read(gltf).scene;
   EXPECT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(shapeNodes(scene.graph).size(), 1u);
-  const std::vector<ShapeInstance> placed = shapeInstances(scene.graph);
-  ASSERT_EQ(placed.size(), 100u);
-  EXPECT_EQ(originOf(placed[7]), (Vec3d{7, 0, 0}));
+  const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
+  ASSERT_EQ(instances.size(), 100u);
+  EXPECT_EQ(originOf(instances[7]), (Vec3d{7, 0, 0}));
 }
 
 TEST(GltfNodes, ShareAMeshWhereOnlyTheMaterialsDiffer) {
@@ -68,28 +68,28 @@ TEST(GltfNodes, ShareAMeshWhereOnlyTheMaterialsDiffer) {
   EXPECT_FALSE(shapeOf(scene.graph, shapeNodes(scene.graph)[1]).solid);
 }
 
-TEST(GltfNodes, TakeMatricesEvenWhereTheyShear) {
+TEST(GltfNodes, KeepMatricesThatShear) {
   GltfText gltf;
   gltf.addNode({{"mesh", gltf.addTriangle()}, {"matrix", {1, 0, 0, 0, 0.5, 2, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1}}});
-  const std::vector<ShapeInstance> placed = shapeInstances(read(gltf).scene.graph);
-  EXPECT_LE(length(placed.at(0).worldFromShape.point({0, 1, 0}) - Vec3d{7.5, 10, 9}), 1e-7);
+  const std::vector<ShapeInstance> instances = shapeInstances(read(gltf).scene.graph);
+  EXPECT_LE(length(instances.at(0).worldFromShape.point({0, 1, 0}) - Vec3d{7.5, 10, 9}), 1e-7);
 }
 
-TEST(GltfNodes, StandAsOftenAsTheyAreInstanced) {
+TEST(GltfNodes, AreRepeatedByGpuInstancing) {
   GltfText gltf;
   const std::size_t mesh = gltf.addTriangle();
-  const std::size_t places = gltf.addAccessor<float>({1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", 5126);
+  const std::size_t translations = gltf.addAccessor<float>({1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", 5126);
   gltf.addNode({{"mesh", mesh},
                 {"translation", {0, 5, 0}},
-                {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
+                {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translations}}}}}}}});
   const Scene scene = read(gltf).scene;
-  const std::vector<ShapeInstance> placed = shapeInstances(scene.graph);
-  ASSERT_EQ(placed.size(), 3u);
-  EXPECT_EQ(originOf(placed[2]), (Vec3d{3, 5, 0}));
+  const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
+  ASSERT_EQ(instances.size(), 3u);
+  EXPECT_EQ(originOf(instances[2]), (Vec3d{3, 5, 0}));
   EXPECT_EQ(shapeNodes(scene.graph).size(), 1u);
 }
 
-TEST(GltfNodes, BringTheirCameras) {
+TEST(GltfNodes, KeepCameras) {
   GltfText gltf;
   gltf.show(gltf.addTriangle());
   gltf.json["cameras"] = {
@@ -113,7 +113,7 @@ TEST(GltfNodes, BringTheirCameras) {
   EXPECT_EQ(plan->max, (Vec2<double>{3, 2}));
 }
 
-TEST(GltfNodes, BringTheirLights) {
+TEST(GltfNodes, KeepLights) {
   GltfText gltf;
   gltf.show(gltf.addTriangle());
   gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -131,7 +131,7 @@ TEST(GltfNodes, BringTheirLights) {
   EXPECT_EQ(firstOf<SpotLight>(graph)->cutOffAngle, 0.5);
 }
 
-TEST(GltfNodes, KeepWhatLightsReachInScaledPlaces) {
+TEST(GltfNodes, KeepTheRangeOfLightsUnderAScale) {
   GltfText gltf;
   gltf.show(gltf.addTriangle());
   gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 12}}};
@@ -144,14 +144,14 @@ TEST(GltfNodes, KeepWhatLightsReachInScaledPlaces) {
   EXPECT_NEAR(firstOf<PointLight>(graph)->attenuation.z, 16, 1e-12);
 }
 
-TEST(GltfNodes, KeepWhatTheirAuthorsAdded) {
+TEST(GltfNodes, KeepExtras) {
   GltfText gltf;
   gltf.addNode({{"name", "door"}, {"mesh", gltf.addTriangle()}, {"extras", {{"material", "oak"}, {"price", 12}}}});
   const SceneGraph graph = read(gltf).scene.graph;
   EXPECT_EQ(graph.nodes[graph.roots.at(0)].extras, R"({"material":"oak","price":12})");
 }
 
-TEST(GltfNodes, SayHowOneMovesWhereTheSceneCameFromX3d) {
+TEST(GltfNodes, KeepTheNavigationTypeOfAnExportedScene) {
   const auto fieldsOf = [](const GltfText::Json& extras) {
     GltfText gltf;
     gltf.addNode({{"mesh", gltf.addTriangle()}});
@@ -168,7 +168,7 @@ TEST(GltfNodes, SayHowOneMovesWhereTheSceneCameFromX3d) {
     EXPECT_TRUE(fieldsOf(foreign).empty()) << foreign;
 }
 
-TEST(GltfNodes, SayWhatIsNotCarriedOver) {
+TEST(GltfNodes, WarnAboutContentThatIsNotCarriedOver) {
   GltfText gltf;
   gltf.addNode({{"mesh", gltf.addTriangle()}, {"skin", 0}});
   gltf.json["meshes"][0]["primitives"][0]["targets"] = GltfText::Json::array({GltfText::Json::object()});
@@ -183,7 +183,7 @@ TEST(GltfNodes, SayWhatIsNotCarriedOver) {
   EXPECT_EQ(imported.warnings.size(), 5u);
 }
 
-TEST(GltfNodes, ThatGoInCirclesAreLeftOutAndRefusedWhereStrict) {
+TEST(GltfNodes, ThatFormACycleAreLeftOutOrRefusedIfStrict) {
   GltfText gltf;
   const std::size_t mesh = gltf.addTriangle();
   gltf.addNode({{"mesh", mesh}, {"children", {1}}});
@@ -195,14 +195,14 @@ TEST(GltfNodes, ThatGoInCirclesAreLeftOutAndRefusedWhereStrict) {
   EXPECT_THROW(read(gltf, {.attributes = {}, .folder = {}, .outside = false, .strict = true}), Error);
 }
 
-TEST(GltfNodes, OfTheFirstVersionAreRefusedWithItsNumber) {
+TEST(GltfNodes, OfVersionOneAreRefused) {
   for (const char* version : {"1.0", "\"1.0\"", "1"})
     EXPECT_NE(std::string(errorOf(fmt::format(R"({{"asset":{{"version":{}}}}})", version), "a.gltf").what())
                   .find("is glTF 1.0; imgeo reads glTF 2"),
               std::string::npos);
 }
 
-TEST(GltfNodes, NestedWithoutMeasureAreRefused) {
+TEST(GltfNodes, NestedTooDeeplyAreRefused) {
   GltfText gltf;
   gltf.addTriangle();
   for (int i = 0; i < 1000; ++i)

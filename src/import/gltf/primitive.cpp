@@ -15,15 +15,15 @@ namespace {
 
 constexpr std::uint32_t unset = 0xffffffff;
 
-// The specification's names of modes.
+// Primitive modes, as the specification names them.
 enum Mode : std::uint64_t { points, lines, lineLoop, lineStrip, triangles, triangleStrip, triangleFan };
 
 Topology topologyOf(std::uint64_t mode) {
   return mode == points ? Topology::points : mode <= lineStrip ? Topology::lines : Topology::triangles;
 }
 
-/// The corners of separate elements that a mode makes of a run of vertices
-/// (glTF 2.0, 3.7.2.1). What does not make a whole element is left out.
+/// The corners of the separate elements that a run of vertices stands for (glTF 2.0, 3.7.2.1). Vertices that do not
+/// complete an element are dropped.
 std::vector<std::uint32_t> separated(std::uint64_t mode, const std::vector<std::uint32_t>& run) {
   std::vector<std::uint32_t> corners;
   const std::size_t count = run.size();
@@ -105,8 +105,7 @@ PrimitiveData PrimitiveReader::dataOf(const Value& primitive) {
   return data;
 }
 
-/// Numbers the vertices that are used in the order of their first use; returns
-/// them and changes `corners` to the new numbers.
+/// Renumbers the used vertices in the order of first use; returns them, and changes `corners` to the new numbers.
 std::vector<std::uint32_t> PrimitiveReader::compact(std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
   if (localVertex_.size() < vertexCount)
     localVertex_.resize(vertexCount, unset);
@@ -145,15 +144,15 @@ Mesh PrimitiveReader::read(const Value& primitive) {
     mesh.wedgePositions.push_back(i);
   addVertices(primitive, data, vertices, mesh);
   addNamedAttributes(primitive, data, vertices, mesh);
-  losses.morphTargets += primitive["targets"].size() > 0;
+  omissions.morphTargets += primitive["targets"].size() > 0;
   return mesh;
 }
 
 void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& data,
                                   const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
-  const auto attribute = [&](const char* name, std::uint32_t least, std::uint32_t most) {
+  const auto attribute = [&](const char* name, std::uint32_t minComponents, std::uint32_t maxComponents) {
     const PrimitiveData::Attribute* found = data.find(name);
-    if (found && (found->components < least || found->components > most))
+    if (found && (found->components < minComponents || found->components > maxComponents))
       primitive["attributes"][name].fail(ErrorKind::malformed, "has a number of components that it cannot have");
     return found;
   };
@@ -172,7 +171,7 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
     mesh.positions.push_back(position);
     if (normals) {
       mesh.normals.push_back(vec3(*normals, vertex));
-      losses.badNormals += !makeUnit(mesh.normals.back());
+      omissions.badNormals += !makeUnit(mesh.normals.back());
     }
     if (texCoords) {
       const Vec2f texCoord{static_cast<float>(texCoords->number(vertex, 0)),
@@ -192,8 +191,8 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
   mesh.colorComponents = isOpaque ? 3 : 4;
 }
 
-/// "_NAME" is an attribute of the author's own. The others that glTF defines serve
-/// skins, and textures beyond the first coordinates.
+/// Application-specific attributes are named "_NAME". The remaining ones belong to skins and further texture
+/// coordinates.
 void PrimitiveReader::addNamedAttributes(const Value& primitive, const PrimitiveData& data,
                                          const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
   for (const PrimitiveData::Attribute& attribute : data.attributes) {
@@ -205,7 +204,7 @@ void PrimitiveReader::addNamedAttributes(const Value& primitive, const Primitive
     if (!ownName.empty())
       ownAttributes.insert(ownName);
     if (!isOwn || ownName.empty() || !choice_.has(ownName)) {
-      losses.attributes.insert(name);
+      omissions.attributes.insert(name);
       continue;
     }
     NamedAttribute named{ownName, attribute.components, {}};

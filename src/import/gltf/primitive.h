@@ -12,7 +12,7 @@
 
 namespace imgeo::gltf {
 
-/// Where a primitive's numbers come from: accessors, or what Draco packed.
+/// A primitive's data, from accessors or decoded by Draco.
 struct PrimitiveData {
   using Number = std::function<double(std::size_t vertex, std::uint32_t component)>;
   struct Attribute {
@@ -23,29 +23,28 @@ struct PrimitiveData {
 
   std::size_t vertexCount = 0;
   std::vector<Attribute> attributes;
-  std::vector<std::uint32_t> indices; ///< in range
+  std::vector<std::uint32_t> indices; ///< all below vertexCount
   bool indexed = false;
-  bool isTriangles = false; ///< whatever the primitive's mode says
+  bool isTriangles = false; ///< overrides the primitive's mode
 
   const Attribute* find(const std::string& name) const;
 };
 
-/// What could not be carried over, over all primitives.
-struct PrimitiveLosses {
+/// Content of all primitives that was not carried over.
+struct PrimitiveOmissions {
   std::uint64_t badNormals = 0, morphTargets = 0, skins = 0;
-  std::set<std::string> attributes; ///< names of those that were left out
+  std::set<std::string> attributes; ///< names of attributes that were left out
 };
 
 class PrimitiveReader {
 public:
   PrimitiveReader(Document& document, const AttributeChoice& choice) : document_(document), choice_(choice) {}
 
-  /// Throws Error for a primitive that cannot be read whole: an index out of range,
-  /// coordinates that are no numbers.
+  /// Throws Error for a damaged primitive: an index out of range, coordinates that are not finite.
   Mesh read(const Value& primitive);
 
-  PrimitiveLosses losses;
-  std::set<std::string> ownAttributes; ///< names of the author's own, kept or not
+  PrimitiveOmissions omissions;
+  std::set<std::string> ownAttributes; ///< names of application-specific attributes, kept or not
 
 private:
   PrimitiveData dataOf(const Value& primitive);
@@ -58,10 +57,10 @@ private:
 
   Document& document_;
   const AttributeChoice& choice_;
-  std::vector<std::uint32_t> localVertex_; ///< by the accessors'; all unset between primitives
+  std::vector<std::uint32_t> localVertex_; ///< by vertex of the accessors; all unset between primitives
 };
 
-/// KHR_draco_mesh_compression of a primitive. Throws Error.
+/// Decodes KHR_draco_mesh_compression of a primitive. Throws Error.
 PrimitiveData readDraco(Document& document, const Value& primitive, const Value& compression);
 
 } // namespace imgeo::gltf

@@ -27,7 +27,7 @@ std::vector<Vec3f> cornersOf(const Mesh& mesh) {
   return corners;
 }
 
-/// Points on a line, so that a corner's x says which vertex it is.
+/// Points on a line, so that a corner's x is the index of its vertex.
 std::vector<int> cornersOfMode(int mode) {
   GltfText gltf;
   const std::size_t positions = gltf.addAccessor<float>({0, 0, 0, 1, 5, 0, 2, 0, 0, 3, 5, 0, 4, 0, 0}, "VEC3", 5126);
@@ -70,7 +70,7 @@ TEST(GltfPrimitive, ReadsEveryTypeOfNumber) {
   EXPECT_EQ(mesh.colorComponents, 4u);
 }
 
-TEST(GltfPrimitive, TakesColoursFromLinearToThoseOfScreens) {
+TEST(GltfPrimitive, ConvertsLinearColoursToSrgb) {
   GltfText gltf;
   gltf.addTriangle();
   const std::size_t colors = gltf.addAccessor<float>({0.2140f, 1, 0, 7, -1, 0.5f, 0, 0, 0}, "VEC3", 5126);
@@ -104,7 +104,7 @@ TEST(GltfPrimitive, ReadsInterleavedAndSparseAccessors) {
   EXPECT_EQ(cornersOf(onlyMeshOf(gltf)), (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {5, 6, 7}}));
 }
 
-TEST(GltfPrimitive, CarriesTheAttributesThatAreAskedFor) {
+TEST(GltfPrimitive, KeepsTheRequestedAttributes) {
   GltfText gltf;
   gltf.addTriangle();
   gltf.json["meshes"][0]["primitives"][0]["attributes"]["_TEMPERATURE"] =
@@ -116,7 +116,7 @@ TEST(GltfPrimitive, CarriesTheAttributesThatAreAskedFor) {
   EXPECT_EQ(mesh.namedAttributes[0], (NamedAttribute{"TEMPERATURE", 1, {1, 2, 3}}));
 }
 
-TEST(GltfPrimitive, NamesThePlaceOfWhatIsWrong) {
+TEST(GltfPrimitive, NamesTheLocationOfAnError) {
   const auto expectLocation = [](const std::string& location, auto damage) {
     GltfText gltf;
     gltf.addTriangle();
@@ -147,7 +147,7 @@ TEST(GltfPrimitive, NamesThePlaceOfWhatIsWrong) {
   expectLocation("extensionsRequired[0]", [](Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
 }
 
-TEST(GltfPrimitive, ThatIsDamagedIsLeftOutAndTheRestIsRead) {
+TEST(GltfPrimitive, IsLeftOutWhereItIsDamaged) {
   GltfText gltf;
   gltf.show(gltf.addTriangle());
   const std::size_t bad = gltf.addTriangle();
@@ -159,7 +159,7 @@ TEST(GltfPrimitive, ThatIsDamagedIsLeftOutAndTheRestIsRead) {
   EXPECT_EQ(imported.warnings[0], "Left out: a.gltf, meshes[1].primitives[0].indices: name vertex 3 of 3.");
 }
 
-TEST(GltfPrimitive, UnfoldsToNoMoreThanItsBytesCanMean) {
+TEST(GltfPrimitive, IsRefusedWhereItExceedsTheBudget) {
   GltfText gltf;
   gltf.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000u}}); // zeros
   gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", 0}}}}}));
@@ -182,7 +182,7 @@ Arrays sphereArrays() {
   return arrays;
 }
 
-TEST(GltfPrimitive, IsUnpackedWhereMeshoptPackedIt) {
+TEST(GltfPrimitive, IsDecompressedByMeshopt) {
   const Arrays arrays = sphereArrays();
   const std::size_t vertices = arrays.positions.size() / 3;
   Bytes packedVertices(meshopt_encodeVertexBufferBound(vertices, 12)),
@@ -201,7 +201,7 @@ TEST(GltfPrimitive, IsUnpackedWhereMeshoptPackedIt) {
                                                      {"byteStride", stride},
                                                      {"count", count},
                                                      {"mode", mode}};
-    json["buffer"] = 1; // the fallback, which is not there
+    json["buffer"] = 1; // the fallback buffer, which is absent
     return view;
   };
   gltf.json["accessors"] = {{{"bufferView", addPacked(packedVertices, vertices, 12, "ATTRIBUTES")},
@@ -215,7 +215,7 @@ TEST(GltfPrimitive, IsUnpackedWhereMeshoptPackedIt) {
   gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}));
   const Mesh mesh = onlyMeshOf(gltf);
   ASSERT_EQ(mesh.corners.size(), arrays.indices.size());
-  double area = 0; // triangles come in their order, but turned
+  double area = 0; // the decoder keeps the order of triangles but rotates their corners
   for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
     const Vec3d a(mesh.cornerPosition(corner)), b(mesh.cornerPosition(corner + 1)), c(mesh.cornerPosition(corner + 2));
     area += length(cross(b - a, c - a)) / 2;
@@ -232,7 +232,7 @@ TEST(GltfPrimitive, IsUnpackedWhereMeshoptPackedIt) {
   EXPECT_EQ(errorOf(gltf.text(), "a.gltf").kind(), ErrorKind::malformed);
 }
 
-TEST(GltfPrimitive, IsUnpackedWhereDracoPackedIt) {
+TEST(GltfPrimitive, IsDecompressedByDraco) {
   const Arrays arrays = sphereArrays();
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(static_cast<int>(arrays.indices.size() / 3));
@@ -266,7 +266,7 @@ TEST(GltfPrimitive, IsUnpackedWhereDracoPackedIt) {
   EXPECT_EQ(errorOf(gltf.text(), "a.gltf").kind(), ErrorKind::malformed);
 }
 
-TEST(Glb, IsReadLikeItsText) {
+TEST(Glb, IsReadLikeItsGltf) {
   GltfText gltf;
   gltf.show(gltf.addTriangle(3));
   const Bytes glb = gltf.glb();

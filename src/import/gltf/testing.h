@@ -46,7 +46,7 @@ public:
     return json["accessors"].size() - 1;
   }
 
-  /// A triangle in the plane z = `z`, and the mesh that holds it alone; returns the mesh.
+  /// Adds a triangle in the plane z = `z` as a mesh of its own; returns the mesh's index.
   std::size_t addTriangle(float z = 0) {
     const std::size_t positions = addAccessor<float>({0, 0, z, 1, 0, z, 0, 1, z}, "VEC3", 5126);
     return addMesh({{{"attributes", {{"POSITION", positions}}}}});
@@ -62,7 +62,7 @@ public:
     return json["nodes"].size() - 1;
   }
 
-  /// A scene of one node that shows a mesh.
+  /// Adds a node that shows a mesh.
   GltfText& show(std::size_t mesh) {
     addNode({{"mesh", mesh}});
     return *this;
@@ -105,7 +105,7 @@ public:
   }
 };
 
-/// What is read of a document.
+/// Imports a document.
 inline Imported read(const GltfText& gltf, const ImportOptions& options = {}) {
   return importBytes(asBytes(gltf.text()), "a.gltf", options);
 }

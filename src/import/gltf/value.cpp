@@ -12,8 +12,7 @@ namespace {
 const Json absent;
 constexpr std::size_t maxJsonDepth = 200;
 
-/// How deep brackets are nested outside of strings: recursion over the parsed
-/// document must end.
+/// The nesting depth of brackets outside of strings. Bounds the recursion over the parsed document.
 std::size_t depthOf(std::string_view text) {
   std::size_t depth = 0, deepest = 0;
   bool inString = false;

@@ -1,5 +1,5 @@
 #pragma once
-// glTF's JSON, read with types and bounds; every fault names its place.
+// Typed, checked access to glTF's JSON; every Error names the location of the value.
 
 #include "base/affine.h"
 #include "base/error.h"
@@ -13,10 +13,10 @@ namespace imgeo::gltf {
 
 using Json = nlohmann::json;
 
-/// A value of the document and where it stands: "scene.gltf, meshes[2].primitives[0]".
+/// A value of the document and its location: "scene.gltf, meshes[2].primitives[0]".
 class Value {
 public:
-  /// `separator` stands between the place and the name of a member.
+  /// `separator` stands between the location and the name of a member.
   Value(const Json& json, std::string location, const char* separator = ".")
       : json_(&json), location_(std::move(location)), separator_(separator) {}
 
@@ -25,20 +25,20 @@ public:
   const std::string& location() const { return location_; }
 
   bool has(const char* name) const { return json_->is_object() && json_->contains(name); }
-  /// A member of an object; a null value, of which nothing can be read, where it is absent.
+  /// A member of an object; a null value where it is absent.
   Value operator[](const char* name) const;
-  /// An element of an array, which has so many.
+  /// An element of an array; `index` must be below size().
   Value operator[](std::size_t index) const;
-  /// Elements of an array; 0 for what is absent.
+  /// The number of elements of an array; 0 for an absent value.
   std::size_t size() const;
   bool isAbsent() const { return json_->is_null(); }
 
-  // Each gives the fallback where the value is absent and throws for another type.
+  // Each returns the fallback where the value is absent, and throws Error{malformed} for another type.
   std::string text(const std::string& fallback = "") const;
   bool boolean(bool fallback) const;
   double real(double fallback) const; ///< finite and within single precision
   std::uint64_t whole(std::uint64_t fallback) const;
-  /// A number that must be there.
+  /// A required unsigned integer.
   std::uint64_t whole() const;
   /// Exactly `count` finite numbers.
   std::vector<double> reals(std::size_t count, std::vector<double> fallback) const;
@@ -46,8 +46,8 @@ public:
   Vec3f vec3f(Vec3f fallback) const { return Vec3f(vec3(Vec3d(fallback))); }
   Vec2<double> vec2(Vec2<double> fallback) const;
 
-  /// An index into the root's array `name`; absent where there is none. Throws
-  /// Error{malformed} for one out of range.
+  /// The value of `member` as an index into `array`; empty where it is absent. Throws Error{malformed} where it is out
+  /// of range.
   std::optional<std::size_t> index(const char* member, const Value& array) const;
 
 private:

@@ -15,11 +15,11 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
   data.colors = mesh.colors;
   data.colorComponents = mesh.colorComponents;
   std::vector<std::uint32_t> merged;
-  std::map<std::array<std::uint32_t, 3>, std::uint32_t> known;
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> indexOfBits;
   for (const Vec3f& p : mesh.positions) {
     const std::array bits{std::bit_cast<std::uint32_t>(p.x + 0), std::bit_cast<std::uint32_t>(p.y + 0),
                           std::bit_cast<std::uint32_t>(p.z + 0)}; // -0 is 0
-    const auto [found, isNew] = known.try_emplace(bits, static_cast<std::uint32_t>(data.positions.size()));
+    const auto [found, isNew] = indexOfBits.try_emplace(bits, static_cast<std::uint32_t>(data.positions.size()));
     if (isNew)
       data.positions.push_back(p);
     merged.push_back(found->second);
@@ -36,8 +36,8 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
     if (faces.corners.size() % 3 == 0)
       faces.ends.push_back(faces.corners.size());
   }
-  x3d::addCreasedNormals(data, faces, creaseAngle);
-  std::size_t fans = 0; // of polygons, and there are none
+  x3d::addCreaseNormals(data, faces, creaseAngle);
+  std::size_t fans = 0; // stays 0: all faces are triangles
   Mesh result = x3d::meshOf(data, faces, fans);
   result.name = mesh.name;
   return result;

@@ -1,13 +1,12 @@
 #pragma once
-// Normals for meshes of triangles that were built rather than scanned.
+// Normals by crease angle for triangle meshes without normals.
 
 #include "scene/mesh.h"
 
 namespace imgeo {
 
-/// The mesh, which has no normals, with normals: smooth across edges of at most
-/// `creaseAngle` radians, sharp across others. Positions of equal bits become one,
-/// since what shares no vertex in a file may still share an edge.
+/// Returns the mesh, which must have no normals and no further attributes, with normals: smooth across edges of at most
+/// `creaseAngle` radians, sharp across others. Merges equal positions, since files may repeat the vertices of an edge.
 Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle);
 
 } // namespace imgeo

@@ -28,7 +28,7 @@ Vec3d newellNormal(std::span<const Vec3f> ring) {
   return normal;
 }
 
-/// The ring seen along the axis nearest to its normal, counter-clockwise.
+/// The ring projected along the coordinate axis nearest to its normal, counter-clockwise.
 std::vector<Vec2d> project(std::span<const Vec3f> ring, Vec3d normal) {
   int axis = 0;
   for (int other : {1, 2})
@@ -49,7 +49,7 @@ bool isConvex(std::span<const Vec2d> flat) {
   for (std::size_t i = 0; i < n; ++i)
     if (area(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) < 0)
       return false;
-  // Every corner of a star polygon is convex too: it is told by its fan.
+  // All corners of a star polygon are convex too; its fan has negative areas.
   for (std::size_t i = 1; i + 1 < n; ++i)
     if (area(flat[0], flat[i], flat[i + 1]) < 0)
       return false;
@@ -80,7 +80,7 @@ public:
       }
       triangles.insert(triangles.end(), {corner(at + n - 1), corner(at), corner(at + 1)});
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
-      // The next corner over: clipping neighbours in turn would make needles.
+      // Skips a corner: clipping neighbouring ears in turn would make thin triangles.
       at = (at + 1) % left_.size();
       tried = 0;
     }
@@ -98,7 +98,7 @@ private:
     const Vec2d a = flat_[corner(at + n - 1)], b = flat_[corner(at)], c = flat_[corner(at + 1)];
     for (std::size_t other = at + 2; other < at + n - 1; ++other) {
       const Vec2d p = flat_[corner(other)];
-      // Rings with a bridge to a hole pass twice through the bridge's ends.
+      // A ring with a bridge to a hole visits both ends of the bridge twice.
       if (p == a || p == b || p == c || turn(other) > 0)
         continue;
       if (inside(p, a, b, c))
@@ -119,7 +119,7 @@ bool triangulate(std::span<const Vec3f> ring, std::vector<std::uint32_t>& triang
   const bool isFlat = ring.size() == 3 || dot(normal, normal) == 0;
   const std::vector<Vec2d> flat = isFlat ? std::vector<Vec2d>{} : project(ring, normal);
   const bool wantsFan = isFlat || isConvex(flat);
-  if (wantsFan || ring.size() > kMaxEarClippedCorners) {
+  if (wantsFan || ring.size() > maxEarClippedCorners) {
     for (std::uint32_t i = 1; i + 1 < ring.size(); ++i)
       triangles.insert(triangles.end(), {0, i, i + 1});
     return wantsFan;

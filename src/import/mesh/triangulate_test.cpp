@@ -11,8 +11,8 @@ namespace {
 
 using Ring = std::vector<Vec3f>;
 
-/// Twice the vector area of a polygon; that of its triangles is the same for
-/// every cut, their summed lengths only where none turns the other way.
+/// Twice the vector area of a polygon. The triangles of every triangulation have the same sum of vector areas; the sum
+/// of their lengths is the same only where no triangle has the opposite orientation.
 Vec3d areaOf(const Ring& ring) {
   Vec3d sum;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i)
@@ -24,8 +24,8 @@ std::vector<std::uint32_t> cut(const Ring& ring) {
   std::vector<std::uint32_t> triangles;
   EXPECT_TRUE(triangulate(ring, triangles));
   EXPECT_EQ(triangles.size(), 3 * (ring.size() - 2));
-  for (const std::uint32_t place : triangles)
-    EXPECT_LT(place, ring.size());
+  for (const std::uint32_t corner : triangles)
+    EXPECT_LT(corner, ring.size());
   return triangles;
 }
 
@@ -80,7 +80,7 @@ TEST(Triangulate, CoversAPolygonWithAHoleAndItsBridge) {
       {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}});
 }
 
-TEST(Triangulate, KeepsTheCountOfWhatHasNoSimpleCut) {
+TEST(Triangulate, KeepsTheCountForDegeneratePolygons) {
   cut({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}});              // crosses itself
   cut({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}}); // a line
   cut(Ring(7, Vec3f{1, 2, 3}));                                   // a point
@@ -90,10 +90,10 @@ TEST(Triangulate, KeepsTheCountOfWhatHasNoSimpleCut) {
   cut(pentagram);
 }
 
-TEST(Triangulate, SaysWhenAConcavePolygonIsTooLarge) {
+TEST(Triangulate, ReturnsFalseForATooLargeConcavePolygon) {
   Random random(4);
   std::vector<std::uint32_t> triangles;
-  const Ring ring = starShaped(random, kMaxEarClippedCorners + 1);
+  const Ring ring = starShaped(random, maxEarClippedCorners + 1);
   EXPECT_FALSE(triangulate(ring, triangles));
   EXPECT_EQ(triangles.size(), 3 * (ring.size() - 2));
 }

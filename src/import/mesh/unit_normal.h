@@ -1,5 +1,5 @@
 #pragma once
-// The normals of files, which are not always of unit length.
+// Normalising normals.
 
 #include "base/vec.h"
 
@@ -7,9 +7,8 @@
 
 namespace imgeo {
 
-/// Brings a normal to unit length and keeps its bits where it is within 1e-6 of
-/// it. One without a direction (zero or not finite) becomes (0, 0, 1), as where
-/// normals are computed; returns false then.
+/// Scales a normal to unit length; keeps its bits where its length is within 1e-6 of 1. A normal without a direction
+/// (zero or not finite) becomes (0, 0, 1), and the result is false.
 inline bool makeUnit(Vec3f& normal) {
   const Vec3d wide(normal);
   const double size = length(wide);

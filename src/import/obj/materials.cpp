@@ -14,9 +14,8 @@ namespace imgeo {
 
 namespace {
 
-/// Statements that say nothing which X3D's materials have: the ambient share is
-/// the renderer's, illum chooses among models.
-const std::set<std::string_view> passedOver{"Ka", "illum", "Tf", "Ni", "sharpness"};
+/// Statements without an equivalent in X3D's materials.
+const std::set<std::string_view> ignoredStatements{"Ka", "illum", "Tf", "Ni", "sharpness"};
 
 float unit(float value) {
   return value > 0 ? std::min(value, 1.0f) : 0.0f;
@@ -47,7 +46,7 @@ Vec3f linearOf(Vec3f color) {
 
 void ObjMaterials::readLibrary(const std::string& files) {
   try {
-    readFile(files); // names may have blanks
+    readFile(files); // one file, whose name may contain blanks
     return;
   } catch (const Error& error) {
     if (files.find(' ') == files.npos) {
@@ -106,7 +105,7 @@ void ObjMaterials::readLine(TextScanner& scanner, Definition& definition) {
     definition.roughness = unit(readNumber(scanner));
   else if (const auto map = maps.find(keyword); map != maps.end())
     definition.maps.push_back(readMap(scanner, map->second));
-  else if (!passedOver.contains(keyword))
+  else if (!ignoredStatements.contains(keyword))
     others_.insert(asPrintable(keyword));
 }
 
@@ -145,7 +144,7 @@ ObjMaterials::Map ObjMaterials::readMap(TextScanner& scanner, TextureRole role) 
       map.clamps |= option == "-clamp" && value == "on";
     }
   }
-  // MTL: u' = s (u) + o; X3D moves first.
+  // MTL scales, then translates: u' = s u + o. X3D translates first.
   if (map.transform.scale.x != 0 && map.transform.scale.y != 0)
     map.transform.translation = {map.transform.translation.x / map.transform.scale.x,
                                  map.transform.translation.y / map.transform.scale.y};
@@ -211,13 +210,13 @@ std::optional<std::size_t> ObjMaterials::appearance(const std::string& name) {
   return found->second = graph_.appearances.size() - 1;
 }
 
-std::vector<std::string> ObjMaterials::losses() const {
-  std::vector<std::string> losses = missing_;
+std::vector<std::string> ObjMaterials::omissions() const {
+  std::vector<std::string> omissions = missing_;
   if (!undefined_.empty())
-    losses.push_back(fmt::format("{} named but not defined: {}.",
-                                 counted(undefined_.size(), "material is", "materials are"),
-                                 fmt::join(undefined_, ", ")));
-  return losses;
+    omissions.push_back(fmt::format("{} named but not defined: {}.",
+                                    counted(undefined_.size(), "material is", "materials are"),
+                                    fmt::join(undefined_, ", ")));
+  return omissions;
 }
 
 void ObjMaterials::addWarnings(std::vector<std::string>& warnings) const {

@@ -18,16 +18,14 @@ class ObjMaterials {
 public:
   ObjMaterials(SceneGraph& graph, const References& references) : graph_(graph), references_(references) {}
 
-  /// Reads what an mtllib statement names: one file, or several. What cannot be read
-  /// becomes a warning.
+  /// Reads the file or files that an mtllib statement names. Files that cannot be read become warnings.
   void readLibrary(const std::string& files);
 
-  /// The appearance of a material; absent where no library defines it.
+  /// Index of the appearance of a material; empty where no library defines the material.
   std::optional<std::size_t> appearance(const std::string& name);
 
-  /// One sentence for each file that is left out, and one for the materials that no
-  /// library defines.
-  std::vector<std::string> losses() const;
+  /// One warning for each file that is left out, and one for the materials that no library defines.
+  std::vector<std::string> omissions() const;
   void addWarnings(std::vector<std::string>& warnings) const;
 
 private:
@@ -40,7 +38,7 @@ private:
   };
   struct Definition {
     Material material;
-    std::optional<float> metallic, roughness; ///< where there is one: a physical material
+    std::optional<float> metallic, roughness; ///< present in physically based materials
     std::vector<Map> maps;
   };
 

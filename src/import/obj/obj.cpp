@@ -1,6 +1,5 @@
-// Wavefront OBJ ("Object Files", Advanced Visualizer manual, appendix B1):
-// polygons with texture coordinates and normals, and the vertex colours that
-// scanners append to their vertices.
+// Wavefront OBJ ("Object Files", Advanced Visualizer manual, appendix B1), with the vertex colours that scanners append
+// to their vertices.
 #include "import/obj/obj.h"
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
@@ -26,9 +25,9 @@ namespace imgeo {
 
 namespace {
 
-/// Bounds corners and vertices to 32 bits: each takes at least two bytes.
-constexpr std::uint64_t kMaxObjBytes = std::uint64_t{8} << 30;
-constexpr std::size_t kMaxNamedKeywords = 8;
+/// Bounds corners and vertices to 32 bits, since each takes at least two bytes.
+constexpr std::uint64_t maxObjBytes = std::uint64_t{8} << 30;
+constexpr std::size_t maxNamedKeywords = 8;
 
 class ObjReader {
 public:
@@ -74,7 +73,7 @@ private:
       useMaterial(std::string(scanner_.restOfLine()));
     else if (keyword == "mtllib")
       libraries_.emplace_back(scanner_.restOfLine());
-    else if (keyword != "g" && keyword != "s" && others_.size() < kMaxNamedKeywords)
+    else if (keyword != "g" && keyword != "s" && others_.size() < maxNamedKeywords)
       others_.insert(asPrintable(keyword));
   }
 
@@ -82,22 +81,22 @@ private:
     const ObjObject& last = content_.objects.back();
     content_.objects.push_back({std::move(name), last.material, last.number + 1, {}, {}});
     current_ = content_.objects.size() - 1;
-    parts_ = {{content_.objects[current_].material, current_}};
+    subsets_ = {{content_.objects[current_].material, current_}};
   }
 
-  /// An object's elements of one material are one part of it, wherever they stand.
+  /// All elements of an object that have the same material form one subset.
   void useMaterial(std::string name) {
     if (content_.objects[current_].material == name)
       return;
-    const auto [part, isNew] = parts_.try_emplace(name, content_.objects.size());
+    const auto [subset, isNew] = subsets_.try_emplace(name, content_.objects.size());
     if (isNew) {
       const ObjObject& object = content_.objects[current_];
       content_.objects.push_back({object.name, std::move(name), object.number, {}, {}});
     }
-    current_ = part->second;
+    current_ = subset->second;
   }
 
-  /// The numbers up to the end of the line, at most as many as `out` has room for.
+  /// Reads the numbers up to the end of the line, at most as many as fit into `out`.
   std::size_t readNumbers(std::span<float> out, std::size_t atLeast) {
     std::size_t count = 0;
     for (scanner_.skipBlanks(); count < out.size(); scanner_.skipBlanks()) {
@@ -113,7 +112,7 @@ private:
       scanner_.fail(ErrorKind::malformed, fmt::format("{} is not a number or beyond single precision", what));
   }
 
-  /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha behind b is left out.
+  /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha behind b is ignored.
   void readVertex() {
     std::array<float, 7> n{};
     const std::size_t count = readNumbers(n, 3);
@@ -121,7 +120,7 @@ private:
     content_.positions.push_back({n[0], n[1], n[2]});
     constexpr Rgba8 white{255, 255, 255, 255};
     if (count >= 6) {
-      content_.colors.resize(content_.positions.size() - 1, white); // of vertices before that had none
+      content_.colors.resize(content_.positions.size() - 1, white); // for earlier vertices without colours
       content_.colors.push_back({channel(n[3]), channel(n[4]), channel(n[5]), 255});
     } else if (!content_.colors.empty()) {
       content_.colors.push_back(white);
@@ -133,7 +132,7 @@ private:
     if (scaled >= 0 && scaled < 255.5f)
       return static_cast<std::uint8_t>(std::lround(scaled));
     ++colorsClamped_;
-    return scaled > 0 ? 255 : 0; // what is not a number becomes 0
+    return scaled > 0 ? 255 : 0; // NaN becomes 0
   }
 
   void readTexCoord() {
@@ -150,7 +149,7 @@ private:
     unusableNormals_ += !makeUnit(content_.normals.back());
   }
 
-  /// Counted from 1, or from the end where negative; only what stands before.
+  /// Reads an index: counted from 1, or from the end where negative. Refers to earlier statements only.
   std::uint32_t readIndex(std::size_t count, const char* what) {
     const std::int64_t number = scanner_.integer("an index");
     const std::int64_t all = static_cast<std::int64_t>(count);
@@ -178,7 +177,7 @@ private:
     return corner;
   }
 
-  /// The corners of a polygon or of a line of many, which are the rest of the statement.
+  /// Reads the corners of a polygon or polyline: the rest of the statement.
   void readCorners() {
     polygon_.clear();
     for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks())
@@ -204,8 +203,8 @@ private:
       for (const ObjCorner& corner : polygon_)
         ring_.push_back(content_.positions[corner.position]);
       fans_ += !triangulate(ring_, local_);
-      for (const std::uint32_t place : local_)
-        object.push_back(polygon_[place]);
+      for (const std::uint32_t index : local_)
+        object.push_back(polygon_[index]);
     }
   }
 
@@ -214,7 +213,7 @@ private:
     for (const std::string& library : libraries_)
       materials.readLibrary(library);
     ObjMeshBuilder builder(content_);
-    // Parts of one object stand one behind the other, but for those of materials that come back.
+    // Makes the subsets of each object consecutive.
     std::ranges::stable_sort(content_.objects, {}, &ObjObject::number);
     for (auto first = content_.objects.begin(); first != content_.objects.end();) {
       const auto last = std::find_if(first, content_.objects.end(),
@@ -225,34 +224,34 @@ private:
     if (builder.partlyNormals > 0)
       imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
                                               counted(builder.partlyNormals, "object were", "objects were")));
-    addLosses(imported.warnings, materials.losses(), isStrict_, fileName_);
+    addOmissions(imported.warnings, materials.omissions(), isStrict_, fileName_);
     materials.addWarnings(imported.warnings);
   }
 
-  /// An object of several materials is a group of as many shapes.
-  void addObject(std::span<const ObjObject> parts, ObjMeshBuilder& builder, ObjMaterials& materials, Scene& scene) {
+  /// Adds an object; one of several subsets becomes a Group of shapes.
+  void addObject(std::span<const ObjObject> subsets, ObjMeshBuilder& builder, ObjMaterials& materials, Scene& scene) {
     std::vector<std::size_t> shapes;
-    for (const ObjObject& part : parts)
+    for (const ObjObject& subset : subsets)
       for (const Topology topology : {Topology::triangles, Topology::lines}) {
-        if ((topology == Topology::triangles ? part.triangles : part.lines).empty())
+        if ((topology == Topology::triangles ? subset.triangles : subset.lines).empty())
           continue;
-        Mesh mesh = builder.build(part, topology);
+        Mesh mesh = builder.build(subset, topology);
         if (mesh.name.empty())
           mesh.name = stemOf(fileName_);
         Shape shape;
         shape.mesh = scene.meshes.size();
-        if (!part.material.empty())
-          shape.appearance = materials.appearance(part.material);
+        if (!subset.material.empty())
+          shape.appearance = materials.appearance(subset.material);
         scene.meshes.push_back(std::move(mesh));
-        shapes.push_back(addNode(scene.graph, {parts.size() == 1 ? part.name : "", shape, {}, ""}));
+        shapes.push_back(addNode(scene.graph, {subsets.size() == 1 ? subset.name : "", shape, {}, ""}));
       }
-    if (parts.size() == 1)
+    if (subsets.size() == 1)
       std::ranges::copy(shapes, std::back_inserter(scene.graph.roots));
     else
-      addRoot(scene.graph, {parts.front().name, Group{}, std::move(shapes), ""});
+      addRoot(scene.graph, {subsets.front().name, Group{}, std::move(shapes), ""});
   }
 
-  /// A file without faces and lines is a point cloud.
+  /// Adds the vertices of a file without faces and lines as a point cloud.
   void addPoints(Scene& scene) {
     Mesh mesh;
     mesh.name = stemOf(fileName_);
@@ -283,22 +282,22 @@ private:
 
   TextScanner scanner_;
   const std::string& fileName_;
-  ObjContent content_{{}, {}, {}, {}, {ObjObject{}}}; ///< before the first "o": an object without a name
+  ObjContent content_{{}, {}, {}, {}, {ObjObject{}}}; ///< statements before the first "o" form an object without a name
   std::vector<ObjCorner> polygon_;
   std::vector<Vec3f> ring_;
   std::vector<std::uint32_t> local_;
   const References& references_;
   bool isStrict_;
-  std::size_t current_ = 0;                           ///< the part that elements go to
-  std::map<std::string, std::size_t> parts_{{"", 0}}; ///< of the current object, by material
+  std::size_t current_ = 0;                             ///< the subset that elements are added to
+  std::map<std::string, std::size_t> subsets_{{"", 0}}; ///< subsets of the current object by material
   std::vector<std::string> libraries_;
   std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0, unusableNormals_ = 0;
-  std::set<std::string> others_; ///< some of the keywords that were passed over
+  std::set<std::string> others_; ///< some of the keywords that were skipped
 };
 
 } // namespace
 
-bool looksLikeObj(ByteSpan bytes) {
+bool resemblesObj(ByteSpan bytes) {
   constexpr std::string_view keywords[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl"};
   const std::string name;
   for (TextScanner scanner(bytes, name); !scanner.atEnd(); scanner.skipLine()) {
@@ -311,7 +310,7 @@ bool looksLikeObj(ByteSpan bytes) {
 }
 
 Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  if (bytes.size() > kMaxObjBytes)
+  if (bytes.size() > maxObjBytes)
     throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
   const References references(options, name);
   return ObjReader(bytes, name, references, options.strict).read();

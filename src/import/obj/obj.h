@@ -7,7 +7,7 @@
 namespace imgeo {
 
 /// True where the first line that is neither blank nor a comment begins with a keyword of OBJ.
-bool looksLikeObj(ByteSpan bytes);
+bool resemblesObj(ByteSpan bytes);
 Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 } // namespace imgeo

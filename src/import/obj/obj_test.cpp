@@ -9,13 +9,13 @@
 namespace imgeo::testing {
 namespace {
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string squareText = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 std::string numbers(const char* keyword, Vec3f p) {
   return fmt::format("{} {} {} {}\n", keyword, p.x, p.y, p.z);
 }
 
-/// One vt and vn a wedge; faces name them by negative numbers where asked.
+/// The OBJ text of a mesh, with one vt and vn per wedge; faces use negative indices on request.
 std::string objText(const Mesh& mesh, bool fromTheEnd) {
   std::string text;
   for (const Vec3f& p : mesh.positions)
@@ -44,7 +44,7 @@ std::string objText(const Mesh& mesh, bool fromTheEnd) {
   return text;
 }
 
-TEST(Obj, KeepsWhatEachCornerIs) {
+TEST(Obj, KeepsTheAttributesOfEachCorner) {
   for (std::uint32_t seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE(seed);
     const Mesh written = randomMesh(seed);
@@ -71,13 +71,13 @@ TEST(Obj, KeepsWhatEachCornerIs) {
 }
 
 TEST(Obj, MakesAWedgeOfEachCombinationOnce) {
-  const Mesh mesh = onlyMesh(kSquare + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n", "m.obj");
+  const Mesh mesh = onlyMesh(squareText + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n", "m.obj");
   EXPECT_EQ(mesh.positions.size(), 4u);
   EXPECT_EQ(mesh.wedgeCount(), 5u);
 }
 
-TEST(Obj, MakesAWedgeOfEachCombinationOnceWhereAPositionHasMany) {
-  std::string text = kSquare;
+TEST(Obj, MakesAWedgeOfEachCombinationOnceForAPositionWithManyWedges) {
+  std::string text = squareText;
   constexpr std::uint32_t count = 300;
   for (std::uint32_t i = 1; i <= count; ++i)
     text += fmt::format("vt {} 0\n", i);
@@ -93,9 +93,9 @@ TEST(Obj, MakesAWedgeOfEachCombinationOnceWhereAPositionHasMany) {
   }
 }
 
-TEST(Obj, KeepsObjectsAsShapesWithNamesThatDiffer) {
+TEST(Obj, KeepsObjectsAsShapesWithUniqueNames) {
   const Imported imported = importBytes(
-      asBytes("v 9 9 9\n" + kSquare + "o a\nf 2 3 4\no empty\no a\nf 2 4 5\no b c \ng x\nf 2 3 5\ng y\nf 2 3 4\n"),
+      asBytes("v 9 9 9\n" + squareText + "o a\nf 2 3 4\no empty\no a\nf 2 4 5\no b c \ng x\nf 2 3 5\ng y\nf 2 3 4\n"),
       "m.obj");
   ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
   EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "a");
@@ -117,7 +117,7 @@ TEST(Obj, ReadsVertexColours) {
   EXPECT_EQ(mesh.colors, (std::vector<Rgba8>{{255, 255, 255, 255}, {255, 128, 0, 255}, {255, 255, 255, 255}}));
 }
 
-TEST(Obj, HasLinesOfManyCornersAsAMeshOfLines) {
+TEST(Obj, ReadsPolylinesAsAMeshOfLines) {
   const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0\nv 2 0 0\nvt 0 0\nvt 1 0\nl 3/1 1/2 -2/2\nl 1/1 2/2\n", "m.obj");
   EXPECT_EQ(mesh.topology, Topology::lines);
   EXPECT_EQ(mesh.elementCount(), 3u);
@@ -128,9 +128,9 @@ TEST(Obj, HasLinesOfManyCornersAsAMeshOfLines) {
   EXPECT_EQ(mesh.wedgeCount(), 4u); // (3, 1), (1, 2), (2, 2), (1, 1)
 }
 
-TEST(Obj, HasAShapeOfLinesBesideThatOfTheFacesOfAnObject) {
+TEST(Obj, SplitsAnObjectWithFacesAndLinesIntoTwoShapes) {
   const Imported imported =
-      importBytes(asBytes("o roof\n" + kSquare + "f 1 2 3 4\nl 4 3\no post\nv 9 9 9\nl 1 5\n"), "m.obj");
+      importBytes(asBytes("o roof\n" + squareText + "f 1 2 3 4\nl 4 3\no post\nv 9 9 9\nl 1 5\n"), "m.obj");
   ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
   EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "roof");
   EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "roof-2");
@@ -147,10 +147,10 @@ TEST(Obj, WithoutFacesIsAPointCloud) {
   EXPECT_EQ(mesh.elementCount(), 2u);
 }
 
-TEST(Obj, SaysWhatIsNotCarriedOver) {
+TEST(Obj, WarnsAboutContentThatIsNotCarriedOver) {
   const auto warningsOf = [](const std::string& text) { return importBytes(asBytes(text), "m.obj").warnings; };
-  EXPECT_TRUE(warningsOf("# a comment\n" + kSquare + "s 1\ng top\nf 1 2 3 4\n").empty());
-  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
+  EXPECT_TRUE(warningsOf("# a comment\n" + squareText + "s 1\ng top\nf 1 2 3 4\n").empty());
+  EXPECT_EQ(warningsOf(squareText + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
             (std::vector<std::string>{
                 "Materials are left out: m.obj: refers to \"a.mtl\", which can only be found beside a file, not "
                 "beside standard input.",
@@ -158,32 +158,32 @@ TEST(Obj, SaysWhatIsNotCarriedOver) {
                 "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
                 "Statements of the OBJ file that imgeo does not read: parm.",
                 "1 face was left out: fewer than three corners."}));
-  EXPECT_EQ(warningsOf(kSquare + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
+  EXPECT_EQ(warningsOf(squareText + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
             "1 normal was replaced by (0, 0, 1): without direction.");
-  EXPECT_EQ(warningsOf(kSquare + "vn 0 0 1\nf 1//1 2//1 3\n").at(0),
+  EXPECT_EQ(warningsOf(squareText + "vn 0 0 1\nf 1//1 2//1 3\n").at(0),
             "The normals of 1 object were left out: some corners have none.");
 }
 
-TEST(Obj, WithoutItsMaterialsOrTexturesIsRefusedIfStrict) {
+TEST(Obj, StrictRefusesMissingMaterialsAndTextures) {
   const TemporaryDirectory directory;
   writeFile(directory / "lost.mtl", asBytes("newmtl red\nmap_Kd lost.png\n"));
   ImportOptions strict;
   strict.strict = true;
   for (const std::string materials : {"mtllib none.mtl\n", "usemtl red\n", "mtllib lost.mtl\nusemtl red\n"}) {
-    writeFile(directory / "a.obj", asBytes(kSquare + materials + "f 1 2 3\n"));
+    writeFile(directory / "a.obj", asBytes(squareText + materials + "f 1 2 3\n"));
     EXPECT_FALSE(importFile(directory / "a.obj").warnings.empty()) << materials;
     EXPECT_THROW(importFile(directory / "a.obj", strict), Error) << materials;
   }
 }
 
-TEST(Obj, TakesMaterialsAndTexturesFromTheFilesThatItNames) {
+TEST(Obj, ReadsMaterialsAndTexturesFromReferencedFiles) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
   writeFile(directory / "my house.mtl", asBytes("newmtl red brick\nKd 1 0 0\nNs 64\nd 0.75\n"
                                                 "newmtl oak\nKd 1 1 1\nmap_Kd -s 2 4 -o 1 0 -clamp on wood.png\n"
                                                 "map_Bump bumps.png\n"
                                                 "newmtl gold\nKd 1 1 0\nPm 1\nPr 0.25\nmap_Kd lost.png\n"));
-  writeFile(directory / "a.obj", asBytes("mtllib my house.mtl\n" + kSquare +
+  writeFile(directory / "a.obj", asBytes("mtllib my house.mtl\n" + squareText +
                                          "o wall\nusemtl red brick\nf 1 2 3\nusemtl oak\nf 1 3 4\nusemtl red brick\n"
                                          "f 2 3 4\no ring\nusemtl gold\nf 1 2 4\n"));
   const Imported imported = importFile(directory / "a.obj");
@@ -218,15 +218,15 @@ TEST(Obj, RefusesWithOneSentenceAndALine) {
       {"v 0 0\nv 1 0 0\n", "m.obj:1", "the line ends"},
       {"v 0 0 nan\n", "m.obj:1", "coordinate"},
       {"v 0 0 1e40\n", "m.obj:1", "coordinate"},
-      {kSquare + "vt inf\nf 1 2 3\n", "m.obj:5", "texture coordinate"},
-      {kSquare + "f 1 2 5\n", "m.obj:5", "vertex 5 is named, but 4 stand before this line"},
-      {kSquare + "f 1 2 -5\n", "m.obj:5", "vertex -5"},
-      {kSquare + "f 1 2 0\n", "m.obj:5", "vertex 0"},
-      {kSquare + "f 1/1 2 3\n", "m.obj:5", "texture coordinate 1"},
-      {kSquare + "f 1//1 2 3\n", "m.obj:5", "normal 1"},
-      {kSquare + "f 1/ 2 3\n", "m.obj:5", "an index expected"},
-      {kSquare + "f 1 2 3.5\n", "m.obj:5", "a corner has the form"},
-      {kSquare + "f 1 2 99999999999999999999\n", "m.obj:5", "an index expected"},
+      {squareText + "vt inf\nf 1 2 3\n", "m.obj:5", "texture coordinate"},
+      {squareText + "f 1 2 5\n", "m.obj:5", "vertex 5 is named, but 4 stand before this line"},
+      {squareText + "f 1 2 -5\n", "m.obj:5", "vertex -5"},
+      {squareText + "f 1 2 0\n", "m.obj:5", "vertex 0"},
+      {squareText + "f 1/1 2 3\n", "m.obj:5", "texture coordinate 1"},
+      {squareText + "f 1//1 2 3\n", "m.obj:5", "normal 1"},
+      {squareText + "f 1/ 2 3\n", "m.obj:5", "an index expected"},
+      {squareText + "f 1 2 3.5\n", "m.obj:5", "a corner has the form"},
+      {squareText + "f 1 2 99999999999999999999\n", "m.obj:5", "an index expected"},
       {"g nothing\n", "m.obj", "no triangles, lines or points"},
   };
   for (const auto& refused : cases) {

@@ -1,6 +1,5 @@
 #pragma once
-// The objects of an OBJ file, whose vertices are numbered through the whole
-// file, and the mesh of each.
+// The content of an OBJ file, whose indices count through the whole file, and its conversion to one mesh per object.
 
 #include "scene/mesh.h"
 
@@ -14,16 +13,16 @@
 namespace imgeo {
 
 struct ObjCorner {
-  static constexpr std::uint32_t kNone = 0xffffffff;
-  std::uint32_t position = 0, texCoord = kNone, normal = kNone;
+  static constexpr std::uint32_t none = 0xffffffff;
+  std::uint32_t position = 0, texCoord = none, normal = none;
   friend auto operator<=>(const ObjCorner&, const ObjCorner&) = default;
 };
 
-/// An object, or the part of it that has one material.
+/// An object, or the subset of its elements that has one material.
 struct ObjObject {
   std::string name;
   std::string material;             ///< empty: none
-  std::size_t number = 0;           ///< of the object in the file
+  std::size_t number = 0;           ///< the object's index in the file; subsets share it
   std::vector<ObjCorner> triangles; ///< three corners each
   std::vector<ObjCorner> lines;     ///< two corners each
 };
@@ -36,16 +35,15 @@ struct ObjContent {
   std::vector<ObjObject> objects;
 };
 
-/// Makes meshes of objects one after the other.
+/// Converts objects to meshes.
 class ObjMeshBuilder {
 public:
   explicit ObjMeshBuilder(const ObjContent& content);
 
-  /// The triangles or the lines of an object. Each combination of position, texture
-  /// coordinate and normal becomes a wedge. A file's only mesh keeps all positions
-  /// in the file's order; of several, each takes those that it names, in the order
-  /// of their first use. Normals are kept where every corner has one, texture
-  /// coordinates where any has.
+  /// A mesh of the triangles or of the lines of an object. Each combination of position, texture coordinate and normal
+  /// becomes a wedge. If the file gives one mesh, it keeps all positions in the file's order; otherwise each mesh has
+  /// the positions that it uses, in the order of first use. Normals are kept where every corner has one, texture
+  /// coordinates where any corner has one.
   Mesh build(const ObjObject& object, Topology topology);
 
   std::size_t partlyNormals = 0; ///< objects whose normals were left out: some corners have none
@@ -55,13 +53,12 @@ private:
   std::uint32_t wedge(Mesh& mesh, const ObjCorner& corner);
 
   const ObjContent& content_;
-  std::vector<std::uint32_t> localPosition_; ///< by the file's; kNone: not in this mesh
+  std::vector<std::uint32_t> localPosition_; ///< by position in the file; none: not in this mesh
   bool isOnlyMesh_ = false, hasTexCoords_ = false, hasNormals_ = false;
-  std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< the wedges of each local position, as a list
+  std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< linked lists of the wedges of each local position
   std::vector<ObjCorner> wedgeKeys_;
-  /// Of positions that have many: those beyond their lists, which would take a time that grows with the
-  /// square.
-  std::map<ObjCorner, std::uint32_t> crowded_;
+  /// Wedges beyond the maximum list length, of positions with many wedges; keeps the search from taking quadratic time.
+  std::map<ObjCorner, std::uint32_t> overflowWedges_;
 };
 
 } // namespace imgeo

@@ -32,7 +32,7 @@ void skipElement(PlyRecords<Cursor>& records, const PlyElement& element, PlyCont
   });
 }
 
-/// Two vertices each, as Blender, MeshLab and Open3D write them.
+/// Whether an element holds edges as Blender, MeshLab and Open3D write them: two vertex indices.
 bool isEdge(const PlyElement& element) {
   const auto isIndex = [&](const char* name) {
     const PlyProperty* property = element.find(name);
@@ -88,8 +88,8 @@ PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::strin
   for (const PlyElement& element : header.elements) {
     if constexpr (std::is_same_v<Cursor, AsciiPlyCursor>)
       if (lines.read(records.cursor(), element, content,
-                     [&](AsciiPlyRecords& of, const PlyElement& part, PlyContent& into) {
-                       readElement(of, part, vertices->count, kept, into);
+                     [&](AsciiPlyRecords& chunkRecords, const PlyElement& chunk, PlyContent& chunkContent) {
+                       readElement(chunkRecords, chunk, vertices->count, kept, chunkContent);
                      }))
         continue;
     readElement(records, element, vertices->count, kept, content);
@@ -107,41 +107,41 @@ void PlyContent::noteIgnored(const PlyElement& element, const PlyProperty& prope
     ignored.push_back(fmt::format("'{}' of '{}'", asPrintable(property.name), element.name));
 }
 
-void PlyContent::append(std::vector<PlyContent>& parts) {
-  // The same in all parts.
-  ignored.insert(ignored.end(), parts[0].ignored.begin(), parts[0].ignored.end());
-  namedAttributes.insert(namedAttributes.end(), parts[0].namedAttributes.begin(), parts[0].namedAttributes.end());
+void PlyContent::append(std::vector<PlyContent>& chunks) {
+  // These are the same in all chunks.
+  ignored.insert(ignored.end(), chunks[0].ignored.begin(), chunks[0].ignored.end());
+  namedAttributes.insert(namedAttributes.end(), chunks[0].namedAttributes.begin(), chunks[0].namedAttributes.end());
   const auto reserve = [&](auto member) {
     std::size_t count = (this->*member).size();
-    for (const PlyContent& part : parts)
-      count += (part.*member).size();
+    for (const PlyContent& chunk : chunks)
+      count += (chunk.*member).size();
     (this->*member).reserve(count);
   };
   reserve(&PlyContent::positions);
   reserve(&PlyContent::indices);
-  for (PlyContent& part : parts) {
-    append(part);
-    part = {};
+  for (PlyContent& chunk : chunks) {
+    append(chunk);
+    chunk = {};
   }
 }
 
-void PlyContent::append(const PlyContent& part) {
+void PlyContent::append(const PlyContent& chunk) {
   const auto add = [](auto& values, const auto& more) { values.insert(values.end(), more.begin(), more.end()); };
-  imgeo::append(attributes, positions.size(), part.attributes, part.positions.size());
-  add(positions, part.positions);
-  if (!part.sizes.empty() && sizes.empty())
+  imgeo::append(attributes, positions.size(), chunk.attributes, chunk.positions.size());
+  add(positions, chunk.positions);
+  if (!chunk.sizes.empty() && sizes.empty())
     sizes.assign(indices.size() / 3, 3);
-  else if (part.sizes.empty() && !sizes.empty())
-    sizes.insert(sizes.end(), part.indices.size() / 3, 3);
-  add(sizes, part.sizes);
-  if (!part.cornerTexCoords.empty())
+  else if (chunk.sizes.empty() && !sizes.empty())
+    sizes.insert(sizes.end(), chunk.indices.size() / 3, 3);
+  add(sizes, chunk.sizes);
+  if (!chunk.cornerTexCoords.empty())
     cornerTexCoords.resize(indices.size());
-  add(cornerTexCoords, part.cornerTexCoords);
-  add(indices, part.indices);
-  add(edges, part.edges);
-  facesTooSmall += part.facesTooSmall;
-  colorsClamped += part.colorsClamped;
-  largestRounding = std::max(largestRounding, part.largestRounding);
+  add(cornerTexCoords, chunk.cornerTexCoords);
+  add(indices, chunk.indices);
+  add(edges, chunk.edges);
+  facesTooSmall += chunk.facesTooSmall;
+  colorsClamped += chunk.colorsClamped;
+  maxRounding = std::max(maxRounding, chunk.maxRounding);
 }
 
 PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,

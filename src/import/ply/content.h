@@ -1,5 +1,5 @@
 #pragma once
-// What the elements of a PLY file say, before it becomes a mesh.
+// The data of a PLY file before conversion to meshes.
 
 #include "import/import.h"
 #include "import/ply/header.h"
@@ -12,26 +12,26 @@ namespace imgeo {
 
 struct PlyContent {
   std::vector<Vec3f> positions; ///< finite
-  VertexAttributes attributes;  ///< normals as the file has them; the rest is finite
+  VertexAttributes attributes;  ///< normals not normalised; all other values are finite
 
-  std::vector<std::uint32_t> indices; ///< of all polygons, one after the other; all are vertices
+  std::vector<std::uint32_t> indices; ///< vertex indices of all polygons in order; in range
   std::vector<std::uint32_t> sizes;   ///< corners of each polygon; empty while all are triangles
   std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
-  std::vector<std::uint32_t> edges;   ///< two vertices each
+  std::vector<std::uint32_t> edges;   ///< two vertex indices each
 
-  std::vector<std::string> namedAttributes; ///< that there are, kept or not
+  std::vector<std::string> namedAttributes; ///< names in the file, kept or not
   std::vector<std::string> ignored;         ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
   std::uint64_t facesTooSmall = 0;          ///< left out: fewer than three corners
-  std::uint64_t colorsClamped = 0;          ///< channels outside their type's range
+  std::uint64_t colorsClamped = 0;          ///< colour channels outside the range of their type
   std::uint64_t trailingBytes = 0;          ///< behind the last element
-  double largestRounding = 0;               ///< of coordinates that were double
+  double maxRounding = 0;                   ///< the largest rounding error of double-precision coordinates
 
   void noteIgnored(const PlyElement& element, const PlyProperty& property);
-  /// Appends what has been read of an element in parts, which it gives back part by part.
-  void append(std::vector<PlyContent>& parts);
+  /// Appends an element that was read in chunks, and frees each chunk.
+  void append(std::vector<PlyContent>& chunks);
 
 private:
-  void append(const PlyContent& part);
+  void append(const PlyContent& chunk);
 };
 
 /// Reads all elements behind `header`. Safe for untrusted bytes; throws Error

@@ -1,7 +1,7 @@
 #pragma once
-// Two cursors over the body of a PLY file with the same functions, so that one
-// reader serves text and both byte orders. Values travel as double, which holds
-// every PLY type exactly. Both are safe for untrusted bytes.
+// Cursors over the body of a PLY file, one for text and one for binary data, with the same functions, so that one
+// reader serves all encodings. Values are passed as double, which represents every PLY type exactly. Safe for untrusted
+// bytes.
 
 #include "import/ply/header.h"
 #include "import/source_name.h"
@@ -12,7 +12,7 @@
 
 namespace imgeo {
 
-/// Which record a cursor is in, for messages.
+/// The record that a cursor is in, for messages.
 struct PlyRecord {
   const PlyElement* element = nullptr;
   std::uint64_t number = 0;
@@ -20,19 +20,18 @@ struct PlyRecord {
   std::string name() const { return fmt::format("{} {} of {}", element->name, number + 1, element->count); }
 };
 
-/// Every record begins on a line of its own and may run over several; what is
-/// left on its last line is an error, so that a missing value is found near its
-/// place and does not shift all that follows.
+/// Every record begins on a line of its own and may span several. Further words on its last line are an error, so that
+/// a missing value is reported near its position and does not shift all values behind it.
 class AsciiPlyCursor {
 public:
   AsciiPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : scanner_(bytes, name, from) {}
 
-  /// In bytes: a digit and what separates it.
-  static std::size_t smallestSize(PlyType) { return 2; }
-  /// The last value of a file needs nothing behind it.
-  static constexpr std::size_t kSparedAtEnd = 1;
+  /// Bytes of the shortest value: a digit and a separator.
+  static std::size_t minSize(PlyType) { return 2; }
+  /// The separator behind the last value of a file may be missing.
+  static constexpr std::size_t optionalEndBytes = 1;
   std::size_t bytesLeft() const { return scanner_.bytesLeft(); }
-  /// Between records: the byte at which the line of the next one begins.
+  /// Valid between records: the byte at which the line of the next record begins.
   std::size_t beginOfLine() const {
     return scanner_.byteOffset() + (scanner_.atEnd() || !scanner_.atLineEnd() ? 0 : 1);
   }
@@ -77,8 +76,8 @@ template <std::endian order> class BinaryPlyCursor {
 public:
   BinaryPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : bytes_(bytes), at_(from), name_(name) {}
 
-  static std::size_t smallestSize(PlyType type) { return byteSizeOf(type); }
-  static constexpr std::size_t kSparedAtEnd = 0;
+  static std::size_t minSize(PlyType type) { return byteSizeOf(type); }
+  static constexpr std::size_t optionalEndBytes = 0;
   std::size_t bytesLeft() const { return bytes_.size() - at_; }
 
   void beginRecord(const PlyRecord& record) { record_ = record; }

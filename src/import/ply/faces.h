@@ -1,5 +1,5 @@
 #pragma once
-// The elements of a PLY file that hold polygons: `face` and `tristrips`.
+// Reads the elements of a PLY file that hold polygons: `face` and `tristrips`.
 
 #include "import/ply/content.h"
 #include "import/ply/records.h"
@@ -58,7 +58,7 @@ private:
   }
   static bool isTexCoordList(const PlyProperty& property) { return property.isList() && property.name == "texcoord"; }
 
-  /// Finds the one list of indices and returns its type; notes what is not read.
+  /// Finds the list of indices and returns its type; notes properties that are not read.
   PlyType checkProperties(const PlyElement& element, bool texCoordsAreRead) {
     records_.checkCount(element);
     const PlyProperty* indices = nullptr;
@@ -80,7 +80,7 @@ private:
 
   void checkIndex(double index) const { records_.checkVertexNumber(index, vertexCount_); }
 
-  /// The corners added: none for what is no polygon.
+  /// Returns the number of corners added: 0 for a face of fewer than three corners.
   std::size_t addPolygon(std::span<const double> polygon) {
     for (const double index : polygon)
       checkIndex(index);
@@ -109,7 +109,7 @@ private:
     return texCoords;
   }
 
-  /// (0, 0) for faces that come without, before this one and here.
+  /// Faces without texture coordinates, this one or earlier ones, get (0, 0).
   void addTexCoords(const std::vector<Vec2f>& texCoords, std::size_t corners) {
     if (!texCoords.empty() && texCoords.size() != corners)
       records_.fail(ErrorKind::malformed,
@@ -119,8 +119,8 @@ private:
     std::ranges::copy(texCoords, all.end() - static_cast<std::ptrdiff_t>(corners));
   }
 
-  /// Strips, one after the other, each ended by -1; every second triangle of a
-  /// strip turns the other way. Triangles with two equal corners only join.
+  /// Consecutive strips, separated by -1. Every second triangle of a strip has the opposite winding. Triangles with two
+  /// equal corners only connect strips and are skipped.
   void addStrips(std::span<const double> indices) {
     std::size_t begin = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {

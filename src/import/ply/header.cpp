@@ -16,14 +16,14 @@ struct TypeName {
   std::size_t bytes;
 };
 
-constexpr std::array<TypeName, 8> kTypes{{{"char", "int8", PlyType::int8, 1},
-                                          {"uchar", "uint8", PlyType::uint8, 1},
-                                          {"short", "int16", PlyType::int16, 2},
-                                          {"ushort", "uint16", PlyType::uint16, 2},
-                                          {"int", "int32", PlyType::int32, 4},
-                                          {"uint", "uint32", PlyType::uint32, 4},
-                                          {"float", "float32", PlyType::float32, 4},
-                                          {"double", "float64", PlyType::float64, 8}}};
+constexpr std::array<TypeName, 8> plyTypes{{{"char", "int8", PlyType::int8, 1},
+                                            {"uchar", "uint8", PlyType::uint8, 1},
+                                            {"short", "int16", PlyType::int16, 2},
+                                            {"ushort", "uint16", PlyType::uint16, 2},
+                                            {"int", "int32", PlyType::int32, 4},
+                                            {"uint", "uint32", PlyType::uint32, 4},
+                                            {"float", "float32", PlyType::float32, 4},
+                                            {"double", "float64", PlyType::float64, 8}}};
 
 std::string nextWord(TextScanner& line) {
   line.skipBlanks();
@@ -31,7 +31,7 @@ std::string nextWord(TextScanner& line) {
 }
 
 PlyType typeNamed(const std::string& word, const TextScanner& line) {
-  for (const TypeName& type : kTypes)
+  for (const TypeName& type : plyTypes)
     if (word == type.name || word == type.sizedName)
       return type.type;
   line.fail(ErrorKind::malformed, fmt::format("the header names an unknown type '{}'", asPrintable(word)));
@@ -98,7 +98,7 @@ void addProperty(PlyHeader& header, TextScanner& line) {
 } // namespace
 
 std::size_t byteSizeOf(PlyType type) {
-  return kTypes[static_cast<std::size_t>(type)].bytes;
+  return plyTypes[static_cast<std::size_t>(type)].bytes;
 }
 
 const PlyProperty* PlyElement::find(std::string_view property) const {

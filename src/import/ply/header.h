@@ -20,14 +20,14 @@ inline bool isInteger(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
-  std::optional<PlyType> countType; ///< of a list; absent: a scalar
+  std::optional<PlyType> countType; ///< the type of a list's count; absent for a scalar
 
   bool isList() const { return countType.has_value(); }
 };
 
 struct PlyElement {
   std::string name;
-  std::uint64_t count = 0; ///< as promised; not yet checked against the bytes
+  std::uint64_t count = 0; ///< as the header states; not yet checked against the bytes
   std::vector<PlyProperty> properties;
 
   const PlyProperty* find(std::string_view property) const;
@@ -43,9 +43,8 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Reads the header; comments and obj_info are passed over, lines may end with
-/// CR LF. Safe for untrusted bytes. Throws Error (truncated, malformed,
-/// unsupported) naming `name` and the line.
+/// Reads the header; skips comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws Error
+/// (truncated, malformed, unsupported) naming `name` and the line.
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name);
 
 } // namespace imgeo

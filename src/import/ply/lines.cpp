@@ -12,7 +12,7 @@ namespace imgeo {
 namespace {
 
 constexpr std::size_t blockBytes = std::size_t{1} << 18;
-constexpr std::uint64_t linesOfPart = 1 << 14;
+constexpr std::uint64_t recordsPerChunk = 1 << 14;
 
 std::uint64_t countLineEnds(std::string_view text) {
   return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
@@ -40,7 +40,7 @@ std::size_t LineIndex::beginOf(std::uint64_t line) const {
     return 0;
   if (line > endsBefore_.back())
     return text_.size();
-  // The block in which the line before it ends.
+  // The block in which the preceding line ends.
   const auto found = std::lower_bound(endsBefore_.begin(), endsBefore_.end(), line) - 1;
   std::size_t at = static_cast<std::size_t>(found - endsBefore_.begin()) * blockBytes;
   for (std::uint64_t ended = *found; ended < line; ++ended)
@@ -56,32 +56,32 @@ const LineIndex& PlyLineReader::lines() {
 
 bool PlyLineReader::read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content,
                          const ReadPlyElement& read) {
-  if (element.count < 2 * linesOfPart || element.properties.empty() || element.count > cursor.bytesLeft())
+  if (element.count < 2 * recordsPerChunk || element.properties.empty() || element.count > cursor.bytesLeft())
     return false;
   const std::uint64_t first = lines().lineAt(cursor.beginOfLine());
   const std::size_t end = lines().beginOf(first + element.count);
-  const std::size_t partCount = (element.count + linesOfPart - 1) / linesOfPart;
-  std::vector<PlyContent> parts(partCount);
-  std::atomic<bool> isOneALine = true;
-  parallelFor(partCount, [&](std::size_t i) {
-    if (!isOneALine)
+  const std::size_t chunkCount = (element.count + recordsPerChunk - 1) / recordsPerChunk;
+  std::vector<PlyContent> chunks(chunkCount);
+  std::atomic<bool> isOnePerLine = true;
+  parallelFor(chunkCount, [&](std::size_t i) {
+    if (!isOnePerLine)
       return;
-    const std::uint64_t from = i * linesOfPart, to = std::min<std::uint64_t>(element.count, from + linesOfPart);
-    PlyElement part = element;
-    part.count = to - from;
-    const std::size_t partEnd = i + 1 == partCount ? end : lines_->beginOf(first + to);
-    AsciiPlyRecords records(AsciiPlyCursor(bytes_.first(partEnd), name_, lines_->beginOf(first + from)));
+    const std::uint64_t from = i * recordsPerChunk, to = std::min<std::uint64_t>(element.count, from + recordsPerChunk);
+    PlyElement chunk = element;
+    chunk.count = to - from;
+    const std::size_t chunkEnd = i + 1 == chunkCount ? end : lines_->beginOf(first + to);
+    AsciiPlyRecords records(AsciiPlyCursor(bytes_.first(chunkEnd), name_, lines_->beginOf(first + from)));
     try {
-      read(records, part, parts[i]);
+      read(records, chunk, chunks[i]);
       if (records.trailingBytes() > 0)
-        isOneALine = false;
+        isOnePerLine = false;
     } catch (const Error&) {
-      isOneALine = false;
+      isOnePerLine = false;
     }
   });
-  if (!isOneALine)
+  if (!isOnePerLine)
     return false;
-  content.append(parts);
+  content.append(chunks);
   cursor.goTo(end);
   return true;
 }

@@ -1,6 +1,5 @@
 #pragma once
-// Elements of text files that have one record a line, as programs write them: read
-// in parts on all threads.
+// Parallel reading of elements of PLY text files that have one record a line, as most files do.
 
 #include "import/ply/content.h"
 #include "import/ply/records.h"
@@ -13,37 +12,37 @@
 
 namespace imgeo {
 
-/// Where the lines of a text begin. Counts them on all threads.
+/// Finds the lines of a text by number. Counts line ends on all threads.
 class LineIndex {
 public:
   /// `text` must outlive the index.
   explicit LineIndex(std::string_view text);
 
-  /// How many lines end before a byte.
+  /// The number of lines that end before a byte.
   std::uint64_t lineAt(std::size_t offset) const;
-  /// The byte at which a line begins, counted from 0; the text's size behind the last.
+  /// The byte at which a line (counted from 0) begins; the text's size for lines behind the last.
   std::size_t beginOf(std::uint64_t line) const;
 
 private:
   std::string_view text_;
-  std::vector<std::uint64_t> endsBefore_; ///< by block: lines that end before it; and all of them
+  std::vector<std::uint64_t> endsBefore_; ///< lines that end before each block; the last entry counts all
 };
 
 using AsciiPlyRecords = PlyRecords<AsciiPlyCursor>;
 
-/// Reads an element's records, or a part of them, into a content of its own.
+/// Reads a chunk of an element's records into a content of its own.
 using ReadPlyElement = std::function<void(AsciiPlyRecords&, const PlyElement&, PlyContent&)>;
 
-/// Reads the text of a PLY file's elements in parts, wherever `read`, which is called
-/// for each part from any thread, finds exactly one record on each line.
+/// Reads elements of a PLY text file in chunks on all threads, where every line holds exactly one record.
 class PlyLineReader {
 public:
   /// `bytes` and `name` must outlive the reader.
   PlyLineReader(ByteSpan bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-  /// Reads the records of `element`, which begin at the cursor, and moves it behind them; what it
-  /// appends is what `read` would have appended at once. False where they are few, are not one a
-  /// line, or have a fault: then nothing has changed, and who reads them in turn finds it.
+  /// Reads the records of `element`, which begin at the cursor, by calling `read` for each chunk on any thread. Appends
+  /// what one call of `read` for all records would append, and moves the cursor behind them. Returns false, with
+  /// nothing changed, where the records are few, are not one a line, or contain an error; the caller then reads them
+  /// serially and reports the error.
   bool read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content, const ReadPlyElement& read);
 
 private:

@@ -1,5 +1,5 @@
-// PLY (Turk, "The PLY Polygon File Format", 1994) with the properties that
-// Stanford's, Cyberware's, MeshLab's, Blender's and photogrammetry tools write.
+// PLY (Turk, "The PLY Polygon File Format", 1994), with the properties that the tools of Stanford and Cyberware,
+// MeshLab, Blender and photogrammetry tools write.
 #include "import/ply/ply.h"
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
@@ -20,11 +20,11 @@ namespace imgeo {
 namespace {
 
 struct Triangles {
-  std::vector<std::uint32_t> places; ///< three a triangle, into PlyContent::indices
-  std::size_t fans = 0;              ///< concave polygons too large to clip
+  std::vector<std::uint32_t> indices; ///< three a triangle, into PlyContent::indices
+  std::size_t fans = 0;               ///< concave polygons too large to clip
 };
 
-/// Every polygon's triangles. Empty `sizes` (all are triangles) is the caller's case.
+/// Triangulates all polygons. `content.sizes` must not be empty.
 Triangles triangulateAll(const PlyContent& content) {
   Triangles result;
   std::vector<Vec3f> ring;
@@ -35,19 +35,19 @@ Triangles triangulateAll(const PlyContent& content) {
     for (std::uint32_t i = 0; i < size; ++i)
       ring.push_back(content.positions[content.indices[first + i]]);
     result.fans += !triangulate(ring, local);
-    for (const std::uint32_t place : local)
-      result.places.push_back(first + place);
+    for (const std::uint32_t index : local)
+      result.indices.push_back(first + index);
     first += size;
   }
   return result;
 }
 
-/// Exporters of point clouds often write an empty `face` element too.
+/// Whether the file is a surface. Point clouds often have an empty `face` element.
 bool hasFaces(const PlyContent& content) {
   return !content.indices.empty() || content.facesTooSmall > 0;
 }
 
-/// The edges, and the vertices that they name.
+/// A mesh of the edges and of the vertices that they use.
 Mesh edgesOf(const PlyContent& content) {
   constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
   Mesh mesh;
@@ -66,8 +66,8 @@ Mesh edgesOf(const PlyContent& content) {
   return mesh;
 }
 
-/// One wedge a vertex; with texture coordinates per corner, one wedge a corner.
-/// The vertices move into it.
+/// A mesh of the polygons or points. One wedge a vertex; with texture coordinates per corner, one wedge a corner. Moves
+/// the vertices out of `content`.
 Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   Mesh mesh;
   const bool isCloud = !hasFaces(content);
@@ -76,7 +76,7 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   if (!content.sizes.empty()) {
     Triangles triangles = triangulateAll(content);
     fans = triangles.fans;
-    mesh.corners = std::move(triangles.places);
+    mesh.corners = std::move(triangles.indices);
     if (!perCorner)
       for (std::uint32_t& corner : mesh.corners)
         corner = content.indices[corner];
@@ -104,7 +104,7 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   return mesh;
 }
 
-/// What was left out or changed; `content` has given its vectors away, not its counts.
+/// Adds warnings about content that was left out or changed; uses the counts of `content` only.
 void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, const Box3d& box) {
   if (!content.ignored.empty())
     warnings.push_back(fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
@@ -113,14 +113,14 @@ void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, 
                                    counted(content.trailingBytes, "byte stands", "bytes stand")));
   warnOfColors(warnings, content.colorsClamped);
   warnOfSmallFaces(warnings, content.facesTooSmall);
-  if (content.largestRounding > box.longestEdge() / 131072) // half a step of 16 bits
+  if (content.maxRounding > box.longestEdge() / 131072) // half a step of 16 bits
     warnings.push_back(fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
-                                   content.largestRounding));
+                                   content.maxRounding));
 }
 
 } // namespace
 
-bool looksLikePly(ByteSpan bytes) {
+bool isPly(ByteSpan bytes) {
   const std::string_view text = asText(bytes).substr(0, 4);
   return text == "ply\n" || text == "ply\r" || text == "ply ";
 }

@@ -11,7 +11,7 @@
 namespace imgeo {
 
 /// True for bytes that begin with PLY's magic.
-bool looksLikePly(ByteSpan bytes);
+bool isPly(ByteSpan bytes);
 Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 } // namespace imgeo

@@ -9,7 +9,7 @@
 namespace imgeo::testing {
 namespace {
 
-const char* const kEncodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+const char* const allEncodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
 template <typename T> std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
   std::vector<T> result;
@@ -19,7 +19,7 @@ template <typename T> std::vector<T> gathered(const std::vector<T>& values, cons
   return result;
 }
 
-/// What the writer above makes of a mesh: a position for every wedge.
+/// The mesh that plyBytes writes: one position for every wedge.
 Mesh withVertexPerWedge(Mesh mesh) {
   mesh.positions = gathered(mesh.positions, mesh.wedgePositions);
   mesh.wedgePositions.clear();
@@ -32,10 +32,10 @@ Mesh inOrderOfUse(Mesh mesh) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t& corner : mesh.corners) {
     const auto found = std::ranges::find(order, corner);
-    const auto place = static_cast<std::uint32_t>(found - order.begin());
+    const auto index = static_cast<std::uint32_t>(found - order.begin());
     if (found == order.end())
       order.push_back(corner);
-    corner = place;
+    corner = index;
   }
   mesh.positions = gathered(mesh.positions, gathered(mesh.wedgePositions, order));
   mesh.normals = gathered(mesh.normals, order);
@@ -56,9 +56,9 @@ void expectEqual(const Mesh& read, const Mesh& written) {
   EXPECT_EQ(read.corners, written.corners);
 }
 
-TEST(Ply, ComesBackAsItWasWrittenInEveryEncoding) {
+TEST(Ply, IsReadAsItWasWrittenInEveryEncoding) {
   for (std::uint32_t seed = 0; seed < 60; ++seed)
-    for (const char* encoding : kEncodings) {
+    for (const char* encoding : allEncodings) {
       SCOPED_TRACE(fmt::format("seed {}, {}", seed, encoding));
       const Mesh mesh = withVertexPerWedge(randomMesh(seed));
       expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding}), "m.ply"),
@@ -66,7 +66,7 @@ TEST(Ply, ComesBackAsItWasWrittenInEveryEncoding) {
     }
 }
 
-TEST(Ply, HasItsEdgesBesideItsFacesAsAShapeOfLines) {
+TEST(Ply, ReadsEdgesBesideFacesAsAShapeOfLines) {
   const Mesh mesh = withVertexPerWedge(torus(4, 5));
   Bytes bytes = plyBytes(mesh, {.encoding = "binary_little_endian"});
   const std::string before = "end_header\n", after = "element edge 2\nproperty int vertex2\nproperty uchar "
@@ -89,7 +89,7 @@ TEST(Ply, HasItsEdgesBesideItsFacesAsAShapeOfLines) {
   EXPECT_EQ(imported.warnings, std::vector<std::string>{"Not carried over from the PLY file: 'crease' of 'edge'."});
 }
 
-TEST(Ply, IsReadUnderEveryNameThatProgramsUse) {
+TEST(Ply, ReadsEveryPropertyNameThatProgramsUse) {
   Mesh mesh = withVertexPerWedge(torus(4, 5));
   Random random(1);
   for (std::size_t i = 0; i < mesh.wedgeCount(); ++i)
@@ -102,7 +102,7 @@ TEST(Ply, IsReadUnderEveryNameThatProgramsUse) {
     expectEqual(onlyMesh(plyBytes(mesh, style), "m.ply"), mesh);
 }
 
-TEST(Ply, ReadsEveryTypeUnderBothItsNames) {
+TEST(Ply, ReadsEveryTypeUnderBothNames) {
   Mesh mesh; // coordinates that every type can hold
   mesh.positions = {{0, 0, 0}, {127, 0, 0}, {0, 100, 0}, {1, 2, 3}};
   addPlainWedges(mesh);
@@ -111,7 +111,7 @@ TEST(Ply, ReadsEveryTypeUnderBothItsNames) {
   const char* const integers[] = {"char", "uchar", "short", "ushort", "int",   "uint",
                                   "int8", "uint8", "int16", "uint16", "int32", "uint32"};
   const char* const reals[] = {"float", "float32", "double", "float64"};
-  for (const char* encoding : kEncodings) {
+  for (const char* encoding : allEncodings) {
     for (const char* type : integers)
       expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding, .real = type, .count = type, .index = type}), "m.ply"),
                   mesh);
@@ -122,7 +122,7 @@ TEST(Ply, ReadsEveryTypeUnderBothItsNames) {
 
 TEST(Ply, EveryProperPrefixIsRefused) {
   const Mesh mesh = withVertexPerWedge(torus(3, 4));
-  for (const char* encoding : kEncodings) {
+  for (const char* encoding : allEncodings) {
     const Bytes whole = plyBytes(mesh, {.encoding = encoding});
     // Text may lose its last line feed, and the last digits of its last number.
     std::size_t end = whole.size();
@@ -138,19 +138,19 @@ TEST(Ply, EveryProperPrefixIsRefused) {
 std::string asciiPly(const std::string& elements, const std::string& body) {
   return plyHeader({.encoding = "ascii"}, elements) + body;
 }
-const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
-const std::string kFaces = "property list uchar int vertex_indices\n";
+const std::string xyzProperties = "property float x\nproperty float y\nproperty float z\n";
+const std::string faceProperties = "property list uchar int vertex_indices\n";
 
 TEST(Ply, WithoutFacesIsAPointCloud) {
   for (const char* faces : {"", "element face 0\nproperty list uchar int vertex_indices\n"}) {
-    const Mesh mesh = onlyMesh(asciiPly("element vertex 2\n" + kXyz + faces, "0 0 0\n1 2 3\n"), "m.ply");
+    const Mesh mesh = onlyMesh(asciiPly("element vertex 2\n" + xyzProperties + faces, "0 0 0\n1 2 3\n"), "m.ply");
     EXPECT_EQ(mesh.topology, Topology::points);
     EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1}));
   }
 }
 
 TEST(Ply, CutsPolygonsIntoTriangles) {
-  const std::string text = asciiPly("element vertex 5\n" + kXyz + "element face 3\n" + kFaces,
+  const std::string text = asciiPly("element vertex 5\n" + xyzProperties + "element face 3\n" + faceProperties,
                                     "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n3 0 1 3\n5 0 1 2 3 4\n4 0 1 2 4\n");
   const Mesh mesh = onlyMesh(text, "m.ply");
   ASSERT_EQ(mesh.elementCount(), 1u + 3 + 2);
@@ -163,25 +163,25 @@ TEST(Ply, CutsPolygonsIntoTriangles) {
   EXPECT_DOUBLE_EQ(area, 2 + 10 + 16);
 }
 
-TEST(Ply, ReadsFacesThatStandBeforeTheirVertices) {
-  const Mesh mesh = onlyMesh(
-      asciiPly("element face 1\n" + kFaces + "element vertex 4\n" + kXyz, "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
-      "m.ply");
+TEST(Ply, ReadsFacesThatPrecedeTheirVertices) {
+  const Mesh mesh = onlyMesh(asciiPly("element face 1\n" + faceProperties + "element vertex 4\n" + xyzProperties,
+                                      "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
+                             "m.ply");
   EXPECT_EQ(mesh.elementCount(), 2u);
 }
 
 TEST(Ply, ReadsTriangleStripsWithTheirOrientation) {
   const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
-  const Mesh mesh = onlyMesh(asciiPly("element vertex 5\n" + kXyz + strips,
+  const Mesh mesh = onlyMesh(asciiPly("element vertex 5\n" + xyzProperties + strips,
                                       "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n13 0 1 2 3 4 -1 2 1 1 3 -1 4 3\n"),
                              "m.ply");
   EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3, 2, 3, 4}));
 }
 
 TEST(Ply, GivesEachCornerItsTextureCoordinate) {
-  const std::string elements = "element vertex 3\n" + kXyz +
+  const std::string elements = "element vertex 3\n" + xyzProperties +
                                "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n" +
-                               kFaces + "property list uchar float texcoord\n";
+                               faceProperties + "property list uchar float texcoord\n";
   const Mesh mesh = onlyMesh(asciiPly(elements, "0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n"
                                                 "3 0 1 2 6 0 0 0.5 0 0 0.5\n3 2 1 0 0\n"),
                              "m.ply");
@@ -193,7 +193,7 @@ TEST(Ply, GivesEachCornerItsTextureCoordinate) {
 
 TEST(Ply, ScalesColoursByTheirType) {
   const auto colorOf = [](const std::string& type, const std::string& values) {
-    std::string elements = "element vertex 1\n" + kXyz;
+    std::string elements = "element vertex 1\n" + xyzProperties;
     for (const char* name : {"red", "green", "blue", "alpha"})
       elements += "property " + type + " " + name + "\n";
     return onlyMesh(asciiPly(elements, "0 0 0 " + values + "\n"), "m.ply").colors.at(0);
@@ -204,17 +204,17 @@ TEST(Ply, ScalesColoursByTheirType) {
   EXPECT_EQ(colorOf("double", "-3 7 nan 1"), (Rgba8{0, 255, 0, 255}));
 }
 
-TEST(Ply, CountsAlphaOnlyWhereItSaysSomething) {
-  const std::string elements = "element vertex 2\n" + kXyz +
+TEST(Ply, IgnoresAlphaThatIsOpaqueEverywhere) {
+  const std::string elements = "element vertex 2\n" + xyzProperties +
                                "property uchar red\nproperty uchar green\n"
                                "property uchar blue\nproperty uchar alpha\n";
   EXPECT_EQ(onlyMesh(asciiPly(elements, "0 0 0 1 2 3 255\n0 0 1 1 2 3 255\n"), "m.ply").colorComponents, 3u);
   EXPECT_EQ(onlyMesh(asciiPly(elements, "0 0 0 1 2 3 255\n0 0 1 1 2 3 254\n"), "m.ply").colorComponents, 4u);
 }
 
-TEST(Ply, BringsNormalsToUnitLengthAndCountsThoseWithoutDirection) {
+TEST(Ply, NormalisesNormalsAndCountsThoseWithoutDirection) {
   const std::string elements =
-      "element vertex 4\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n";
+      "element vertex 4\n" + xyzProperties + "property float nx\nproperty float ny\nproperty float nz\n";
   const Imported imported =
       importBytes(asBytes(asciiPly(elements, "0 0 0 0 2 0\n0 0 1 0 0 0\n0 0 2 nan 0 0\n0 0 3 1e30 0 1e30\n")), "m.ply");
   const std::vector<Vec3f>& normals = imported.scene.meshes.at(0).normals;
@@ -225,20 +225,20 @@ TEST(Ply, BringsNormalsToUnitLengthAndCountsThoseWithoutDirection) {
   EXPECT_EQ(imported.warnings, std::vector<std::string>{"2 normals were replaced by (0, 0, 1): without direction."});
 }
 
-TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
+TEST(Ply, SkipsUnknownElementsAndPropertiesWithAWarning) {
   const std::string elements =
-      "obj_info any words\nelement material 2\nproperty list uchar short parts\nproperty double gloss\n"
+      "obj_info any words\nelement material 2\nproperty list uchar short chunks\nproperty double gloss\n"
       "element vertex 3\nproperty list uchar int near\n" +
-      kXyz + "property float quality\nelement face 1\n" + kFaces +
+      xyzProperties + "property float quality\nelement face 1\n" + faceProperties +
       "property uchar flags\nelement nothing 0\nproperty int n\nelement edge 1\nproperty int "
       "from\nproperty int to\n";
-  for (const char* encoding : kEncodings) {
+  for (const char* encoding : allEncodings) {
     const PlyStyle style{.encoding = encoding};
     PlyValues values(style);
     values.append(plyHeader(style, elements));
     for (int material = 0; material < 2; ++material) {
       values.add("uchar", material);
-      for (int part = 0; part < material; ++part)
+      for (int chunk = 0; chunk < material; ++chunk)
         values.add("short", 500);
       values.add("double", 0.5);
       values.endRecord();
@@ -263,14 +263,14 @@ TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
   }
 }
 
-const ImportOptions kEveryAttribute{{.all = true, .names = {}}};
+const ImportOptions everyAttribute{{.all = true, .names = {}}};
 
-TEST(Ply, KeepsTheAttributesThatAreAskedFor) {
-  const std::string elements = "element vertex 2\nproperty float quality\n" + kXyz +
+TEST(Ply, KeepsTheRequestedAttributes) {
+  const std::string elements = "element vertex 2\nproperty float quality\n" + xyzProperties +
                                "property ushort count\nproperty double rate_0\nproperty double rate_1\n"
                                "property float label_0\n";
   const std::string text = asciiPly(elements, "0.5 1 2 3 65535 1 2 8\n-7 4 5 6 9 3 4 9\n");
-  const Imported all = importBytes(asBytes(text), "m.ply", kEveryAttribute);
+  const Imported all = importBytes(asBytes(text), "m.ply", everyAttribute);
   EXPECT_TRUE(all.warnings.empty());
   EXPECT_EQ(all.scene.meshes.at(0).positions, (std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}}));
   EXPECT_EQ(
@@ -285,30 +285,31 @@ TEST(Ply, KeepsTheAttributesThatAreAskedFor) {
                                "Not carried over from the PLY file: 'count' of 'vertex', 'label_0' of 'vertex'."});
 }
 
-TEST(Ply, HasAttributesWithTexturedFacesAndEdgesToo) {
-  const std::string text = asciiPly("element vertex 4\n" + kXyz + "property float heat\nelement face 2\n" + kFaces +
-                                        "property list uchar float texcoord\nelement edge 1\n"
-                                        "property int vertex1\nproperty int vertex2\n",
-                                    "0 0 0 10\n1 0 0 11\n0 1 0 12\n1 1 0 13\n3 0 1 2 6 0 0 1 0 0 1\n"
-                                    "3 2 1 3 6 0 1 1 0 1 1\n3 0\n");
-  const Imported imported = importBytes(asBytes(text), "m.ply", kEveryAttribute);
+TEST(Ply, KeepsAttributesWithTexturedFacesAndEdges) {
+  const std::string text =
+      asciiPly("element vertex 4\n" + xyzProperties + "property float heat\nelement face 2\n" + faceProperties +
+                   "property list uchar float texcoord\nelement edge 1\n"
+                   "property int vertex1\nproperty int vertex2\n",
+               "0 0 0 10\n1 0 0 11\n0 1 0 12\n1 1 0 13\n3 0 1 2 6 0 0 1 0 0 1\n"
+               "3 2 1 3 6 0 1 1 0 1 1\n3 0\n");
+  const Imported imported = importBytes(asBytes(text), "m.ply", everyAttribute);
   EXPECT_EQ(imported.scene.meshes.at(0).namedAttributes.at(0).values, (std::vector<float>{10, 11, 12, 12, 11, 13}));
   EXPECT_EQ(imported.scene.meshes.at(1).namedAttributes.at(0).values, (std::vector<float>{13, 10}));
 }
 
-TEST(Ply, RefusesAttributesThatAreNoNumbersOnlyWhereTheyAreKept) {
+TEST(Ply, RefusesNonFiniteAttributesOnlyWhereTheyAreKept) {
   for (const char* value : {"nan", "inf", "1e39"}) {
-    const std::string text =
-        asciiPly("element vertex 2\n" + kXyz + "property double heat\n", std::string("0 0 0 1\n1 1 1 ") + value + "\n");
+    const std::string text = asciiPly("element vertex 2\n" + xyzProperties + "property double heat\n",
+                                      std::string("0 0 0 1\n1 1 1 ") + value + "\n");
     EXPECT_EQ(onlyMesh(text, "m.ply").elementCount(), 2u);
-    const Error error = errorOf(text, "m.ply", kEveryAttribute);
+    const Error error = errorOf(text, "m.ply", everyAttribute);
     EXPECT_EQ(error.kind(), ErrorKind::malformed);
     EXPECT_EQ(error.location(), "m.ply:11");
     EXPECT_NE(error.message().find("attribute"), std::string::npos);
   }
 }
 
-TEST(Ply, SaysWhenSinglePrecisionIsTooCoarse) {
+TEST(Ply, WarnsWhereSinglePrecisionIsTooCoarse) {
   const std::string xyz = "property double x\nproperty double y\nproperty double z\n";
   const auto warnings = [&](const std::string& body) {
     return importBytes(asBytes(asciiPly("element vertex 2\n" + xyz, body)), "m.ply").warnings;
@@ -325,25 +326,25 @@ struct Refused {
   std::string location, words;
 };
 
-TEST(Ply, RefusesWithOneSentenceAndAPlace) {
-  const std::string vertex = "element vertex 1\n" + kXyz, face = "element face 1\n" + kFaces;
+TEST(Ply, RefusesWithOneSentenceAndALocation) {
+  const std::string vertex = "element vertex 1\n" + xyzProperties, face = "element face 1\n" + faceProperties;
   const Refused cases[] = {
-      {"too many vertices", "element vertex 4000000000\n" + kXyz, "0 0 0\n", ErrorKind::truncated, "m.ply:9",
+      {"too many vertices", "element vertex 4000000000\n" + xyzProperties, "0 0 0\n", ErrorKind::truncated, "m.ply:9",
        "promises 4000000000 of 'vertex'"},
-      {"too many faces", vertex + "element face 4000000000\n" + kFaces, "0 0 0\n", ErrorKind::truncated, "m.ply:11",
-       "promises 4000000000 of 'face'"},
-      {"beyond 32 bits", "element vertex 5000000000\n" + kXyz, "", ErrorKind::limit, "m.ply:9", "32-bit"},
-      {"beyond 64 bits", "element vertex 99999999999999999999\n" + kXyz, "", ErrorKind::malformed, "m.ply:4",
+      {"too many faces", vertex + "element face 4000000000\n" + faceProperties, "0 0 0\n", ErrorKind::truncated,
+       "m.ply:11", "promises 4000000000 of 'face'"},
+      {"beyond 32 bits", "element vertex 5000000000\n" + xyzProperties, "", ErrorKind::limit, "m.ply:9", "32-bit"},
+      {"beyond 64 bits", "element vertex 99999999999999999999\n" + xyzProperties, "", ErrorKind::malformed, "m.ply:4",
        "elements"},
-      {"a negative count", "element vertex -1\n" + kXyz, "", ErrorKind::malformed, "m.ply:4", "negative"},
+      {"a negative count", "element vertex -1\n" + xyzProperties, "", ErrorKind::malformed, "m.ply:4", "negative"},
       {"NaN", vertex, "0 nan 0\n", ErrorKind::malformed, "m.ply:9", "coordinate"},
       {"infinity", vertex, "0 -inf 0\n", ErrorKind::malformed, "m.ply:9", "coordinate"},
       {"beyond single precision", vertex, "0 1e39 0\n", ErrorKind::malformed, "m.ply:9", "single precision"},
       {"a word", vertex, "0 zero 0\n", ErrorKind::malformed, "m.ply:9", "not 'zero'"},
       {"half a word", vertex, "0 1,5 0\n", ErrorKind::malformed, "m.ply:9", "not '1,5'"},
       {"a value too many", vertex, "0 0 0 0\n", ErrorKind::malformed, "m.ply:9", "vertex 1 of 1"},
-      {"a value too few", "element vertex 2\n" + kXyz, "0.5 0.5\n0.5 0.5 0.5\n", ErrorKind::malformed, "m.ply:10",
-       "vertex 1 of 2"},
+      {"a value too few", "element vertex 2\n" + xyzProperties, "0.5 0.5\n0.5 0.5 0.5\n", ErrorKind::malformed,
+       "m.ply:10", "vertex 1 of 2"},
       {"an index beyond", vertex + face, "0 0 0\n3 0 0 1\n", ErrorKind::malformed, "m.ply:12", "vertex 1 is named"},
       {"an index below", vertex + face, "0 0 0\n3 0 -1 0\n", ErrorKind::malformed, "m.ply:12", "vertex -1 is named"},
       {"a list too long", vertex + face, "0 0 0\n300 0 0\n", ErrorKind::truncated, "m.ply:12", "promises 300"},
@@ -359,16 +360,16 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
        "x, y and z"},
       {"no vertices", face, "3 0 0 0\n", ErrorKind::malformed, "m.ply:7", "no element 'vertex'"},
       {"an unknown type", "element vertex 1\nproperty half x\n", "", ErrorKind::malformed, "m.ply:5", "'half'"},
-      {"a name twice", "element vertex 1\n" + kXyz + "property int x\n", "", ErrorKind::malformed, "m.ply:8",
+      {"a name twice", "element vertex 1\n" + xyzProperties + "property int x\n", "", ErrorKind::malformed, "m.ply:8",
        "two properties 'x'"},
       {"an element twice", vertex + vertex, "", ErrorKind::malformed, "m.ply:8", "two elements 'vertex'"},
-      {"an early property", kXyz, "", ErrorKind::malformed, "m.ply:4", "before any element"},
+      {"an early property", xyzProperties, "", ErrorKind::malformed, "m.ply:4", "before any element"},
       {"an unknown keyword", "elements vertex 1\n", "", ErrorKind::malformed, "m.ply:4", "'elements'"},
       {"texture coordinates for two of three", vertex + face + "property list uchar float texcoord\n",
        "0 0 0\n3 0 0 0 4 0 0 1 1\n", ErrorKind::malformed, "m.ply:13", "3 corners"},
       {"an edge to nowhere", vertex + "element edge 1\nproperty int vertex1\nproperty int vertex2\n", "0 0 0\n0 1\n",
        ErrorKind::malformed, "m.ply:13", "vertex 1"},
-      {"nothing to see", "element vertex 0\n" + kXyz, "", ErrorKind::malformed, "m.ply",
+      {"nothing to see", "element vertex 0\n" + xyzProperties, "", ErrorKind::malformed, "m.ply",
        "no triangles, lines or points"},
       {"only edges of faces", vertex + face, "0 0 0\n2 0 0\n", ErrorKind::malformed, "m.ply", "no triangles"},
   };
@@ -381,7 +382,7 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
   }
 }
 
-/// So many records that text is read in parts.
+/// A file with so many records that its text is read in chunks.
 class LongPly : public ::testing::Test {
 protected:
   static Mesh surface() {
@@ -392,7 +393,7 @@ protected:
     return mesh;
   }
 
-  /// The place of the first character of a line, counted from 1.
+  /// The offset of the first character of a line, counted from 1.
   static std::size_t beginOf(const std::string& text, std::size_t line) {
     std::size_t at = 0;
     for (std::size_t i = 1; i < line; ++i)
@@ -409,7 +410,7 @@ protected:
   const std::size_t vertexLine = 30'000, faceLine = 100'000;
 };
 
-TEST_F(LongPly, IsReadAsAShortOne) {
+TEST_F(LongPly, IsReadLikeAShortOne) {
   for (const std::size_t threads : {1u, 2u, 3u}) {
     limitThreads(threads);
     expectEqual(onlyMesh(text, "m.ply"), mesh);
@@ -418,7 +419,7 @@ TEST_F(LongPly, IsReadAsAShortOne) {
   expectEqual(onlyMesh(text.substr(0, text.size() - 1), "m.ply"), mesh); // without its last line feed
 }
 
-TEST_F(LongPly, MayHaveRecordsThatAreNotOneALine) {
+TEST_F(LongPly, MayHaveRecordsOfSeveralLines) {
   for (const std::size_t line : {vertexLine, faceLine, faceLine + 1}) {
     std::string other = text;
     other.insert(beginOf(text, line), "\n \n");
@@ -429,7 +430,7 @@ TEST_F(LongPly, MayHaveRecordsThatAreNotOneALine) {
   }
 }
 
-TEST_F(LongPly, MayHavePolygonsThatAreNoTriangles) {
+TEST_F(LongPly, MayHavePolygonsOfMoreThanThreeCorners) {
   const std::size_t at = beginOf(text, faceLine);
   const std::size_t end = text.find('\n', at);
   const std::string triangle = text.substr(at, end - at);
@@ -442,7 +443,7 @@ TEST_F(LongPly, MayHavePolygonsThatAreNoTriangles) {
   EXPECT_TRUE(std::equal(mesh.corners.begin() + before + 3, mesh.corners.end(), quad.corners.begin() + before + 6));
 }
 
-TEST_F(LongPly, NamesTheLineOfAFault) {
+TEST_F(LongPly, NamesTheLineOfAnError) {
   for (const std::size_t line : {vertexLine, faceLine}) {
     std::string other = text;
     other[beginOf(text, line)] = 'x';

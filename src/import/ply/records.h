@@ -1,6 +1,5 @@
 #pragma once
-// The records of a PLY file's elements over either cursor: counts are checked
-// before memory is asked for, lists are read whole.
+// The records of a PLY file's elements, over either cursor. Checks counts before allocating.
 
 #include "import/ply/cursor.h"
 
@@ -18,15 +17,14 @@ public:
 
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { cursor_.fail(kind, message); }
   std::size_t bytesLeft() const { return cursor_.bytesLeft(); }
-  /// How many values the bytes left can hold at most.
-  std::size_t valuesLeft(PlyType type) const { return roomLeft() / Cursor::smallestSize(type); }
+  /// The maximum number of values that the remaining bytes can hold.
+  std::size_t valuesLeft(PlyType type) const { return roomLeft() / Cursor::minSize(type); }
 
-  /// Calls body() between the begin and the end of each record. A promised count
-  /// that the bytes left cannot hold is refused before the first.
+  /// Calls body() for each record. Throws before the first where the remaining bytes cannot hold the stated count.
   template <typename Function> void forEach(const PlyElement& element, Function body) {
     checkCount(element);
     if (element.properties.empty())
-      return; // records without bytes
+      return; // its records take no bytes
     for (std::uint64_t i = 0; i < element.count; ++i) {
       cursor_.beginRecord({&element, i});
       body();
@@ -37,7 +35,7 @@ public:
   void checkCount(const PlyElement& element) const {
     std::size_t record = 0;
     for (const PlyProperty& property : element.properties)
-      record += Cursor::smallestSize(property.countType.value_or(property.type));
+      record += Cursor::minSize(property.countType.value_or(property.type));
     if (record > 0 && element.count > roomLeft() / record)
       fail(ErrorKind::truncated,
            fmt::format("the header promises {} of '{}', at least {} bytes each, but only {} bytes are left",
@@ -46,7 +44,7 @@ public:
 
   double scalar(PlyType type) { return cursor_.scalar(type); }
 
-  /// A vertex by its number, which must be below `vertexCount`, at most 2^32.
+  /// Reads a vertex index, which must be below `vertexCount` (at most 2^32).
   std::uint32_t vertexNumber(PlyType type, std::uint64_t vertexCount) {
     const double number = scalar(type);
     checkVertexNumber(number, vertexCount);
@@ -57,7 +55,7 @@ public:
       fail(ErrorKind::malformed, fmt::format("vertex {} is named, but there are only {}", number, vertexCount));
   }
 
-  /// The values of a list, until the next list is read.
+  /// Reads a list; the result is valid until the next call.
   std::span<const double> list(const PlyProperty& property) {
     scratch_.resize(listCount(property));
     cursor_.values(property.type, scratch_);
@@ -66,11 +64,11 @@ public:
 
   void skip(const PlyProperty& property) { cursor_.skip(property.type, property.isList() ? listCount(property) : 1); }
 
-  /// The bytes behind the last record that are not white space.
+  /// The number of bytes behind the last record, not counting leading white space.
   std::size_t trailingBytes() { return cursor_.trailingBytes(); }
 
 private:
-  std::size_t roomLeft() const { return bytesLeft() + Cursor::kSparedAtEnd; }
+  std::size_t roomLeft() const { return bytesLeft() + Cursor::optionalEndBytes; }
 
   std::size_t listCount(const PlyProperty& property) {
     const double count = cursor_.scalar(*property.countType);

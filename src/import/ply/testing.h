@@ -19,7 +19,7 @@ struct PlyStyle {
   std::string lineEnd = "\n";
 };
 
-/// Appends values one after the other in a style's encoding.
+/// Appends values in the encoding of a style.
 class PlyValues {
 public:
   explicit PlyValues(const PlyStyle& style) : style_(style) {}
@@ -81,7 +81,7 @@ inline std::string plyHeader(const PlyStyle& style, const std::string& elements)
   return ended;
 }
 
-/// Every wedge becomes a vertex.
+/// The file of a mesh; every wedge becomes a vertex.
 inline Bytes plyBytes(const Mesh& mesh, const PlyStyle& style) {
   const auto property = [](const std::string& type, const std::string& name) {
     return "property " + type + " " + name + "\n";

@@ -10,7 +10,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, PlySlot>, 22> kVertexProperties{
+constexpr std::array<std::pair<const char*, PlySlot>, 22> vertexProperties{
     {{"x", PlySlot::x},         {"y", PlySlot::y},
      {"z", PlySlot::z},         {"nx", PlySlot::nx},
      {"ny", PlySlot::ny},       {"nz", PlySlot::nz},
@@ -23,25 +23,25 @@ constexpr std::array<std::pair<const char*, PlySlot>, 22> kVertexProperties{
      {"blue", PlySlot::blue},   {"diffuse_blue", PlySlot::blue},
      {"alpha", PlySlot::alpha}, {"diffuse_alpha", PlySlot::alpha}}};
 
-constexpr std::size_t place(PlySlot slot) {
+constexpr std::size_t indexOf(PlySlot slot) {
   return static_cast<std::size_t>(slot);
 }
 
 PlySlot slotOf(const PlyProperty& property) {
   if (!property.isList())
-    for (const auto& [name, slot] : kVertexProperties)
+    for (const auto& [name, slot] : vertexProperties)
       if (property.name == name)
         return slot;
   return PlySlot::unknown;
 }
 
-/// "scale" for component 1 of "scale_1"; empty where it is none.
+/// "scale" for "scale_1" and component 1; empty for a name that does not end in "_1".
 std::string baseOfComponent(const std::string& name, std::size_t component) {
   const std::string ending = fmt::format("_{}", component);
   return name.size() > ending.size() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size()) : "";
 }
 
-/// Names that documents and lists of names can hold.
+/// Whether a name can stand in documents and in comma-separated lists.
 bool isPlain(const std::string& name) {
   return std::ranges::all_of(name, [](char c) { return c > ' ' && c <= '~' && c != ','; });
 }
@@ -52,12 +52,12 @@ PlyVertexReader::PlyVertexReader(const PlyElement& element, const AttributeChoic
     : element_(element), content_(content) {
   for (const PlyProperty& property : element.properties) {
     PlySlot slot = slotOf(property);
-    if (present_[place(slot)])
-      slot = PlySlot::unknown; // both s and u: the first counts
+    if (present_[indexOf(slot)])
+      slot = PlySlot::unknown; // a second property of the same meaning, as u beside s
     slots_.push_back(slot);
     if (slot != PlySlot::unknown) {
-      present_[place(slot)] = true;
-      types_[place(slot)] = property.type;
+      present_[indexOf(slot)] = true;
+      types_[indexOf(slot)] = property.type;
     }
   }
   chooseNamed(kept);
@@ -105,11 +105,11 @@ void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
 }
 
 bool PlyVertexReader::has(PlySlot first, PlySlot last) const {
-  return std::all_of(&present_[place(first)], &present_[place(last)] + 1, [](bool there) { return there; });
+  return std::all_of(&present_[indexOf(first)], &present_[indexOf(last)] + 1, [](bool there) { return there; });
 }
 
 bool PlyVertexReader::isFinite(PlySlot first, PlySlot last) const {
-  return std::all_of(&values_[place(first)], &values_[place(last)] + 1,
+  return std::all_of(&values_[indexOf(first)], &values_[indexOf(last)] + 1,
                      [](double value) { return std::isfinite(static_cast<float>(value)); });
 }
 
@@ -124,21 +124,21 @@ void PlyVertexReader::reserve() {
     attribute.values.reserve(count * attribute.components);
 }
 
-/// 16 bits are spread over 0 .. 65,535, fractions over 0 .. 1; all others hold 0 .. 255.
+/// Colour channels of 16 bits range over 0 .. 65,535, floating-point ones over 0 .. 1, all others over 0 .. 255.
 std::uint8_t PlyVertexReader::channel(PlySlot slot) {
-  const PlyType type = types_[place(slot)];
+  const PlyType type = types_[indexOf(slot)];
   const double scale = type == PlyType::uint16 ? 1 / 257.0 : isInteger(type) ? 1 : 255;
   const double scaled = value(slot) * scale;
   if (scaled >= 0 && scaled < 255.5)
     return static_cast<std::uint8_t>(std::lround(scaled));
   ++content_.colorsClamped;
-  return scaled > 0 ? 255 : 0; // what is not a number becomes 0
+  return scaled > 0 ? 255 : 0; // NaN becomes 0
 }
 
 void PlyVertexReader::noteRounding() {
   for (const PlySlot slot : {PlySlot::x, PlySlot::y, PlySlot::z}) {
     const double rounded = static_cast<float>(value(slot));
-    content_.largestRounding = std::max(content_.largestRounding, std::abs(value(slot) - rounded));
+    content_.maxRounding = std::max(content_.maxRounding, std::abs(value(slot) - rounded));
   }
 }
 

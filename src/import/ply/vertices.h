@@ -1,5 +1,5 @@
 #pragma once
-// The `vertex` element of a PLY file: which properties are there, and their values.
+// Reads the `vertex` element of a PLY file.
 
 #include "import/ply/content.h"
 #include "import/ply/records.h"
@@ -11,13 +11,13 @@
 
 namespace imgeo {
 
-/// What a property of a vertex means; `unknown` ones are passed over or, where
-/// they are asked for, become named attributes.
+/// The meaning of a vertex property. `unknown` properties are skipped or, where the options ask for them, become named
+/// attributes.
 enum class PlySlot : std::uint8_t { x, y, z, nx, ny, nz, u, v, red, green, blue, alpha, unknown, count };
 
 class PlyVertexReader {
 public:
-  /// Notes in content.ignored what is not read.
+  /// Adds properties that are not read to content.ignored.
   PlyVertexReader(const PlyElement& element, const AttributeChoice& kept, PlyContent& content);
 
   bool hasPosition() const { return has(PlySlot::x, PlySlot::z); }
@@ -44,21 +44,21 @@ public:
 
 private:
   void chooseNamed(const AttributeChoice& kept);
-  /// True where all slots from `first` to `last` are there.
+  /// Whether all slots from `first` to `last` are present.
   bool has(PlySlot first, PlySlot last) const;
   double value(PlySlot slot) const { return values_[static_cast<std::size_t>(slot)]; }
   bool isFinite(PlySlot first, PlySlot last) const;
   std::uint8_t channel(PlySlot slot);
   void noteRounding();
   void reserve();
-  /// Appends a vertex of the current values; returns what is wrong with them, or null.
+  /// Appends a vertex of the current values; returns an error message, or null.
   const char* addVertex();
   bool namedAreFinite() const;
 
   const PlyElement& element_;
   PlyContent& content_;
   std::vector<PlySlot> slots_;         ///< per property
-  std::vector<NamedAttribute*> named_; ///< per property, null for the others; empty where there are none
+  std::vector<NamedAttribute*> named_; ///< per property, null for properties of no attribute; empty without attributes
   std::array<double, static_cast<std::size_t>(PlySlot::count)> values_{};
   std::array<PlyType, static_cast<std::size_t>(PlySlot::count)> types_{};
   std::array<bool, static_cast<std::size_t>(PlySlot::count)> present_{};

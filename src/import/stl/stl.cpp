@@ -1,7 +1,5 @@
-// STL (3D Systems, "StereoLithography Interface Specification", 1989), binary and
-// ASCII. Facet normals are not read: they restate the winding, and what is smooth
-// comes out of welding. Binary files may begin with "solid" too, so the size
-// decides first.
+// STL (3D Systems, "StereoLithography Interface Specification", 1989). Binary files may begin with "solid" too, so the
+// file's size is checked first.
 #include "import/stl/stl.h"
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
@@ -19,32 +17,32 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::size_t kHeaderBytes = 80, kPrefixBytes = 84, kFacetBytes = 50;
-constexpr std::size_t kFacetNormalBytes = 12, kFacetAttributeAt = 48;
-/// An ASCII file has no zero byte; the count of a binary one below 2^24 facets
-/// has one, within the bytes looked at.
-constexpr std::size_t kLookedAtBytes = 512;
+constexpr std::size_t headerBytes = 80, prefixBytes = 84, facetBytes = 50;
+constexpr std::size_t facetNormalBytes = 12, facetAttributeOffset = 48;
+/// ASCII files have no zero byte. The facet count of a binary file with fewer than 2^24 facets has one, within these
+/// bytes.
+constexpr std::size_t sniffedBytes = 512;
 
 bool equalsIgnoringCase(std::string_view a, std::string_view lower) {
   return std::ranges::equal(a, lower, [](unsigned char x, unsigned char y) { return std::tolower(x) == y; });
 }
 
 std::uint64_t facetCount(ByteSpan bytes) {
-  return loadLittle<std::uint32_t>(&bytes[kHeaderBytes]);
+  return loadLittle<std::uint32_t>(&bytes[headerBytes]);
 }
 
 bool hasBinarySize(ByteSpan bytes) {
-  return bytes.size() >= kPrefixBytes && bytes.size() == kPrefixBytes + kFacetBytes * facetCount(bytes);
+  return bytes.size() >= prefixBytes && bytes.size() == prefixBytes + facetBytes * facetCount(bytes);
 }
 
 bool isAscii(ByteSpan bytes) {
   const std::string_view text = asText(bytes);
   const std::size_t from = text.find_first_not_of(" \t\r\n");
   return from != text.npos && equalsIgnoringCase(text.substr(from, 5), "solid") &&
-         text.substr(0, kLookedAtBytes).find('\0') == text.npos;
+         text.substr(0, sniffedBytes).find('\0') == text.npos;
 }
 
-/// Adds a corner with a position of its own: an STL file knows no connectivity.
+/// Adds a corner with a position of its own, since STL files have no connectivity.
 void addCorner(Mesh& mesh, Vec3f position) {
   const auto corner = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.push_back(position);
@@ -56,16 +54,16 @@ bool isFinite(Vec3f p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-constexpr const char* kNotFinite = "a coordinate is not a number or beyond single precision";
+constexpr const char* notFinite = "a coordinate is not a number or beyond single precision";
 
 Imported readBinary(ByteSpan bytes, const std::string& name) {
-  if (bytes.size() < kPrefixBytes)
+  if (bytes.size() < prefixBytes)
     throw Error(ErrorKind::truncated, name, "the file is too short for an STL file's header");
   const std::uint64_t count = facetCount(bytes);
-  if (count > (bytes.size() - kPrefixBytes) / kFacetBytes)
-    throw Error(ErrorKind::truncated, byteLocation(name, kHeaderBytes),
+  if (count > (bytes.size() - prefixBytes) / facetBytes)
+    throw Error(ErrorKind::truncated, byteLocation(name, headerBytes),
                 fmt::format("the header promises {} facets of 50 bytes, but only {} bytes follow", count,
-                            bytes.size() - kPrefixBytes));
+                            bytes.size() - prefixBytes));
   if (count > std::numeric_limits<std::uint32_t>::max() / 3)
     throw Error(ErrorKind::limit, name, "more corners than 32-bit indices can name");
 
@@ -74,28 +72,27 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
   mesh.positions.reserve(3 * count), mesh.wedgePositions.reserve(3 * count), mesh.corners.reserve(3 * count);
   bool hasAttributes = false;
   for (std::uint64_t facet = 0; facet < count; ++facet) {
-    const std::uint8_t* at = &bytes[kPrefixBytes + kFacetBytes * facet];
+    const std::uint8_t* at = &bytes[prefixBytes + facetBytes * facet];
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint8_t* from = at + kFacetNormalBytes + 12 * k;
+      const std::uint8_t* from = at + facetNormalBytes + 12 * k;
       const Vec3f p{loadLittle<float>(from), loadLittle<float>(from + 4), loadLittle<float>(from + 8)};
       if (!isFinite(p))
-        throw Error(ErrorKind::malformed, byteLocation(name, static_cast<std::size_t>(from - bytes.data())),
-                    kNotFinite);
+        throw Error(ErrorKind::malformed, byteLocation(name, static_cast<std::size_t>(from - bytes.data())), notFinite);
       addCorner(mesh, p);
     }
-    hasAttributes |= loadLittle<std::uint16_t>(at + kFacetAttributeAt) != 0;
+    hasAttributes |= loadLittle<std::uint16_t>(at + facetAttributeOffset) != 0;
   }
   Imported imported;
   if (hasAttributes)
     imported.warnings.emplace_back("Facet colours of the STL file (its attribute bytes) are not carried over.");
-  if (const std::size_t rest = bytes.size() - kPrefixBytes - kFacetBytes * count; rest > 0)
+  if (const std::size_t rest = bytes.size() - prefixBytes - facetBytes * count; rest > 0)
     imported.warnings.push_back(fmt::format("{} behind the last facet of the STL file, which imgeo ignored.",
                                             counted(rest, "byte stands", "bytes stand")));
   addShape(imported.scene, std::move(mesh), "");
   return imported;
 }
 
-/// Reads "x y z" behind the word "vertex".
+/// Reads the coordinates behind the word "vertex".
 Vec3f readVertex(TextScanner& scanner) {
   Vec3f p;
   for (int axis = 0; axis < 3; ++axis) {
@@ -103,7 +100,7 @@ Vec3f readVertex(TextScanner& scanner) {
     p[axis] = scanner.float32("a coordinate");
   }
   if (!isFinite(p))
-    scanner.fail(ErrorKind::malformed, kNotFinite);
+    scanner.fail(ErrorKind::malformed, notFinite);
   return p;
 }
 
@@ -122,7 +119,7 @@ void readSolid(TextScanner& scanner, Mesh& mesh) {
     } else if (equalsIgnoringCase(word, "facet") || equalsIgnoringCase(word, "outer")) {
       if (mesh.corners.size() % 3 != 0)
         scanner.fail(ErrorKind::malformed, "a facet begins within another");
-      scanner.skipLine(); // its normal, or "loop"
+      scanner.skipLine(); // the facet normal, or "loop"
     } else if (equalsIgnoringCase(word, "endsolid")) {
       if (mesh.corners.size() % 3 != 0)
         scanner.fail(ErrorKind::malformed, "the solid ends within a facet");
@@ -155,7 +152,7 @@ Imported readAscii(ByteSpan bytes, const std::string& name) {
 
 } // namespace
 
-bool looksLikeStl(ByteSpan bytes) {
+bool isStl(ByteSpan bytes) {
   return hasBinarySize(bytes) || isAscii(bytes);
 }
 

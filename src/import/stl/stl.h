@@ -7,7 +7,7 @@
 namespace imgeo {
 
 /// True where the size equals that of the facets that a binary header counts, or the text begins with "solid".
-bool looksLikeStl(ByteSpan bytes);
+bool isStl(ByteSpan bytes);
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 } // namespace imgeo

@@ -82,13 +82,13 @@ TEST(Stl, EveryProperPrefixIsRefused) {
     EXPECT_THROW(importBytes(asBytes(text).first(size), "m.stl"), Error) << size;
 }
 
-TEST(Stl, SaysThatFacetColoursAreLeft) {
+TEST(Stl, WarnsAboutFacetColours) {
   Bytes bytes = binaryStl(grid(1));
   bytes.back() = 0x80;
   EXPECT_EQ(importBytes(bytes, "m.stl").warnings.size(), 1u);
 }
 
-TEST(Stl, RefusesWithOneSentenceAndAPlace) {
+TEST(Stl, RefusesWithOneSentenceAndALocation) {
   Bytes many = binaryStl(grid(1));
   many[83] = 0xff;
   EXPECT_EQ(errorOf(many, "m.stl").kind(), ErrorKind::truncated);

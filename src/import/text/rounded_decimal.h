@@ -1,19 +1,16 @@
 #pragma once
-// Numbers of a source as people would write them: documents are read by people too,
-// and what stands in a thousand places is written a thousand times.
+// Rounding of a source's numbers to few decimal digits, so that documents are short and readable.
 
 #include "scene/transform.h"
 
 namespace imgeo {
 
-/// A number that single precision holds, with the fewest digits that mean it there
-/// (0.3, not 0.30000001192092896); any other to `digits`, behind which is only what
-/// computing has left. Off by less than the last bit of single precision where
-/// `digits` are 8 or more.
+/// A number that single precision represents is rounded to its shortest single-precision decimal (0.3, not
+/// 0.30000001192092896); any other number is rounded to `digits` significant digits. With 8 or more digits the result
+/// converts to the same single-precision number.
 double rounded(double value, int digits);
 
-/// Where it moves things to 12 digits, since places may be far from the origin; how it
-/// turns and stretches them to 8.
+/// Rounds translation and center to 12 digits, since they may be far from the origin, and rotations and scales to 8.
 Transform rounded(const Transform& transform);
 
 } // namespace imgeo

@@ -7,15 +7,15 @@
 namespace imgeo {
 namespace {
 
-TEST(RoundedDecimal, WritesSinglePrecisionWithItsOwnDigits) {
+TEST(RoundedDecimal, RoundsSinglePrecisionToItsShortestDecimal) {
   EXPECT_EQ(rounded(static_cast<double>(0.3f), 8), 0.3);
   EXPECT_EQ(rounded(static_cast<double>(7.495f), 12), 7.495);
   EXPECT_EQ(rounded(-0.125, 8), -0.125);
-  EXPECT_EQ(rounded(500'000.123456, 12), 500'000.123456) << "double precision that means something";
-  EXPECT_EQ(rounded(2.7250000000000005, 12), 2.725) << "and what does not";
+  EXPECT_EQ(rounded(500'000.123456, 12), 500'000.123456) << "digits of double precision that matter";
+  EXPECT_EQ(rounded(2.7250000000000005, 12), 2.725) << "a rounding error";
 }
 
-TEST(RoundedDecimal, MeansTheSameInSinglePrecision) {
+TEST(RoundedDecimal, ConvertsToTheSameSinglePrecisionNumber) {
   for (std::uint32_t i = 1; i < 4000; ++i) {
     const float value = std::ldexp(std::sin(static_cast<float>(i)), static_cast<int>(i % 60) - 30);
     EXPECT_EQ(static_cast<float>(rounded(static_cast<double>(value), 8)), value);

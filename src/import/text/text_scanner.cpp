@@ -10,7 +10,7 @@ namespace imgeo {
 
 namespace {
 
-/// The value of a decimal that no double comes near: zero or infinite.
+/// The value of a decimal outside the range of double: zero or infinite.
 double beyondDouble(std::string_view word) {
   const bool isNegative = word.front() == '-';
   const std::string_view digits = word.substr(isNegative || word.front() == '+');
@@ -21,7 +21,7 @@ double beyondDouble(std::string_view word) {
   return isNegative ? -magnitude : magnitude;
 }
 
-/// std::from_chars knows no plus.
+/// Skips a plus sign, which std::from_chars does not accept.
 const char* behindPlus(const char* at, const char* end) {
   return end - at > 1 && at[0] == '+' && at[1] != '-' ? at + 1 : at;
 }

@@ -1,6 +1,5 @@
 #pragma once
-// One scanner for the text formats: words, numbers and lines, and the line to
-// name when something is wrong. Lines are counted only when they are asked for.
+// The scanner of the text formats: words, numbers and lines. It counts lines only when an error needs a location.
 
 #include "base/bytes.h"
 #include "base/error.h"
@@ -11,7 +10,7 @@
 
 namespace imgeo {
 
-/// A word of a file as a message shows it: short, and in printable ASCII.
+/// A word of a file for a message: at most 40 characters, printable ASCII.
 std::string asPrintable(std::string_view word);
 
 class TextScanner {
@@ -25,11 +24,10 @@ public:
   bool atWordEnd() const { return at_ == end_ || isSpace(*at_); }
   std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - at_); }
   std::size_t byteOffset() const { return static_cast<std::size_t>(at_ - begin_); }
-  /// Goes to a byte of the text, or its end.
+  /// Moves to a byte of the text or to its end.
   void goTo(std::size_t byteOffset) { at_ = begin_ + byteOffset; }
 
-  /// Skips what separates words within a line; a backslash at the end of a line
-  /// continues it (OBJ).
+  /// Skips white space within a line; a backslash at the end of a line continues it (OBJ).
   void skipBlanks() {
     while (at_ != end_ && (isBlank(*at_) || *at_ == '\\'))
       if (!skipBlank())
@@ -40,32 +38,31 @@ public:
     while (at_ != end_ && isSpace(*at_))
       ++at_;
   }
-  /// Goes to the beginning of the next line.
+  /// Moves to the beginning of the next line.
   void skipLine();
 
-  /// The word here, empty at a line's end; does not skip blanks before it.
+  /// Takes the word at the cursor, empty at a line's end; does not skip blanks before it.
   std::string_view word();
-  /// What is left of this line without blanks at its ends; stays on the line.
+  /// Takes the rest of the line without surrounding blanks; the cursor stays at the line's end.
   std::string_view restOfLine();
-  /// Skips `c` where it stands here.
+  /// Skips `c` if it is the next character.
   bool skipChar(char c) {
     const bool found = at_ != end_ && *at_ == c;
     at_ += found;
     return found;
   }
 
-  /// The decimal integer here, which ends where its digits end; `what` names it
-  /// where there is none.
+  /// Takes a decimal integer, which ends where its digits end; `what` names it in errors.
   std::int64_t integer(const char* what);
-  /// The same where the word must end with it.
+  /// Takes a decimal integer that must be the whole word.
   std::int64_t integerWord(const char* what);
-  /// The number here as the nearest float; the word must end with it. "nan" and
-  /// "inf" are numbers; what is too large becomes infinite, too small, zero.
+  /// Takes a number, which must be the whole word, as the nearest float. "nan" and "inf" are numbers; too large numbers
+  /// become infinite, too small ones zero.
   float float32(const char* what);
   double float64(const char* what);
 
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const;
-  /// "bunny.obj:12", the line of this character.
+  /// "bunny.obj:12": the line of the cursor.
   std::string location() const;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
-// The elements that a VRML file becomes, with the names that stand for them: a scope
-// for the document, and one for the body of each prototype.
+// The elements that a VRML file becomes, and the scopes of its DEF and prototype names: one for the document and one
+// for the body of each prototype.
 
 #include "import/vrml/tokens.h"
 #include "import/x3d/elements.h"
@@ -14,34 +14,34 @@ namespace imgeo::x3d {
 
 class VrmlElements {
 public:
-  /// `tokens` outlive the elements, and name the place of what is refused.
+  /// `tokens` outlive the elements; they give the location of errors.
   explicit VrmlElements(const VrmlTokens& tokens) : tokens_(tokens), scopes_(1) {}
 
   pugi::xml_node top() { return elements_.document; }
   void setFormat(const char* format) { elements_.format = format; }
   Elements take() { return std::move(elements_); }
 
-  /// Appends an element that begins at `where`.
+  /// Appends an element whose text begins at `where`.
   pugi::xml_node add(pugi::xml_node parent, std::string_view element, const Token& where);
-  /// Names of nodes and fields become those of elements and attributes: throws
-  /// Error{malformed} for one that XML does not have.
+  /// Names of nodes and fields become names of elements and attributes. Throws Error{malformed} for a name that XML
+  /// does not allow.
   void requireName(const Token& where, std::string_view name) const;
 
   struct Named {
-    std::string name; ///< its own, or one with a number where that was given before
+    std::string name; ///< the name in the result: with a number where an earlier DEF has the same name
     std::string element;
   };
-  /// Gives a node a name, which from there on stands for it alone; returns that it gets.
+  /// Records the DEF of a node, which hides earlier ones of the same name; returns its name in the result.
   std::string define(const std::string& name, const std::string& element);
-  /// Nothing for a name that nobody has.
+  /// The latest DEF of a name; null where there is none.
   const Named* named(const std::string& name) const;
   std::string currentName(const std::string& name) const;
 
-  /// The declaration of a prototype; none for other words.
+  /// The declaration of a prototype; a null node for other words.
   pugi::xml_node prototype(std::string_view name) const;
   void declare(const std::string& name, pugi::xml_node declaration);
 
-  /// A body sees the prototypes around it, and none of the names.
+  /// Opens the scope of a prototype's body, which sees the enclosing prototypes but no enclosing DEF names.
   void openScope();
   void closeScope() { scopes_.pop_back(); }
 
@@ -57,9 +57,9 @@ private:
   std::vector<Scope> scopes_;
 };
 
-/// Gives an attribute its value; the latest counts.
+/// Sets an attribute, replacing an earlier value.
 void set(pugi::xml_node element, std::string_view attribute, std::string_view value);
-/// Says which field a node stands in, where its kind does not.
+/// Sets containerField where it differs from the default of the element.
 void setContainerField(pugi::xml_node element, std::string_view field);
 void addComments(pugi::xml_node parent, const std::vector<std::string_view>& comments);
 

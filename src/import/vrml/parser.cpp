@@ -1,6 +1,4 @@
-// Classic VRML -> the elements that the XML encoding of the same document has.
-// VRML needs no table of nodes to be read: what a value is shows in its first word.
-
+// The syntax of a value shows its type, so that parsing needs no table of nodes.
 #include "import/text/text_scanner.h"
 #include "import/vrml/elements.h"
 #include "import/vrml/names.h"
@@ -19,11 +17,11 @@ namespace {
 
 constexpr std::size_t maxDepth = 200;
 
-/// Where a value goes: an attribute of an element, or nodes below it.
+/// The destination of a value: an attribute of an element, or child nodes.
 struct Target {
   pugi::xml_node element;
   std::string attribute;
-  std::string containerField; ///< of nodes; "" where it is not said
+  std::string containerField; ///< of child nodes; "" for the default
   bool isStringList = false, isNodes = false;
 };
 
@@ -44,7 +42,7 @@ public:
   }
 
 private:
-  // "#VRML V2.0 utf8" and "#X3D V3.3 utf8" are comments to all but this.
+  // Reads the header, "#VRML V2.0 utf8" or "#X3D V3.3 utf8", which the tokenizer skips as a comment.
   void readHeader() {
     pugi::xml_node x3d = elements_.add(elements_.top(), "X3D", tokens_.next());
     const std::string_view line = text_.substr(0, text_.find_first_of("\r\n"));
@@ -58,7 +56,7 @@ private:
     std::string version = isX3d ? std::string(line.substr(6, line.find(' ', 6) - 6)) : "3.3";
     if (!std::ranges::all_of(version, [](unsigned char c) { return std::isdigit(c) || c == '.'; }))
       version = "3.3";
-    x3d.append_attribute("profile") = "Immersive"; // which is VRML97 and what came since
+    x3d.append_attribute("profile") = "Immersive"; // a superset of VRML97
     x3d.append_attribute("version") = version.c_str();
     x3d_ = x3d;
     head_ = x3d.append_child("head");
@@ -73,7 +71,7 @@ private:
 
   std::string takeWord(const char* what) { return std::string(tokens_.take(TokenKind::word, what).text); }
 
-  /// A node or what else may stand among nodes.
+  /// Reads a node or another statement.
   void readStatement(pugi::xml_node parent, std::string_view field) {
     addComments(parent);
     const Token token = tokens_.take(TokenKind::word, "a node");
@@ -88,13 +86,13 @@ private:
       readPrototype(parent, token);
     } else if (token.text == "EXTERNPROTO") {
       readExternPrototype(parent, token);
-    } else if (!readOfDocument(token)) {
+    } else if (!readDocumentStatement(token)) {
       readNode(parent, field, token, "");
     }
   }
 
-  /// Statements of X3D that say something of the whole document.
-  bool readOfDocument(const Token& token) {
+  /// Reads an X3D statement about the whole document; false for other words.
+  bool readDocumentStatement(const Token& token) {
     const std::string_view word = token.text;
     if (word == "PROFILE") {
       set(x3d_, "profile", takeWord("a profile"));
@@ -114,7 +112,7 @@ private:
       set(element, "name", takeWord("a name"));
       set(element, "conversionFactor", tokens_.take(TokenKind::number, "a number").text);
     } else if (word == "IMPORT" || word == "EXPORT") {
-      readExchange(token);
+      readImportOrExport(token);
     } else {
       return false;
     }
@@ -122,7 +120,7 @@ private:
   }
 
   /// IMPORT Inline.name AS own; EXPORT name AS other.
-  void readExchange(const Token& token) {
+  void readImportOrExport(const Token& token) {
     const bool isImport = token.text == "IMPORT";
     pugi::xml_node element = elements_.add(scene_, token.text, token);
     std::string name = takeWord("a name");
@@ -178,13 +176,13 @@ private:
       set(element, "DEF", elements_.define(name, element.name()));
     tokens_.take(TokenKind::openNode, "{");
     while (!tokens_.nextIs(TokenKind::closeNode))
-      readBodyPart(element, prototype);
+      readBodyStatement(element, prototype);
     addComments(element);
     tokens_.take();
     --depth_;
   }
 
-  void readBodyPart(pugi::xml_node element, pugi::xml_node prototype) {
+  void readBodyStatement(pugi::xml_node element, pugi::xml_node prototype) {
     const bool isStatement = tokens_.nextIs("ROUTE") || tokens_.nextIs("PROTO") || tokens_.nextIs("EXTERNPROTO");
     if (isStatement)
       return readStatement(element, "");

@@ -10,7 +10,7 @@ namespace imgeo::x3d {
 
 namespace {
 
-constexpr std::string_view space = " \t\r\n,"; // a comma is as good as a blank
+constexpr std::string_view space = " \t\r\n,"; // VRML treats commas as blanks
 constexpr std::string_view wordEnds = " \t\r\n,#\"'[]{}";
 
 bool isDigit(char c) {

@@ -1,5 +1,5 @@
 #pragma once
-// The words of VRML (ISO/IEC 14772-1, annex A; ISO/IEC 19776-2).
+// The tokens of VRML (ISO/IEC 14772-1, annex A; ISO/IEC 19776-2).
 
 #include "base/error.h"
 
@@ -15,7 +15,7 @@ enum class TokenKind : std::uint8_t { end, word, number, string, openNode, close
 
 struct Token {
   TokenKind kind = TokenKind::end;
-  std::string_view text; ///< of a string what stands between its quotes, backslashes and all
+  std::string_view text; ///< of a string: the text between its quotes, with escapes
   std::size_t offset = 0;
 };
 
@@ -27,16 +27,16 @@ public:
   const Token& next() const { return next_; }
   bool nextIs(TokenKind kind) const { return next_.kind == kind; }
   bool nextIs(std::string_view word) const { return next_.kind == TokenKind::word && next_.text == word; }
-  /// The next token, behind which one then is. Throws Error{malformed} for what is no token.
+  /// Takes the next token. Throws Error{malformed} where the token behind it is invalid.
   Token take();
-  /// The same where it has to be of this kind; `what` names it where it is not.
+  /// Takes the next token, which must be of this kind; `what` names it in errors.
   Token take(TokenKind kind, const char* what);
 
-  /// The comments that were passed since the last call, without their #.
+  /// The comments that were skipped since the last call, without their #.
   std::vector<std::string_view> takeComments() { return std::exchange(comments_, {}); }
 
   [[noreturn]] void fail(const Token& token, ErrorKind kind, const std::string& message) const;
-  /// Says what should stand here.
+  /// Throws an Error that names the expected token.
   [[noreturn]] void failExpecting(const std::string& what) const;
 
 private:

@@ -5,7 +5,7 @@
 
 namespace imgeo {
 
-bool looksLikeVrml(ByteSpan bytes) {
+bool isVrml(ByteSpan bytes) {
   return asText(bytes).starts_with("#VRML V") || asText(bytes).starts_with("#X3D V");
 }
 

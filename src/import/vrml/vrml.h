@@ -6,7 +6,7 @@
 namespace imgeo {
 
 /// True for the header of VRML of any version, and of X3D in classic VRML encoding.
-bool looksLikeVrml(ByteSpan bytes);
+bool isVrml(ByteSpan bytes);
 Imported readVrml(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 } // namespace imgeo

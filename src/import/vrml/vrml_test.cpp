@@ -1,4 +1,4 @@
-// VRML says what XML says: each text is read from both encodings.
+// Compares the scenes of VRML texts and of their equivalents in XML encoding.
 
 #include "base/file.h"
 #include "import/testing.h"
@@ -17,7 +17,7 @@ Imported readXml(const std::string& scene) {
   return importBytes(asBytes("<X3D version='3.3' profile='Immersive'><Scene>" + scene + "</Scene></X3D>"), "a.wrl");
 }
 
-/// Both are the same scene, name for name and field for field.
+/// Expects that both texts give equal scenes.
 void expectSame(const std::string& vrml, const std::string& xml) {
   const Scene a = readVrml(vrml).scene, b = readXml(xml).scene;
   ASSERT_EQ(a.graph.nodes.size(), b.graph.nodes.size()) << vrml;
@@ -48,7 +48,7 @@ TEST(Vrml, IsTheSameSceneAsInXml) {
              "0'/></IndexedFaceSet></Shape></Transform><Transform><Transform USE='Seat'/></Transform>");
 }
 
-TEST(Vrml, KeepsStringsListsAndTruth) {
+TEST(Vrml, KeepsStringsListsAndBooleans) {
   expectSame("WorldInfo { title \"a \\\"b\\\" \\\\ c\" info \"one\" }\n"
              "NavigationInfo { type [ \"WALK\", \"ANY\" ] headlight FALSE avatarSize [] }\n"
              "Anchor { url \"a.html\" children [] }",
@@ -56,7 +56,7 @@ TEST(Vrml, KeepsStringsListsAndTruth) {
              "<NavigationInfo type='\"WALK\" \"ANY\"' headlight='false' avatarSize=''/><Anchor url='\"a.html\"'/>");
 }
 
-TEST(Vrml, GivesNodesTheFieldTheyStandIn) {
+TEST(Vrml, SetsTheContainerFieldOfNodes) {
   expectSame("Shape { appearance Appearance { material PhysicalMaterial { baseTexture ImageTexture { } } } }\n"
              "LOD { range [5] level [ Group { } Group { } ] } Switch { choice Group { } whichChoice 0 }\n"
              "Collision { collide FALSE proxy Group { } children NULL }",
@@ -65,7 +65,7 @@ TEST(Vrml, GivesNodesTheFieldTheyStandIn) {
              "<Collision enabled='false'><Group containerField='proxy'/></Collision>");
 }
 
-TEST(Vrml, CarriesRoutesAndScriptsOver) {
+TEST(Vrml, KeepsRoutesAndScripts) {
   const std::string vrml =
       "DEF T TimeSensor { } DEF S Script { url \"javascript:x\" eventIn SFTime now field SFFloat k 2\n"
       "field SFNode n USE T directOutput TRUE } ROUTE T.time TO S.now";
@@ -78,7 +78,7 @@ TEST(Vrml, CarriesRoutesAndScriptsOver) {
                                            "ROUTE (1), Script (1), TimeSensor (1).");
 }
 
-TEST(Vrml, TakesANameThatIsGivenAgainForTheLaterNode) {
+TEST(Vrml, ResolvesARepeatedNameToTheLatestNode) {
   const SceneGraph graph =
       readVrml("DEF A Group { } Transform { children USE A } DEF A Transform { } Group { children USE A }").scene.graph;
   const auto childOf = [&](std::size_t root) { return graph.nodes[graph.roots.at(root)].children.at(0); };
@@ -86,7 +86,7 @@ TEST(Vrml, TakesANameThatIsGivenAgainForTheLaterNode) {
   EXPECT_EQ(childOf(3), graph.roots[2]);
 }
 
-TEST(Vrml, WritesPrototypesOut) {
+TEST(Vrml, ExpandsPrototypes) {
   const std::string vrml =
       "PROTO Chair [ field SFVec3f at 0 0 0 exposedField MFNode parts [ Group { } ] field SFColor paint 1 1 "
       "1 ] {\n"
@@ -120,7 +120,7 @@ TEST(Vrml, WritesPrototypesOut) {
   EXPECT_NE(all.find("Left out of prototypes: TimeSensor (1)."), std::string::npos) << all;
 }
 
-TEST(Vrml, ListsPrototypesOfOtherFiles) {
+TEST(Vrml, KeepsInstancesOfExternalPrototypes) {
   const SceneGraph graph =
       readVrml("EXTERNPROTO Door [ field SFVec3f size field MFNode parts ] [ \"doors.wrl#Door\" ]\n"
                "Door { size 1 2 3 parts [ Group { } ] }")
@@ -132,7 +132,7 @@ TEST(Vrml, ListsPrototypesOfOtherFiles) {
             (std::vector<FieldText>{{"name", "size"}, {"value", "1 2 3"}}));
 }
 
-TEST(Vrml, RefusesPrototypesThatGrowWithoutMeasure) {
+TEST(Vrml, RefusesPrototypesThatExpandTooFar) {
   std::string bomb = "PROTO P0 [] { Group { } }\n";
   for (int i = 1; i < 40; ++i)
     bomb += "PROTO P" + std::to_string(i) + " [] { Group { children [ P" + std::to_string(i - 1) + " {} P" +
@@ -155,7 +155,7 @@ TEST(Vrml, ReadsTheClassicEncodingOfX3d) {
             (std::vector<FieldText>{{"name", "creator"}, {"content", "somebody"}}));
 }
 
-TEST(Vrml, NamesThePlaceOfWhatItRefuses) {
+TEST(Vrml, NamesTheLocationOfAnError) {
   const auto expect = [](const std::string& text, ErrorKind kind, const std::string& location) {
     const Error error = refusalOf("#VRML V2.0 utf8\n" + text);
     EXPECT_EQ(error.kind(), kind) << text;
@@ -176,7 +176,7 @@ TEST(Vrml, NamesThePlaceOfWhatItRefuses) {
   EXPECT_EQ(refusalOf("Group { }").kind(), ErrorKind::malformed);
 }
 
-TEST(Vrml, LeavesDamageOutAndSaysWhere) {
+TEST(Vrml, LeavesDamagedContentOutAndNamesItsLocation) {
   const Imported imported = readVrml("Shape { geometry IndexedFaceSet {\n coordIndex [0 1 7] coord "
                                      "Coordinate { point [0 0 0 1 0 0 0 1 0] } } }\n"
                                      "Group { children USE Nothing }");

@@ -1,6 +1,6 @@
 #pragma once
-// An X3D document as a tree of elements, from either of its encodings: XML
-// (ISO/IEC 19776-1) and classic VRML (19776-2), which VRML97 is the first form of.
+// An X3D document as a tree of XML elements, for both encodings: XML (ISO/IEC 19776-1) and classic VRML (ISO/IEC
+// 19776-2, of which VRML97 is the predecessor).
 
 #include <pugixml.hpp>
 #include <string>
@@ -10,9 +10,9 @@
 namespace imgeo::x3d {
 
 struct Elements {
-  pugi::xml_document document; ///< its element is <X3D>
+  pugi::xml_document document; ///< its document element is <X3D>
   std::string format;          ///< "X3D", "X3D Classic" or "VRML97": for reports
-  /// Where in the text elements begin, as far as pugixml does not know it.
+  /// Byte offsets in the text of elements that pugixml did not parse.
   std::unordered_map<pugi::xml_node_struct*, std::size_t> offsets;
 
   pugi::xml_node root() const { return document.document_element(); }

@@ -11,15 +11,15 @@ namespace imgeo::x3d {
 
 namespace {
 
-using Direction = std::optional<Vec3d>; ///< of unit length; nothing for what has none
+using Direction = std::optional<Vec3d>; ///< of unit length; empty for a zero vector
 
 Direction unit(Vec3d vector) {
   const double size = length(vector);
   return size > 1e-12 ? Direction(vector * (1 / size)) : std::nullopt;
 }
 
-/// What has no direction of its own takes that of what comes before, or else behind.
-/// Empty where nothing has one.
+/// Replaces each missing direction by the preceding one, or by the first one at the beginning. Empty where all are
+/// missing.
 std::vector<Vec3d> filled(const std::vector<Direction>& directions) {
   const auto first = std::ranges::find_if(directions, [](const Direction& d) { return d.has_value(); });
   std::vector<Vec3d> all;
@@ -31,7 +31,7 @@ std::vector<Vec3d> filled(const std::vector<Direction>& directions) {
   return all;
 }
 
-/// Of a straight spine: the y axis turned the shortest way onto it.
+/// The frame of a straight spine: the shortest rotation of the y axis onto the tangent.
 Affine3d straightFrame(Vec3d tangent) {
   const Vec3d axis = cross(Vec3d{0, 1, 0}, tangent);
   const double sine = length(axis);
@@ -40,15 +40,15 @@ Affine3d straightFrame(Vec3d tangent) {
   return tangent.y < 0 ? affineOf(Rotation{{1, 0, 0}, 3.14159265358979323846}) : Affine3d{};
 }
 
-/// The planes across the spine (13.3.5.4): y along it, z out of its bend.
+/// The spine-aligned cross-section planes (13.3.5.4): y is the tangent, z the normal of the spine's bend.
 std::vector<Affine3d> framesAlong(const std::vector<Vec3d>& spine) {
   const std::size_t count = spine.size();
   const bool isClosed = count > 2 && spine.front() == spine.back();
   const auto at = [&](std::size_t i, int step) {
     if (isClosed)
       return spine[(i + count - 2 + static_cast<std::size_t>(step + 1)) % (count - 1)];
-    const auto place = static_cast<std::ptrdiff_t>(i) + step;
-    return spine[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(place, 0, std::ssize(spine) - 1))];
+    const auto index = static_cast<std::ptrdiff_t>(i) + step;
+    return spine[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(index, 0, std::ssize(spine) - 1))];
   };
   std::vector<Direction> tangents, bends;
   for (std::size_t i = 0; i < count; ++i) {

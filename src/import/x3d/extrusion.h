@@ -11,14 +11,14 @@ namespace imgeo::x3d {
 struct Extrusion {
   std::vector<Vec2<double>> crossSection{{1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}}; ///< x and z
   std::vector<Vec3d> spine{{0, 0, 0}, {0, 1, 0}};
-  std::vector<Vec2<double>> scale{{1, 1}};                      ///< one for each point of the spine, or for all
+  std::vector<Vec2<double>> scale{{1, 1}};                      ///< one for each point of the spine, or one for all
   std::vector<std::array<double, 4>> orientation{{0, 0, 1, 0}}; ///< likewise: axis and angle
   bool beginCap = true, endCap = true;
 };
 
-/// Appends its vertices, with texture coordinates, and its faces. Where the curves are
-/// closed their ends are one position; caps have vertices of their own. Nothing where
-/// the spine or the cross-section has fewer than two points.
+/// Appends the vertices, with texture coordinates, and the faces of an extrusion. The ends of closed curves share their
+/// positions; caps have vertices of their own. Appends nothing where the spine or the cross-section has fewer than two
+/// points.
 void extrude(const Extrusion& extrusion, VertexData& data, Faces& faces);
 
 } // namespace imgeo::x3d

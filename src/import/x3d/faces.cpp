@@ -14,8 +14,8 @@ namespace {
 struct CornerHash {
   std::size_t operator()(const Corner& corner) const {
     std::uint64_t hash = 0xcbf29ce484222325;
-    for (const std::uint32_t part : {corner.position, corner.normal, corner.texCoord, corner.color})
-      hash = (hash ^ part) * 0x100000001b3;
+    for (const std::uint32_t index : {corner.position, corner.normal, corner.texCoord, corner.color})
+      hash = (hash ^ index) * 0x100000001b3;
     return hash ^ hash >> 32;
   }
 };
@@ -54,7 +54,7 @@ private:
   std::unordered_map<Corner, std::uint32_t, CornerHash> wedges_;
 };
 
-/// Newell's normal, of unit length; zero for a face without area.
+/// Newell's normal, normalised; zero for a face without area.
 Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
   Vec3d sum;
   for (std::size_t i = 0; i < face.size(); ++i)
@@ -66,7 +66,7 @@ Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
 
 } // namespace
 
-void addCreasedNormals(VertexData& data, Faces& faces, double creaseAngle) {
+void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle) {
   std::vector<Vec3d> normals;
   std::vector<std::uint32_t> firstOf(data.positions.size() + 1); // faces around each position, as one list
   for (const Corner& corner : faces.corners)
@@ -82,14 +82,14 @@ void addCreasedNormals(VertexData& data, Faces& faces, double creaseAngle) {
     normals.push_back(faceNormal(data, face));
     begin = end;
   }
-  const double least = std::cos(std::min(creaseAngle, 3.1415926535)) - 1e-9;
+  const double minCosine = std::cos(std::min(creaseAngle, 3.1415926535)) - 1e-9;
   std::size_t corner = 0;
   for (std::size_t face = 0; face < faces.ends.size(); ++face)
     for (; corner < faces.ends[face]; ++corner) {
       const std::uint32_t position = faces.corners[corner].position;
       Vec3d sum;
       for (std::uint32_t i = firstOf[position]; i < firstOf[position + 1]; ++i)
-        if (dot(normals[around[i]], normals[face]) >= least || around[i] == face)
+        if (dot(normals[around[i]], normals[face]) >= minCosine || around[i] == face)
           sum = sum + normals[around[i]];
       Vec3f normal(sum);
       makeUnit(normal);
@@ -110,19 +110,19 @@ Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans) {
     return mesh;
   }
   std::vector<Vec3f> ring;
-  std::vector<std::uint32_t> places;
+  std::vector<std::uint32_t> triangles;
   std::size_t begin = 0;
   for (const std::size_t end : faces.ends) {
     const std::span<const Corner> face(faces.corners.data() + begin, end - begin);
     begin = end;
     if (face.size() < 3)
       continue;
-    ring.clear(), places.clear();
+    ring.clear(), triangles.clear();
     for (const Corner& corner : face)
       ring.push_back(data.positions[corner.position]);
-    fans += !triangulate(ring, places);
-    for (const std::uint32_t place : places)
-      builder.addCorner(face[place]);
+    fans += !triangulate(ring, triangles);
+    for (const std::uint32_t corner : triangles)
+      builder.addCorner(face[corner]);
   }
   return mesh;
 }

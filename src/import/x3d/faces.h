@@ -1,5 +1,5 @@
 #pragma once
-// Polygons, lines or points whose corners name a value of each kind -> Mesh.
+// Polygons, lines or points with separate indices for each attribute -> Mesh.
 
 #include "scene/mesh.h"
 
@@ -17,7 +17,7 @@ struct VertexData {
   std::uint32_t colorComponents = 3;
 };
 
-/// Indices into VertexData; either all corners have an attribute or none has.
+/// Indices into VertexData. Either all corners have an attribute or none has.
 struct Corner {
   std::uint32_t position = none, normal = none, texCoord = none, color = none;
   friend bool operator==(const Corner&, const Corner&) = default;
@@ -26,15 +26,16 @@ struct Corner {
 struct Faces {
   Topology topology = Topology::triangles;
   std::vector<Corner> corners;
-  std::vector<std::size_t> ends; ///< of each face among the corners; lines and points have as many as they need
+  std::vector<std::size_t> ends; ///< the end of each face among the corners; unused for lines and points
 };
 
-/// Normals for faces without: each corner has the mean of the faces around its
-/// position that are turned from its own by no more than `creaseAngle`, in radians.
-void addCreasedNormals(VertexData& data, Faces& faces, double creaseAngle);
+/// Adds normals by crease angle: the normal of a corner is the normalised sum of the unit normals of those faces around
+/// its position whose normals differ from its own face's by at most `creaseAngle` radians. Faces without area add
+/// nothing; a corner whose sum is zero gets (0, 0, 1).
+void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle);
 
-/// Each combination of values that a corner names becomes a wedge; polygons are cut
-/// into triangles. `fans` counts concave polygons that were too large for that.
+/// Each distinct combination of indices becomes a wedge; polygons are triangulated. Adds to `fans` the number of
+/// concave polygons that became fans because they are too large.
 Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans);
 
 } // namespace imgeo::x3d

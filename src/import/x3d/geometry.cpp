@@ -16,7 +16,7 @@ namespace {
 
 using Indices = std::vector<std::int32_t>;
 
-/// Vertices: the product of two curves may be much longer than both.
+/// Maximum number of vertices of an extrusion, the product of the lengths of two fields.
 constexpr std::size_t maxExtruded = std::size_t{1} << 22;
 
 /// Reads the vertex data of one geometry node and gives corners their attributes.
@@ -55,8 +55,8 @@ private:
 
   Indices integers(const char* field) const { return source_.integers(node_, field); }
 
-  /// The first child of one of the names, or what it USEs.
-  pugi::xml_node part(std::initializer_list<const char*> names) const {
+  /// The first child with one of these names, its USE resolved.
+  pugi::xml_node childNamed(std::initializer_list<const char*> names) const {
     for (const pugi::xml_node& child : node_.children())
       for (const char* name : names)
         if (std::string_view(child.name()) == name)
@@ -81,17 +81,17 @@ private:
   }
 
   void readData() {
-    data_.positions = vectors(part({"Coordinate", "CoordinateDouble"}), "point");
-    data_.normals = vectors(part({"Normal"}), "vector");
+    data_.positions = vectors(childNamed({"Coordinate", "CoordinateDouble"}), "point");
+    data_.normals = vectors(childNamed({"Normal"}), "vector");
     for (Vec3f& normal : data_.normals)
       makeUnit(normal);
-    pugi::xml_node texCoord = part({"TextureCoordinate", "MultiTextureCoordinate"});
+    pugi::xml_node texCoord = childNamed({"TextureCoordinate", "MultiTextureCoordinate"});
     if (std::string_view(texCoord.name()) == "MultiTextureCoordinate")
       texCoord = source_.resolved(texCoord.child("TextureCoordinate"));
     const std::vector<double> points = tuples(texCoord, "point", 2);
     for (std::size_t i = 0; i < points.size(); i += 2)
       data_.texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
-    const pugi::xml_node color = part({"Color", "ColorRGBA"});
+    const pugi::xml_node color = childNamed({"Color", "ColorRGBA"});
     const std::size_t components = std::string_view(color.name()) == "ColorRGBA" ? 4 : 3;
     const std::vector<double> colors = tuples(color, "color", components);
     const auto byte = [](double value) {
@@ -104,25 +104,26 @@ private:
     data_.colorComponents = isOpaque ? 3 : 4;
   }
 
-  /// A face is a run of vertices: places in `coordIndex` or, without one, in the Coordinate.
+  /// Adds a face of vertices, which are indices into the Coordinate node.
   void addFace(std::initializer_list<std::uint32_t> vertices) {
     for (const std::uint32_t vertex : vertices)
       faces_.corners.push_back({vertex, none, none, none});
     faces_.ends.push_back(faces_.corners.size());
   }
 
-  /// What an attribute's index says for a corner: its own index, or the vertex's.
-  static std::uint32_t lookUp(const Indices& index, std::size_t at, std::uint32_t vertex) {
+  /// The index of a corner's attribute value: from the attribute's index field, or the vertex index where that is
+  /// empty.
+  static std::uint32_t valueIndex(const Indices& index, std::size_t at, std::uint32_t vertex) {
     if (index.empty())
       return vertex;
     return at < index.size() && index[at] >= 0 ? static_cast<std::uint32_t>(index[at]) : none;
   }
 
-  // 11.2.2.4: values belong to vertices, or one to each face.
+  // 11.2.2.4: one value per vertex or per face.
   void readIndexedFaces() { readRuns(Topology::triangles); }
   void readIndexedLines() { readRuns(Topology::lines); }
 
-  /// Runs of coordIndex between the -1s, with indices of attributes beside it.
+  /// Reads the runs of coordIndex, separated by -1, with the parallel indices of attributes.
   void readRuns(Topology topology) {
     const Indices coordIndex = integers("coordIndex"), normalIndex = integers("normalIndex"),
                   colorIndex = integers("colorIndex"), texCoordIndex = integers("texCoordIndex");
@@ -139,21 +140,21 @@ private:
       const auto vertex = static_cast<std::uint32_t>(coordIndex[at]);
       Corner corner{vertex, none, none, none};
       if (!data_.normals.empty())
-        corner.normal = normalPerVertex ? lookUp(normalIndex, at, vertex) : lookUp(normalIndex, face, face);
+        corner.normal = normalPerVertex ? valueIndex(normalIndex, at, vertex) : valueIndex(normalIndex, face, face);
       if (!data_.texCoords.empty())
-        corner.texCoord = lookUp(texCoordIndex, at, vertex);
+        corner.texCoord = valueIndex(texCoordIndex, at, vertex);
       if (!data_.colors.empty())
-        corner.color = colorPerVertex ? lookUp(colorIndex, at, vertex) : lookUp(colorIndex, face, face);
+        corner.color = colorPerVertex ? valueIndex(colorIndex, at, vertex) : valueIndex(colorIndex, face, face);
       faces_.corners.push_back(corner);
     }
     if (faces_.corners.size() > (faces_.ends.empty() ? 0 : faces_.ends.back()))
       faces_.ends.push_back(faces_.corners.size());
-    isCreased_ = topology == Topology::triangles;
+    hasCreaseAngle_ = topology == Topology::triangles;
     if (topology == Topology::lines)
       breakIntoLines();
   }
 
-  /// Runs of corners -> the corners of single lines.
+  /// Replaces polylines by single lines.
   void breakIntoLines() {
     Faces lines{Topology::lines, {}, {}};
     std::size_t begin = 0;
@@ -165,7 +166,7 @@ private:
     faces_ = std::move(lines);
   }
 
-  /// The vertices of runs: of `index` between its -1s, or as many of the Coordinate's as each count says.
+  /// The runs of vertices: those of `index`, separated by -1, or consecutive vertices by the counts of `countField`.
   std::vector<std::vector<std::uint32_t>> runs(const char* countField) const {
     std::vector<std::vector<std::uint32_t>> runs;
     if (node_.attribute("index") || std::string_view(node_.name()).starts_with("Indexed")) {
@@ -192,7 +193,7 @@ private:
     std::vector<std::uint32_t> vertices;
     if (std::string_view(node_.name()) == "IndexedTriangleSet") {
       for (const std::int32_t vertex : integers("index"))
-        if (vertex >= 0) // some writers separate triangles
+        if (vertex >= 0) // some programs separate triangles by -1
           vertices.push_back(static_cast<std::uint32_t>(vertex));
     } else {
       for (std::uint32_t i = 0; i < data_.positions.size(); ++i)
@@ -234,7 +235,7 @@ private:
     faces_.topology = Topology::points;
   }
 
-  /// Attributes of nodes whose vertices all have one number, or one value a face.
+  /// Sets the attributes of nodes with one index per vertex, or one value per face.
   void addVertexAttributes() {
     const bool normalPerVertex = source_.boolean(node_, "normalPerVertex", true),
                colorPerVertex = source_.boolean(node_, "colorPerVertex", true);
@@ -249,10 +250,10 @@ private:
         if (!data_.colors.empty())
           corner.color = colorPerVertex ? corner.position : face;
       }
-    isCreased_ = !normalPerVertex;
+    hasCreaseAngle_ = !normalPerVertex;
   }
 
-  /// 13.3.4: heights over a grid in x and z, seen from above.
+  /// 13.3.4: heights over a grid in x and z.
   void readElevationGrid() {
     const std::vector<double> heights = source_.reals(node_, "height");
     const double columnsField = source_.real(node_, "xDimension", 0), rowsField = source_.real(node_, "zDimension", 0);
@@ -277,10 +278,10 @@ private:
         addFace({corner, corner + columns, corner + columns + 1, corner + 1});
       }
     addVertexAttributes();
-    isCreased_ = true;
+    hasCreaseAngle_ = true;
   }
 
-  /// As many tuples as a field has, where it is there.
+  /// Reads the tuples of a field; keeps the default where the field is absent.
   template <std::size_t size, typename Tuple> void readTuples(const char* field, std::vector<Tuple>& values) const {
     if (!node_.attribute(field))
       return;
@@ -309,7 +310,7 @@ private:
       fail(ErrorKind::unsupported, fmt::format("has more than {} vertices", maxExtruded));
     data_ = {};
     extrude(extrusion, data_, faces_);
-    isCreased_ = true;
+    hasCreaseAngle_ = true;
   }
 
   void requireInRange() const {
@@ -333,18 +334,18 @@ private:
     requireInRange();
     const bool isSurface = faces_.topology == Topology::triangles;
     if (isSurface && !source_.boolean(node_, "ccw", true))
-      turnOver();
-    // Smooth all over is what normals become later, without a wedge a face.
+      reverseWinding();
+    // Normals that are smooth everywhere are computed later (prepare/normals), without splitting wedges.
     const double creaseAngle = source_.real(node_, "creaseAngle", 0);
-    if (isSurface && isCreased_ && data_.normals.empty() && creaseAngle < std::numbers::pi)
-      addCreasedNormals(data_, faces_, std::max(creaseAngle, 0.0));
+    if (isSurface && hasCreaseAngle_ && data_.normals.empty() && creaseAngle < std::numbers::pi)
+      addCreaseNormals(data_, faces_, std::max(creaseAngle, 0.0));
     Geometry geometry;
     geometry.solid = source_.boolean(node_, "solid", true);
     geometry.mesh = meshOf(data_, faces_, geometry.fans);
     return geometry;
   }
 
-  void turnOver() {
+  void reverseWinding() {
     std::size_t begin = 0;
     for (const std::size_t end : faces_.ends) {
       std::reverse(faces_.corners.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -357,7 +358,7 @@ private:
   pugi::xml_node node_;
   VertexData data_;
   Faces faces_;
-  bool isCreased_ = false; ///< its faces meet in edges unless creaseAngle says otherwise
+  bool hasCreaseAngle_ = false; ///< the node has a creaseAngle field, or flat faces
 };
 
 } // namespace

@@ -10,7 +10,7 @@ namespace imgeo::x3d {
 
 namespace fs = std::filesystem;
 
-void Inlines::requireNoCircle(const fs::path& file) const {
+void Inlines::requireNoCycle(const fs::path& file) const {
   if (std::ranges::find(options_.inlinedBy, file) != options_.inlinedBy.end())
     throw Error(ErrorKind::malformed, "", fmt::format("names {}, which it stands in itself", file.filename().string()));
   if (options_.inlinedBy.size() > maxInlineDepth)
@@ -23,7 +23,7 @@ Inlines::Document Inlines::read(const std::string& url) {
   const fs::path file = references_.fileOf(url), real = fs::weakly_canonical(file, ignored);
   if (const auto found = read_.find(real); found != read_.end())
     return found->second;
-  requireNoCircle(real);
+  requireNoCycle(real);
   ImportOptions options = options_;
   options.within = options_.within.empty() ? options_.folder : options_.within;
   Imported imported = importFile(file, options);

@@ -1,5 +1,5 @@
 #pragma once
-// What the Inlines of one X3D document lead to.
+// Reads the files that the Inlines of one X3D document name.
 
 #include "import/references.h"
 
@@ -11,27 +11,27 @@
 
 namespace imgeo::x3d {
 
-/// How deep documents may inline one another, and how many of them there may be in all.
+/// Limits of the nesting depth and of the total number of inlined documents.
 inline constexpr std::size_t maxInlineDepth = 16, maxInlinedDocuments = 1000;
 
 class Inlines {
 public:
-  /// `scene` takes the documents up; `warnings` what there is to say of them.
+  /// Documents are added to `scene`, their warnings to `warnings`.
   Inlines(const References& references, const ImportOptions& options, Scene& scene, std::vector<std::string>& warnings)
       : references_(references), options_(options), scene_(scene), warnings_(warnings) {}
 
   struct Document {
     std::size_t index = 0;          ///< into SceneGraph::inlined
-    std::vector<std::size_t> roots; ///< its top nodes
+    std::vector<std::size_t> roots; ///< its root nodes
   };
 
-  /// Reads the file of a relative url, of whatever format, once however often it is
-  /// named. Throws what importFile throws, Error{malformed} for a file that inlines
-  /// this one, Error{unsupported} for one too deep, Error{limit} for one too many.
+  /// Reads the file that a relative URL names, of any format; each file once. Throws what importFile throws,
+  /// Error{malformed} for a file that inlines this one, Error{unsupported} beyond the maximum depth, Error{limit}
+  /// beyond the maximum number.
   Document read(const std::string& url);
 
 private:
-  void requireNoCircle(const std::filesystem::path& file) const;
+  void requireNoCycle(const std::filesystem::path& file) const;
 
   const References& references_;
   const ImportOptions& options_;

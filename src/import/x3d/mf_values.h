@@ -1,6 +1,5 @@
 #pragma once
-// The values of X3D's fields in its XML encoding (ISO/IEC 19776-1): numbers with
-// blanks or commas between them, quoted strings.
+// Parses field values of X3D's XML encoding (ISO/IEC 19776-1): numbers separated by blanks or commas, and booleans.
 
 #include <cstdint>
 #include <optional>
@@ -9,11 +8,11 @@
 
 namespace imgeo::x3d {
 
-/// All numbers of a field; nothing where one of its words is none.
+/// All numbers of a field; empty where a word is not a number.
 std::optional<std::vector<double>> parseReals(std::string_view text);
-/// Whole numbers of 32 bits.
+/// All 32-bit integers of a field; empty where a word is not one.
 std::optional<std::vector<std::int32_t>> parseIntegers(std::string_view text);
-/// "true" and "false" in any case; the fallback for anything else.
+/// "true", "TRUE" or "True", and likewise "false"; the fallback for any other text.
 bool parseBoolean(std::string_view text, bool fallback);
 
 } // namespace imgeo::x3d

@@ -13,7 +13,7 @@ namespace imgeo::x3d {
 
 namespace {
 
-constexpr std::size_t maxWritten = 250'000; // elements
+constexpr std::size_t maxExpandedElements = 250'000; // elements
 constexpr std::size_t maxNesting = 200;
 
 bool isElement(pugi::xml_node node, std::string_view name) {
@@ -24,7 +24,7 @@ bool isDeclaration(pugi::xml_node node) {
   return isElement(node, "ProtoDeclare") || isElement(node, "ExternProtoDeclare");
 }
 
-/// The node of a prototype that is seen.
+/// The first node of a prototype's body, the only one that is rendered.
 pugi::xml_node firstNodeOf(pugi::xml_node declaration) {
   for (const pugi::xml_node& node : declaration.child("ProtoBody").children())
     if (node.type() == pugi::node_element && !isDeclaration(node))
@@ -40,85 +40,85 @@ std::vector<pugi::xml_node> elementsIn(pugi::xml_node parent) {
   return elements;
 }
 
-/// A declaration with those in its body. A body names what was declared before it
-/// alone, so that nothing can stand in itself.
+/// A declaration and the declarations in its body. A body may use only prototypes that were declared before it, so that
+/// no prototype can contain itself.
 struct Prototype {
   pugi::xml_node declaration;
-  const Prototype* around = nullptr; ///< whose body the declaration stands in
+  const Prototype* enclosing = nullptr; ///< the prototype whose body contains the declaration
   std::size_t order = std::numeric_limits<std::size_t>::max();
   std::map<std::string, std::unique_ptr<Prototype>> inner;
 };
 
-class Writer {
+class PrototypeExpander {
 public:
-  Writer(Elements& elements, const std::string& name) : elements_(elements), name_(name) {}
+  PrototypeExpander(Elements& elements, const std::string& name) : elements_(elements), name_(name) {}
 
-  PrototypeReport write() {
+  PrototypeReport run() {
     noteNames(elements_.root(), 0, true);
     declarations_ = elements_.document.append_child("declarations");
-    writeOutIn(elements_.root(), whole_, 0);
+    expandIn(elements_.root(), document_, 0);
     elements_.document.remove_child(declarations_);
     return std::move(report_);
   }
 
 private:
-  [[noreturn]] void failOfDepth() const {
+  [[noreturn]] void failTooDeep() const {
     throw Error(ErrorKind::limit, name_, "elements and prototypes are nested too deeply");
   }
 
-  /// `counts`: not in the body of a prototype, of which there is none of its names yet.
+  /// Collects DEF names. `counts` is false inside prototype bodies, whose names are not in the scene yet.
   void noteNames(pugi::xml_node element, std::size_t depth, bool counts) {
     if (depth > maxNesting)
-      failOfDepth();
+      failTooDeep();
     if (const pugi::xml_attribute def = element.attribute("DEF"); def && counts)
       names_.insert(def.value());
     for (const pugi::xml_node& child : elementsIn(element))
       noteNames(child, depth + 1, counts && !isElement(element, "ProtoDeclare"));
   }
 
-  /// `around`: in whose body `parent` was written.
-  void writeOutIn(pugi::xml_node parent, Prototype& around, std::size_t depth) {
+  /// `enclosing`: the prototype whose body contains `parent`.
+  void expandIn(pugi::xml_node parent, Prototype& enclosing, std::size_t depth) {
     if (depth > maxNesting)
-      failOfDepth();
+      failTooDeep();
     for (const pugi::xml_node& child : elementsIn(parent))
       if (isElement(child, "ProtoDeclare"))
-        declare(child, around);
+        declare(child, enclosing);
       else if (isElement(child, "ProtoInstance"))
-        writeOut(child, around, depth);
+        expand(child, enclosing, depth);
       else
-        writeOutIn(child, around, depth + 1);
+        expandIn(child, enclosing, depth + 1);
   }
 
-  void declare(pugi::xml_node declaration, Prototype& around) {
+  void declare(pugi::xml_node declaration, Prototype& enclosing) {
     const pugi::xml_node first = firstNodeOf(declaration);
     if (!first)
       return;
     auto prototype = std::make_unique<Prototype>();
     prototype->declaration = declaration;
-    prototype->around = &around;
+    prototype->enclosing = &enclosing;
     for (const pugi::xml_node& other : elementsIn(declaration.child("ProtoBody")))
       if (isElement(other, "ProtoDeclare"))
         declare(other, *prototype);
       else if (other != first)
         ++report_.leftOut[other.name()];
     prototype->order = ++order_;
-    declarations_.append_move(declaration); // out of the scene, where copies are still made of it
+    declarations_.append_move(declaration); // removed from the scene but kept for copying
     ++report_.prototypes;
-    around.inner[declaration.attribute("name").value()] = std::move(prototype);
+    enclosing.inner[declaration.attribute("name").value()] = std::move(prototype);
   }
 
-  Prototype* prototypeOf(pugi::xml_node instance, const Prototype& around) const {
+  Prototype* prototypeOf(pugi::xml_node instance, const Prototype& enclosing) const {
     const char* name = instance.attribute("name").value();
-    for (const Prototype* scope = &around; scope; scope = scope->around)
+    for (const Prototype* scope = &enclosing; scope; scope = scope->enclosing)
       if (const auto found = scope->inner.find(name);
-          found != scope->inner.end() && found->second->order < around.order)
+          found != scope->inner.end() && found->second->order < enclosing.order)
         return found->second.get();
     return nullptr;
   }
 
-  void writeOut(pugi::xml_node instance, Prototype& around, std::size_t depth) {
-    writeOutIn(instance, around, depth + 1); // what it is given may be instances, too
-    Prototype* const prototype = prototypeOf(instance, around);
+  void expand(pugi::xml_node instance, Prototype& enclosing, std::size_t depth) {
+    expandIn(instance, enclosing, depth + 1); // its field values may contain instances too
+    Prototype* const prototype = prototypeOf(instance, enclosing);
     if (!prototype)
       return;
     pugi::xml_node copy = instance.parent().insert_copy_before(firstNodeOf(prototype->declaration), instance);
@@ -131,9 +131,9 @@ private:
         set(copy, field, given.value());
     instance.parent().remove_child(instance);
     if (isElement(copy, "ProtoInstance"))
-      writeOut(copy, *prototype, depth + 1);
+      expand(copy, *prototype, depth + 1);
     else
-      writeOutIn(copy, *prototype, depth + 1);
+      expandIn(copy, *prototype, depth + 1);
   }
 
   static void set(pugi::xml_node element, const char* attribute, const char* value) {
@@ -142,10 +142,11 @@ private:
     element.attribute(attribute).set_value(value);
   }
 
-  /// Names of a body are its own: each copy of it needs others.
+  /// Makes the DEF names of a copied body unique, since each copy needs its own.
   void rename(pugi::xml_node element, std::map<std::string, std::string>& names, std::size_t offset) {
-    if (++written_ > maxWritten)
-      throw Error(ErrorKind::limit, name_, fmt::format("prototypes stand for more than {} elements", maxWritten));
+    if (++expandedElements_ > maxExpandedElements)
+      throw Error(ErrorKind::limit, name_,
+                  fmt::format("prototypes stand for more than {} elements", maxExpandedElements));
     elements_.offsets[element.internal_object()] = offset;
     if (pugi::xml_attribute def = element.attribute("DEF")) {
       std::string own = def.value();
@@ -161,7 +162,7 @@ private:
       rename(child, names, offset);
   }
 
-  /// Fills in the fields that a node of the body takes from the prototype's.
+  /// Sets the fields that nodes of the body connect to fields of the prototype.
   void connect(pugi::xml_node element, pugi::xml_node instance, pugi::xml_node interface) {
     for (const pugi::xml_node& child : elementsIn(element))
       if (!isElement(child, "IS"))
@@ -180,7 +181,7 @@ private:
 
   void fill(pugi::xml_node element, const char* field, pugi::xml_node value) {
     pugi::xml_node target = element;
-    if (isElement(element, "ProtoInstance")) { // a prototype hands on what it was given
+    if (isElement(element, "ProtoInstance")) { // the value is passed on to a nested instance
       target = element.append_child("fieldValue");
       target.append_attribute("name") = field;
       field = "value";
@@ -188,31 +189,32 @@ private:
     if (const pugi::xml_attribute given = value.attribute("value"))
       set(target, field, given.value());
     for (const pugi::xml_node& node : elementsIn(value)) {
-      if (++written_ > maxWritten)
-        throw Error(ErrorKind::limit, name_, fmt::format("prototypes stand for more than {} elements", maxWritten));
+      if (++expandedElements_ > maxExpandedElements)
+        throw Error(ErrorKind::limit, name_,
+                    fmt::format("prototypes stand for more than {} elements", maxExpandedElements));
       pugi::xml_node copy = target.append_copy(node);
       elements_.offsets[copy.internal_object()] = elements_.offsetOf(node);
-      const bool isSaid = target == element && field != defaultContainerField(copy.name());
-      if (isSaid && !copy.attribute("containerField"))
+      const bool isStated = target == element && field != defaultContainerField(copy.name());
+      if (isStated && !copy.attribute("containerField"))
         copy.append_attribute("containerField") = field;
     }
   }
 
   Elements& elements_;
   const std::string& name_;
-  Prototype whole_; ///< the document, as if it were a body
+  Prototype document_; ///< the document, treated like a body
   std::size_t order_ = 0;
   PrototypeReport report_;
   pugi::xml_node declarations_;
   std::set<std::string> names_;
   std::map<std::string, std::size_t> numbers_;
-  std::size_t written_ = 0;
+  std::size_t expandedElements_ = 0;
 };
 
 } // namespace
 
-PrototypeReport writeOutPrototypes(Elements& elements, const std::string& name) {
-  return Writer(elements, name).write();
+PrototypeReport expandPrototypes(Elements& elements, const std::string& name) {
+  return PrototypeExpander(elements, name).run();
 }
 
 } // namespace imgeo::x3d

@@ -1,5 +1,5 @@
 #pragma once
-// Instances of prototypes -> the nodes that they stand for.
+// Expands prototype instances into the nodes of the prototypes' bodies.
 
 #include "import/x3d/elements.h"
 
@@ -9,16 +9,15 @@
 namespace imgeo::x3d {
 
 struct PrototypeReport {
-  std::size_t instances = 0, prototypes = 0; ///< written out
-  /// What prototypes hold beside the node that is seen, by element.
+  std::size_t instances = 0, prototypes = 0; ///< that were expanded
+  /// Nodes of prototype bodies besides the first, which are dropped; counts by element name.
   std::map<std::string, std::size_t> leftOut;
 };
 
-/// Puts a copy of a prototype's first node, which is the one that is seen (ISO/IEC
-/// 19775-1, 4.4.4.3), in the place of each of its instances, with the fields that the
-/// instance gives it, and takes the declarations out. Instances of prototypes of
-/// other files stay. Safe for untrusted documents: Error{limit} names `name` where
-/// prototypes of prototypes grow without measure.
-PrototypeReport writeOutPrototypes(Elements& elements, const std::string& name);
+/// Replaces each instance by a copy of the first node of its prototype's body, the only node that is rendered (ISO/IEC
+/// 19775-1, 4.4.4.3), with the field values of the instance, and removes the declarations. Instances of external
+/// prototypes stay. Safe for untrusted documents: throws Error{limit} naming `name` where nested prototypes expand to
+/// too many elements.
+PrototypeReport expandPrototypes(Elements& elements, const std::string& name);
 
 } // namespace imgeo::x3d

@@ -1,5 +1,5 @@
 #pragma once
-// The elements of an X3D file, with its DEFs: what geometry nodes are read from.
+// The elements of an X3D file with its DEFs, and typed access to fields.
 
 #include "base/error.h"
 #include "import/x3d/elements.h"
@@ -12,18 +12,18 @@ namespace imgeo::x3d {
 
 class Source {
 public:
-  /// The elements of `text`, which with `name` outlives the source. Throws Error{limit}.
+  /// `elements` were parsed from `text`; `text` and `name` outlive the source. Throws Error{limit} for deep nesting.
   Source(Elements elements, std::string_view text, const std::string& name);
 
   /// <X3D>.
   pugi::xml_node root() const { return elements_.root(); }
-  /// The element that a USE names, or the element itself. A null node where there is none.
+  /// The element that a USE names, or the element itself without USE. A null node where no DEF has the name.
   pugi::xml_node resolved(pugi::xml_node element) const;
 
   [[noreturn]] void fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const;
 
-  // Fields of an element, by their X3D name. Throw Error{malformed} for what is no such value.
-  std::vector<double> reals(pugi::xml_node element, const char* field) const; ///< finite ones
+  // Fields of an element, by their X3D name. Throw Error{malformed} for values of another type.
+  std::vector<double> reals(pugi::xml_node element, const char* field) const; ///< finite
   std::vector<std::int32_t> integers(pugi::xml_node element, const char* field) const;
   double real(pugi::xml_node element, const char* field, double fallback) const;
   bool boolean(pugi::xml_node element, const char* field, bool fallback) const;
@@ -34,7 +34,7 @@ private:
   Elements elements_;
   std::string_view text_;
   const std::string& name_;
-  std::map<std::string_view, pugi::xml_node> defs_; ///< the first of each name
+  std::map<std::string_view, pugi::xml_node> defs_; ///< the first element of each name
 };
 
 } // namespace imgeo::x3d

@@ -34,7 +34,7 @@ bool isDrawnInPages(std::string_view element) {
   return drawn.contains(element);
 }
 
-bool isLeftAtRest(std::string_view element) {
+bool isInteractive(std::string_view element) {
   static constexpr std::array endings{"Interpolator", "Interpolator2D", "Sequencer", "Sensor",
                                       "Trigger",      "Chaser",         "Damper",    "Follower"};
   return element == "ROUTE" || element == "Script" ||
@@ -42,16 +42,16 @@ bool isLeftAtRest(std::string_view element) {
 }
 
 void Summary::noteScale(Vec3d scale) {
-  // Beyond, single precision cannot hold lengths together with those of the rest.
-  constexpr double least = 1e-15, most = 1e15;
-  bool isFlat = false, isAbsurd = false;
+  // Beyond these, single precision cannot represent lengths together with those of other nodes.
+  constexpr double minScale = 1e-15, maxScale = 1e15;
+  bool isFlat = false, isExtreme = false;
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(scale[axis]);
     isFlat |= size == 0;
-    isAbsurd |= size > most || (size > 0 && size < least);
+    isExtreme |= size > maxScale || (size > 0 && size < minScale);
   }
   flatTransforms += isFlat;
-  absurdTransforms += isAbsurd;
+  extremeTransforms += isExtreme;
 }
 
 void Summary::addTo(std::vector<std::string>& warnings) const {
@@ -62,13 +62,13 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
   warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
   warnOfElements(warnings, "Geometry that stays as it is and that imgeo's pages do not draw", notDrawn);
   warnOfElements(warnings, "Geometry without faces, lines or points", empty);
-  warnOfElements(warnings, "What moves or answers stays as it is, at rest in imgeo's pages", atRest);
+  warnOfElements(warnings, "What moves or answers stays as it is, at rest in imgeo's pages", interactive);
   if (flatTransforms > 0)
     warnings.push_back(fmt::format("{} by 0: what stands there is flat, or not seen at all.",
                                    counted(flatTransforms, "Transform scales", "Transforms scale")));
-  if (absurdTransforms > 0)
+  if (extremeTransforms > 0)
     warnings.push_back(fmt::format("{} by more than 10^15 or less than 10^-15: what stands there cannot be drawn.",
-                                   counted(absurdTransforms, "Transform scales", "Transforms scale")));
+                                   counted(extremeTransforms, "Transform scales", "Transforms scale")));
   warnOfFans(warnings, fans);
 }
 

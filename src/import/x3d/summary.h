@@ -1,6 +1,5 @@
 #pragma once
-// What becomes of the nodes of an X3D document that do not become meshes: one
-// sentence per kind.
+// Warnings about the nodes of an X3D document that do not become meshes, one per kind.
 
 #include "base/vec.h"
 
@@ -12,28 +11,28 @@
 
 namespace imgeo::x3d {
 
-/// Geometries that our runtime draws from the document.
+/// Whether the runtime draws this geometry node from the document.
 bool isDrawnInPages(std::string_view element);
 
-/// Nodes that make a scene move or answer, which our runtime leaves at rest.
-bool isLeftAtRest(std::string_view element);
+/// Whether a node animates the scene or responds to input; the runtime ignores such nodes.
+bool isInteractive(std::string_view element);
 
 struct Summary {
   using Counts = std::map<std::string, std::size_t>; ///< by element
 
-  Counts notCopied; ///< nodes with urls
-  Counts notDrawn;  ///< geometries
-  Counts empty;     ///< geometries without any element
-  Counts atRest;
+  Counts notCopied;   ///< nodes with URLs whose files are not copied
+  Counts notDrawn;    ///< geometries that the runtime does not draw
+  Counts empty;       ///< geometries without faces, lines or points
+  Counts interactive; ///< animating and interactive nodes
   std::size_t remoteImages = 0, remoteInlines = 0, fans = 0;
-  std::size_t flatTransforms = 0, absurdTransforms = 0; ///< that scale to nothing, or out of all measure
+  std::size_t flatTransforms = 0, extremeTransforms = 0; ///< scales of 0, and outside of 10^-15 .. 10^15
 
   void noteScale(Vec3d scale);
 
   void addTo(std::vector<std::string>& warnings) const;
 };
 
-/// "What: Group (2), Shape (1)." Nothing where there are none.
+/// Adds "What: Group (2), Shape (1)." where there are counts.
 void warnOfElements(std::vector<std::string>& warnings, const char* what, const Summary::Counts& counts);
 
 } // namespace imgeo::x3d

@@ -20,12 +20,12 @@ using namespace x3d;
 
 constexpr std::size_t maxNodeDepth = 250;
 
-/// Pages read so much geometry from text in the time that a worker takes to start. Of more
-/// only what is as short as a box stays (docs/decisions/scenes.md).
-constexpr std::size_t mostInlineText = 64 << 10, shortText = 256;
+/// Pages parse this much geometry text in the time that a worker takes to start. Documents with more keep only geometry
+/// as short as a box (docs/decisions/scenes.md).
+constexpr std::size_t maxInlineTextBytes = 64 << 10, shortTextBytes = 256;
 
-/// What DEF and USE say goes through the graph.
-bool isOwn(std::string_view field) {
+/// Whether a field is expressed by the scene graph and not kept as text.
+bool isNameField(std::string_view field) {
   return field == "DEF" || field == "USE";
 }
 
@@ -33,13 +33,13 @@ std::vector<FieldText> fieldsOf(pugi::xml_node element, std::initializer_list<st
   std::vector<FieldText> fields;
   for (const pugi::xml_attribute& attribute : element.attributes())
     if (const std::string_view name = attribute.name();
-        !isOwn(name) && std::ranges::find(without, name) == without.end())
+        !isNameField(name) && std::ranges::find(without, name) == without.end())
       fields.push_back({std::string(name), attribute.value()});
   return fields;
 }
 
-/// What stands in a Shape besides its geometry.
-bool isShapePart(std::string_view element) {
+/// Whether a child of a Shape is not its geometry.
+bool isAppearanceOrMetadata(std::string_view element) {
   return element == "Appearance" || element.starts_with("Metadata");
 }
 
@@ -48,8 +48,8 @@ public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
       : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
         inlines_(references, options, imported_.scene, imported_.warnings) {
-    if (textOfSmallGeometry() > mostInlineText)
-      inlineBytes_ = std::min(inlineBytes_, shortText);
+    if (smallGeometryTextBytes() > maxInlineTextBytes)
+      inlineBytes_ = std::min(inlineBytes_, shortTextBytes);
   }
 
   Imported read() {
@@ -57,7 +57,7 @@ public:
     graph.isComplete = true;
     graph.head.fields = fieldsOf(source_.root());
     for (const pugi::xml_node& child : source_.root().parent().children())
-      if (child.type() == pugi::node_comment) // whose the document is, as a rule
+      if (child.type() == pugi::node_comment) // usually a copyright notice
         addTo(graph.roots, child);
     for (const pugi::xml_node& child : source_.root().children())
       if (std::string_view(child.name()) == "head")
@@ -79,8 +79,8 @@ private:
       list.push_back(*node);
   }
 
-  /// Reads something that may stay as it is, or be left out: a sentence where it is,
-  /// an Error if strict.
+  /// Calls `read` and turns its Error into a warning that begins with `otherwise`, except if strict and for
+  /// Error{limit}.
   template <typename Read> auto attempt(const char* otherwise, const Read& read) -> decltype(read()) {
     try {
       return read();
@@ -98,7 +98,7 @@ private:
     if (element.type() != pugi::node_element)
       return {};
     if (const pugi::xml_attribute use = element.attribute("USE"))
-      return used(element, use.value());
+      return resolveUse(element, use.value());
     return define(element, readNode(element));
   }
 
@@ -110,16 +110,16 @@ private:
     return node;
   }
 
-  std::optional<std::size_t> used(pugi::xml_node element, const std::string& name) {
+  std::optional<std::size_t> resolveUse(pugi::xml_node element, const std::string& name) {
     if (const auto found = defined_.find(name); found != defined_.end())
       return found->second;
     const pugi::xml_node target = source_.resolved(element);
-    const bool isAround = reading_.contains(target.internal_object());
-    if (target && !isAround) // it stands in a geometry that has been moved out, or further on
+    const bool isEnclosing = reading_.contains(target.internal_object());
+    if (target && !isEnclosing) // the DEF is inside a converted geometry, or further on in the document
       return define(target, readNode(target));
     return attempt("Left out", [&]() -> std::optional<std::size_t> {
       source_.fail(element, ErrorKind::malformed,
-                   fmt::format("USE=\"{}\" names {}", name, isAround ? "what it stands in" : "no DEF"));
+                   fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "what it stands in" : "no DEF"));
     });
   }
 
@@ -127,12 +127,12 @@ private:
     if (reading_.size() >= maxNodeDepth)
       source_.fail(element, ErrorKind::limit, "nodes are nested too deeply");
     reading_.insert(element.internal_object());
-    const std::size_t node = readPlainNode(element);
+    const std::size_t node = readNodeContent(element);
     reading_.erase(element.internal_object());
     return node;
   }
 
-  std::size_t readPlainNode(pugi::xml_node element) {
+  std::size_t readNodeContent(pugi::xml_node element) {
     const std::string_view name = element.name();
     if (name == "Shape")
       if (const std::optional<std::size_t> shape = readShape(element))
@@ -145,10 +145,10 @@ private:
       node.content = Group{};
       node.fields = fieldsOf(element);
     } else {
-      node.content = otherNode(element);
+      node.content = genericNodeOf(element);
       node.fields = fieldsOf(element);
       if (name == "ImageTexture" && !std::get<GenericNode>(node.content).image)
-        leaveToOtherHosts(node.fields);
+        keepRemoteUrls(node.fields);
     }
     if (name == "Inline")
       addInlined(element, node);
@@ -163,10 +163,10 @@ private:
         addTo(node.children, child);
   }
 
-  GenericNode otherNode(pugi::xml_node element) {
+  GenericNode genericNodeOf(pugi::xml_node element) {
     GenericNode other{element.name(), element.text().get(), {}};
-    if (isLeftAtRest(other.element))
-      ++summary_.atRest[other.element];
+    if (isInteractive(other.element))
+      ++summary_.interactive[other.element];
     const pugi::xml_attribute url = element.attribute("url");
     if (!url || other.element == "Inline")
       return other;
@@ -179,7 +179,7 @@ private:
 
   static bool isRemote(const std::string& url) { return url.starts_with("http:") || url.starts_with("https:"); }
 
-  /// The document of the first of an Inline's urls that leads to one.
+  /// The document of the first URL of an Inline that can be read. Empty where other hosts may have it.
   std::optional<Inlines::Document> inlined(pugi::xml_node element) {
     const std::vector<std::string> urls = parseStrings(element.attribute("url").value());
     for (std::size_t i = 0; i < urls.size(); ++i) {
@@ -199,7 +199,7 @@ private:
     return {};
   }
 
-  /// What an Inline shows stands below it.
+  /// Makes the nodes of an Inline's document its children.
   void addInlined(pugi::xml_node element, Node& node) {
     const std::optional<Inlines::Document> document =
         attempt("An Inline is left as it is", [&] { return inlined(element); });
@@ -209,8 +209,7 @@ private:
     node.children = document->roots;
   }
 
-  /// The first of several urls that leads to an image here; without one, nothing where
-  /// other hosts may have it.
+  /// The image of the first URL that can be read; empty where none can and other hosts may have it.
   std::optional<std::size_t> image(const std::vector<std::string>& urls) {
     const bool mayBeRemote = std::ranges::any_of(urls, isRemote);
     for (std::size_t i = 0; i < urls.size(); ++i) {
@@ -233,8 +232,8 @@ private:
     return {};
   }
 
-  /// Pages ask for the first url of a texture; one that leads to no file here leads to none there.
-  void leaveToOtherHosts(std::vector<FieldText>& fields) {
+  /// Keeps only the URLs of other hosts: pages request the first URL, and the local ones name no readable file.
+  void keepRemoteUrls(std::vector<FieldText>& fields) {
     const auto url = std::ranges::find(fields, "url", &FieldText::name);
     std::vector<std::string> urls = url == fields.end() ? std::vector<std::string>{} : parseStrings(url->value);
     std::erase_if(urls, [](const std::string& each) { return !isRemote(each); });
@@ -244,7 +243,7 @@ private:
     url->value = strings(urls);
   }
 
-  /// Fields that are no numbers count as absent, and leave `fields`.
+  /// Reads a Transform. Malformed fields count as absent and are removed from `fields`.
   Transform readTransform(pugi::xml_node element, std::vector<FieldText>& fields) {
     const auto numbers = [&](const char* field, std::size_t count) {
       std::vector<double> values = attempt("A field is left out", [&] {
@@ -276,12 +275,12 @@ private:
     return transform;
   }
 
-  /// A Shape whose geometry becomes a mesh; nothing for any other.
+  /// Reads a Shape whose geometry becomes a mesh; empty for any other.
   std::optional<std::size_t> readShape(pugi::xml_node element) {
     for (const pugi::xml_node& child : element.children()) {
       if (child.type() != pugi::node_element)
         continue;
-      const std::optional<Shape> shape = movedOut(source_.resolved(child));
+      const std::optional<Shape> shape = convertedShape(source_.resolved(child));
       if (!shape)
         continue;
       Node node;
@@ -291,17 +290,17 @@ private:
       return addNode(imported_.scene.graph, std::move(node));
     }
     for (const pugi::xml_node& child : element.children())
-      if (child.type() == pugi::node_element && !isShapePart(child.name()) && !isDrawnInPages(child.name()))
+      if (child.type() == pugi::node_element && !isAppearanceOrMetadata(child.name()) && !isDrawnInPages(child.name()))
         ++summary_.notDrawn[child.name()];
     return {};
   }
 
-  /// Whether a geometry is shorter where it is, and pages draw it from there.
+  /// Whether a geometry stays in the document because it is short and pages draw it from there.
   bool staysInline(pugi::xml_node node) const {
     return isDrawnInPages(node.name()) && geometryTextBytesOf(node) <= inlineBytes_;
   }
 
-  /// With the data that it holds or USEs.
+  /// The length of a geometry's text, with its child nodes, USEs resolved.
   std::size_t geometryTextBytesOf(pugi::xml_node node) const {
     std::size_t bytes = textBytesOf(node);
     for (const pugi::xml_node& child : node.children())
@@ -310,8 +309,8 @@ private:
     return bytes;
   }
 
-  /// All of it in the document that might stay inline.
-  std::size_t textOfSmallGeometry() const {
+  /// The total text of all geometry that is short enough to stay in the document.
+  std::size_t smallGeometryTextBytes() const {
     struct Walker : pugi::xml_tree_walker {
       explicit Walker(const SceneReader& scene) : reader(scene) {}
       bool for_each(pugi::xml_node& node) override {
@@ -335,10 +334,10 @@ private:
     return bytes;
   }
 
-  /// The mesh of a geometry node, once however often it is USEd. What stays inline is read,
-  /// too, for what is wrong with it.
-  std::optional<Shape> movedOut(pugi::xml_node node) {
-    const auto [found, isNew] = moved_.try_emplace(node.internal_object());
+  /// A shape with the mesh of a geometry node, one mesh for all its USEs. Empty for geometry that stays in the
+  /// document, which is read too, to report its errors.
+  std::optional<Shape> convertedShape(pugi::xml_node node) {
+    const auto [found, isNew] = converted_.try_emplace(node.internal_object());
     if (!isNew || !node)
       return found->second;
     std::optional<Geometry> geometry =
@@ -375,8 +374,8 @@ private:
   Imported imported_;
   Inlines inlines_;
   std::map<std::string, std::size_t> defined_;
-  std::set<pugi::xml_node_struct*> reading_; ///< elements that are not yet read to their end
-  std::map<pugi::xml_node_struct*, std::optional<Shape>> moved_;
+  std::set<pugi::xml_node_struct*> reading_; ///< elements whose reading has begun but not ended
+  std::map<pugi::xml_node_struct*, std::optional<Shape>> converted_;
   std::map<std::string, std::size_t> images_;
   Summary summary_;
 };
@@ -384,7 +383,7 @@ private:
 } // namespace
 
 Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  const PrototypeReport prototypes = writeOutPrototypes(elements, name);
+  const PrototypeReport prototypes = expandPrototypes(elements, name);
   const std::string format = elements.format;
   const Source source(std::move(elements), asText(bytes), name);
   Imported imported = SceneReader(source, References(options, name), options).read();
@@ -397,7 +396,7 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
   return imported;
 }
 
-bool looksLikeX3d(ByteSpan bytes) {
+bool isX3d(ByteSpan bytes) {
   const std::string_view beginning = asText(bytes).substr(0, 4096);
   return beginning.starts_with("<") && beginning.find("<X3D") != beginning.npos &&
          beginning.find("<html") == beginning.npos;

@@ -9,7 +9,7 @@
 namespace imgeo {
 
 /// True where the first 4 KiB are markup with an <X3D> element and without an <html> element.
-bool looksLikeX3d(ByteSpan bytes);
+bool isX3d(ByteSpan bytes);
 Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 namespace x3d {

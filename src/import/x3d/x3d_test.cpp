@@ -54,7 +54,7 @@ double volumeOf(const Mesh& mesh) {
   return volume;
 }
 
-TEST(X3d, CarriesCrossSectionsAlongSpines) {
+TEST(X3d, ReadsExtrusions) {
   EXPECT_NEAR(volumeOf(meshOf("<Extrusion/>")), 4, 1e-6);
   EXPECT_NEAR(volumeOf(meshOf("<Extrusion spine='0 1 0 0 -1 0'/>")), 8, 1e-6);
   EXPECT_NEAR(volumeOf(meshOf("<Extrusion spine='0 -1 0 0 1 0' scale='1 0.5' orientation='0 1 0 1.5707963'/>")), 4,
@@ -83,12 +83,12 @@ TEST(X3d, ReadsLinesAndPoints) {
   EXPECT_EQ(points.colorComponents, 4u);
 }
 
-TEST(X3d, TurnsFacesThatAreClockwise) {
+TEST(X3d, ReversesClockwiseFaces) {
   EXPECT_EQ(cornersOf(meshOf("<IndexedFaceSet ccw='false' coordIndex='0 1 2'>" + square + "</IndexedFaceSet>")),
             (std::vector<Vec3f>{c, b, a}));
 }
 
-TEST(X3d, TakesAttributesByVertexOrByFace) {
+TEST(X3d, ReadsAttributesPerVertexAndPerFace) {
   const std::string two = "coordIndex='0 1 2 -1 0 2 3 -1' creaseAngle='3.2'";
   const std::string colors = "<Color color='1 0 0 0 0 1'/>";
   const Mesh byFace =
@@ -99,10 +99,10 @@ TEST(X3d, TakesAttributesByVertexOrByFace) {
   const Mesh byIndex =
       meshOf("<IndexedFaceSet " + two + " colorIndex='1 1 1 -1 0 0 0'>" + square + colors + "</IndexedFaceSet>");
   EXPECT_EQ(byIndex.colors.at(byIndex.corners[0]), (Rgba8{0, 0, 255, 255}));
-  EXPECT_TRUE(byIndex.normals.empty()); // smooth all over: computed with those of every other format
+  EXPECT_TRUE(byIndex.normals.empty()); // smooth everywhere: computed later
 }
 
-TEST(X3d, HasEdgesWhereFacesTurnByMoreThanTheCreaseAngle) {
+TEST(X3d, HasSharpEdgesBeyondTheCreaseAngle) {
   const std::string roof = "<Coordinate point='0 0 0 1 0 0 1 0 1 0 0 1 1 -1 0 1 -1 1'/></IndexedFaceSet>";
   const std::string faces = "coordIndex='0 3 2 1 -1 1 2 5 4'";
   const Mesh creased = meshOf("<IndexedFaceSet creaseAngle='0.5' " + faces + ">" + roof);
@@ -113,7 +113,7 @@ TEST(X3d, HasEdgesWhereFacesTurnByMoreThanTheCreaseAngle) {
   EXPECT_EQ(smooth.wedgeCount(), 6u);
 }
 
-TEST(X3d, SharesAMeshThatIsUsedAndFindsDataThatIsUsed) {
+TEST(X3d, SharesAUsedGeometryAndFindsUsedData) {
   const Imported imported =
       readScene("<Shape DEF='S'><IndexedFaceSet DEF='G' coordIndex='0 1 2'><Coordinate DEF='C' point='0 0 0 "
                 "1 0 0 1 1 0'/>"
@@ -121,14 +121,14 @@ TEST(X3d, SharesAMeshThatIsUsedAndFindsDataThatIsUsed) {
                 "<Shape><IndexedFaceSet USE='G'/></Shape>"
                 "<Shape><TriangleSet><Coordinate USE='C'/></TriangleSet></Shape>");
   EXPECT_EQ(imported.scene.meshes.size(), 2u);
-  const std::vector<ShapeInstance> placed = shapeInstances(imported.scene.graph);
-  ASSERT_EQ(placed.size(), 4u);
-  EXPECT_EQ(placed[1].node, placed[0].node);
-  EXPECT_EQ(placed[1].worldFromShape.translation, (Vec3d{1, 2, 3}));
-  EXPECT_EQ(shapeOf(imported.scene.graph, placed[2].node).mesh, 0u);
+  const std::vector<ShapeInstance> instances = shapeInstances(imported.scene.graph);
+  ASSERT_EQ(instances.size(), 4u);
+  EXPECT_EQ(instances[1].node, instances[0].node);
+  EXPECT_EQ(instances[1].worldFromShape.translation, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(shapeOf(imported.scene.graph, instances[2].node).mesh, 0u);
 }
 
-TEST(X3d, KeepsEverythingElseAsItIs) {
+TEST(X3d, KeepsAllOtherNodesAsTheyAre) {
   const Imported imported = readScene(
       "<Viewpoint DEF='V' description='a &amp; b' fieldOfView='1'/><Switch whichChoice='1' id='s'><Group/>"
       "<Shape class='x'><Appearance><Material diffuseColor='1 0 0'/></Appearance><TriangleSet>" +
@@ -147,7 +147,7 @@ TEST(X3d, KeepsEverythingElseAsItIs) {
   EXPECT_EQ(std::get<GenericNode>(graph.nodes[graph.roots[2]].content).element, "Shape");
 }
 
-TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
+TEST(X3d, KeepsShortGeometryInTheDocument) {
   const std::string shape = "<Shape><TriangleSet>" + square + "</TriangleSet></Shape>";
   ImportOptions options;
   options.inlineBytes = 200;
@@ -160,7 +160,7 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
   EXPECT_EQ(readScene(shape, options).scene.meshes.size(), 1u);
 }
 
-TEST(X3d, LeavesMuchGeometryWhereItIsOnlyIfItIsAsShortAsABox) {
+TEST(X3d, KeepsOnlyShorterGeometryWhereThereIsMuchOfIt) {
   const std::string triangle = "<Shape><TriangleSet>" + square + "</TriangleSet></Shape>";
   std::string longer = triangle;
   longer.insert(longer.find("point='") + 7, std::string(300, ' '));
@@ -176,7 +176,7 @@ TEST(X3d, LeavesMuchGeometryWhereItIsOnlyIfItIsAsShortAsABox) {
   EXPECT_EQ(meshesOf(500), 500u);
 }
 
-TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
+TEST(X3d, WarnsAboutGeometryThatPagesDoNotDraw) {
   const Imported imported = readScene("<Shape><Circle2D/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
                                       "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
   EXPECT_EQ(imported.warnings,
@@ -185,7 +185,7 @@ TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
   EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
 }
 
-TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
+TEST(X3d, ReadsTexturesFromItsOwnFolderOnly) {
   const testing::TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "in");
   writeFile(directory / "in/wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
@@ -204,7 +204,7 @@ TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
   EXPECT_TRUE(read("http://example.org/a.png").scene.graph.images.empty());
 }
 
-TEST(X3d, LeavesATextureToOtherHostsOnlyWhereItIsNotHere) {
+TEST(X3d, KeepsRemoteUrlsOfATextureThatIsNotLocal) {
   const testing::TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
   const auto read = [&](const std::string& urls) {
@@ -225,7 +225,7 @@ TEST(X3d, LeavesATextureToOtherHostsOnlyWhereItIsNotHere) {
   EXPECT_EQ(texture->fields, (std::vector<FieldText>{{"url", "\"http://a.org/wood.png\" \"https://b.org/\""}}));
 }
 
-TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
+TEST(X3d, KeepsDamagedNodesUnlessStrict) {
   const std::string damaged = "<Shape><TriangleSet>" + square +
                               "</TriangleSet></Shape>"
                               "<Shape><IndexedFaceSet coordIndex='0 1 9'>" +
@@ -242,7 +242,7 @@ TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
   EXPECT_THROW(readScene(damaged, strict), Error);
 }
 
-TEST(X3d, TakesFieldsThatAreNoNumbersForAbsentAndKeepsAbsurdOnes) {
+TEST(X3d, IgnoresMalformedFieldsAndKeepsExtremeOnes) {
   const Imported imported = readScene("<Transform scale='NaN 1 1' translation='1 2 3'/><Transform translation='1 2'/>"
                                       "<Transform scale='1e30 1e30 1e30'/><Transform scale='0 0 0'/>");
   const SceneGraph& graph = imported.scene.graph;
@@ -261,7 +261,7 @@ TEST(X3d, TakesFieldsThatAreNoNumbersForAbsentAndKeepsAbsurdOnes) {
   EXPECT_NE(imported.warnings[0].find("Transform: scale holds something that is no number"), std::string::npos);
 }
 
-TEST(X3d, WritesPrototypesOutOfXmlToo) {
+TEST(X3d, ExpandsPrototypesOfXml) {
   const Imported imported =
       readScene("<ProtoDeclare name='P'><ProtoInterface><field name='c' type='SFColor' accessType='inputOutput' "
                 "value='1 1 1'/>"
@@ -270,13 +270,13 @@ TEST(X3d, WritesPrototypesOutOfXmlToo) {
                 "</ProtoBody></ProtoDeclare><Shape><Appearance><ProtoInstance name='P' containerField='material'>"
                 "<fieldValue name='c' value='0 1 0'/></ProtoInstance></Appearance></Shape>");
   const SceneGraph& graph = imported.scene.graph;
-  const Node& look = graph.nodes[graph.nodes[graph.roots.at(0)].children.at(0)];
-  const Node& material = graph.nodes[look.children.at(0)];
+  const Node& appearance = graph.nodes[graph.nodes[graph.roots.at(0)].children.at(0)];
+  const Node& material = graph.nodes[appearance.children.at(0)];
   EXPECT_EQ(std::get<GenericNode>(material.content).element, "Material");
   EXPECT_EQ(material.fields, (std::vector<FieldText>{{"diffuseColor", "0 1 0"}, {"containerField", "material"}}));
 }
 
-TEST(X3d, KeepsCommentsAndWhatTheDocumentSaysOfItself) {
+TEST(X3d, KeepsCommentsAndTheHead) {
   const SceneGraph graph =
       importBytes(asBytes("<!--of somebody--><X3D profile='Immersive' version='3.1'><head><!--in the head--></head>"
                           "<Scene><Group><!--within--></Group></Scene></X3D>"),
@@ -292,7 +292,7 @@ TEST(X3d, KeepsCommentsAndWhatTheDocumentSaysOfItself) {
   EXPECT_EQ(commentOf(graph.nodes[graph.roots.at(1)].children.at(0)), "within");
 }
 
-TEST(X3d, RefusesBombsAndCircles) {
+TEST(X3d, RefusesEntitiesAndCycles) {
   const auto kindOf = [](const std::string& text) {
     try {
       importBytes(asBytes(text), "a.x3d");

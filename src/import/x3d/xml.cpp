@@ -8,8 +8,7 @@ namespace imgeo::x3d {
 
 namespace {
 
-/// Entities are what XML bombs and the reading of other files are made of; documents
-/// of X3D have none.
+/// Refuses entity definitions, which allow exponential expansion and access to other files. X3D documents need none.
 void refuseEntities(std::string_view text, const std::string& name) {
   const std::size_t doctype = text.find("<!DOCTYPE");
   if (doctype == text.npos)

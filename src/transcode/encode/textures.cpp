@@ -91,7 +91,7 @@ public:
     try {
       fromPixels(decodeRaster(image_.bytes, image_.url.empty() ? "an embedded image" : image_.url), result);
     } catch (const Error& error) {
-      if (isForPages(type_)) {
+      if (isShownByBrowsers(type_)) {
         result.file = {image_.bytes, type_};
         result.warning = asksForChange() ? error.what() : "";
       } else {
@@ -108,7 +108,9 @@ private:
     return options_.textures.previewEdge > 0 && options_.target == Target::web && use_.isColor && !use_.isData &&
            image_.bytes.size() >= minPreviewedBytes;
   }
-  bool needsPixels() const { return !isForPages(type_) || asksForChange() || (isDecodable(type_) && needsPreview()); }
+  bool needsPixels() const {
+    return !isShownByBrowsers(type_) || asksForChange() || (isDecodable(type_) && needsPreview());
+  }
   PixelContent content() const {
     return use_.isNormal ? PixelContent::directions : use_.isData ? PixelContent::numbers : PixelContent::color;
   }
@@ -116,20 +118,20 @@ private:
   void fromPixels(Raster raster, Prepared& result) const {
     const TextureOptions& requested = options_.textures;
     const RasterSize own{raster.width, raster.height};
-    const RasterSize size = requested.size == 0 ? own : fittedSize(own, requested.size);
+    const RasterSize size = requested.size == 0 ? own : sizeWithin(own, requested.size);
     result.isResized = size.width != own.width || size.height != own.height;
     if (result.isResized)
-      raster = shrunk(raster, size, content());
-    const bool mustChange = result.isResized || !isForPages(type_);
+      raster = downscaled(raster, size, content());
+    const bool mustChange = result.isResized || !isShownByBrowsers(type_);
     if (mustChange || requested.format != TextureFormat::keep) {
       result.file = encoded(raster);
       result.isReencoded = mustChange || result.file.bytes.size() < image_.bytes.size();
     }
     if (!result.isReencoded)
       result.file = {image_.bytes, type_};
-    const RasterSize small = fittedSize(size, requested.previewEdge);
+    const RasterSize small = sizeWithin(size, requested.previewEdge);
     if (needsPreview() && result.file.bytes.size() >= minPreviewedBytes && small.width < size.width)
-      result.preview = encodeWebp(shrunk(raster, small, PixelContent::color), previewQuality);
+      result.preview = encodeWebp(downscaled(raster, small, PixelContent::color), previewQuality);
   }
 
   /// Encodes in the requested format; `keep` encodes a resized image in its own format or the nearest one.
