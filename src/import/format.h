@@ -12,8 +12,8 @@ namespace imgeo {
 
 /// How reliable a positive answer of a format's `sniff` is.
 enum class Sniffing {
-  signature, ///< the bytes can be of no other format: decides before the file's name is looked at
-  heuristic, ///< the bytes resemble the format: decides after the name's extension has named no other reader
+  signature, ///< the bytes are of this format, whatever the file's name
+  heuristic, ///< the bytes resemble this format; a row whose `readsExtension` knows the name's extension precedes it
 };
 
 struct Format {
@@ -29,11 +29,12 @@ struct Format {
   Imported (*read)(ByteSpan bytes, const std::string& name, const ImportOptions& options) = nullptr;
 };
 
-/// All formats. Rows with signatures are sniffed in this order.
+/// All formats, in the order in which they are sniffed and listed.
 std::span<const Format> formats();
 
-/// The row whose reader takes these bytes: by signature, by extension, by heuristic. Throws Error{unsupported} naming
-/// `name` where no row does.
+/// The row whose reader takes these bytes: the first whose signature they have; else the one whose `readsExtension`
+/// knows the extension, unless that is in some row's `extensions`; else the first whose heuristic they meet; else the
+/// one that has the extension. Throws Error{unsupported} naming `name` where there is none, and for text in UTF-16.
 const Format& formatOf(ByteSpan bytes, const std::string& name);
 
 /// "X3D, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.

@@ -1,8 +1,9 @@
-#include "import/import.h"
-
+#include "import/format.h"
 #include "import/testing.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace imgeo::testing {
 namespace {
@@ -12,6 +13,24 @@ const std::string plyText = "ply\nformat ascii 1.0\nelement vertex 1\nproperty f
 const std::string objText = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string stlText = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
                             "endloop\nendfacet\nendsolid a\n";
+
+TEST(Formats, HaveAReaderAndExtensionsOfTheirOwn) {
+  std::set<std::string_view> extensions;
+  for (const Format& format : formats()) {
+    EXPECT_NE(format.read, nullptr) << format.name;
+    EXPECT_NE(format.extensions.empty(), format.readsExtension == nullptr) << format.name;
+    for (const std::string_view extension : format.extensions) {
+      EXPECT_TRUE(extensions.insert(extension).second) << extension << " has two readers";
+      EXPECT_TRUE(extension.starts_with('.')) << extension;
+      EXPECT_TRUE(std::ranges::none_of(extension, [](char c) { return c >= 'A' && c <= 'Z'; })) << extension;
+      EXPECT_EQ(&formatOf(asBytes("no format's content"), "a" + std::string(extension)), &format) << extension;
+    }
+  }
+}
+
+TEST(Formats, AreNamedInTheHelp) {
+  EXPECT_EQ(formatHelp(), "X3D, VRML, glTF, GLB, PLY, OBJ or STL");
+}
 
 TEST(Import, RecognisesTheFormatByItsContentUnderAnyName) {
   for (const char* name : {"a.ply", "a.obj", "a.stl", "a", "a.gz", "-"}) {

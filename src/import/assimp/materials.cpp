@@ -1,7 +1,6 @@
 #include "import/assimp/materials.h"
 
 #include "base/error.h"
-#include "images/image_type.h"
 #include "import/assimp/library.h"
 #include "import/warnings.h"
 
@@ -77,7 +76,8 @@ void useColorTextureAsEmissive(Appearance& appearance) {
 
 AssimpMaterials::AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references,
                                  std::string_view extension)
-    : source_(source), graph_(graph), references_(references), colorTextureIsEmissive_(multipliesAllLight(extension)) {}
+    : source_(source), graph_(graph), references_(references), images_(graph),
+      colorTextureIsEmissive_(multipliesAllLight(extension)) {}
 
 AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
   Material phong;
@@ -114,19 +114,7 @@ Bytes AssimpMaterials::bytesOf(const std::string& path) const {
 }
 
 std::optional<std::size_t> AssimpMaterials::image(const std::string& path) {
-  const auto [found, isNew] = images_.try_emplace(path);
-  if (!isNew)
-    return found->second;
-  try {
-    ImageFile image{embeddedIndex(path) ? "" : path, bytesOf(path)};
-    if (imageType(image.bytes).empty())
-      throw Error(ErrorKind::unsupported, path, "is an image of a kind that browsers do not show");
-    graph_.images.push_back(std::move(image));
-    found->second = graph_.images.size() - 1;
-  } catch (const Error& error) {
-    missing_.push_back(fmt::format("A texture is left out: {}.", error.what()));
-  }
-  return found->second;
+  return images_.index(path, path, [&] { return ImageFile{embeddedIndex(path) ? "" : path, bytesOf(path)}; });
 }
 
 void AssimpMaterials::addTexture(const aiMaterial& material, aiTextureType type, TextureRole role,

@@ -2,6 +2,7 @@
 // Assimp's materials and textures -> appearances.
 
 #include "import/references.h"
+#include "import/source_images.h"
 #include "scene/scene.h"
 
 #include <assimp/scene.h>
@@ -23,7 +24,7 @@ public:
   bool isSolid(unsigned material) const;
 
   /// One warning for each image that is left out.
-  const std::vector<std::string>& omissions() const { return missing_; }
+  const std::vector<std::string>& omissions() const { return images_.omissions; }
   void addWarnings(std::vector<std::string>& warnings) const;
 
 private:
@@ -35,10 +36,9 @@ private:
   const aiScene& source_;
   SceneGraph& graph_;
   const References& references_;
+  SourceImages images_;
   const bool colorTextureIsEmissive_; ///< the colour texture also modulates the emissive colour
   std::map<unsigned, std::optional<std::size_t>> appearances_;
-  std::map<std::string, std::optional<std::size_t>> images_;
-  std::vector<std::string> missing_;          ///< one warning for each image that is left out
   std::map<std::string, std::size_t> others_; ///< textures of other kinds, by kind
 };
 

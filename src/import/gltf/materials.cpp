@@ -1,6 +1,6 @@
 #include "import/gltf/materials.h"
 
-#include "images/image_type.h"
+#include "import/source_images.h"
 #include "scene/color.h"
 
 #include <array>
@@ -107,8 +107,7 @@ std::optional<std::size_t> MaterialReader::image(std::size_t index) {
     }
     if (image.url.starts_with("data:"))
       image.url = "";
-    if (imageType(image.bytes).empty())
-      value.fail(ErrorKind::unsupported, "is an image of a kind that browsers do not show");
+    requireImage(image.bytes, value.location());
   } catch (const Error& error) {
     if (isStrict_)
       throw;

@@ -1,7 +1,6 @@
 #include "import/obj/materials.h"
 
 #include "base/error.h"
-#include "images/image_type.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
 #include "scene/color.h"
@@ -50,7 +49,7 @@ void ObjMaterials::readLibrary(const std::string& files) {
     return;
   } catch (const Error& error) {
     if (files.find(' ') == files.npos) {
-      missing_.push_back(fmt::format("Materials are left out: {}.", error.what()));
+      missingLibraries_.push_back(fmt::format("Materials are left out: {}.", error.what()));
       return;
     }
   }
@@ -153,21 +152,9 @@ ObjMaterials::Map ObjMaterials::readMap(TextScanner& scanner, TextureRole role) 
 }
 
 std::optional<std::size_t> ObjMaterials::image(const std::string& file) {
-  const auto [found, isNew] = images_.try_emplace(file);
-  if (!isNew)
-    return found->second;
   std::string url = file;
   std::ranges::replace(url, '\\', '/');
-  try {
-    ImageFile image{url, references_.fetch(url)};
-    if (imageType(image.bytes).empty())
-      throw Error(ErrorKind::unsupported, url, "is an image of a kind that browsers do not show");
-    graph_.images.push_back(std::move(image));
-    found->second = graph_.images.size() - 1;
-  } catch (const Error& error) {
-    missing_.push_back(fmt::format("A texture is left out: {}.", error.what()));
-  }
-  return found->second;
+  return images_.index(file, url, [&] { return ImageFile{url, references_.fetch(url)}; });
 }
 
 Appearance ObjMaterials::appearanceOf(const std::string& name, const Definition& definition) {
@@ -211,7 +198,8 @@ std::optional<std::size_t> ObjMaterials::appearance(const std::string& name) {
 }
 
 std::vector<std::string> ObjMaterials::omissions() const {
-  std::vector<std::string> omissions = missing_;
+  std::vector<std::string> omissions = missingLibraries_;
+  std::ranges::copy(images_.omissions, std::back_inserter(omissions));
   if (!undefined_.empty())
     omissions.push_back(fmt::format("{} named but not defined: {}.",
                                     counted(undefined_.size(), "material is", "materials are"),

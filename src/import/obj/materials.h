@@ -3,6 +3,7 @@
 // extensions for physically based materials of Neil Trevett and others, 2017).
 
 #include "import/references.h"
+#include "import/source_images.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -16,7 +17,8 @@ class TextScanner;
 
 class ObjMaterials {
 public:
-  ObjMaterials(SceneGraph& graph, const References& references) : graph_(graph), references_(references) {}
+  ObjMaterials(SceneGraph& graph, const References& references)
+      : graph_(graph), references_(references), images_(graph) {}
 
   /// Reads the file or files that an mtllib statement names. Files that cannot be read become warnings.
   void readLibrary(const std::string& files);
@@ -52,8 +54,8 @@ private:
   const References& references_;
   std::map<std::string, Definition> definitions_;
   std::map<std::string, std::optional<std::size_t>> appearances_;
-  std::map<std::string, std::optional<std::size_t>> images_;
-  std::vector<std::string> missing_;
+  SourceImages images_;
+  std::vector<std::string> missingLibraries_;
   std::set<std::string> undefined_, others_;
 };
 

@@ -1,7 +1,7 @@
 #include "import/x3d/x3d.h"
 
-#include "images/image_type.h"
 #include "import/references.h"
+#include "import/source_images.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/inlines.h"
@@ -219,8 +219,7 @@ private:
         continue;
       try {
         ImageFile file{urls[i].starts_with("data:") ? "" : urls[i], references_.fetch(urls[i])};
-        if (imageType(file.bytes).empty())
-          throw Error(ErrorKind::unsupported, urls[i], "is an image of a kind that browsers do not show");
+        requireImage(file.bytes, urls[i]);
         std::vector<ImageFile>& images = imported_.scene.graph.images;
         images.push_back(std::move(file));
         return images_[urls[i]] = images.size() - 1;
