@@ -1,7 +1,6 @@
-// What `imgeo convert` takes and gives, measured as a user would see it: whole
-// processes, medians of five, peak memory as the kernel counts it. Each site is
-// verified before it is timed. npm's gltfpack (meshoptimizer compiled to WebAssembly)
-// takes turns with it on the same meshes as GLB; the first model has every effort.
+// Time, peak memory and output size of `imgeo convert`, as a user sees them: whole processes, medians of five, peak
+// memory as the kernel counts it. Each site is verified before it is timed. Runs alternate with npm's gltfpack
+// (meshoptimizer compiled to WebAssembly) on the same meshes as GLB. The first model is measured at every effort.
 // Prints Markdown tables for the README.
 //
 //   build/bench/convert MODEL...        (in the repository's root)
@@ -29,8 +28,8 @@ using Json = nlohmann::json;
 constexpr int runs = 5;
 constexpr const char* defaultEffort = "5";
 
-/// For each program the median times and the largest peak. They take turns, so that
-/// what else the machine does falls on all alike.
+/// For each program the median times and the maximum peak memory. Runs alternate, so that other load on the machine
+/// affects all programs alike.
 std::vector<Run> measureInTurns(const std::vector<std::vector<std::string>>& programs) {
   std::vector<std::vector<Run>> all(programs.size());
   for (int round = 0; round < runs; ++round)
@@ -93,7 +92,7 @@ void printRow(const std::string& name, const std::string& form, const Measured& 
   std::fflush(stdout);
 }
 
-/// The same mesh, welded and with its normals, as GLB to both.
+/// Measures both programs with the same GLB: the mesh welded and with normals.
 void compareWithGltfpack(const std::string& model, const fs::path& work) {
   const std::string name = fs::path(model).filename(), glb = work / "model.glb", packed = work / "packed.glb";
   writePrepared(model, glb, MeshFormat::glb);
@@ -135,7 +134,7 @@ void compareWithGltfpack(const std::string& model, const fs::path& work) {
   std::fflush(stdout);
 }
 
-/// What each effort takes and gives, as images of classic.
+/// Time and size at each effort, as images of classic.
 void compareEfforts(const std::string& model, const fs::path& work) {
   fmt::print("\n| {}, --effort | time | bytes/triangle | peak memory, bytes/triangle |\n|---|--:|--:|--:|\n",
              fs::path(model).filename().string());

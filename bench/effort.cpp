@@ -1,6 +1,5 @@
-// What each effort of the PNG encoder takes and gives, over all images of SIG classic
-// in fan order: bytes by kind of image, and processor seconds on one thread, the
-// better of two. Prints the table of docs/decisions/png-effort.md.
+// Size and time at each effort of the PNG encoder, for all images of SIG classic in fan order: bytes by kind of image,
+// and processor seconds on one thread, the better of two runs. Prints the table of docs/decisions/png-effort.md.
 //
 //   build/bench/effort MODEL...
 

@@ -1,7 +1,6 @@
-// Processor time and peak memory of writing compact at each effort, beside
-// Draco and gltfpack on the same mesh: whole processes, all on one processor, in turns,
-// medians of nine. Ours reads a GLB's equal as PLY, welds it and writes the page too.
-// Prints a Markdown table.
+// Processor time and peak memory of writing compact at each effort, compared with Draco and gltfpack on the same mesh:
+// whole processes on one processor, alternating, medians of nine. imgeo and Draco read it as PLY,
+// gltfpack as GLB; imgeo also welds it and writes the page. Prints a Markdown table.
 //
 //   build/bench/encode MODEL...        (in the repository's root, with draco_encoder installed)
 
@@ -18,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of this process and of all that it starts.
+/// Applies to this process and to all processes that it starts.
 void stayOnOneProcessor() {
   cpu_set_t allowed, first;
   CPU_ZERO(&first);
@@ -35,7 +34,7 @@ void stayOnOneProcessor() {
 struct Program {
   std::string name;
   std::vector<std::string> words;
-  std::function<std::uint64_t()> bytes; ///< that it wrote, once it has run
+  std::function<std::uint64_t()> bytes; ///< returns the number of bytes that the program has written
   std::vector<Run> runs;
 
   const Run& median() {

@@ -1,11 +1,10 @@
-// The paper's Figure 10 and section 7.1, measured: what JPEG and lossy WebP do to
-// coordinate images. Each model is prepared as `imgeo convert` does it; its
-// coordinate images go through a lossy codec and back; the geometry that
-// remains is compared with the exact one.
+// Measures the effect of JPEG and lossy WebP on coordinate images (the paper's Figure 10 and section 7.1). Each model
+// is prepared as by `imgeo convert`; its coordinate images are encoded and decoded with a lossy codec; the resulting
+// geometry is compared with the exact one.
 //
 //   build/bench/lossy MODEL... [--write DIRECTORY]
 //
-// --write puts a PLY of each distorted mesh there, for `imgeo convert` and a look.
+// --write writes a PLY of each distorted mesh there, for `imgeo convert` and visual inspection.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -31,7 +30,7 @@ namespace {
 
 struct Coded {
   std::size_t bytes = 0;
-  Image image; ///< as it comes back
+  Image image; ///< after decoding
 };
 
 Coded throughJpeg(const Image& image, int quality) {
@@ -48,7 +47,7 @@ Coded throughJpeg(const Image& image, int quality) {
   compress.in_color_space = JCS_RGB;
   jpeg_set_defaults(&compress);
   jpeg_set_quality(&compress, quality, TRUE);
-  // Full chroma: x, y and z deserve the same.
+  // No chroma subsampling: x, y and z have the same importance.
   compress.comp_info[0].h_samp_factor = compress.comp_info[0].v_samp_factor = 1;
   jpeg_start_compress(&compress, TRUE);
   while (compress.next_scanline < compress.image_height) {
@@ -90,17 +89,17 @@ Coded throughWebp(const Image& image, int quality) {
 struct Variant {
   const char* codec; ///< "PNG" (lossless), "JPEG" or "WebP"
   int quality;
-  bool highToo; ///< the first byte plane goes through the codec as well, not only the second
+  bool encodesHighBytes; ///< the first byte plane is encoded with the codec, too, and not only the second
 };
 
 struct Outcome {
   std::size_t coordBytes = 0;
-  double squaredError = 0, largestError = 0;     ///< in the mesh's units
+  double squaredError = 0, maxError = 0;         ///< in the mesh's units
   std::size_t vertices = 0, beyondFirstByte = 0; ///< moved by more than the first byte's step
 
   void add(double error, const Lattice& lattice) {
     squaredError += error * error;
-    largestError = std::max(largestError, error);
+    maxError = std::max(maxError, error);
     beyondFirstByte += error > 256 * lattice.step;
     ++vertices;
   }
@@ -108,14 +107,14 @@ struct Outcome {
 
 Coded recode(const Bytes& png, std::size_t plane, const Variant& variant) {
   const Image image = decodePng(png, "coordinate image");
-  const bool lossy = variant.quality > 0 && (plane > 0 || variant.highToo);
+  const bool lossy = variant.quality > 0 && (plane > 0 || variant.encodesHighBytes);
   if (!lossy)
     return {png.size(), image};
   return variant.codec[0] == 'J' ? throughJpeg(image, variant.quality) : throughWebp(image, variant.quality);
 }
 
-/// Sends one patch's coordinate images through the codec; leaves the distorted
-/// positions in `patch` and adds to `outcome`.
+/// Encodes and decodes one patch's coordinate images with the codec. Stores the distorted positions in `patch` and adds
+/// their errors to `outcome`.
 void distort(IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options,
              const Variant& variant, Outcome& outcome) {
   const EncodedPatch encoded = encodePatch(patch, geometry, options);
@@ -156,11 +155,11 @@ void printRow(const std::string& name, const Outcome& outcome, std::size_t lossl
   const auto count = static_cast<double>(outcome.vertices);
   fmt::print("| {} | {} | {:.2f} | {:.4f} | {:.3f} | {:.1f} % |\n", name, outcome.coordBytes,
              static_cast<double>(outcome.coordBytes) / static_cast<double>(losslessBytes),
-             100 * std::sqrt(outcome.squaredError / count) / diagonal, 100 * outcome.largestError / diagonal,
+             100 * std::sqrt(outcome.squaredError / count) / diagonal, 100 * outcome.maxError / diagonal,
              100 * static_cast<double>(outcome.beyondFirstByte) / count);
 }
 
-/// The honest alternative to a lossy codec: fewer bits, lossless.
+/// The alternative to a lossy codec: fewer bits, lossless.
 Outcome withFewerBits(const Mesh& mesh, const Lattice& full, std::uint32_t bits, EncodeOptions options) {
   const Lattice lattice = latticeFor(boxOf(mesh), bits);
   const PatchedMesh patched = cutIntoPatches(mesh, lattice, 65535);
@@ -208,12 +207,12 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
   for (const std::uint32_t bits : {14u, 12u, 10u})
     printRow(fmt::format("PNG, {} bits, lossless", bits), withFewerBits(mesh, geometry.lattice, bits, options),
              losslessBytes, diagonal);
-  for (const bool highToo : {false, true})
+  for (const bool encodesHighBytes : {false, true})
     for (const char* codec : {"JPEG", "WebP"})
       for (const int quality : {100, 95, 80, 50})
-        run({codec, quality, highToo},
-            fmt::format("{} {}, {}", codec, quality, highToo ? "both bytes" : "second byte only"),
-            fmt::format("{}{}{}", codec, quality, highToo ? "-both" : ""));
+        run({codec, quality, encodesHighBytes},
+            fmt::format("{} {}, {}", codec, quality, encodesHighBytes ? "both bytes" : "second byte only"),
+            fmt::format("{}{}{}", codec, quality, encodesHighBytes ? "-both" : ""));
 }
 
 } // namespace

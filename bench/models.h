@@ -1,6 +1,5 @@
 #pragma once
-// What the benchmarks of models share: their command line, the meshes, and the
-// end that an Error brings.
+// Shared by the benchmarks of models: command line, reading of meshes, and error handling of main.
 
 #include "base/error.h"
 #include "import/import.h"
@@ -19,7 +18,7 @@ struct ModelArguments {
   std::vector<std::string> models; ///< at least one
 };
 
-/// Reads "[--effort 0..9] MODEL..."; `effort` stands where none is given. Throws Error{usage}.
+/// Reads "[--effort 0..9] MODEL..."; `effort` is the default. Throws Error{usage}.
 inline ModelArguments modelArguments(int count, char** words, const std::string& program, int effort) {
   ModelArguments arguments{effort, {}};
   for (int i = 1; i < count; ++i) {
@@ -50,7 +49,7 @@ template <typename Visit> void visitSurfaces(const std::string& model, Visit vis
   }
 }
 
-/// The patches that `imgeo convert` makes of a mesh where nothing is said.
+/// The patches that `imgeo convert` makes of a mesh with its default options.
 inline PatchedMesh patchesOf(const Mesh& mesh) {
   return cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
 }

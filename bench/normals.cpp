@@ -1,7 +1,6 @@
-// What normals take and how far they are off, in each encoding of SIG classic and
-// in two that imgeo does not write: octahedral numbers as two channels of one
-// image, and the palette as a GIF (the paper's unexplored option, 7.1). Meshes are
-// prepared as `imgeo convert` does it; what is measured is read back from the files.
+// Size and error of normals in each encoding of SIG classic, and in two that imgeo does not write: octahedral
+// coordinates as two channels of one image, and the palette as a GIF (the paper's unexplored option, 7.1). Meshes are
+// prepared as by `imgeo convert`; errors are those of the files as they are read back.
 //
 //   build/bench/normals MODEL...
 
@@ -27,19 +26,19 @@ namespace {
 
 struct Outcome {
   std::size_t bytes = 0, vertices = 0;
-  double sum = 0, largest = 0; ///< of angles, in degrees
+  double sum = 0, maximum = 0; ///< of angles, in degrees
 
   void add(const std::vector<Vec3f>& normals, const std::vector<Vec3f>& stored) {
     for (std::size_t i = 0; i < normals.size(); ++i) {
       const double degrees = angleBetween(normals[i], stored[i]) * (180 / std::numbers::pi);
       sum += degrees;
-      largest = std::max(largest, degrees);
+      maximum = std::max(maximum, degrees);
     }
     vertices += normals.size();
   }
 };
 
-/// Adds what one patch takes and how far its normals are off.
+/// Adds the size and the error of one patch's normals.
 using Measure = std::function<void(const PatchedMesh&, const IndexedPatch&, Outcome&)>;
 
 constexpr int effort = 9;
@@ -54,7 +53,7 @@ Measure asWritten(NormalEncoding normals) {
   };
 }
 
-/// Octahedral numbers in red and green, the way coordinates are stored.
+/// Octahedral coordinates in red and green, stored as positions are.
 void asTwoChannels(const PatchedMesh&, const IndexedPatch& patch, Outcome& outcome) {
   std::vector<Vec3f> stored;
   const Image image =
@@ -131,7 +130,7 @@ void printTable(const std::string& path) {
       patches.push_back(asTriangles(patch));
     fmt::print("\n{}: {} vertices, {} patches\n\n", std::filesystem::path(path).filename().string(), mesh.wedgeCount(),
                patches.size());
-    fmt::print("| normals | bytes | bits/vertex | of rgb | mean error, degrees | largest | bound |\n"
+    fmt::print("| normals | bytes | bits/vertex | of rgb | mean error, degrees | maximum | bound |\n"
                "|---|--:|--:|--:|--:|--:|--:|\n");
     std::size_t rgbBytes = 0;
     for (const Row& row : rows) {
@@ -142,7 +141,7 @@ void printTable(const std::string& path) {
         rgbBytes = outcome.bytes;
       const double vertices = static_cast<double>(outcome.vertices), bytes = static_cast<double>(outcome.bytes);
       fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.3f} | {:.2f} | {} |\n", row.name, outcome.bytes,
-                 8 * bytes / vertices, bytes / static_cast<double>(rgbBytes), outcome.sum / vertices, outcome.largest,
+                 8 * bytes / vertices, bytes / static_cast<double>(rgbBytes), outcome.sum / vertices, outcome.maximum,
                  row.bound);
       std::fflush(stdout);
     }

@@ -1,7 +1,6 @@
-// What the order of triangles and vertices costs and gains: bytes of each image,
-// indices a triangle and time, for fan order, for stitched strips and for the order
-// of the source; and how few indices any strips could have. Checks first that
-// each draws the source's triangles.
+// Compares orders of triangles and vertices: bytes of each image, indices a triangle and time, for fan order, triangle
+// strips and the order of the source; also a lower bound for the number of indices of strips. Checks first that each
+// order draws the source's triangles.
 //
 //   build/bench/order [--effort 0..9] MODEL...
 
@@ -26,7 +25,7 @@ struct Order {
   std::function<IndexedPatch(const Patch&)> arrange;
 };
 
-/// A patch as it came: triangles and wedges in the order of the source.
+/// A patch in the order of the source.
 IndexedPatch asInSource(const Patch& patch) {
   IndexedPatch result;
   static_cast<VertexAttributes&>(result) = patch;
@@ -36,8 +35,8 @@ IndexedPatch asInSource(const Patch& patch) {
   return result;
 }
 
-/// The triangles by the lattice points of their corners, turned so that the
-/// least sequence comes first (two corners may share a point), and sorted.
+/// The triangles as the lattice points of their corners, each rotated to the lexicographically smallest sequence (two
+/// corners may share a point), and sorted.
 std::vector<std::array<std::uint32_t, 9>> drawnTriangles(const IndexedPatch& patch) {
   std::vector<std::array<std::uint32_t, 9>> triangles;
   for (const Vec3u& t : trianglesOf(patch)) {
@@ -49,27 +48,26 @@ std::vector<std::array<std::uint32_t, 9>> drawnTriangles(const IndexedPatch& pat
   return triangles;
 }
 
-/// The fewest indices that any strips over a patch can have: one that names a vertex
-/// serves three triangles at most, which follow one another around it, so a fan of n
-/// triangles takes n / 3 of its centre.
-std::size_t fewestStripIndices(const Patch& patch) {
-  const std::vector<std::uint32_t> across = oppositeHalfEdges(patch.corners);
+/// A lower bound for the number of indices of strips over a patch: an index serves at most three triangles, which
+/// follow one another around its vertex, so a fan of n triangles needs its centre n / 3 times.
+std::size_t minStripIndices(const Patch& patch) {
+  const std::vector<std::uint32_t> opposites = oppositeHalfEdges(patch.corners);
   std::vector<bool> isSeen(patch.corners.size());
-  std::size_t fewest = 0;
+  std::size_t minimum = 0;
   for (std::uint32_t corner = 0; corner < patch.corners.size(); ++corner) {
     const std::uint32_t* triangle = &patch.corners[corner - corner % 3];
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
       continue;
     std::uint32_t first = corner, size = 0;
-    while (across[first] != noHalfEdge && nextHalfEdge(across[first]) != corner)
-      first = nextHalfEdge(across[first]);
-    for (std::uint32_t at = first; at != noHalfEdge && !isSeen[at]; at = across[previousHalfEdge(at)]) {
+    while (opposites[first] != noHalfEdge && nextHalfEdge(opposites[first]) != corner)
+      first = nextHalfEdge(opposites[first]);
+    for (std::uint32_t at = first; at != noHalfEdge && !isSeen[at]; at = opposites[previousHalfEdge(at)]) {
       isSeen[at] = true;
       ++size;
     }
-    fewest += (size + 2) / 3;
+    minimum += (size + 2) / 3;
   }
-  return fewest;
+  return minimum;
 }
 
 struct Measured {
@@ -119,10 +117,10 @@ void printTable(const std::string& path, const EncodeOptions& options) {
                  static_cast<double>(all) / triangles);
       std::fflush(stdout);
     }
-    std::size_t fewest = 0;
+    std::size_t minimum = 0;
     for (const Patch& patch : patches.patches)
-      fewest += fewestStripIndices(patch);
-    fmt::print("\nNo strips have fewer than {:.3f} indices a triangle.\n", static_cast<double>(fewest) / triangles);
+      minimum += minStripIndices(patch);
+    fmt::print("\nNo strips have fewer than {:.3f} indices a triangle.\n", static_cast<double>(minimum) / triangles);
   });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Programs that benchmarks run beside ours, and the mesh that they are all given.
+// Runs other programs for comparison, and writes the mesh that all of them read.
 
 #include "base/file.h"
 #include "export/export.h"
@@ -57,7 +57,7 @@ inline Run runOnce(const std::vector<std::string>& words) {
           static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
-/// Writes a model welded and with the normals that convert gives it, in a process of its own.
+/// Writes a model, welded and with the normals that `imgeo convert` computes, in a child process.
 inline void writePrepared(const std::string& model, const std::filesystem::path& file, MeshFormat format) {
   const pid_t child = fork();
   if (child == 0) {
@@ -73,8 +73,8 @@ inline void writePrepared(const std::string& model, const std::filesystem::path&
     std::exit(1);
 }
 
-/// The whole of a benchmark's main: calls measure(models, folder) with the models that the command line
-/// names and an empty folder of its own, which is gone afterwards.
+/// The main function of a benchmark: calls measure(models, folder) with the models of the command line and an empty
+/// temporary folder, which is removed afterwards.
 template <typename Measure>
 int runInFolder(int count, char** words, const std::string& program, const Measure& measure) {
   if (count < 2) {

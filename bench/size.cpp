@@ -1,6 +1,6 @@
-// Bytes by role of compact sites at the highest effort, beside Draco and gltfpack with
-// brotli, all given the same welded mesh with the same normals and asked for the same bits.
-// Every site is verified against its input before it is counted. Prints a Markdown table.
+// Bytes by role of compact sites at the maximum effort, compared with Draco and gltfpack with brotli on the same welded
+// mesh with the same normals and the same precision. Every site is verified against its input before it is counted.
+// Prints a Markdown table.
 //
 //   build/bench/size MODEL...        (in the repository's root, with draco_encoder installed)
 
@@ -20,18 +20,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Streams, of patches and of bases, as far as a file has any.
+/// The streams of patches and of base meshes, where a file has any.
 constexpr std::array roles{"sizes",   "connectivity", "parts",  "positions", "seams",
                            "normals", "texCoords",    "colors", "other"};
 
 struct Site {
   std::map<std::string, std::uint64_t> streams;
-  std::uint64_t files = 0;    ///< geometry files, without a base
-  std::uint64_t together = 0; ///< and the geometry nodes
+  std::uint64_t files = 0;     ///< geometry files, without the base mesh
+  std::uint64_t withNodes = 0; ///< geometry files and geometry nodes
   std::size_t triangles = 0;
 };
 
-/// What each stream of a file of patches takes.
+/// Size of each stream of a file of patches.
 void addStreams(const fs::path& file, Site& site) {
   const Bytes png = readFile(file), payload = compact::payloadOfImage(png, file);
   const compact::FileHeader header = compact::readHeader(payload, file).header;
@@ -54,7 +54,7 @@ Site measureSite(const std::string& model, int bits, const fs::path& work) {
   site.triangles = json["triangles"];
   for (const auto& entry : fs::directory_iterator(fs::path(directory) / "geometry"))
     addStreams(entry.path(), site);
-  site.together =
+  site.withNodes =
       static_cast<std::uint64_t>(json["bytesPerTriangle"].get<double>() * static_cast<double>(site.triangles) + 0.5);
   return site;
 }
@@ -80,10 +80,10 @@ std::uint64_t measureGltfpack(const fs::path& mesh, int bits, const fs::path& wo
   return brotliSize(readFile(out));
 }
 
-/// Prints a row for each precision; returns that of the README, which is of the finest.
+/// Prints a row for each precision; returns the row for the README, which is that of the maximum precision.
 std::string printModel(const std::string& model, const fs::path& work) {
   std::string summary;
-  // Draco reads texture coordinates from OBJ files alone.
+  // Draco reads texture coordinates from OBJ files only.
   const fs::path obj = work / "mesh.obj", glb = work / "mesh.glb";
   writePrepared(model, obj, MeshFormat::obj);
   writePrepared(model, glb, MeshFormat::glb);
@@ -94,13 +94,13 @@ std::string printModel(const std::string& model, const fs::path& work) {
     for (const char* role : roles)
       fmt::print(" | {}", site.streams[role]);
     const auto ratio = [&](std::uint64_t other) {
-      return static_cast<double>(site.together) / static_cast<double>(other);
+      return static_cast<double>(site.withNodes) / static_cast<double>(other);
     };
-    fmt::print(" | {} | **{}** | {} | **{:.3f}** | {} | {:.3f} |\n", site.files, site.together, draco, ratio(draco),
+    fmt::print(" | {} | **{}** | {} | **{:.3f}** | {} | {:.3f} |\n", site.files, site.withNodes, draco, ratio(draco),
                gltfpack, ratio(gltfpack));
     std::fflush(stdout);
     if (summary.empty())
-      summary = fmt::format("| {} | **{}** | {} | {:.2f} | {} |\n", fs::path(model).stem().string(), site.together,
+      summary = fmt::format("| {} | **{}** | {} | {:.2f} | {} |\n", fs::path(model).stem().string(), site.withNodes,
                             draco, ratio(draco), gltfpack);
   }
   return summary;

@@ -1,7 +1,6 @@
-// Table 1 of the 2012 paper: what a mesh takes as four kinds of triangles in each
-// encoding, ours beside the paper's where the paper measured the same model. The
-// meshes have 16-bit positions and 8-bit normals in SIG, single precision in BG and
-// in X3D text. Every SIG patch is read back before it is counted.
+// Table 1 of the 2012 paper: the size of a mesh in each encoding, as four kinds of triangle primitives, compared with
+// the paper's numbers for the models that it has. Meshes have 16-bit positions and 8-bit normals in SIG, and single
+// precision in BG and in X3D text. Every SIG patch is read back before it is counted.
 //
 //   build/bench/table1 [--effort 0..9] MODEL...
 
@@ -58,7 +57,7 @@ std::string verticesText(const IndexedPatch& patch, const Lattice& lattice, std:
   return text + "'></Normal>";
 }
 
-/// What the X3D nodes take that hold a patch inline: one for each draw; all but the first USE its vertices.
+/// Size of the X3D nodes that hold a patch inline: one for each draw; all but the first USE its vertices.
 std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
   std::string text;
   std::size_t first = 0;
@@ -126,7 +125,7 @@ std::array<Measured, 4> measure(const PatchedMesh& mesh, const EncodeOptions& op
   return rows;
 }
 
-/// Ours, and below it the paper's and the ratio.
+/// Prints our numbers, and below them the paper's numbers and the ratio.
 std::string cell(std::uint64_t ours, const PaperTable* paper, std::size_t row, Column column) {
   if (!paper)
     return grouped(ours);

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-/// A scene that is read can be written, in both forms, and read again.
+/// Fuzzes readScene: a scene that is read can be written as X3D and as HTML, and read again with the same nodes.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   const auto require = [](bool condition) {

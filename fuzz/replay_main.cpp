@@ -1,10 +1,9 @@
-// A plain main for fuzz targets, so that they are built and run with every test:
-// replays a corpus, then mutations of it, the same ones every time.
+// A main function for fuzz targets without libFuzzer, so that every test run includes them: replays a corpus, then a
+// fixed sequence of mutations of it.
 //
 //   ply_fuzz [--rounds N] FILE|DIRECTORY...
 //
-// An input under which the target dies is left behind as <program>-crash; give
-// that file alone to see it again.
+// An input that crashes the target is saved as <program>-crash; run the target with that file alone to reproduce it.
 #include "mutate.h"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using imgeo::fuzz::Input;
 
-// Read by the handlers below, which can be given nothing else.
+// Global, since signal handlers take no arguments.
 const Input* current = nullptr;
 std::string crashPath;
 
@@ -50,7 +49,7 @@ void onSignal(int signal) {
 
 void run(const Input& input) {
   current = &input;
-  // The target gets a block of exactly its size, so that a sanitizer sees one byte too far.
+  // A copy of exact size, so that a sanitizer detects a read beyond the end.
   const Input exact(input);
   LLVMFuzzerTestOneInput(exact.data(), exact.size());
   current = nullptr;
@@ -65,14 +64,14 @@ Input readWhole(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Files in the order of their names, so that every run mutates alike.
-std::vector<Input> readCorpus(const std::vector<fs::path>& arguments) {
+/// Reads files in the order of their names, so that every run has the same mutations.
+std::vector<Input> readCorpus(const std::vector<fs::path>& filesAndFolders) {
   std::vector<fs::path> paths;
-  for (const fs::path& argument : arguments) {
-    if (!fs::is_directory(argument))
-      paths.push_back(argument);
+  for (const fs::path& path : filesAndFolders) {
+    if (!fs::is_directory(path))
+      paths.push_back(path);
     else
-      for (const auto& entry : fs::recursive_directory_iterator(argument))
+      for (const auto& entry : fs::recursive_directory_iterator(path))
         if (entry.is_regular_file())
           paths.push_back(entry.path());
   }
@@ -87,14 +86,14 @@ std::vector<Input> readCorpus(const std::vector<fs::path>& arguments) {
 
 int main(int argc, char** argv) {
   std::size_t rounds = 0;
-  std::vector<fs::path> paths;
+  std::vector<fs::path> filesAndFolders;
   for (int i = 1; i < argc; ++i) {
     if (std::string_view(argv[i]) == "--rounds" && i + 1 < argc)
       rounds = std::strtoull(argv[++i], nullptr, 10);
     else
-      paths.emplace_back(argv[i]);
+      filesAndFolders.emplace_back(argv[i]);
   }
-  const std::vector<Input> corpus = readCorpus(paths);
+  const std::vector<Input> corpus = readCorpus(filesAndFolders);
   if (corpus.empty()) {
     std::fprintf(stderr, "%s: no corpus\nusage: %s [--rounds N] FILE|DIRECTORY...\n", argv[0], argv[0]);
     return 1;

@@ -108,7 +108,7 @@ void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appea
                    textureNames(use->texture));
     writer.close(material);
   }
-  // The texture of the main colour stands where X3D has had it since version 3.
+  // The texture of the main colour is a child of the Appearance, as since X3D 3.
   for (const TextureUse& use : appearance.textures)
     if (use.role == TextureRole::color && !named)
       writeTexture(writer, graph, use.texture, "", textureNames(use.texture));

@@ -13,19 +13,18 @@ const char* materialNodeName(const AnyMaterial& material);
 
 Element materialElement(const AnyMaterial& material);
 
-/// Gives the DEF or USE of a texture, which is an index into the graph's textures.
+/// Returns the DEF or USE of a texture, given as index into the graph's textures.
 using TextureNames = std::function<Attributes(std::size_t texture)>;
 
-/// Writes an Appearance with all that belongs to it. `names` is its DEF, if any.
+/// Writes an Appearance with its material, textures and texture transforms. `names` is its DEF, if any.
 void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appearance& appearance,
                      const Attributes& names, const TextureNames& textureNames);
 
-/// Writes an ImageTexture. Where `names` is a USE nothing else of it is written.
+/// Writes an ImageTexture; if `names` is a USE, without its other fields.
 void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t texture,
                   const std::string& containerField, const Attributes& names);
 
-/// The name of the material's field that a role's texture belongs to; "" where the
-/// kind of material has none.
+/// The material's field for the texture of a role; "" if the kind of material has none.
 std::string textureField(const AnyMaterial& material, TextureRole role);
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// The words that X3D has for the choices of an appearance, for the writer and the reader.
+// X3D's names for the enumerations of an appearance, for the writer and the reader.
 
 #include "documents/find_x3d.h"
 #include "scene/appearance.h"
@@ -22,12 +22,12 @@ inline const char* nameOf(AlphaMode mode) {
 inline const char* nameOf(Boundary boundary) {
   return boundaryNames.at(static_cast<std::size_t>(boundary));
 }
-/// Names the mapping of a role's texture.
+/// The mapping name of a role's texture.
 inline const char* nameOf(TextureRole role) {
   return textureRoleNames.at(static_cast<std::size_t>(role));
 }
 
-/// The value whose name, without regard to case, is `name`.
+/// The value with the name `name`, without regard to case.
 template <typename Value, std::size_t count>
 std::optional<Value> valueNamed(const std::array<const char*, count>& names, std::string_view name) {
   for (std::size_t i = 0; i < count; ++i)
@@ -36,7 +36,7 @@ std::optional<Value> valueNamed(const std::array<const char*, count>& names, std
   return {};
 }
 
-/// X3D's words for the filters of TextureProperties.
+/// X3D's names for the filters of TextureProperties.
 std::string magnificationFilter(const Texture& texture);
 std::string minificationFilter(const Texture& texture);
 void setMagnificationFilter(Texture& texture, std::string_view name);

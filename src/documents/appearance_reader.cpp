@@ -24,7 +24,7 @@ void readProperties(const FieldReader& fields, Texture& texture) {
 
 } // namespace
 
-/// What the element's USE names; null where it has none, or it names nothing.
+/// The value that the element's USE refers to; null if it has no USE, or the name is unknown.
 template <typename T>
 const T* AppearanceReader::used(const FieldReader& fields, const std::map<std::string, T>& defined) const {
   const std::string use = fields.text("USE");
@@ -95,7 +95,7 @@ AppearanceReader::DefinedMaterial AppearanceReader::readMaterial(const FieldRead
   return read;
 }
 
-/// Transforms by the name of their mapping; "" for one without.
+/// Adds transforms by the name of their mapping, which is "" for a transform without one.
 void AppearanceReader::readTransforms(const FieldReader& fields,
                                       std::map<std::string, TextureTransform>& transforms) const {
   if (isNamed(fields.node(), "TextureTransform"))

@@ -1,5 +1,5 @@
 #pragma once
-// Appearance elements -> appearances, textures and images of a graph.
+// Reads Appearance elements into the appearances, textures and images of a scene graph.
 
 #include "documents/field_reader.h"
 #include "scene/scene.h"
@@ -14,8 +14,8 @@ public:
   AppearanceReader(const DocumentText& source, SceneGraph& graph, DocumentWarnings& warnings)
       : source_(source), graph_(graph), warnings_(warnings) {}
 
-  /// Reads an Appearance, or finds the one that it USEs; returns its index. What is wrong
-  /// in it counts as absent, with a warning.
+  /// Reads an Appearance, or finds the one that it USEs. Returns its index. Malformed fields have their defaults, with
+  /// a warning.
   std::size_t read(const pugi::xml_node& node);
 
 private:

@@ -11,25 +11,25 @@ namespace imgeo {
 
 namespace {
 
-/// More hints than this compete with what they are to hasten.
+/// Maximum number of preload hints; more would compete with each other.
 constexpr std::size_t maxPreloads = 16;
 
-/// The Shapes that a page shows whatever its viewer does: of a LOD and of a Switch only
-/// he knows which child.
-void addShapesForAll(const SceneGraph& graph, std::size_t node, std::set<std::size_t>& seen,
-                     std::vector<std::size_t>& shapes) {
+/// Collects the Shapes that are visible at the start. Children of LOD and Switch are left out, since the runtime
+/// chooses among them.
+void addVisibleShapes(const SceneGraph& graph, std::size_t node, std::set<std::size_t>& seen,
+                      std::vector<std::size_t>& shapes) {
   const GenericNode* other = std::get_if<GenericNode>(&graph.nodes[node].content);
   if (!seen.insert(node).second || (other && (other->element == "LOD" || other->element == "Switch")))
     return;
   if (std::holds_alternative<Shape>(graph.nodes[node].content))
     shapes.push_back(node);
   for (const std::size_t child : graph.nodes[node].children)
-    addShapesForAll(graph, child, seen, shapes);
+    addVisibleShapes(graph, child, seen, shapes);
 }
 
-/// What the runtime requests first, in its order: bases, of geometries without one all
-/// of each patch in compact or the most significant coordinate bytes of all patches,
-/// then their indices. Patches behind a base would only take its share of the line.
+/// The urls that the runtime requests first, in its order: base meshes; for geometries without one, the files of
+/// compact patches or the most significant coordinate bytes of all patches; then indices. Patches of geometries with a
+/// base mesh are left out, since they would compete with it for bandwidth.
 std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::string> urls;
   const auto add = [&](const Reference& reference) {
@@ -39,7 +39,7 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::size_t> shapes;
   std::set<std::size_t> seen;
   for (const std::size_t root : document.graph.roots)
-    addShapesForAll(document.graph, root, seen, shapes);
+    addVisibleShapes(document.graph, root, seen, shapes);
   const auto forEachGeometry = [&](auto visit) {
     for (const std::size_t node : shapes)
       visit(document.geometries.at(shapeOf(document.graph, node).mesh));
@@ -72,7 +72,7 @@ std::string link(const char* relation, const std::string& url, const std::string
   return std::string("    <link rel=\"") + relation + "\"" + more + " href=" + quoteAttribute(url) + ">\n";
 }
 
-/// `head` and `x3d` are whole lines.
+/// The page's text. `head` and `x3d` are whole lines.
 std::string page(const SceneDocument& document, const std::string& head, const std::string& x3d) {
   return "<!doctype html>\n"
          "<html lang=\"en\">\n"
@@ -102,13 +102,13 @@ std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNod
 }
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
-  // In the order in which they are needed, and what is largest first: where a server's connections
-  // serve one request each, the first goes out on the page's own, a round trip before all others.
+  // In the order in which they are needed, the largest first: with HTTP/1.1 the first request is sent on the page's own
+  // connection, a round trip before all others.
   std::string head;
   for (const std::string& url : options.eagerModuleUrls)
     head += link("modulepreload", url);
   head += link("modulepreload", options.runtimeUrl) + link("stylesheet", options.stylesheetUrl);
-  // A base is shown without them, and would have to share the line.
+  // A base mesh is shown without these modules, which would compete with it for bandwidth.
   const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
   if (std::ranges::none_of(document.geometries, hasBase))
     for (const std::string& url : options.deferredModuleUrls)

@@ -1,5 +1,6 @@
 #pragma once
-// documents: a Scene and the names of written files -> HTML and X3D text, and back.
+// Writing and reading of X3D documents: a scene graph with the descriptions of its geometry files <-> HTML and X3D
+// text.
 
 #include "containers/geometry_description.h"
 #include "scene/scene.h"
@@ -13,55 +14,51 @@ namespace imgeo {
 /// A scene whose meshes have been written into containers.
 struct SceneDocument {
   SceneGraph graph;                            ///< Shape::mesh indexes `geometries`
-  std::vector<GeometryDescription> geometries; ///< one per mesh
-  /// Of readScene: what counts as absent, since it is malformed; one sentence each.
+  std::vector<GeometryDescription> geometries; ///< by mesh
+  /// From readScene: one sentence for each malformed value that is treated as absent.
   std::vector<std::string> warnings;
 };
 
 struct PageOptions {
-  std::string runtimeUrl;                        ///< the ES module, relative
-  std::string stylesheetUrl;                     ///< relative
-  std::vector<std::string> eagerModuleUrls{};    ///< modules that it needs at once; relative
-  std::vector<std::string> deferredModuleUrls{}; ///< those that it needs when it has shown what bases it can; relative
+  std::string runtimeUrl;                     ///< url of the runtime's ES module, relative
+  std::string stylesheetUrl;                  ///< relative
+  std::vector<std::string> eagerModuleUrls{}; ///< urls of modules that it needs at once; relative
+  std::vector<std::string>
+      deferredModuleUrls{}; ///< urls of modules that it needs after it has shown base meshes; relative
 };
 
-/// `scene.x3d`: the scene as XML, readable by a person.
+/// `scene.x3d`: the scene as XML, laid out for readability.
 std::string writeX3d(const SceneDocument& document);
 
-/// The document that an Inline shows, whose node it is, as a file of its own beside
-/// the others; of documents that this one inlines the urls are known.
+/// The document of the Inline node `inlineNode` as a file of its own beside the others. Documents that it inlines
+/// itself must have been written, so that their urls are known.
 std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode);
 
-/// `index.html`: the same <X3D> element in an HTML page, with the runtime as
-/// modules and preload hints for the first geometry files. Needs nothing beyond
-/// `default-src 'self'`.
+/// `index.html`: the same <X3D> element in an HTML page that loads the runtime's modules and has preload hints for the
+/// first geometry files. Works under the content security policy `default-src 'self'`.
 std::string writeHtml(const SceneDocument& document, const PageOptions& options);
 
-/// Where a page finds X3DOM; the sums are "sha384-..." of the files (W3C
-/// Subresource Integrity) or empty.
+/// Urls of X3DOM for a page. Integrity values are "sha384-..." (W3C Subresource Integrity) or empty.
 struct X3domFiles {
   std::string scriptUrl, scriptIntegrity;
   std::string stylesheetUrl, stylesheetIntegrity;
 };
 
-/// The same two documents for X3DOM (docs/formats/x3dom.md), of containers that
-/// were encoded for it.
+/// The same two documents for X3DOM (docs/formats/x3dom.md). The containers must have been encoded for X3DOM.
 std::string writeX3domX3d(const SceneDocument& document);
 std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode);
 std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl);
 
-/// The text of the page's stylesheet: the scene fills the window.
+/// The page's stylesheet, with which the scene fills the window.
 std::string_view pageStylesheet();
 
-/// Moves what `more` holds behind what `document` has; returns its top nodes, which
-/// stand nowhere yet.
+/// Appends the content of `more` to `document`. Returns the roots of `more`, which have no parent yet.
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more);
 
-/// Reads the <X3D> element of either text back. Inlines whose file lies beside the
-/// document have an InlinedDocument, and nothing in it: append() fills it. What is wrong in
-/// a node that convert may have carried over (a viewpoint, a material) is a warning, as
-/// in browsers. Safe for untrusted text. Throws Error{malformed, unsupported, limit}
-/// naming `name` and the place.
+/// Reads the <X3D> element of an X3D or HTML text. An Inline whose file was written beside the document gets an empty
+/// InlinedDocument, which append() fills. A malformed value of a node that may come from the source (a viewpoint, a
+/// material) is a warning, as in browsers. Safe for untrusted text. Throws Error{malformed, unsupported, limit} with
+/// `name` and the line.
 SceneDocument readScene(std::string_view text, const std::string& name);
 
 } // namespace imgeo

@@ -17,12 +17,12 @@ namespace {
 using testing::Random;
 using testing::shapeName;
 
-/// Text with everything in it that markup could stumble over.
+/// Random text with characters that markup has to escape.
 std::string randomText(Random& random) {
   static const char* pieces[] = {"a",  "\"",   "'",    "<",        ">",       "&", "&amp;", "</script>", "-->", "]]>",
                                  "\n", "\t",   "\r\n", "<X3D>",    "</X3D>",  "é", "像",    "𝄞",         " ",   "  ",
                                  "\\", "\\\"", "#",    "\xc2\x85", "&#60;x&", "=", "/>",    "<!--",      "%",   "0"};
-  std::string text = "t"; // leading white space is kept too, but nobody needs it
+  std::string text = "t"; // leading white space is kept, too, but not tested
   for (std::uint32_t count = random.below(8); count > 0; --count)
     text += pieces[random.below(std::size(pieces))];
   return text;
@@ -172,7 +172,7 @@ Texture randomTexture(Random& random, std::size_t images) {
   return texture;
 }
 
-/// Any node that is no Group, Transform or Shape.
+/// A random node other than Group, Transform and Shape.
 NodeContent randomLeaf(Random& random) {
   switch (random.below(5)) {
   case 0:
@@ -215,7 +215,7 @@ SceneDocument randomDocument(std::uint32_t seed) {
   for (std::uint32_t count = 1 + random.below(3); count > 0; --count)
     document.geometries.push_back(randomGeometry(random));
 
-  std::vector<std::size_t> made; // children stand before their parents, so there are no circles
+  std::vector<std::size_t> made; // children come before their parents, so there are no cycles
   for (std::uint32_t count = random.below(12); count > 0; --count) {
     Node node;
     if (!random.once(3))
@@ -250,7 +250,7 @@ SceneDocument randomDocument(std::uint32_t seed) {
   return document;
 }
 
-/// Boxes are written with the digits that their lattice has, as centre and size.
+/// Boxes are written with the precision of their lattice, as centre and size.
 void expectNear(const Box3d& a, const Box3d& b, double step) {
   EXPECT_EQ(a.empty(), b.empty());
   if (a.empty() || b.empty())
@@ -280,8 +280,7 @@ void expectEqual(const GeometryDescription& read, GeometryDescription written) {
   EXPECT_EQ(read, written);
 }
 
-/// The same nodes in the same order, shared alike. Names are left out where the
-/// writer gives them.
+/// Expects the same nodes in the same order with the same sharing. Names that the writer has assigned are not compared.
 void expectEqual(const SceneDocument& read, const SceneDocument& written) {
   EXPECT_EQ(read.graph.title, written.graph.title);
   EXPECT_EQ(read.graph.info, written.graph.info);
@@ -292,7 +291,7 @@ void expectEqual(const SceneDocument& read, const SceneDocument& written) {
   std::map<std::size_t, std::size_t> readOf;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     readOf[nodes[i]] = readNodes[i];
-  std::map<std::size_t, std::size_t> readAppearance, readTexture;
+  std::map<std::size_t, std::size_t> readAppearanceOf, readTextureOf;
   const auto expectSame = [](std::map<std::size_t, std::size_t>& known, std::size_t key, std::size_t value) {
     EXPECT_EQ(known.try_emplace(key, value).first->second, value);
   };
@@ -316,30 +315,31 @@ void expectEqual(const SceneDocument& read, const SceneDocument& written) {
     ASSERT_EQ(readShape.appearance.has_value(), shape->appearance.has_value());
     if (!shape->appearance)
       continue;
-    expectSame(readAppearance, *shape->appearance, *readShape.appearance);
-    const Appearance &look = written.graph.appearances[*shape->appearance],
-                     &readLook = read.graph.appearances[*readShape.appearance];
-    EXPECT_EQ(readLook.material, look.material);
-    EXPECT_EQ(readLook.alphaMode, look.alphaMode);
-    EXPECT_EQ(readLook.alphaCutoff, look.alphaCutoff);
-    ASSERT_EQ(readLook.textures.size(), look.textures.size());
-    for (std::size_t i = 0; i < look.textures.size(); ++i) {
-      TextureUse use = readLook.textures[i];
-      expectSame(readTexture, look.textures[i].texture, use.texture);
-      Texture texture = read.graph.textures[use.texture], expected = written.graph.textures[look.textures[i].texture];
+    expectSame(readAppearanceOf, *shape->appearance, *readShape.appearance);
+    const Appearance &appearance = written.graph.appearances[*shape->appearance],
+                     &readAppearance = read.graph.appearances[*readShape.appearance];
+    EXPECT_EQ(readAppearance.material, appearance.material);
+    EXPECT_EQ(readAppearance.alphaMode, appearance.alphaMode);
+    EXPECT_EQ(readAppearance.alphaCutoff, appearance.alphaCutoff);
+    ASSERT_EQ(readAppearance.textures.size(), appearance.textures.size());
+    for (std::size_t i = 0; i < appearance.textures.size(); ++i) {
+      TextureUse use = readAppearance.textures[i];
+      expectSame(readTextureOf, appearance.textures[i].texture, use.texture);
+      Texture texture = read.graph.textures[use.texture],
+              expected = written.graph.textures[appearance.textures[i].texture];
       EXPECT_EQ(read.graph.images[texture.image], written.graph.images[expected.image]);
       texture.image = expected.image;
       texture.name = expected.name;
       EXPECT_EQ(texture, expected);
-      use.texture = look.textures[i].texture;
-      EXPECT_EQ(use, look.textures[i]);
+      use.texture = appearance.textures[i].texture;
+      EXPECT_EQ(use, appearance.textures[i]);
     }
   }
 }
 
 const PageOptions page{"imgeo-viewer.js", "imgeo.css"};
 
-TEST(Documents, ComeBackFromX3dAndFromHtml) {
+TEST(Documents, AreReadBackFromX3dAndFromHtml) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const SceneDocument document = randomDocument(seed);
@@ -372,7 +372,7 @@ TEST(Documents, AreReadWithoutRegardToCase) {
   expectEqual(readScene(text, "x"), document);
 }
 
-TEST(Documents, HoldTheSameElementInBothForms) {
+TEST(Documents, HaveTheSameElementInBothForms) {
   const SceneDocument document = randomDocument(5);
   const auto withoutIndents = [](std::string_view text) {
     std::string out;
@@ -397,24 +397,24 @@ SceneDocument documentNamed(const std::string& name) {
   return document;
 }
 
-TEST(Documents, PutWhatIsAloneInItsParentIntoTheParentsLine) {
+TEST(Documents, WriteAnOnlyChildOnTheLineOfItsParent) {
   ElementWriter writer(1);
-  const Element place{"Transform", {{{"translation", "1 2 3"}}}}, shape{"Shape", {{{"USE", "seat"}}}};
-  writer.open(place);
+  const Element transform{"Transform", {{{"translation", "1 2 3"}}}}, shape{"Shape", {{{"USE", "seat"}}}};
+  writer.open(transform);
   writer.open({"Group", {}});
   writer.leaf(shape);
   writer.close({"Group", {}});
-  writer.close(place);
+  writer.close(transform);
   EXPECT_EQ(writer.text(),
             "  <Transform translation=\"1 2 3\"><Group><Shape USE=\"seat\"></Shape></Group></Transform>\n");
 
   ElementWriter twoOrLong(0);
-  twoOrLong.open(place);
+  twoOrLong.open(transform);
   twoOrLong.leaf(shape);
   twoOrLong.open({"Group", {}});
   twoOrLong.leaf({"Shape", {{{"USE", std::string(90, 'x')}}}});
   twoOrLong.close({"Group", {}});
-  twoOrLong.close(place);
+  twoOrLong.close(transform);
   EXPECT_EQ(twoOrLong.text(), "<Transform translation=\"1 2 3\">\n"
                               "  <Shape USE=\"seat\"></Shape>\n"
                               "  <Group>\n"
@@ -425,7 +425,7 @@ TEST(Documents, PutWhatIsAloneInItsParentIntoTheParentsLine) {
                                   "</Transform>\n");
 }
 
-TEST(Documents, DoNotRunWhatANameSays) {
+TEST(Documents, EscapeActiveContentInNames) {
   for (const std::string name : {"\"><script>alert(1)</script>", "' onload='alert(1)", "</title><script>",
                                  "--><script>", "</noscript><script>", "a\0b<script>"}) {
     const std::string html = writeHtml(documentNamed(name), page);
@@ -449,7 +449,7 @@ TEST(Documents, AreValidUtf8WhateverTheirNamesAre) {
   EXPECT_EQ(read.graph.title, "a" + r + "(" + r + r + r + r + "z" + r + r);
 }
 
-TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
+TEST(Html, PreloadsFirstPlanesAndCompactPatchesThenIndices) {
   SceneDocument document = documentNamed("a");
   document.geometries[0].patches[0].index = {"i.png", {}};
   document.geometries[1].patches[0].coord[0].url = "c.png";
@@ -463,14 +463,14 @@ TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
   EXPECT_EQ(hints, "a.png c.png d.png i.png ");
 }
 
-TEST(Html, HintsAtABaseAndWhatDecodesItInThePlaceOfItsPatches) {
+TEST(Html, PreloadsABaseMeshAndItsDecoderInsteadOfPatches) {
   SceneDocument document = documentNamed("a");
   document.geometries[0].encoding = Encoding::compact;
   document.geometries[0].base = Reference{"base.png", PatchLocation{7}};
   document.geometries[0].patches[0].data = Reference{"patch.png", PatchLocation{}};
   const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}};
   const std::string html = writeHtml(document, options);
-  std::size_t at = 0; // the modules first: they have work to do before they need the base
+  std::size_t at = 0; // modules come first: they have work to do before they need the base mesh
   for (const char* link : {"modulepreload\" href=\"first.js\">", "modulepreload\" href=\"r.js\">",
                            "stylesheet\" href=\"s.css\">", "fetchpriority=\"high\" href=\"base.png\">"}) {
     EXPECT_LT(at, html.find(link)) << link;
@@ -484,7 +484,7 @@ TEST(Html, HintsAtABaseAndWhatDecodesItInThePlaceOfItsPatches) {
   EXPECT_NE(writeHtml(document, options).find("<link rel=\"modulepreload\" href=\"later.js\">"), html.npos);
 }
 
-TEST(Html, HintsAtNoMoreThanSixteenFiles) {
+TEST(Html, PreloadsAtMostSixteenFiles) {
   SceneDocument document = documentNamed("a");
   for (int i = 0; i < 100; ++i) {
     document.geometries[0].patches.push_back(document.geometries[0].patches[0]);
@@ -497,7 +497,7 @@ TEST(Html, HintsAtNoMoreThanSixteenFiles) {
   EXPECT_EQ(hints, 16u);
 }
 
-TEST(Html, NeedsNothingInline) {
+TEST(Html, HasNoInlineScriptOrStyle) {
   const std::string html = writeHtml(randomDocument(8), page);
   EXPECT_EQ(html.find("<style"), std::string::npos);
   EXPECT_EQ(html.find("style="), std::string::npos);
@@ -517,7 +517,7 @@ ErrorKind kindOfReading(const std::string& text, const std::string& location = "
   return ErrorKind::usage;
 }
 
-TEST(ReadScene, TakesImageTexturesForImages) {
+TEST(ReadScene, ReadsImagesFromImageTextures) {
   const SceneDocument document = readScene(R"(<html><body><x3d><scene><shape def="S"><appearance></appearance>
     <imagegeometry primType='TRIANGLESTRIP' vertexCount='9' implicitMeshSize='512 204'>
       <imagetexture containerField='index' url='i.png'></imagetexture>
@@ -538,7 +538,7 @@ TEST(ReadScene, TakesImageTexturesForImages) {
   EXPECT_EQ(shapeName(document.graph, 0), "S");
 }
 
-TEST(ReadScene, FindsTheElementPastWhatOnlyLooksLikeIt) {
+TEST(ReadScene, IgnoresTextThatOnlyLooksLikeTheElement) {
   const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
                                            "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
                                            "x");
@@ -553,7 +553,7 @@ TEST(ReadScene, RefusesDocumentTypesAndEntities) {
   EXPECT_EQ(kindOfReading("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
 }
 
-TEST(ReadScene, SaysOnWhichLineAFieldIsWrong) {
+TEST(ReadScene, ReportsTheLineOfAMalformedField) {
   const std::string before = "<X3D><Scene>\n<Shape>\n";
   const auto shape = [&](const std::string& fields) {
     return before + "<ImageGeometry><GeometryPatch coord='a' " + fields +
@@ -572,7 +572,7 @@ GeometryDescription readBinaryGeometry(const std::string& fields) {
   return document.geometries.at(0);
 }
 
-TEST(ReadScene, FindsTheStrideOfAUrlAsX3domDoes) {
+TEST(ReadScene, ReadsTheStrideOfAUrlAsX3domDoes) {
   const auto referenceOf = [](const std::string& url) {
     return readBinaryGeometry("coordType='Int16' coord='" + url + "'").patches[0].coord[0];
   };
@@ -584,7 +584,7 @@ TEST(ReadScene, FindsTheStrideOfAUrlAsX3domDoes) {
   EXPECT_EQ(referenceOf("+8"), (Reference{"+8", ByteLocation{0, 8}}));
 }
 
-TEST(ReadScene, PutsSignedCoordinatesAroundTheCentreOfABoxOfAnyShape) {
+TEST(ReadScene, CentresSignedCoordinatesInABoxOfAnyShape) {
   const Lattice lattice = readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
   EXPECT_EQ(lattice.bits, 16u);
   const Vec3d middle = lattice.point({32768, 32768, 32768}), corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
@@ -603,14 +603,14 @@ TEST(Documents, KeepTheLatticeOfForeignGeometry) {
                     "x");
       const Lattice before = document.geometries.at(0).lattice;
       const Lattice after = readScene(writeX3d(document), "x").geometries.at(0).lattice;
-      const std::uint32_t most = before.maximum();
-      const Vec3u corners[] = {{0, 0, 0}, {most, most, most}, {most / 2, most / 3, 1}};
+      const std::uint32_t maximum = before.maximum();
+      const Vec3u corners[] = {{0, 0, 0}, {maximum, maximum, maximum}, {maximum / 2, maximum / 3, 1}};
       for (const Vec3u& q : corners)
         EXPECT_LE(length(after.point(q) - before.point(q)), 1e-12) << type << ", " << size;
     }
 }
 
-TEST(ReadScene, RefusesAttributesThatItsPatchesDoNotHave) {
+TEST(ReadScene, RefusesAttributesThatPatchesLack) {
   const auto messageOf = [](const std::string& attribute, const std::string& attrib) -> std::string {
     const std::string text = "<X3D><Scene><Shape><ImageGeometry coord='a.png' vertexCount='3' attrib='" + attrib +
                              "'><FloatVertexAttribute " + attribute +
@@ -632,7 +632,7 @@ TEST(ReadScene, RefusesAttributesThatItsPatchesDoNotHave) {
   EXPECT_NE(messageOf("name='heat' numComponents='1' valueBits='12'", "b").find("8, 16"), std::string::npos);
 }
 
-TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
+TEST(ReadScene, HasX3domsDefaultsForABinaryGeometry) {
   const GeometryDescription geometry = readBinaryGeometry("coord='a' index='i'");
   EXPECT_EQ(geometry.coordType, ElementType::float32);
   EXPECT_EQ(geometry.indexType, ElementType::uint16);
@@ -640,7 +640,7 @@ TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
   EXPECT_EQ(geometry.patches[0].draws, (std::vector<Draw>{{Primitive::triangles, 0}}));
 }
 
-TEST(ReadScene, FindsX3domsSphericalNormalsInTheFourthElementOfCoordinates) {
+TEST(ReadScene, ReadsX3domsSphericalNormalsFromTheFourthElementOfCoordinates) {
   const std::string spherical = " coordType='Uint16' normalAsSphericalCoordinates='true'";
   for (const auto& [coord, normal] : {std::pair{"a.bin", Reference{"a.bin", ByteLocation{6, 8}}},
                                       {"a.bin?+8", {"a.bin", ByteLocation{6, 8}}},
@@ -654,7 +654,7 @@ TEST(ReadScene, FindsX3domsSphericalNormalsInTheFourthElementOfCoordinates) {
   EXPECT_THROW(readBinaryGeometry("coord='a' normalAsSphericalCoordinates='true'"), Error);
 }
 
-TEST(ReadScene, TakesIndicesOf16And32BitsFromImages) {
+TEST(ReadScene, ReadsIndicesOf16And32BitsFromImages) {
   const auto read = [](const std::string& type) {
     return readScene("<X3D><Scene><Shape><ImageGeometry indexType='" + type +
                          "' coord='a' index='i'/></Shape></Scene></X3D>",
@@ -693,7 +693,7 @@ TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
   EXPECT_EQ(shapeNodes(scene(shape("DEF='A'", "a") + otherBox).graph).size(), 2u);
 }
 
-TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
+TEST(ReadScene, RefusesGeometryWithoutALattice) {
   const auto geometry = [](const std::string& fields, const std::string& coord) {
     return "<X3D><Scene><Shape><ImageGeometry " + fields + " coord='" + coord + "'/></Shape></Scene></X3D>";
   };
@@ -706,7 +706,7 @@ TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
   EXPECT_EQ(kindOfReading(geometry("", "")), ErrorKind::malformed);
 }
 
-TEST(ReadScene, WarnsOfWhatAuthorsGetWrongAndReadsTheRest) {
+TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {
   const SceneDocument document = readScene("<X3D><Scene>\n<Shape/><Viewpoint position='1 2' fieldOfView='1'/>\n"
                                            "<Shape><Appearance USE='a'/><ImageGeometry coord='c'/></Shape>"
                                            "</Scene></X3D>",
@@ -721,7 +721,7 @@ TEST(ReadScene, WarnsOfWhatAuthorsGetWrongAndReadsTheRest) {
   EXPECT_EQ(shapeNodes(document.graph).size(), 1u);
 }
 
-TEST(ReadScene, RefusesADepthThatNobodyWrites) {
+TEST(ReadScene, RefusesExcessiveDepth) {
   std::string text = "<X3D><Scene>";
   for (int i = 0; i < 100000; ++i)
     text += "<Group>";
@@ -735,13 +735,13 @@ TEST(ReadScene, RefusesADepthThatNobodyWrites) {
   EXPECT_EQ(kindOfReading(chain + "</Scene></X3D>"), ErrorKind::limit);
 }
 
-TEST(ReadScene, RefusesAUseThatNamesNothingBefore) {
+TEST(ReadScene, RefusesAUseWithoutADefBefore) {
   for (const std::string use : {"<Shape USE='a'/>", "<Group DEF='a'><Group USE='a'/></Group>",
                                 "<Transform USE='a'/><Transform DEF='a'/>", "<Shape><ImageGeometry USE='a'/></Shape>"})
     EXPECT_EQ(kindOfReading("<X3D><Scene>" + use + "</Scene></X3D>"), ErrorKind::malformed) << use;
 }
 
-TEST(Documents, WriteWhatStandsInSeveralPlacesOnce) {
+TEST(Documents, WriteSharedNodesOnce) {
   SceneDocument document = documentNamed("");
   SceneGraph& graph = document.graph;
   graph.appearances.push_back({"", Material{}, {}, AlphaMode::automatic, 0.5f});
@@ -767,9 +767,9 @@ TEST(Documents, WriteWhatStandsInSeveralPlacesOnce) {
   EXPECT_EQ(shapeInstances(readScene(text, "x").graph).size(), 5u);
 }
 
-TEST(ReadScene, RefusesEveryBeginningOfAText) {
+TEST(ReadScene, RefusesEveryTruncatedText) {
   const std::string x3d = writeX3d(randomDocument(11));
-  for (std::size_t length = 0; length < x3d.size() - 1; ++length) // the last byte is a line end
+  for (std::size_t length = 0; length < x3d.size() - 1; ++length) // the last byte is a newline
     EXPECT_THROW(readScene(std::string_view(x3d).substr(0, length), "x"), Error) << length;
 }
 

@@ -42,8 +42,8 @@ void ElementWriter::open(const Element& element) {
   ++level_;
 }
 
-/// Around one short line everything stands in that line: of what is seen in a thousand
-/// places, indentation would be a third.
+/// Joins start tag, content and end tag if the content is one short line: in scenes of thousands of small shapes
+/// indentation would be a third of the text.
 void ElementWriter::close(const Element& element) {
   --level_;
   const auto [begin, end] = opened_.back();

@@ -1,5 +1,5 @@
 #pragma once
-// Elements as text that HTML and XML read alike and people can read.
+// Writing of elements as text that is the same for HTML and XML parsers, with indentation.
 
 #include "base/vec.h"
 #include "scene/mf_string.h"
@@ -11,36 +11,36 @@
 namespace imgeo {
 
 struct Attribute {
-  std::string name, value; ///< the value as it is meant, not escaped
+  std::string name, value; ///< the value is not escaped
 };
 
 using Attributes = std::vector<Attribute>;
 
-/// An element's name and attributes. Groups stand on a line each where all of
-/// them together are too long for one.
+/// An element's name and attributes. If the start tag is too long for one line, each group of attributes is on a line
+/// of its own.
 struct Element {
   std::string name;
   std::vector<Attributes> groups;
 };
 
-/// Collects the text of nested elements, two spaces a level. An element with nothing
-/// but one short line in it stands in that line.
+/// Collects the text of nested elements, indented by two spaces a level. An element whose content is one short line is
+/// written on one line.
 class ElementWriter {
 public:
   explicit ElementWriter(std::size_t level) : level_(level) {}
 
   void open(const Element& element);
   void close(const Element& element);
-  void leaf(const Element& element); ///< opened and closed: HTML knows no self-closing elements here
-  void leaf(const Element& element, std::string_view content); ///< with text in it
+  void leaf(const Element& element); ///< an empty element, with an end tag: HTML has no self-closing custom elements
+  void leaf(const Element& element, std::string_view content); ///< an element with a text
 
-  /// Hyphens that would end it sooner are parted.
+  /// A comment; consecutive hyphens, which would end it, are separated by spaces.
   void comment(std::string_view content);
 
   const std::string& text() const { return text_; }
 
 private:
-  /// Where the line of a start tag begins, and where it ends.
+  /// Byte range of a start tag in text_, with its indentation.
   struct Tag {
     std::size_t begin, end;
   };
@@ -52,7 +52,7 @@ private:
   std::vector<Tag> opened_;
 };
 
-/// The shortest decimal text that reads back as the same number.
+/// The shortest decimal text that is parsed as the same number.
 std::string number(double value);
 std::string number(float value);
 template <typename T> std::string numbers(Vec2<T> v) {
@@ -64,7 +64,7 @@ template <typename T> std::string numbers(Vec3<T> v) {
 
 std::string numbers(const std::vector<double>& values);
 
-/// Appends the attribute where its value is not what an absent one means.
+/// Appends the attribute unless its value is the default, which is the meaning of an absent attribute.
 template <typename T>
 void addUnless(Attributes& attributes, const char* name, const T& value, const T& absent, std::string text) {
   if (!(value == absent))

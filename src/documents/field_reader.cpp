@@ -30,17 +30,13 @@ template <typename T> std::optional<T> parseNumber(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size())
     return std::nullopt;
-  if constexpr (std::is_floating_point_v<T>) // X3D's numbers are single, so sums of ours never overflow
+  if constexpr (std::is_floating_point_v<T>) // X3D's numbers are single precision; then sums of doubles do not overflow
     if (!(std::abs(value) <= std::numeric_limits<float>::max()))
       return std::nullopt;
   return value;
 }
 
-} // namespace
-
-namespace {
-
-/// Where an element begins in its document.
+/// Byte offset of an element in its document.
 std::size_t offsetOf(const DocumentText& source, const pugi::xml_node& node) {
   return source.begin + static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
 }
@@ -54,7 +50,7 @@ void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind
 void FieldReader::warnOrFail(const std::string& message, const char* consequence) const {
   if (!warnings_)
     fail(ErrorKind::malformed, message);
-  // The folder may be one that is still to be moved to its place.
+  // Without the folder, which may be a temporary one.
   const std::string file = std::filesystem::path(source_.name).filename();
   warnings_->push_back(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, offsetOf(source_, node_)),
                                    validText(node_.name()), message, consequence));

@@ -1,6 +1,6 @@
 #pragma once
-// The fields of an element, as X3D types; safe for untrusted text. Every fault
-// is an Error that names the document and the line, or a warning that does.
+// Typed access to the fields of an X3D element; safe for untrusted text. Every fault is an Error or a warning with the
+// document's name and the line.
 
 #include "base/error.h"
 #include "scene/transform.h"
@@ -13,23 +13,22 @@
 
 namespace imgeo {
 
-/// The text that a parsed <X3D> element came from: for the places in Errors.
+/// The text from which an <X3D> element was parsed, for the locations of Errors.
 struct DocumentText {
   std::string_view text;
   const std::string& name;
-  std::size_t begin = 0; ///< of the element
+  std::size_t begin = 0; ///< byte offset of the element
 };
 
-/// What is wrong with elements that an author may have written, which are shown all the
-/// same: one sentence each, with the line.
+/// Faults of elements that are shown nevertheless: one sentence each, with the line.
 using DocumentWarnings = std::vector<std::string>;
 
 [[noreturn]] void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
                        const std::string& message);
 
-/// One element whose attributes are read by name, without regard to case. An
-/// absent or empty field gives the fallback; with `warnings` one that is malformed does,
-/// too, as in browsers, and is named there instead of thrown.
+/// Reads attributes of an element by name, without regard to case. The value of an absent or empty field is the
+/// fallback. A malformed field throws Error{malformed}; with `warnings` it adds a warning and its value is the
+/// fallback, too, as in browsers.
 class FieldReader {
 public:
   FieldReader(const DocumentText& source, pugi::xml_node node, DocumentWarnings* warnings = nullptr)
@@ -39,7 +38,7 @@ public:
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
     imgeo::fail(source_, node_, kind, message);
   }
-  /// Warns, if that may be, or throws Error{malformed}.
+  /// Adds a warning with its consequence or, without `warnings`, throws Error{malformed}.
   void warnOrFail(const std::string& message, const char* consequence) const;
 
   std::string text(const char* name) const; ///< "" where it is absent
@@ -50,14 +49,14 @@ public:
   Vec3f vec3(const char* name, Vec3f fallback) const;
   Vec3d vec3(const char* name, Vec3d fallback) const;
   Rotation rotation(const char* name, const Rotation& fallback) const;
-  /// Finite numbers, any number of them.
+  /// Any number of finite numbers.
   std::vector<double> reals(const char* name) const;
-  /// Finite numbers, exactly `count` of them, or none where the field is absent.
+  /// Exactly `count` finite numbers, or none if the field is absent.
   std::vector<double> reals(const char* name, std::size_t count) const;
-  /// Non-negative whole numbers of at most 32 bits; any number of them.
+  /// Any number of non-negative integers of at most 32 bits.
   std::vector<std::uint32_t> integers(const char* name) const;
   std::uint32_t integer(const char* name, std::uint32_t fallback) const;
-  /// An MFString: quoted strings, or one bare string.
+  /// An MFString: quoted strings, or one unquoted string.
   std::vector<std::string> strings(const char* name) const;
   /// bboxCenter and bboxSize; empty where the size is absent or negative.
   Box3d box() const;

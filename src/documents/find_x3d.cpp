@@ -60,7 +60,7 @@ private:
     return found + end.size();
   }
 
-  /// Past a comment, CDATA section, instruction or document type; `at` for a tag.
+  /// The offset behind a comment, CDATA section, instruction or document type; `at` for a tag.
   std::size_t behindDeclaration(std::size_t at, std::string_view rest) const {
     if (rest.starts_with("<!--"))
       return behind("-->", at + 4, "a comment has no end");
@@ -98,7 +98,7 @@ private:
     fail(ErrorKind::malformed, at, "a tag has no end");
   }
 
-  /// The name after '<', with the slash of an end tag.
+  /// The name after '<', including the slash of an end tag.
   static std::string_view tagName(std::string_view tag) {
     std::size_t end = 1;
     if (end < tag.size() && tag[end] == '/')
@@ -108,7 +108,7 @@ private:
     return tag.substr(1, end - 1);
   }
 
-  /// Past the content of an HTML element in which tags mean nothing.
+  /// The offset behind the content of an HTML raw text element, in which there are no tags.
   std::size_t behindRawText(std::string_view tag, std::size_t at) const {
     for (const std::string_view raw : {"script", "style", "title", "textarea"}) {
       if (!equalIgnoringCase(tag, raw))

@@ -29,7 +29,7 @@ std::string urlOf(const Reference& reference) {
   return reference.url + std::visit([](const auto& location) { return fragmentOf(location); }, reference.location);
 }
 
-/// As short as keeps each number off by no more than a share of the lattice's step.
+/// The shortest decimal numbers whose error is at most `share` of the lattice's step.
 std::string shortNumbers(Vec3d vector, const Lattice& lattice, double share) {
   for (int axis = 0; axis < 3; ++axis)
     vector[axis] = shortestWithin(vector[axis], share * lattice.step);
@@ -62,7 +62,7 @@ std::string counts(const std::vector<Draw>& draws) {
 
 namespace {
 
-/// What compact says of a patch, but for its box.
+/// The fields of a compact patch, without its box.
 Attributes compactFields(const PatchDescription& patch) {
   Attributes fields{{"recordCount", std::to_string(patch.vertexCount)}};
   if (patch.draws != std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
@@ -117,7 +117,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
 }
 
 Attributes decodeAttributes(const GeometryDescription& geometry) {
-  constexpr double noise = 1e-7; // what computing has left behind the lattice's own digits
+  constexpr double noise = 1e-7; // removes rounding errors behind the lattice's own digits
   const DecodeFields decode = decodeFields(geometry);
   return {{"position", shortNumbers(decode.position, geometry.lattice, noise)},
           {"size", shortNumbers(decode.size, geometry.lattice, noise)}};
@@ -156,7 +156,7 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   Element element{row.node.name, {names, box, stored}};
   if (!isSinglePatch(geometry))
     return element;
-  // In one line: indentation would be a tenth of what a small shape takes.
+  // On one line: indentation would be a tenth of the text of a small shape.
   Attributes all;
   for (Attributes& group : element.groups)
     std::ranges::move(group, std::back_inserter(all));

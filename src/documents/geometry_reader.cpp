@@ -39,8 +39,9 @@ bool parseWhole(std::string_view text, std::uint32_t& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// The ending "+S" of a url: X3DOM's stride, part of the file's name unless a '?'
-/// separates them. Any other '+' means nothing.
+/// Parses the ending "+S" of a url, X3DOM's stride. It is part of the file's name unless a '?' separates them. Any
+/// other
+/// '+' is an ordinary character.
 Reference stridedReference(const std::string& url) {
   const std::size_t plus = url.rfind('+');
   ByteLocation location;
@@ -94,7 +95,7 @@ std::vector<Draw> drawsOf(const FieldReader& fields) {
   const std::vector<std::string> types = fields.strings("primType");
   std::vector<std::uint32_t> counts = fields.integers("vertexCount");
   if (counts.empty())
-    counts = {0}; // all of the indices, in X3DOM
+    counts = {0}; // X3DOM: all indices
   if (!types.empty() && types.size() != counts.size())
     fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
   std::vector<Draw> draws;
@@ -181,7 +182,7 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const FieldReader& fields, Vec2<std::uint
   return {x, y == 0 ? x : y};
 }
 
-/// Bits that the stored coordinates have where the node does not say how many count.
+/// Bits of the stored coordinates: the default of `positionBits`.
 std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& geometry) {
   const PatchStorage storage = rowOf(geometry).storage;
   if (storage == PatchStorage::arrays)

@@ -11,7 +11,7 @@ bool isGeometryNode(const char* name);
 
 /// Reads a geometry node with its patches, in either form of docs/formats/nodes.md:
 /// GeometryPatch children, or the node as its own only patch with url fields or
-/// ImageTexture children. Throws Error for what no lattice of ours can stand for.
+/// ImageTexture children. Throws Error for geometry that cannot be expressed by a Lattice.
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node);
 
 } // namespace imgeo

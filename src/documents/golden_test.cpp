@@ -1,5 +1,4 @@
-// Documents of format version 1, as they were first written: the reader must
-// read them for ever. IMGEO_REWRITE_GOLDEN=1 writes them anew.
+// Golden documents of format version 1, which later readers must still read. IMGEO_REWRITE_GOLDEN=1 writes them anew.
 #include "base/file.h"
 #include "documents/documents.h"
 

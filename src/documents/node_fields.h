@@ -1,11 +1,9 @@
 #pragma once
-// The fields of every node that a Scene holds as plain data, once for the writer
-// and the reader: their X3D names, in the order in which they are written. What
-// an absent field means is what the struct's own default says.
+// The table of fields of the nodes that a scene holds as structs, for the writer and the reader: X3D names, in the
+// order in which they are written. The default of a field is the default of the struct's member.
 //
-// A visitor is called with the name and the member, and whether the field is
-// written even where it has its default; its line() begins a new line in an
-// element that is too long for one.
+// A visitor is called with the name and the member, and whether the field is written even if it has its default. Its
+// line() begins a new group of attributes (Element::groups).
 
 #include "scene/scene.h"
 
@@ -33,7 +31,7 @@ template <typename Visit> void visitFieldsOf(const Viewpoint*, auto& viewpoint, 
   visit("centerOfRotation", viewpoint.centerOfRotation, Written::always);
 }
 
-/// All but fieldOfView, which is two members.
+/// All fields except fieldOfView, which is two members.
 template <typename Visit> void visitFieldsOf(const OrthoViewpoint*, auto& viewpoint, Visit&& visit) {
   visit("description", viewpoint.description);
   visit.line();

@@ -1,12 +1,12 @@
 #pragma once
-// A node's fields from an element: the reader's side of node_fields.h.
+// Reading of the fields in node_fields.h.
 
 #include "documents/field_reader.h"
 #include "documents/node_fields.h"
 
 namespace imgeo {
 
-/// What the element says, the defaults of `Node` where it is silent.
+/// Reads a node from an element; absent fields have the defaults of `Node`.
 template <typename Node> Node readNode(const FieldReader& fields) {
   struct Read {
     const FieldReader& fields;

@@ -1,5 +1,5 @@
 #pragma once
-// Values of fields -> their text, and the visitor that collects a node's attributes.
+// Writing of the fields in node_fields.h: text of values, and elements of nodes.
 
 #include "documents/element_writer.h"
 #include "documents/node_fields.h"
@@ -28,7 +28,7 @@ inline std::string fieldText(const Rotation& value) {
   return numbers(value.axis) + " " + number(value.angle);
 }
 
-/// The texts of all fields of a node, in their order.
+/// A visitor that collects the texts of all fields of a node.
 struct FieldTexts {
   std::vector<std::string> texts;
 
@@ -38,7 +38,7 @@ struct FieldTexts {
   void line() {}
 };
 
-/// The attributes of fields that are not what an absent one means.
+/// A visitor that adds to an element the attributes of fields that differ from their defaults.
 struct FieldAttributes {
   const std::vector<std::string>& defaults;
   Element& element;
@@ -53,7 +53,7 @@ struct FieldAttributes {
   void line() { element.groups.emplace_back(); }
 };
 
-/// The element of a node that holds nothing but fields.
+/// The element of a node, with its fields as attributes and without children. `names` is its DEF, if any.
 template <typename Node> Element nodeElement(const char* name, const Node& node, const Attributes& names = {}) {
   FieldTexts defaults;
   visitFields(Node{}, defaults);

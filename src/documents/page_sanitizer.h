@@ -1,7 +1,6 @@
 #pragma once
-// What of a foreign X3D document may stand in an HTML page. A page runs what its
-// elements say: <script>, on... attributes, urls of javascript:. So only elements
-// that X3D names go there, and of their fields those that no browser acts on.
+// Sanitises X3D sources for HTML pages, in which <script>, on... attributes and javascript: urls would be executed. An
+// allowlist has the elements of X3D; a denylist has the attributes on which browsers act.
 
 #include "scene/scene.h"
 
@@ -11,21 +10,20 @@
 
 namespace imgeo {
 
-/// Whether an element is a node of X3D 4 (ISO/IEC 19775-1:2023) that does nothing by
-/// itself: all but Script and prototypes.
+/// Whether an element is a node of X3D 4 (ISO/IEC 19775-1:2023) other than Script and prototypes.
 bool isAllowedInPage(std::string_view element);
 
-/// Whether browsers do nothing by themselves about an attribute of this name.
+/// Whether browsers ignore an attribute of this name.
 bool isInertAttribute(std::string_view attribute);
 
-/// Whether a url is relative or of http(s), as a browser reads it: blanks and control
-/// characters before and inside of the scheme do not hide it.
+/// Whether a url is relative or of http(s), parsed as in a browser: spaces and control characters in the scheme are
+/// ignored.
 bool isSafeUrl(std::string_view url);
 
-/// The urls of an MFString that are such, as an MFString; "" where none is.
+/// The safe urls of an MFString, as an MFString; "" if there are none.
 std::string safeUrls(std::string_view text);
 
-/// How many nodes of each element a page of this scene lacks.
+/// By element name: number of nodes that are left out of the page of this scene.
 std::map<std::string, std::size_t> elementsLeftOutOfPage(const SceneGraph& graph);
 
 } // namespace imgeo

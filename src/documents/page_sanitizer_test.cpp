@@ -7,7 +7,7 @@
 namespace imgeo {
 namespace {
 
-TEST(PageMarkup, LetsNodesOfX3dIntoAPageAndNothingThatActs) {
+TEST(PageSanitizer, AllowsNodesOfX3dAndNoActiveElement) {
   for (const char* node : {"Transform", "Switch", "LOD", "TimeSensor", "ROUTE", "IndexedFaceSet", "Text"})
     EXPECT_TRUE(isAllowedInPage(node)) << node;
   for (const char* element : {"Script", "script", "SCRIPT", "iframe", "img", "svg", "style", "link", "meta", "base",
@@ -15,14 +15,14 @@ TEST(PageMarkup, LetsNodesOfX3dIntoAPageAndNothingThatActs) {
     EXPECT_FALSE(isAllowedInPage(element)) << element;
 }
 
-TEST(PageMarkup, KnowsAttributesThatBrowsersActOn) {
+TEST(PageSanitizer, RefusesAttributesOnWhichBrowsersAct) {
   for (const char* name : {"onload", "ONCLICK", "onx", "style", "src", "srcdoc", "href", "xlink:href", "Style", "is"})
     EXPECT_FALSE(isInertAttribute(name)) << name;
   for (const char* name : {"on", "id", "class", "translation", "url", "DEF", "whichChoice"})
     EXPECT_TRUE(isInertAttribute(name)) << name;
 }
 
-TEST(PageMarkup, LetsRelativeUrlsAndThoseOfHttpIntoAPage) {
+TEST(PageSanitizer, AllowsRelativeUrlsAndUrlsOfHttp) {
   for (const char* url : {"a.png", "../b/c.x3d", "http://a/b", "HTTPS://a", "?x:y", "#a:b"})
     EXPECT_TRUE(isSafeUrl(url)) << url;
   for (const char* url : {"javascript:alert(1)", " JavaScript:alert(1)", "java\nscript:alert(1)", "\x01javascript:1",
@@ -37,7 +37,7 @@ std::size_t addOther(SceneGraph& graph, const std::string& element, std::vector<
   return addNode(graph, {"", GenericNode{element, text, {}}, std::move(children), "", std::move(fields)});
 }
 
-/// Everything that a hostile X3D document could try on a page.
+/// A document with all kinds of active content that a hostile X3D source might have.
 SceneDocument hostileDocument() {
   SceneDocument document;
   SceneGraph& graph = document.graph;
@@ -55,7 +55,7 @@ SceneDocument hostileDocument() {
   return document;
 }
 
-TEST(PageMarkup, KeepsAHostileDocumentFromRunningInThePage) {
+TEST(PageSanitizer, RemovesActiveContentOfAHostileDocument) {
   const std::string html = writeHtml(hostileDocument(), {"imgeo.js", "imgeo.css"});
   const std::string body = html.substr(html.find("<body>"));
   EXPECT_EQ(body.find("<script"), std::string::npos) << body;
@@ -66,7 +66,7 @@ TEST(PageMarkup, KeepsAHostileDocumentFromRunningInThePage) {
     EXPECT_NE(body.find(kept), std::string::npos) << kept << "\n" << body;
 }
 
-TEST(PageMarkup, KeepsTheStyleOfLettersFromBeingHtmls) {
+TEST(PageSanitizer, WritesTheStyleOfFontsAsADataAttribute) {
   SceneDocument document;
   document.graph.roots = {addOther(document.graph, "FontStyle", {{"style", "BOLD"}, {"size", "2"}})};
   EXPECT_NE(writeHtml(document, {"imgeo.js", "imgeo.css"}).find("<FontStyle size=\"2\" data-style=\"BOLD\">"),
@@ -74,7 +74,7 @@ TEST(PageMarkup, KeepsTheStyleOfLettersFromBeingHtmls) {
   EXPECT_NE(writeX3d(document).find("<FontStyle style=\"BOLD\" size=\"2\">"), std::string::npos);
 }
 
-TEST(PageMarkup, LeavesTheX3dFileAsItWas) {
+TEST(PageSanitizer, LeavesTheX3dFileUnchanged) {
   const std::string file = writeX3d(hostileDocument());
   for (const char* kept :
        {"<Script", "alert(3) &lt;/script&gt; ]]&gt;", "<meta", "<head>", "onclick", "javascript:alert(2)"})

@@ -23,7 +23,7 @@ constexpr std::size_t maxDepth = 256;               // of elements, and of nodes
 constexpr std::array nodeNames{"Shape",      "Group",    "Transform", "Viewpoint", "OrthoViewpoint", "DirectionalLight",
                                "PointLight", "SpotLight"};
 
-/// "0123456789abcdef.x3d": a document that `convert` wrote beside its scene.
+/// Whether a url is that of a document that `convert` has written: "0123456789abcdef.x3d".
 bool isNamedByContent(std::string_view url) {
   return url.size() == 20 && url.ends_with(".x3d") && url.find_first_not_of("0123456789abcdef") == 16;
 }
@@ -66,7 +66,7 @@ private:
     return children;
   }
 
-  /// The node that an element stands for, if it stands for one.
+  /// Reads the node of an element, if it is a node of the scene graph.
   std::optional<std::size_t> readChild(const FieldReader& fields, std::size_t depth) {
     const auto is = [&](const char* name) { return equalIgnoringCase(fields.node().name(), name); };
     if (is("WorldInfo")) {
@@ -90,12 +90,12 @@ private:
       if (const auto found = defined_.find(use); found != defined_.end())
         return found->second;
     } else if (hasElements(fields.node())) {
-      return add(fields, Group{}, readChildren(fields.node(), depth + 1)); // whatever it is, shapes may stand in it
+      return add(fields, Group{}, readChildren(fields.node(), depth + 1)); // an unknown element may contain shapes
     }
     return {};
   }
 
-  /// One of our own: its document lies beside this one, and is left to who opens files.
+  /// Reads an Inline whose document `convert` has written beside this one. The caller reads that document.
   std::optional<std::size_t> readInline(const FieldReader& fields) {
     if (const std::string use = fields.text("USE"); !use.empty())
       return defined_.contains(use) ? std::optional(defined_.at(use)) : std::nullopt;
@@ -170,9 +170,8 @@ private:
     return add(fields, Group{}, std::move(children));
   }
 
-  /// A Group with a box stands for one Shape (see x3dom_element.h) where it holds
-  /// nothing but Shapes that look alike and differ in their patches alone. Joins
-  /// the geometries to the first Shape's.
+  /// A Group with a box is one Shape (see x3dom_writer.h) if it contains only Shapes of one appearance whose geometries
+  /// differ in their patches alone. In this case joins the geometries to that of the first Shape.
   bool joinPatches(const FieldReader& fields, const std::vector<std::size_t>& children, std::size_t first) {
     const Box3d box = fields.box();
     if (box.empty() || children.empty() || document_.geometries.size() - first != children.size())
@@ -226,7 +225,7 @@ private:
       document_.graph.background = Background{Vec3f(Vec3d{colors[0], colors[1], colors[2]})};
   }
 
-  /// Nothing where its geometry stands in the document, or there is none.
+  /// Reads a Shape. Returns nothing if its geometry is inline in the document, or missing.
   std::optional<std::size_t> readShape(const FieldReader& fields) {
     std::optional<Shape> shape;
     std::optional<std::size_t> appearance;
@@ -265,7 +264,7 @@ private:
         fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });
     if (!hasPatches)
       geometry.patches[0].box = geometry.box;
-    // Only X3DOM's words for a patch are those of a shape.
+    // In documents for X3DOM each patch is a Shape of its own.
     const bool isWhole = hasPatches || rowOf(geometry).storage == PatchStorage::packed;
     document_.geometries.push_back(std::move(geometry));
     const std::string def = fields.text("DEF");
@@ -278,14 +277,14 @@ private:
   const DocumentText& source_;
   SceneDocument document_;
   AppearanceReader appearances_;
-  std::vector<std::size_t> heights_;           ///< by node: how deep the nodes below it go
-  std::vector<bool> isJoinable_;               ///< by geometry: it is its only patch, and nothing can USE it
+  std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
+  std::vector<bool> isJoinable_;               ///< by geometry: it is its own only patch, and has no DEF
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
-  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry stands in the document, or nowhere
+  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry is inline in the document, or missing
   std::map<std::string, Shape> definedGeometries_;
 };
 
-/// pugixml leaves references that it does not know as text; we refuse them, but in comments.
+/// Refuses unknown character references outside of comments, which pugixml would keep as text.
 void checkReferences(std::string_view text, const std::string& name, TextSpan span) {
   std::size_t comment = text.find("<!--", span.begin);
   for (std::size_t at = text.find('&', span.begin); at < span.end; at = text.find('&', at + 1)) {

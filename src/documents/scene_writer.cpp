@@ -40,9 +40,9 @@ Element contentElement(const SpotLight& light, const Attributes& names) {
   return nodeElement("SpotLight", light, names);
 }
 
-/// A name for something that has none and is used more than once.
-std::string wishFor(const std::string& name, std::size_t uses, const char* otherwise) {
-  return !name.empty() || uses < 2 ? name : otherwise;
+/// The requested DEF: `fallback` for an element without a name that is used more than once.
+std::string requestedName(const std::string& name, std::size_t uses, const char* fallback) {
+  return !name.empty() || uses < 2 ? name : fallback;
 }
 
 } // namespace
@@ -59,18 +59,18 @@ Attributes SceneWriter::Names::defOrUse(std::size_t index) {
   return {{wasWritten ? "USE" : "DEF", names_[index]}};
 }
 
-SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind medium,
+SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
                          std::optional<std::size_t> inlineNode)
     : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
       appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
       roots_(inlineNode ? document.graph.nodes.at(*inlineNode).children : document.graph.roots),
-      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head), medium_(medium),
+      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head), kind_(kind),
       geometryNames_(2 * document.geometries.size()) {
-  giveNames();
+  chooseNames();
 }
 
-/// Nodes first: scripts look for the names of things that are seen.
-void SceneWriter::giveNames() {
+/// Nodes choose first, and so keep the names that scripts refer to.
+void SceneWriter::chooseNames() {
   const SceneGraph& graph = document_.graph;
   std::vector<std::size_t> nodeUses(graph.nodes.size()), appearanceUses(graph.appearances.size()),
       textureUses(graph.textures.size()), geometryUses(2 * document_.geometries.size());
@@ -90,22 +90,22 @@ void SceneWriter::giveNames() {
   }
   for (const std::size_t index : order) {
     const Node& node = graph.nodes[index];
-    nodeNames_[index] = table_.take(wishFor(node.name, nodeUses[index], "shared"));
+    nodeNames_[index] = table_.take(requestedName(node.name, nodeUses[index], "shared"));
   }
   for (std::size_t i = 0; i < appearanceUses.size(); ++i)
     if (appearanceUses[i] > 0)
-      appearanceNames_[i] = table_.take(wishFor(graph.appearances[i].name, appearanceUses[i], "look"));
+      appearanceNames_[i] = table_.take(requestedName(graph.appearances[i].name, appearanceUses[i], "look"));
   for (std::size_t i = 0; i < textureUses.size(); ++i)
-    textureNames_[i] = textureUses[i] < 2 ? "" : table_.take(wishFor(graph.textures[i].name, 2, "texture"));
+    textureNames_[i] = textureUses[i] < 2 ? "" : table_.take(requestedName(graph.textures[i].name, 2, "texture"));
   for (std::size_t i = 0; i < geometryUses.size(); ++i)
     geometryNames_[i] = geometryUses[i] < 2 ? "" : table_.take("geometry");
 }
 
-/// Whether the source brings an element of its own.
-bool SceneWriter::hasOther(std::string_view element) const {
+/// Whether the source has an element of this name.
+bool SceneWriter::hasGenericNode(std::string_view element) const {
   return std::ranges::any_of(document_.graph.nodes, [&](const Node& node) {
-    const GenericNode* other = std::get_if<GenericNode>(&node.content);
-    return other && other->element == element;
+    const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+    return generic && generic->element == element;
   });
 }
 
@@ -113,21 +113,21 @@ void SceneWriter::writeHead() {
   const SceneGraph& graph = document_.graph;
   if (graph.isComplete)
     return;
-  if ((!graph.title.empty() || !graph.info.empty()) && !hasOther("WorldInfo")) {
+  if ((!graph.title.empty() || !graph.info.empty()) && !hasGenericNode("WorldInfo")) {
     Attributes fields{{"title", graph.title}};
     if (!graph.info.empty())
       fields.push_back({"info", strings(graph.info)});
     writer_.leaf({"WorldInfo", {fields}});
   }
-  if (!hasOther("NavigationInfo"))
+  if (!hasGenericNode("NavigationInfo"))
     writer_.leaf({"NavigationInfo", {{{"headlight", fieldText(graph.headlight)}}}});
   if (graph.background)
     writer_.leaf({"Background", {{{"skyColor", numbers(graph.background->skyColor)}}}});
 }
 
-/// What an X3D file says of itself; HTML has a head of its own.
+/// Writes the head of an X3D file; in a page it would collide with HTML's head.
 void SceneWriter::writeHeader() {
-  if (head_.header.empty() || medium_ == DocumentKind::page)
+  if (head_.header.empty() || kind_ == DocumentKind::page)
     return;
   const Element head{"head", {}};
   writer_.open(head);
@@ -171,7 +171,7 @@ Attributes SceneWriter::furtherFields(const Node& node) const {
 Attributes SceneWriter::allowedFields(const std::vector<FieldText>& all) const {
   Attributes fields;
   for (const FieldText& field : all) {
-    if (medium_ == DocumentKind::file) {
+    if (kind_ == DocumentKind::file) {
       fields.push_back({field.name, field.value});
       continue;
     }
@@ -189,23 +189,23 @@ Attribute SceneWriter::fontStyleAttribute(const std::string& style) const {
   return {"data-style", style};
 }
 
-/// A page has a Group where it may not have an element that others stand in.
-Element SceneWriter::otherElement(const GenericNode& other, const Node& node, const Attributes& names) const {
-  const bool isWritten = medium_ == DocumentKind::file || isAllowedInPage(other.element);
-  Element element{isWritten ? other.element : "Group", {names}};
+/// In a page an element that is not allowed, but has children, becomes a Group.
+Element SceneWriter::genericElement(const GenericNode& generic, const Node& node, const Attributes& names) const {
+  const bool isWritten = kind_ == DocumentKind::file || isAllowedInPage(generic.element);
+  Element element{isWritten ? generic.element : "Group", {names}};
   if (!isWritten)
     return element;
-  const ImageFile* image = other.image ? &document_.graph.images.at(*other.image) : nullptr;
+  const ImageFile* image = generic.image ? &document_.graph.images.at(*generic.image) : nullptr;
   for (Attribute& field : furtherFields(node)) {
     if (field.name == "preview" && image)
-      continue; // of the image that was found under the source's url
+      continue; // replaced by the preview of the image below
     if (field.name == "url" && image)
       field.value = strings({image->url});
-    if (field.name == "url" && other.document)
-      field.value = strings({document_.graph.inlined.at(*other.document).url});
+    if (field.name == "url" && generic.document)
+      field.value = strings({document_.graph.inlined.at(*generic.document).url});
     element.groups.back().push_back(std::move(field));
   }
-  if (medium_ == DocumentKind::page && other.element == "FontStyle")
+  if (kind_ == DocumentKind::page && generic.element == "FontStyle")
     for (const FieldText& field : node.fields)
       if (field.name == "style")
         element.groups.back().push_back(fontStyleAttribute(field.value));
@@ -215,8 +215,8 @@ Element SceneWriter::otherElement(const GenericNode& other, const Node& node, co
 }
 
 Element SceneWriter::elementOf(const Node& node, const Attributes& names) const {
-  if (const GenericNode* other = std::get_if<GenericNode>(&node.content))
-    return otherElement(*other, node, names);
+  if (const GenericNode* generic = std::get_if<GenericNode>(&node.content))
+    return genericElement(*generic, node, names);
   Element element = std::visit(
       [&](const auto& content) {
         if constexpr (std::is_same_v<decltype(content), const GenericNode&>)
@@ -225,7 +225,7 @@ Element SceneWriter::elementOf(const Node& node, const Attributes& names) const 
           return contentElement(content, names);
       },
       node.content);
-  Attributes further = furtherFields(node); // an X3D source's own words come before ours
+  Attributes further = furtherFields(node); // attributes of an X3D source replace ours
   std::erase_if(element.groups.back(), [&](const Attribute& attribute) {
     return std::ranges::find(further, attribute.name, &Attribute::name) != further.end();
   });
@@ -233,18 +233,18 @@ Element SceneWriter::elementOf(const Node& node, const Attributes& names) const 
   return element;
 }
 
-/// In a page comments are left out: HTML ends some of them sooner than XML.
+/// Comments are left out of pages, since HTML ends some of them earlier than XML.
 void SceneWriter::writeComment(const GenericNode& comment) {
-  if (medium_ == DocumentKind::file)
+  if (kind_ == DocumentKind::file)
     writer_.comment(comment.text);
 }
 
 void SceneWriter::writeNode(std::size_t index) {
   const Node& node = document_.graph.nodes[index];
-  const GenericNode* other = std::get_if<GenericNode>(&node.content);
-  if (other && other->element == commentElement)
-    return writeComment(*other);
-  if (other && medium_ == DocumentKind::page && node.children.empty() && !isAllowedInPage(other->element))
+  const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+  if (generic && generic->element == commentElement)
+    return writeComment(*generic);
+  if (generic && kind_ == DocumentKind::page && node.children.empty() && !isAllowedInPage(generic->element))
     return;
   const Attributes names = nodeNames_.defOrUse(index);
   if (isUse(names))
@@ -253,7 +253,7 @@ void SceneWriter::writeNode(std::size_t index) {
     return writeShape(node, names);
   const Element element = elementOf(node, names);
   if ((node.children.empty() || inlinesDocument(node)) && node.extras.empty())
-    return writer_.leaf(element, other && medium_ == DocumentKind::file ? other->text : "");
+    return writer_.leaf(element, generic && kind_ == DocumentKind::file ? generic->text : "");
   writer_.open(element);
   writeChildren(node);
   writer_.close(element);

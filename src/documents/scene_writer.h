@@ -1,6 +1,5 @@
 #pragma once
-// The <X3D> element: one text for both documents. A subclass writes shapes in the
-// dialect of another runtime.
+// Writes the <X3D> element of pages and X3D files. A subclass writes shapes for another runtime.
 
 #include "documents/documents.h"
 #include "documents/element_writer.h"
@@ -12,41 +11,41 @@
 
 namespace imgeo {
 
-/// A page runs what stands in it, a file does not (page_markup.h).
+/// Pages are sanitised (page_sanitizer.h), X3D files are not.
 enum class DocumentKind : std::uint8_t { page, file };
 
 class SceneWriter {
 public:
-  /// `document` outlives the writer; `level` is the element's indent. With an Inline's
-  /// node, the document that it shows is written instead.
-  SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind medium,
+  /// `document` must outlive the writer; `level` is the element's indentation level. With `inlineNode`, the document of
+  /// that Inline node is written instead.
+  SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
               std::optional<std::size_t> inlineNode = {});
   virtual ~SceneWriter() = default;
   SceneWriter(const SceneWriter&) = delete;
   SceneWriter& operator=(const SceneWriter&) = delete;
 
-  /// The element with all its children, ending in a newline. To be called once.
+  /// Returns the element with all its children, ending in a newline. To be called once.
   std::string write();
 
 protected:
-  /// Writes what stands for a Shape node; `names` is its DEF, if it has one.
+  /// Writes the element or elements of a Shape node; `names` is its DEF, if any.
   virtual void writeShape(const Node& node, const Attributes& names);
-  /// A page's attribute for the `style` of a FontStyle. `style` itself is HTML's there, and a
-  /// strict content policy refuses it.
+  /// A page's attribute for the `style` of a FontStyle. In a page `style` itself is HTML's attribute, which a strict
+  /// content security policy refuses.
   virtual Attribute fontStyleAttribute(const std::string& style) const;
   void writeExtras(const Node& node);
-  /// Extras and children: of an X3D source's Shape, what it has besides its geometry.
+  /// Writes extras and child nodes. The children of a Shape are those that an X3D source has besides the geometry.
   void writeChildren(const Node& node);
-  /// The further fields of a node's element, as far as they may stand in this medium.
+  /// The further fields of a node's element that are allowed in this kind of document.
   Attributes furtherFields(const Node& node) const;
   Attributes allowedFields(const std::vector<FieldText>& all) const;
 
-  /// Names that elements have, given when they are first written.
+  /// The DEF names of elements, and which of the elements have been written.
   class Names {
   public:
     Names(std::size_t count) : names_(count), written_(count) {}
     std::string& operator[](std::size_t index) { return names_[index]; }
-    /// Its DEF the first time, its USE from then on; nothing where it has no name.
+    /// The DEF at the first call, the USE from then on; nothing without a name.
     Attributes defOrUse(std::size_t index);
 
   private:
@@ -60,12 +59,12 @@ protected:
   Names nodeNames_, appearanceNames_, textureNames_;
 
 private:
-  void giveNames();
+  void chooseNames();
   void writeHeader();
   void writeComment(const GenericNode& comment);
   Element elementOf(const Node& node, const Attributes& names) const;
-  Element otherElement(const GenericNode& other, const Node& node, const Attributes& names) const;
-  bool hasOther(std::string_view element) const;
+  Element genericElement(const GenericNode& other, const Node& node, const Attributes& names) const;
+  bool hasGenericNode(std::string_view element) const;
   void writeHead();
   void writeNode(std::size_t index);
   void writeAppearanceOf(const Shape& shape);
@@ -73,11 +72,11 @@ private:
 
   const std::vector<std::size_t>& roots_;
   const DocumentHead& head_;
-  const DocumentKind medium_;
-  Names geometryNames_; ///< two for each: solid and not
+  const DocumentKind kind_;
+  Names geometryNames_; ///< two for each geometry: solid and not solid
 };
 
-/// Whether attributes are a USE, so that an element stands elsewhere.
+/// Whether attributes are a USE.
 bool isUse(const Attributes& names);
 
 } // namespace imgeo

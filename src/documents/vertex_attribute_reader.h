@@ -1,5 +1,5 @@
 #pragma once
-// FloatVertexAttribute elements, and what patches hold of them.
+// Reads FloatVertexAttribute elements and the references of patches to their values.
 
 #include "containers/geometry_description.h"
 #include "documents/field_reader.h"
@@ -10,8 +10,8 @@ namespace imgeo {
 std::vector<AttributeDescription> readVertexAttributes(const DocumentText& source, const pugi::xml_node& node,
                                                        Encoding encoding);
 
-/// A patch's references, which stand one attribute after the other, by attribute. Throws
-/// Error{malformed} where there are more or fewer than the attributes have files.
+/// Groups a patch's references, which are listed one attribute after the other, by attribute. Throws Error{malformed}
+/// if their number is not that of the attributes' files.
 std::vector<std::vector<Reference>> referencesByAttribute(const FieldReader& fields,
                                                           const std::vector<Reference>& references,
                                                           const std::vector<AttributeDescription>& attributes,

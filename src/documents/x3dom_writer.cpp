@@ -14,8 +14,8 @@ namespace imgeo {
 
 namespace {
 
-/// The one implicit mesh that X3DOM keeps for a page: as wide as every image
-/// that is counted through, and enough rows for the patch that needs most.
+/// The size of the one implicit mesh that X3DOM keeps for a page: the width of all index images, and the maximum number
+/// of rows of a patch.
 Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
   Vec2<std::uint32_t> size{0, 0};
   for (const GeometryDescription& geometry : document.geometries)
@@ -28,10 +28,10 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
 
 class X3domWriter : public SceneWriter {
 public:
-  X3domWriter(const SceneDocument& document, std::size_t level, DocumentKind medium,
+  X3domWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
               std::optional<std::size_t> inlineNode)
-      : SceneWriter(document, level, medium, inlineNode), sampling_(table_.take("exactTexels")),
-        shiningNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
+      : SceneWriter(document, level, kind, inlineNode), sampling_(table_.take("exactTexels")),
+        emissiveNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
   void writeShape(const Node& node, const Attributes& names) override {
@@ -39,10 +39,10 @@ private:
     const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
     if (geometry.patches.size() == 1)
       return writePatch(node, names, geometry, geometry.patches[0]);
-    if (shape.appearance) { // so that all but the first patch can USE it
-      std::string& look = appearanceNames(shines(geometry.patches[0]))[*shape.appearance];
-      if (look.empty())
-        look = table_.take(names.empty() ? "look" : names[0].value + "-look");
+    if (shape.appearance) { // needs a DEF, which all patches but the first USE
+      std::string& name = appearanceNames(isEmissive(geometry.patches[0]))[*shape.appearance];
+      if (name.empty())
+        name = table_.take(names.empty() ? "look" : names[0].value + "-look");
     }
     const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
     writer_.open(group);
@@ -52,27 +52,27 @@ private:
     writer_.close(group);
   }
 
-  /// X3DOM knows no other attribute for it. To HTML X3D's four words are no style at all; what
-  /// else a source says here might be one.
+  /// X3DOM has no other attribute for it. X3D's four values have no effect as an HTML style; other values of a source
+  /// might have one.
   Attribute fontStyleAttribute(const std::string& style) const override {
     constexpr std::string_view styles[] = {"PLAIN", "BOLD", "ITALIC", "BOLDITALIC"};
     return {"style", std::ranges::find(styles, style) != std::end(styles) ? style : "PLAIN"};
   }
 
-  /// X3DOM lights triangles alone; other elements shine in their emissive colour.
-  static bool shines(const PatchDescription& patch) { return !isLit(patch) && !patch.color; }
+  /// X3DOM lights triangles only; other elements are drawn in their emissive colour.
+  static bool isEmissive(const PatchDescription& patch) { return !isLit(patch) && !patch.color; }
 
-  Names& appearanceNames(bool shining) { return shining ? shiningNames_ : appearanceNames_; }
+  Names& appearanceNames(bool emissive) { return emissive ? emissiveNames_ : appearanceNames_; }
 
-  void writeAppearanceOf(const Shape& shape, bool shining) {
+  void writeAppearanceOf(const Shape& shape, bool emissive) {
     if (!shape.appearance)
       return;
-    const Attributes names = appearanceNames(shining).defOrUse(*shape.appearance);
+    const Attributes names = appearanceNames(emissive).defOrUse(*shape.appearance);
     if (isUse(names))
       return writer_.leaf({"Appearance", {names}});
     const Appearance& source = document_.graph.appearances.at(*shape.appearance);
     Material material = phongOf(source.material);
-    if (shining)
+    if (emissive)
       material.emissiveColor = material.diffuseColor;
     Appearance appearance{"", material, {}, AlphaMode::automatic, 0.5f};
     for (const TextureUse& use : source.textures)
@@ -82,7 +82,7 @@ private:
                     [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
   }
 
-  /// Without normals X3DOM would light by what it finds in other textures.
+  /// Without normals X3DOM would use the content of other textures for lighting.
   static bool isLit(const PatchDescription& patch) {
     const auto isTriangles = [](const Draw& draw) {
       return draw.primitive == Primitive::triangles || draw.primitive == Primitive::triangleStrip;
@@ -95,11 +95,11 @@ private:
     const Shape& shape = std::get<Shape>(node.content);
     const bool hasImages = rowOf(geometry).storage == PatchStorage::bytePlanes;
     if (hasImages)
-      names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
+      names.push_back({"isPickable", "false"}); // X3DOM's picking shader for images does not compile
     const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box, geometry.lattice)}};
     writer_.open(element);
     writeChildren(node);
-    writeAppearanceOf(shape, shines(patch));
+    writeAppearanceOf(shape, isEmissive(patch));
     if (hasImages)
       writeImages(geometry, patch, shape.solid);
     else
@@ -152,7 +152,7 @@ private:
     writer_.close(node);
   }
 
-  /// Texels must arrive as they are: not resized, not filtered, not repeated.
+  /// Texels must not be resized, filtered or repeated.
   void writeImage(const char* role, const Reference& image) {
     assert(image.location == FileLocation{TexelLocation{}});
     const Element texture{"ImageTexture",
@@ -172,15 +172,16 @@ private:
     writer_.close(texture);
   }
 
-  /// The stride as a query: a '+' in a file's name is a blank to some hosts.
+  /// Url with the stride as a query, since some hosts decode a '+' in a path as a space.
   static std::string strided(const Reference& file) {
     const ByteLocation& location = std::get<ByteLocation>(file.location);
     assert(location.byteOffset == 0);
     return file.url + (location.byteStride == 0 ? "" : "?+" + std::to_string(location.byteStride));
   }
 
-  /// Part of a record: X3DOM then takes all attributes from the coordinates' file.
-  static std::string placed(const Reference& file) {
+  /// Url with offset and stride of an attribute in interleaved records: X3DOM then reads all attributes from the
+  /// coordinates' file.
+  static std::string interleaved(const Reference& file) {
     const ByteLocation& location = std::get<ByteLocation>(file.location);
     return file.url + "#" + std::to_string(location.byteOffset) + "+" + std::to_string(location.byteStride);
   }
@@ -196,7 +197,7 @@ private:
       if (!file)
         return;
       types.push_back({typeField, nameOf(type)});
-      urls.push_back({role, isInterleaved && role != std::string("index") ? placed(*file) : strided(*file)});
+      urls.push_back({role, isInterleaved && role != std::string("index") ? interleaved(*file) : strided(*file)});
     };
     add("index", "indexType", geometry.indexType, patch.index);
     add("coord", "coordType", geometry.coordType, patch.coord.at(0));
@@ -213,15 +214,15 @@ private:
 
   std::string sampling_; ///< DEF of the TextureProperties that all images use
   bool samplingIsDefined_ = false;
-  Names shiningNames_; ///< of appearances where they shine
+  Names emissiveNames_; ///< names of the variants of appearances with emissive colour
   Vec2<std::uint32_t> implicitMeshSize_;
 };
 
 } // namespace
 
-std::string x3domElement(const SceneDocument& document, std::size_t level, DocumentKind medium,
+std::string x3domElement(const SceneDocument& document, std::size_t level, DocumentKind kind,
                          std::optional<std::size_t> inlineNode) {
-  return X3domWriter(document, level, medium, inlineNode).write();
+  return X3domWriter(document, level, kind, inlineNode).write();
 }
 
 } // namespace imgeo

@@ -62,7 +62,7 @@ std::size_t countOf(const std::string& text, const std::string& pattern) {
       std::distance(std::sregex_iterator(text.begin(), text.end(), expression), std::sregex_iterator()));
 }
 
-/// Both forms of one document read back as the same but for what X3DOM needs changed.
+/// Expects that a document reads back equal, except for the changes that X3DOM requires.
 void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
   const SceneDocument read = readScene(text, "x");
   const std::vector<std::size_t> shapes = shapeNodes(read.graph);
@@ -84,19 +84,19 @@ void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
   }
 }
 
-TEST(X3domElement, ReadsBackAsTheSameScene) {
+TEST(X3domWriter, WritesTheSameScene) {
   expectReadsBackAs(images(), writeX3domX3d(images()));
   expectReadsBackAs(arrays(), writeX3domX3d(arrays()));
   expectReadsBackAs(images(), writeX3domHtml(images(), {"x3dom/x3dom.js", "", "x3dom/x3dom.css", ""}, "imgeo.css"));
 }
 
-TEST(X3domElement, HasOneImplicitMeshForThePage) {
+TEST(X3domWriter, WritesOneImplicitMeshSizeForThePage) {
   const std::string text = x3domElement(images(), 0, DocumentKind::file);
   EXPECT_EQ(countOf(text, "implicitMeshSize=\"256 20\""), 4u);
   EXPECT_EQ(countOf(text, "implicitMeshSize"), 4u);
 }
 
-TEST(X3domElement, LetsNoTexelBeFilteredOrScaled) {
+TEST(X3domWriter, DisablesFilteringAndScalingOfTexels) {
   const std::string text = x3domElement(images(), 0, DocumentKind::file);
   const std::size_t textures = countOf(text, "<ImageTexture ");
   EXPECT_EQ(textures, 4u + 4 + 4 + 3);
@@ -106,7 +106,7 @@ TEST(X3domElement, LetsNoTexelBeFilteredOrScaled) {
   EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels\""), 1u);
 }
 
-TEST(X3domElement, GivesTheGroupTheNameAndItsShapesOneLook) {
+TEST(X3domWriter, GivesTheGroupTheNameAndItsShapesOneAppearance) {
   for (const SceneDocument& document : {images(), arrays()}) {
     const std::string text = x3domElement(document, 0, DocumentKind::file);
     EXPECT_EQ(countOf(text, "<Group DEF=\"statue\""), 1u);
@@ -117,7 +117,7 @@ TEST(X3domElement, GivesTheGroupTheNameAndItsShapesOneLook) {
   }
 }
 
-TEST(X3domElement, TakesNoNameThatAShapeHas) {
+TEST(X3domWriter, UsesNoNameOfAShape) {
   SceneDocument document = images();
   document.graph.nodes[1].name = "statue-look";
   document.graph.nodes[2].name = "exactTexels";
@@ -127,19 +127,19 @@ TEST(X3domElement, TakesNoNameThatAShapeHas) {
   EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels_2\""), 1u);
 }
 
-TEST(X3domElement, IsLitOnlyWhereThereAreNormals) {
+TEST(X3domWriter, IsLitOnlyWithNormals) {
   EXPECT_EQ(countOf(x3domElement(images(), 0, DocumentKind::file), "lit=\"false\""), 1u);
   EXPECT_EQ(countOf(x3domElement(images(), 0, DocumentKind::file), "emissiveColor"), 1u);
 }
 
-TEST(X3domElement, StatesAStrideAsAQuery) {
+TEST(X3domWriter, WritesAStrideAsAQuery) {
   const std::string text = x3domElement(arrays(), 0, DocumentKind::file);
   EXPECT_EQ(countOf(text, "coord=\"[a-d]c0.png\\?\\+8\""), 4u);
   EXPECT_EQ(countOf(text, "normal=\"[a-d]n.png\\?\\+4\""), 3u);
   EXPECT_EQ(countOf(text, "index=\"[a-d]i.png\""), 4u);
 }
 
-TEST(X3domElement, SaysWhereTheLatticeLiesInNoMoreDigitsThanThatTakes) {
+TEST(X3domWriter, WritesTheLatticeWithTheMinimumNumberOfDigits) {
   SceneDocument document = arrays();
   for (GeometryDescription& geometry : document.geometries)
     geometry.lattice = {{0.1, 0.2, 0.3}, 0.15 / 65535, 16};
@@ -147,7 +147,7 @@ TEST(X3domElement, SaysWhereTheLatticeLiesInNoMoreDigitsThanThatTakes) {
   EXPECT_EQ(countOf(text, "position=\"0.175 0.275 0.375\" size=\"0.15 0.15 0.15\""), 4u) << text;
 }
 
-TEST(X3domElement, HasTheStyleOfLettersInX3domsOwnWordsAndNoOther) {
+TEST(X3domWriter, WritesTheFourStylesOfFontsOnly) {
   SceneDocument document;
   for (const char* style : {"BOLDITALIC", "position: fixed"}) {
     const Node node{"", GenericNode{"FontStyle", "", {}}, {}, "", {{"style", style}}};

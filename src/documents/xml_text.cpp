@@ -36,8 +36,8 @@ bool continuesName(char32_t c) {
   return startsName(c) || isIn(ranges, c);
 }
 
-/// The character at `at`, which moves past it; U+FFFD and one byte for what is
-/// no UTF-8 (RFC 3629: shortest forms only, no surrogates).
+/// Decodes the character at `at` and advances `at`. Returns U+FFFD and advances by one byte if there is no valid UTF-8
+/// (RFC 3629: shortest forms only, no surrogates).
 char32_t decodeUtf8(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(at++);
@@ -55,8 +55,8 @@ char32_t decodeUtf8(std::string_view text, std::size_t& at) {
       return replacement;
     c = c << 6 | (byte(at + i) & 0x3f);
   }
-  const char32_t least[] = {0, 0x80, 0x800, 0x10000};
-  if (c < least[more] || !isXmlCharacter(c))
+  const char32_t minimum[] = {0, 0x80, 0x800, 0x10000};
+  if (c < minimum[more] || !isXmlCharacter(c))
     return replacement;
   at += more;
   return c;
@@ -96,7 +96,7 @@ const char* markup(char c) {
   }
 }
 
-/// A name in which every character that may not stand there is an underscore.
+/// An XML name in which underscores replace all characters that are not allowed.
 std::string xmlName(std::string_view text) {
   std::string name;
   for (std::size_t at = 0; at < text.size();) {
@@ -145,13 +145,13 @@ std::string quoteAttribute(std::string_view text) {
          quote;
 }
 
-std::string DefNames::take(std::string_view wish) {
-  const std::string wanted = xmlName(wish);
-  if (wanted.empty())
+std::string DefNames::take(std::string_view requested) {
+  const std::string valid = xmlName(requested);
+  if (valid.empty())
     return "";
-  std::string name = wanted;
+  std::string name = valid;
   while (!next_.try_emplace(name, 2).second)
-    name = wanted + "_" + std::to_string(next_[wanted]++);
+    name = valid + "_" + std::to_string(next_[valid]++);
   return name;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Text from anywhere -> text that XML 1.0 and HTML both hold and read alike.
+// Makes any text valid in XML 1.0 and HTML: character validity, escaping, and DEF names.
 
 #include <map>
 #include <string>
@@ -7,26 +7,25 @@
 
 namespace imgeo {
 
-/// UTF-8 in which every byte that is no UTF-8 and every character that XML 1.0
-/// forbids has become U+FFFD.
+/// Valid UTF-8: bytes that are not UTF-8 and characters that XML 1.0 forbids are replaced by U+FFFD.
 std::string validText(std::string_view text);
 
-/// Between tags.
+/// Escapes text between tags.
 std::string escapeText(std::string_view text);
 
-/// A quoted attribute value: in double quotes, or in single ones where only
-/// double quotes stand inside. Line ends and tabs survive the parsers.
+/// Quotes an attribute value: with double quotes, or with single quotes if it contains double quotes only. Line ends
+/// and tabs are escaped, so that parsers keep them.
 std::string quoteAttribute(std::string_view text);
 
-/// The names of a document's elements: valid XML names without colons, each given
-/// once. Names that are valid and not yet taken stay as they are.
+/// Assigns the DEF names of a document: unique, valid XML names without colons. Requested names that are valid and
+/// unused are not changed.
 class DefNames {
 public:
-  /// A name like `wish`, with a number behind it where that is taken; "" for "".
-  std::string take(std::string_view wish);
+  /// Assigns the requested name, made valid, with a number appended if it is used already; "" for "".
+  std::string take(std::string_view requested);
 
 private:
-  std::map<std::string, std::size_t> next_; ///< taken name -> the number to try for who wants it too
+  std::map<std::string, std::size_t> next_; ///< assigned name -> next number to append to it
 };
 
 } // namespace imgeo

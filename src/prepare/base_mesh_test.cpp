@@ -17,7 +17,7 @@ PatchedMesh patchedOf(Mesh mesh, std::uint32_t maxWedges, std::uint32_t bits = 1
   return cutIntoPatches(mesh, latticeFor(boxOf(mesh), bits), maxWedges);
 }
 
-/// Closed, of 20,000 triangles, and bumpy.
+/// A closed, bumpy mesh of 20,000 triangles.
 Mesh bumpyTorus() {
   Mesh mesh = torus(100, 100);
   Random random(1);
@@ -33,7 +33,7 @@ std::vector<PatchTriangles> trianglesOf(const PatchedMesh& mesh) {
   return triangles;
 }
 
-TEST(BaseMesh, ClosesAgainstPatchesInEveryMixture) {
+TEST(BaseMesh, HasNoCracksInAnyMixtureWithPatches) {
   const Mesh meshes[] = {sphere(90, 90), bumpyTorus()};
   for (const Mesh& mesh : meshes)
     for (const std::uint32_t maxWedges : {1200u, 4000u, 65535u}) {
@@ -46,7 +46,7 @@ TEST(BaseMesh, ClosesAgainstPatchesInEveryMixture) {
     }
 }
 
-TEST(BaseMesh, LeavesBordersOfTheMeshFreeAndThoseOfPatchesAsTheyAre) {
+TEST(BaseMesh, KeepsBordersBetweenPatchesButNotTheBorderOfTheMesh) {
   const PatchedMesh patched = patchedOf(grid(100), 1500);
   ASSERT_GT(patched.patches.size(), 5u);
   const std::optional<BaseMesh> base = baseOf(patched, 2);
@@ -59,23 +59,23 @@ TEST(BaseMesh, LeavesBordersOfTheMeshFreeAndThoseOfPatchesAsTheyAre) {
   EXPECT_LT(edges, 40u) << "the grid's own border is straight and needs few of its 101 vertices";
 }
 
-TEST(BaseMesh, DoesNotMeetPatchesWhenAVertexOfABorderMoves) {
+TEST(BaseMesh, DoesNotMeetPatchesWhenABorderVertexMoves) {
   const PatchedMesh patched = patchedOf(sphere(90, 90), 1500);
   const BaseMesh base = baseOf(patched, 2).value();
-  std::vector<std::set<std::uint32_t>> partsOf(base.positions.size());
+  std::vector<std::set<std::uint32_t>> segmentsOf(base.positions.size());
   for (std::size_t corner = 0; corner < base.corners.size(); ++corner)
-    partsOf[base.corners[corner]].insert(base.segments[corner / 3]);
-  const auto isShared = [](const std::set<std::uint32_t>& parts) { return parts.size() > 1; };
+    segmentsOf[base.corners[corner]].insert(base.segments[corner / 3]);
+  const auto isShared = [](const std::set<std::uint32_t>& segments) { return segments.size() > 1; };
   const auto meetsWithout = [&](auto found) {
     BaseMesh changed = base;
-    changed.positions[static_cast<std::size_t>(found - partsOf.begin())].z += 1;
+    changed.positions[static_cast<std::size_t>(found - segmentsOf.begin())].z += 1;
     return meetsAtBorders(changed, trianglesOf(patched));
   };
-  EXPECT_FALSE(meetsWithout(std::ranges::find_if(partsOf, isShared)));
-  EXPECT_TRUE(meetsWithout(std::ranges::find_if_not(partsOf, isShared)));
+  EXPECT_FALSE(meetsWithout(std::ranges::find_if(segmentsOf, isShared)));
+  EXPECT_TRUE(meetsWithout(std::ranges::find_if_not(segmentsOf, isShared)));
 }
 
-TEST(BaseMesh, HasTheTrianglesThatAreAskedFor) {
+TEST(BaseMesh, HasTheRequestedNumberOfTriangles) {
   const PatchedMesh patched = patchedOf(bumpyTorus(), 65535);
   for (const double percent : {1.0, 2.0, 10.0}) {
     const std::optional<BaseMesh> base = baseOf(patched, percent);
@@ -84,7 +84,7 @@ TEST(BaseMesh, HasTheTrianglesThatAreAskedFor) {
   }
 }
 
-TEST(BaseMesh, LiesWhereTheMeshDoes) {
+TEST(BaseMesh, IsCloseToTheMesh) {
   const PatchedMesh patched = patchedOf(sphere(100, 100), 65535, 12);
   const std::optional<BaseMesh> base = baseOf(patched, 2);
   ASSERT_TRUE(base);
@@ -93,7 +93,7 @@ TEST(BaseMesh, LiesWhereTheMeshDoes) {
     EXPECT_NEAR(length(Vec3d(position) - Vec3d{radius, radius, radius}), radius, 0.02 * radius);
 }
 
-TEST(BaseMesh, TakesColorsAlong) {
+TEST(BaseMesh, KeepsColors) {
   Mesh mesh = sphere(90, 90);
   for (const Vec3f& position : mesh.positions)
     mesh.colors.push_back(position.y > 0 ? Rgba8{255, 0, 0, 255} : Rgba8{0, 0, 255, 255});
@@ -110,7 +110,7 @@ TEST(BaseMesh, TakesColorsAlong) {
   }
 }
 
-TEST(BaseMesh, IsLeftOutWhereItIsNotWorthIt) {
+TEST(BaseMesh, IsLeftOutWhereItIsNotWorthItsBytes) {
   const auto hasBase = [](const Mesh& mesh, std::uint32_t maxWedges, double percent) {
     return baseOf(patchedOf(mesh, maxWedges), percent).has_value();
   };

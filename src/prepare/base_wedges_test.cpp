@@ -23,18 +23,18 @@ Based basedOf(Mesh mesh, std::uint32_t maxWedges) {
   return based;
 }
 
-/// By how much two places differ on a circle of length 1.
+/// The distance of two points on a circle of length 1.
 double around(double a, double b) {
   return std::abs(a - b - std::round(a - b));
 }
 
-/// Where a torus has a point in its texture.
+/// The texture coordinate of a point of a torus.
 Vec2<double> texCoordOf(Vec3d point) {
   const double radius = std::hypot(point.x, point.z) - 1;
   return {std::atan2(-point.z, point.x) / (2 * std::numbers::pi), std::atan2(point.y, radius) / (2 * std::numbers::pi)};
 }
 
-TEST(BaseSeams, LayTheTextureWhereItIsAndStretchItOverNoSeam) {
+TEST(BaseWedges, KeepTextureCoordinatesAndStretchNoTriangleAcrossASeam) {
   for (const std::uint32_t maxWedges : {2000u, 65535u}) {
     const Based based = basedOf(torus(100, 100), maxWedges);
     const BaseMesh& base = based.base;
@@ -54,7 +54,7 @@ TEST(BaseSeams, LayTheTextureWhereItIsAndStretchItOverNoSeam) {
   }
 }
 
-TEST(BaseSeams, AreThereOnlyWhereTheTextureHasOne) {
+TEST(BaseWedges, AreSeveralOnlyAtTextureSeams) {
   Mesh mesh = torus(100, 100);
   const Based seamed = basedOf(mesh, 65535);
   std::size_t split = 0;
@@ -70,7 +70,7 @@ TEST(BaseSeams, AreThereOnlyWhereTheTextureHasOne) {
   EXPECT_EQ(colored.base.colors.size(), colored.base.positions.size());
 }
 
-TEST(BaseSeams, TakeTheNearestOfTheAttributes) {
+TEST(BaseWedges, TakeTheAttributesOfTheNearestWedge) {
   Mesh mesh = sphere(100, 100);
   NamedAttribute height{"height", 1, {}};
   for (const Vec3f& position : mesh.positions)

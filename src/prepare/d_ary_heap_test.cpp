@@ -12,12 +12,12 @@ struct Number {
   bool isBefore(const Number& other) const { return value < other.value; }
 };
 
-TEST(DaryHeap, GivesTheFirstOfThoseThatAreLeft) {
+TEST(DaryHeap, PopsTheFirstOfItsItems) {
   std::mt19937 random(1);
   DaryHeap<Number> heap;
-  std::vector<unsigned> left; // the least comes last
+  std::vector<unsigned> left; // in descending order
   for (int i = 0; i < 5000; ++i) {
-    // Grows, and is emptied now and then.
+    // The heap grows and is emptied now and then.
     const bool isFilling = i / 250 % 4 != 3;
     if (isFilling || heap.empty()) {
       const auto value = static_cast<unsigned>(random() % 1000);

@@ -12,7 +12,7 @@ std::size_t collapsedOn(const Mesh& mesh, const Lattice& lattice) {
   return countCollapsedElements(mesh, quantise(mesh.positions, lattice), lattice.bits);
 }
 
-/// One triangle of these corners, and one of no area.
+/// A triangle with these corners, and a triangle without area.
 Mesh meshOf(Vec3f a, Vec3f b, Vec3f c) {
   Mesh mesh;
   mesh.positions = {a, b, c};
@@ -22,7 +22,7 @@ Mesh meshOf(Vec3f a, Vec3f b, Vec3f c) {
   return mesh;
 }
 
-TEST(CollapsedElements, AreTrianglesWhoseCornersFallTogetherOrIntoALine) {
+TEST(CollapsedElements, AreTrianglesWhoseCornersMoveOntoOnePointOrOneLine) {
   const Lattice unit{{0, 0, 0}, 1, 8};
   EXPECT_EQ(collapsedOn(meshOf({0, 0, 0}, {9, 0, 0}, {0, 9, 0}), unit), 0u);
   EXPECT_EQ(collapsedOn(meshOf({0, 0, 0}, {9, 0, 0}, {0.4f, 0.3f, 0}), unit), 1u);
@@ -30,7 +30,7 @@ TEST(CollapsedElements, AreTrianglesWhoseCornersFallTogetherOrIntoALine) {
   EXPECT_EQ(collapsedOn(meshOf({0, 0, 0}, {9, 0, 0}, {4, 0, 0}), unit), 0u) << "it never had an area";
 }
 
-TEST(CollapsedElements, AreToldApartAtTheFullRangeOfTheLattice) {
+TEST(CollapsedElements, AreFoundOverTheFullRangeOfTheLattice) {
   const Lattice fine{{0, 0, 0}, 1.0 / 4294967295.0, 32};
   EXPECT_EQ(collapsedOn(meshOf({0, 0, 0}, {1, 1, 1}, {1, 1, 0.99999994f}), fine), 0u);
   EXPECT_EQ(collapsedOn(meshOf({0, 0, 0}, {1, 0, 0}, {0.5f, 1e-11f, 0}), fine), 1u);
@@ -45,7 +45,7 @@ TEST(CollapsedElements, AreLinesWithoutLength) {
   EXPECT_EQ(collapsedOn(mesh, {{0, 0, 0}, 1, 8}), 1u);
 }
 
-TEST(CollapsedElements, GrowFewerWithEveryBit) {
+TEST(CollapsedElements, BecomeFewerWithEveryBit) {
   const Mesh mesh = testing::sphere(200, 200);
   std::size_t before = mesh.elementCount();
   for (const std::uint32_t bits : {8u, 10u, 12u, 16u}) {

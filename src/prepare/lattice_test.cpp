@@ -7,14 +7,14 @@
 namespace imgeo {
 namespace {
 
-TEST(Lattice, ErrsByHalfAStepAtMost) {
+TEST(Lattice, MovesPositionsByAtMostHalfAStep) {
   for (std::uint32_t seed = 0; seed < 60; ++seed) {
     const Mesh mesh = testing::randomMesh(seed);
     const Box3d box = boxOf(mesh);
     for (const std::uint32_t bits : {8u, 11u, 16u, 24u, 32u}) {
       const Lattice lattice = latticeFor(box, bits);
       const std::vector<Vec3u> quantised = quantise(mesh.positions, lattice);
-      // Rounding of the double arithmetic itself, in units of the box's coordinates.
+      // Allows for the rounding of double arithmetic, in units of the box's coordinates.
       const double rounding = 4e-16 * (length(box.min) + length(box.max));
       for (std::size_t i = 0; i < quantised.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) {
@@ -47,7 +47,7 @@ TEST(Lattice, HasAStepEvenWithoutExtent) {
   EXPECT_EQ(latticeFor(Box3d{}, 16).origin, Vec3d{});
 }
 
-TEST(Lattice, HoldsTheWholeRangeOfFloats) {
+TEST(Lattice, CoversTheWholeRangeOfFloats) {
   const float huge = std::numeric_limits<float>::max();
   const std::vector<Vec3f> positions{{-huge, 0, 0}, {huge, 0, huge}};
   Box3d box;

@@ -1,7 +1,7 @@
-// Hierholzer and Wiener, "Über die Möglichkeit, einen Linienzug ohne Wiederholung
-// und ohne Unterbrechung zu umfahren", 1873: where an even number of lines ends at
-// every vertex, one closed trail draws them all. Vertices where it is odd get one
-// more line, which no pen draws, two by two; it is where the trails are cut.
+// Hierholzer's algorithm (Hierholzer and Wiener, "Über die Möglichkeit, einen Linienzug ohne Wiederholung und ohne
+// Unterbrechung zu umfahren", 1873): a connected graph whose vertices all have even degree has a closed trail through
+// all edges (an Euler circuit). Additional edges connect the vertices of odd degree in pairs; the circuit is cut into
+// strips at these edges.
 
 #include "prepare/line_strips.h"
 
@@ -13,10 +13,10 @@ namespace imgeo {
 
 namespace {
 
-class TrailWalk {
+class EulerCircuits {
 public:
-  TrailWalk(std::span<const std::uint32_t> vertices, std::size_t vertexCount)
-      : vertices_(vertices.begin(), vertices.end()), drawnCorners_(vertices.size()) {
+  EulerCircuits(std::span<const std::uint32_t> vertices, std::size_t vertexCount)
+      : vertices_(vertices.begin(), vertices.end()), inputCornerCount_(vertices.size()) {
     std::vector<bool> isOdd(vertexCount);
     for (const std::uint32_t vertex : vertices)
       isOdd[vertex] = !isOdd[vertex];
@@ -24,19 +24,19 @@ public:
       if (isOdd[vertex])
         vertices_.push_back(vertex);
     incidence_ = incidenceOf(vertices_.size(), vertexCount, [&](std::size_t corner) { return vertices_[corner]; });
-    // Taken from the back, the undrawn line of a vertex comes first and the others
-    // from last to first; the trail comes out the other way round.
+    // Lines are taken from the back of each vertex's list: first its additional line, then the others from last to
+    // first. The circuit is output in reverse, so that an open line keeps its direction.
     left_.assign(incidence_.offsets.begin() + 1, incidence_.offsets.end());
     isUsed_.resize(vertices_.size() / 2);
-    trails_.corners.reserve(drawnCorners_ / 2);
+    strips_.corners.reserve(inputCornerCount_ / 2);
   }
 
   LineStrips run() && {
-    for (std::size_t corner = drawnCorners_; corner < vertices_.size(); ++corner)
+    for (std::size_t corner = inputCornerCount_; corner < vertices_.size(); ++corner)
       walkFrom(vertices_[corner]);
     for (const std::uint32_t vertex : vertices_)
       walkFrom(vertex);
-    return std::move(trails_);
+    return std::move(strips_);
   }
 
 private:
@@ -44,10 +44,10 @@ private:
 
   struct Step {
     std::uint32_t vertex;
-    std::uint32_t corner; ///< at which a line has led here
+    std::uint32_t corner; ///< the corner at which the previous line has arrived
   };
 
-  /// The closed trail through a vertex, and with it every line that hangs together with it.
+  /// Outputs the Euler circuit of the connected component of `start`.
   void walkFrom(std::uint32_t start) {
     path_.push_back({start, none});
     while (!path_.empty()) {
@@ -57,14 +57,14 @@ private:
         continue;
       }
       path_.pop_back();
-      if (last.corner < drawnCorners_)
-        trails_.corners.push_back(last.corner);
+      if (last.corner < inputCornerCount_)
+        strips_.corners.push_back(last.corner);
       else
-        endTrail();
+        endStrip();
     }
   }
 
-  /// The corner at `vertex` of a line that has not been walked yet.
+  /// Takes an unused line at `vertex` and returns its corner there, or none.
   std::uint32_t takeLine(std::uint32_t vertex) {
     while (left_[vertex] > incidence_.offsets[vertex]) {
       const std::uint32_t corner = incidence_.corners[--left_[vertex]];
@@ -76,26 +76,26 @@ private:
     return none;
   }
 
-  void endTrail() {
-    const std::uint32_t begin = trails_.ends.empty() ? 0 : trails_.ends.back();
-    if (trails_.corners.size() > begin)
-      trails_.ends.push_back(static_cast<std::uint32_t>(trails_.corners.size()));
+  void endStrip() {
+    const std::uint32_t begin = strips_.ends.empty() ? 0 : strips_.ends.back();
+    if (strips_.corners.size() > begin)
+      strips_.ends.push_back(static_cast<std::uint32_t>(strips_.corners.size()));
   }
 
-  std::vector<std::uint32_t> vertices_; ///< by corner; those of the undrawn lines last
-  std::size_t drawnCorners_;
+  std::vector<std::uint32_t> vertices_; ///< by corner; those of the additional lines last
+  std::size_t inputCornerCount_;
   Incidence incidence_;
-  std::vector<std::uint32_t> left_; ///< by vertex: where its corners not yet looked at end
+  std::vector<std::uint32_t> left_; ///< by vertex: end of its corners that have not been visited
   std::vector<bool> isUsed_;        ///< by line
   std::vector<Step> path_;
-  LineStrips trails_;
+  LineStrips strips_;
 };
 
 } // namespace
 
 LineStrips findLineStrips(std::span<const std::uint32_t> vertices, std::size_t vertexCount) {
   assert(vertices.size() % 2 == 0);
-  return TrailWalk(vertices, vertexCount).run();
+  return EulerCircuits(vertices, vertexCount).run();
 }
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// Lines in the order in which a pen would draw them.
+// Decomposition of lines into line strips.
 
 #include <cstdint>
 #include <span>
@@ -7,25 +7,23 @@
 
 namespace imgeo {
 
-/// LineStrips one behind the other. Line l has the corners 2l and 2l + 1; it stands in a
-/// trail as the corner that is walked from, and the other one, corner ^ 1, is at the
-/// vertex that the next line begins at. Trail i is corners[ends[i - 1] .. ends[i]),
-/// from 0 for the first.
+/// A list of line strips. Line l has the corners 2l and 2l + 1. A strip refers to each of its lines by the corner at
+/// which the line begins; the line ends at the other corner, corner ^ 1, where the next line of the strip begins.
+/// Strip i is corners[ends[i - 1] .. ends[i]); the first begins at 0.
 struct LineStrips {
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> ends;
 
   std::size_t count() const { return ends.size(); }
-  std::span<const std::uint32_t> trail(std::size_t i) const {
+  std::span<const std::uint32_t> strip(std::size_t i) const {
     const std::uint32_t begin = i == 0 ? 0 : ends[i - 1];
     return std::span(corners).subspan(begin, ends[i] - begin);
   }
 };
 
-/// Every line of `vertices` (the vertex of each corner, below `vertexCount`; the two
-/// of a line may be equal) in exactly one trail, in as few trails as there can be: half as
-/// many as vertices where an odd number of lines end, one for each other group of
-/// connected lines. Linear time.
+/// Puts every line into exactly one strip, with the minimum number of strips: half the number of vertices of odd
+/// degree, plus one for each connected component without such vertices. `vertices` has the vertex, below
+/// `vertexCount`, of each corner; the two vertices of a line may be equal. Linear time.
 LineStrips findLineStrips(std::span<const std::uint32_t> vertices, std::size_t vertexCount);
 
 } // namespace imgeo

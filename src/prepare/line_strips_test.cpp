@@ -25,17 +25,16 @@ Lines linesIn(const std::vector<std::uint32_t>& corners) {
   return sorted(lines);
 }
 
-/// The lines in their order, each from where it is walked to where it leads.
-Lines linesIn(std::span<const std::uint32_t> trail, const std::vector<std::uint32_t>& corners) {
+/// The lines of a strip in order, each from its begin to its end.
+Lines linesIn(std::span<const std::uint32_t> strip, const std::vector<std::uint32_t>& corners) {
   Lines lines;
-  for (const std::uint32_t corner : trail)
+  for (const std::uint32_t corner : strip)
     lines.push_back({corners[corner], corners[corner ^ 1]});
   return lines;
 }
 
-/// Half the vertices where an odd number of lines end; a group of connected lines
-/// that has none of those needs one trail.
-std::size_t fewestTrails(const std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
+/// Half the number of vertices of odd degree, plus one for each connected component without such vertices.
+std::size_t minStripCount(const std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
   std::vector<std::uint32_t> group(vertexCount), valence(vertexCount);
   for (std::uint32_t v = 0; v < vertexCount; ++v)
     group[v] = v;
@@ -53,13 +52,13 @@ std::size_t fewestTrails(const std::vector<std::uint32_t>& corners, std::size_t 
     oddOfGroup[rootOf(v)] += valence[v] % 2;
     linesOfGroup[rootOf(v)] += valence[v];
   }
-  std::size_t trails = 0;
+  std::size_t strips = 0;
   for (std::uint32_t v = 0; v < vertexCount; ++v)
-    trails += linesOfGroup[v] == 0 ? 0 : std::max(1u, oddOfGroup[v] / 2);
-  return trails;
+    strips += linesOfGroup[v] == 0 ? 0 : std::max(1u, oddOfGroup[v] / 2);
+  return strips;
 }
 
-TEST(LineStrips, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
+TEST(LineStrips, DrawEveryLineOnceWithTheMinimumNumberOfStrips) {
   testing::Random random(1);
   for (std::uint32_t round = 0; round < 500; ++round) {
     const std::uint32_t vertices = 1 + random.below(round % 2 ? 60 : 8);
@@ -67,11 +66,11 @@ TEST(LineStrips, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
     for (std::uint32_t i = random.below(100); i > 0; --i)
       for (int end = 0; end < 2; ++end)
         corners.push_back(random.below(vertices));
-    const LineStrips trails = findLineStrips(corners, vertices);
-    EXPECT_EQ(sorted(linesIn(trails.corners, corners)), linesIn(corners));
-    EXPECT_EQ(trails.count(), fewestTrails(corners, vertices));
-    for (std::size_t i = 0; i < trails.count(); ++i) {
-      const Lines lines = linesIn(trails.trail(i), corners);
+    const LineStrips strips = findLineStrips(corners, vertices);
+    EXPECT_EQ(sorted(linesIn(strips.corners, corners)), linesIn(corners));
+    EXPECT_EQ(strips.count(), minStripCount(corners, vertices));
+    for (std::size_t i = 0; i < strips.count(); ++i) {
+      const Lines lines = linesIn(strips.strip(i), corners);
       EXPECT_FALSE(lines.empty());
       for (std::size_t n = 1; n < lines.size(); ++n)
         EXPECT_EQ(lines[n].first, lines[n - 1].second);
@@ -81,9 +80,9 @@ TEST(LineStrips, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
 
 TEST(LineStrips, KeepTheDirectionOfAnOpenLine) {
   const std::vector<std::uint32_t> corners{3, 4, 4, 5, 5, 6, 0, 1, 1, 2};
-  const LineStrips trails = findLineStrips(corners, 7);
-  EXPECT_EQ(trails.corners, (std::vector<std::uint32_t>{6, 8, 0, 2, 4}));
-  EXPECT_EQ(trails.ends, (std::vector<std::uint32_t>{2, 5}));
+  const LineStrips strips = findLineStrips(corners, 7);
+  EXPECT_EQ(strips.corners, (std::vector<std::uint32_t>{6, 8, 0, 2, 4}));
+  EXPECT_EQ(strips.ends, (std::vector<std::uint32_t>{2, 5}));
 }
 
 } // namespace

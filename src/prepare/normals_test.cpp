@@ -14,7 +14,7 @@ double degreesBetween(Vec3f a, Vec3f b) {
   return std::atan2(length(cross(Vec3d(a), Vec3d(b))), dot(Vec3d(a), Vec3d(b))) * 180 / std::numbers::pi;
 }
 
-/// By the book: each triangle adds its weighted unit normal to its three positions.
+/// The reference: each triangle adds its weighted unit normal to its three positions.
 std::vector<Vec3d> scatteredNormals(const Mesh& mesh, NormalWeighting weighting) {
   std::vector<Vec3d> sums(mesh.positions.size());
   for (std::size_t first = 0; first < mesh.corners.size(); first += 3)
@@ -33,7 +33,7 @@ std::vector<Vec3d> scatteredNormals(const Mesh& mesh, NormalWeighting weighting)
   return sums;
 }
 
-TEST(Normals, OfASphereAreItsDirections) {
+TEST(Normals, OfASphereAreItsRadii) {
   const Mesh sphere = testing::sphere(60, 120);
   for (const NormalWeighting weighting : everyWeighting) {
     Mesh mesh = sphere;
@@ -43,7 +43,7 @@ TEST(Normals, OfASphereAreItsDirections) {
   }
 }
 
-TEST(Normals, AgreeWithTheFormula) {
+TEST(Normals, AgreeWithTheReference) {
   for (std::uint32_t seed = 0; seed < 60; ++seed)
     for (const NormalWeighting weighting : everyWeighting) {
       Mesh mesh = testing::randomMesh(seed);
@@ -59,13 +59,13 @@ TEST(Normals, AgreeWithTheFormula) {
         for (const Vec3d& s : expected)
           largest = std::max(largest, length(s));
         if (length(sum) < 1e-6 * largest)
-          continue; // what cancels out has no direction to compare
+          continue; // a sum near zero has no direction to compare
         ASSERT_LT(degreesBetween(mesh.normals[wedge], Vec3f(sum * (1 / length(sum)))), 1e-3) << seed;
       }
     }
 }
 
-TEST(Normals, PointSomewhereWhereThereIsNoArea) {
+TEST(Normals, AreUnitVectorsWhereThereIsNoArea) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 9, 9}};
   testing::addPlainWedges(mesh);

@@ -12,7 +12,7 @@
 namespace imgeo {
 namespace {
 
-/// An element as the values of its corners: what must survive the cut.
+/// An element as the values of its corners, which division into patches must keep.
 template <typename Piece>
 std::vector<double> elementOf(const Piece& piece, const std::vector<Vec3u>& positions, std::size_t element) {
   std::vector<double> value;
@@ -53,7 +53,7 @@ void expectWellFormed(const Patch& patch, std::uint32_t maxWedges) {
   EXPECT_EQ(std::count(positions.begin(), positions.end(), true), static_cast<std::ptrdiff_t>(patch.positions.size()));
 }
 
-TEST(Patches, HoldEveryElementOnce) {
+TEST(Patches, ContainEveryElementOnce) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Mesh mesh = testing::randomMesh(seed);
     weld(mesh);
@@ -69,7 +69,7 @@ TEST(Patches, HoldEveryElementOnce) {
   }
 }
 
-TEST(Patches, HoldLinesToo) {
+TEST(Patches, MayContainLines) {
   Mesh mesh = testing::grid(20);
   mesh.topology = Topology::lines;
   std::multiset<std::vector<double>> expected, found;
@@ -79,9 +79,8 @@ TEST(Patches, HoldLinesToo) {
   EXPECT_TRUE(found == expected);
 }
 
-TEST(Patches, AgreeOnTheirBorders) {
-  // Every lattice position of the mesh stands in the patches bit for bit, and
-  // none stands there that the mesh does not have.
+TEST(Patches, HaveEqualPositionsOnTheirBorders) {
+  // The patches have exactly the lattice positions of the mesh.
   const Mesh mesh = testing::torus(60, 60);
   std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> expected, found;
   for (const Vec3u& p : quantise(mesh.positions, latticeFor(boxOf(mesh), 16)))
@@ -106,7 +105,7 @@ TEST(Patches, AreWellFilledAndTight) {
       const Box3d box = boxOf(patch, result.lattice);
       whole.add(box.min);
       whole.add(box.max);
-      // A share of the area that matches its share of the elements.
+      // A patch's share of the area matches its share of the elements.
       const double area = box.size().x * box.size().y;
       EXPECT_LT(area, 1.3 * static_cast<double>(patch.elementCount()) / static_cast<double>(mesh.elementCount()));
     }
@@ -114,7 +113,7 @@ TEST(Patches, AreWellFilledAndTight) {
   }
 }
 
-TEST(Patches, AreMadeEvenWhereAllCentroidsAreOne) {
+TEST(Patches, AreMadeEvenIfAllCentroidsAreEqual) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const double angle = 2 * std::numbers::pi * i / 3000;
@@ -139,7 +138,7 @@ TEST(Patches, AreMadeEvenWhereAllCentroidsAreOne) {
     EXPECT_LE(patch.corners.size(), maxPatchCorners);
 }
 
-TEST(Patches, AreMadeEvenWhereAllTrianglesShareOneVertex) {
+TEST(Patches, AreMadeEvenIfAllTrianglesShareOneVertex) {
   Mesh mesh;
   mesh.positions.push_back({0, 0, 1});
   const std::uint32_t rim = 100000;
@@ -159,7 +158,7 @@ TEST(Patches, AreMadeEvenWhereAllTrianglesShareOneVertex) {
   EXPECT_EQ(elements, rim);
 }
 
-TEST(Patches, OfNothingAreNone) {
+TEST(Patches, OfAnEmptyMeshAreNone) {
   EXPECT_TRUE(cut(Mesh{}, 100).patches.empty());
   EXPECT_TRUE(cut(Mesh{}, 100).box.empty());
 }

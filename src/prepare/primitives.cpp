@@ -14,7 +14,7 @@ namespace imgeo {
 
 namespace {
 
-/// Splits wedges into vertices: vertex i is wedge order[i].
+/// Makes vertices of wedges: vertex i is wedge order[i].
 IndexedPatch verticesOf(const Patch& patch, const std::vector<std::uint32_t>& order) {
   IndexedPatch result;
   static_cast<VertexAttributes&>(result) = gather(patch, order);
@@ -22,7 +22,7 @@ IndexedPatch verticesOf(const Patch& patch, const std::vector<std::uint32_t>& or
   return result;
 }
 
-/// Draws over a sequence of wedges; vertices are numbered by first use.
+/// Makes a patch that draws a sequence of wedges; vertices are numbered by first use.
 IndexedPatch drawWedges(const Patch& patch, std::vector<Draw> draws, std::vector<std::uint32_t> wedges) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> vertexOf(patch.wedgeCount(), none), order;
@@ -40,15 +40,15 @@ IndexedPatch drawWedges(const Patch& patch, std::vector<Draw> draws, std::vector
   return result;
 }
 
-/// All of them in one draw.
+/// The same with one draw.
 IndexedPatch drawWedges(const Patch& patch, Primitive primitive, std::vector<std::uint32_t> wedges) {
   const auto count = narrow<std::uint32_t>(wedges.size());
   return drawWedges(patch, std::vector<Draw>{{primitive, count}}, std::move(wedges));
 }
 
-/// The corners' wedges, triangles in fan order. The fans are those of positions,
-/// not of wedges: an order that crosses creases and seams keeps neighbours in
-/// space together (docs/decisions/vertex-order.md).
+/// The wedges of all corners, with the triangles in fan order. Fans are formed around positions and not around wedges,
+/// so that the order crosses creases and seams and keeps neighbours in space together
+/// (docs/decisions/vertex-order.md).
 std::vector<std::uint32_t> inFanOrder(const Patch& patch) {
   std::vector<std::uint32_t> cornerPositions = patch.corners;
   for (std::uint32_t& corner : cornerPositions)
@@ -59,25 +59,25 @@ std::vector<std::uint32_t> inFanOrder(const Patch& patch) {
   return wedges;
 }
 
-/// Fewer lines than this are no strip of their own: a draw takes some twenty bytes
-/// of the document and a call each frame, and saves less than an index a line.
-constexpr std::size_t fewestStripLines = 64;
+/// Minimum number of lines of a strip. A draw takes some twenty bytes of the document and one draw call in each frame,
+/// and saves less than an index a line.
+constexpr std::size_t minStripLines = 64;
 
-/// LineStrips of at least so many lines as strips, all others as separate lines behind them.
-IndexedPatch drawTrails(const Patch& patch, std::size_t fewestInStrip) {
+/// Draws line strips of at least `minLines` lines as strips, then the lines of all others separately.
+IndexedPatch drawLineStrips(const Patch& patch, std::size_t minLines) {
   assert(patch.topology == Topology::lines);
   const std::vector<std::uint32_t>& corners = patch.corners;
-  const LineStrips trails = findLineStrips(corners, patch.wedgeCount());
+  const LineStrips strips = findLineStrips(corners, patch.wedgeCount());
   std::vector<Draw> draws;
   std::vector<std::uint32_t> wedges, separate;
-  for (std::size_t i = 0; i < trails.count(); ++i) {
-    const std::span<const std::uint32_t> trail = trails.trail(i);
-    const bool isStrip = trail.size() >= fewestInStrip;
+  for (std::size_t i = 0; i < strips.count(); ++i) {
+    const std::span<const std::uint32_t> strip = strips.strip(i);
+    const bool isStrip = strip.size() >= minLines;
     if (isStrip) {
-      draws.push_back({Primitive::lineStrip, narrow<std::uint32_t>(trail.size() + 1)});
-      wedges.push_back(corners[trail.front()]);
+      draws.push_back({Primitive::lineStrip, narrow<std::uint32_t>(strip.size() + 1)});
+      wedges.push_back(corners[strip.front()]);
     }
-    for (const std::uint32_t corner : trail)
+    for (const std::uint32_t corner : strip)
       if (isStrip)
         wedges.push_back(corners[corner ^ 1]);
       else
@@ -89,8 +89,8 @@ IndexedPatch drawTrails(const Patch& patch, std::size_t fewestInStrip) {
   return drawWedges(patch, std::move(draws), std::move(wedges));
 }
 
-/// What the draws of a patch produce: calls visit(primitive, places) with the
-/// places in the sequence of drawn vertices that each draw begins and ends at.
+/// Calls visit(primitive, begin, end) for each draw of a patch; begin and end are positions in the sequence of drawn
+/// vertices.
 template <typename Visit> void visitDraws(const IndexedPatch& patch, Visit visit) {
   std::size_t first = 0;
   for (const Draw& draw : patch.draws) {
@@ -99,8 +99,8 @@ template <typename Visit> void visitDraws(const IndexedPatch& patch, Visit visit
   }
 }
 
-std::uint32_t vertexAt(const IndexedPatch& patch, std::size_t place) {
-  return patch.indices.empty() ? static_cast<std::uint32_t>(place) : patch.indices[place];
+std::uint32_t vertexAt(const IndexedPatch& patch, std::size_t drawn) {
+  return patch.indices.empty() ? static_cast<std::uint32_t>(drawn) : patch.indices[drawn];
 }
 
 bool differ(const IndexedPatch& patch, std::uint32_t a, std::uint32_t b) {
@@ -130,9 +130,9 @@ IndexedPatch asTriangles(const Patch& patch) {
 
 IndexedPatch asStrips(const Patch& patch, int effort) {
   assert(patch.topology == Topology::triangles);
-  Strips strips = makeStrips(inFanOrder(patch), patch.wedgeCount(), effort);
+  TriangleStrips strips = makeTriangleStrips(inFanOrder(patch), patch.wedgeCount(), effort);
   if (strips.strip.empty() && strips.triangles.empty())
-    return asTriangles(patch); // all of them degenerate: something has to stand in the patch
+    return asTriangles(patch); // all are degenerate: a patch must not be empty
   std::vector<Draw> draws;
   if (!strips.strip.empty())
     draws.push_back({Primitive::triangleStrip, narrow<std::uint32_t>(strips.strip.size())});
@@ -143,11 +143,11 @@ IndexedPatch asStrips(const Patch& patch, int effort) {
 }
 
 IndexedPatch asLines(const Patch& patch) {
-  return drawTrails(patch, std::numeric_limits<std::size_t>::max());
+  return drawLineStrips(patch, std::numeric_limits<std::size_t>::max());
 }
 
 IndexedPatch asLineStrips(const Patch& patch) {
-  return drawTrails(patch, fewestStripLines);
+  return drawLineStrips(patch, minStripLines);
 }
 
 /// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose
@@ -217,7 +217,7 @@ std::vector<Vec3u> trianglesOf(const IndexedPatch& patch) {
         add(i, i + 1, i + 2);
     if (primitive == Primitive::triangleStrip)
       for (std::size_t i = first; i + 3 <= end; ++i) {
-        const std::size_t odd = (i - first) % 2; // every second triangle of a strip is mirrored
+        const std::size_t odd = (i - first) % 2; // every second triangle of a strip is reversed
         add(i + odd, i + 1 - odd, i + 2);
       }
   });

@@ -9,7 +9,7 @@
 namespace imgeo {
 namespace {
 
-/// A triangle as the values of its corners, turned so that the least comes first.
+/// A triangle as the values of its corners, rotated so that the least comes first.
 using Corner = std::array<double, 12>;
 using Triangle = std::array<Corner, 3>;
 
@@ -65,7 +65,7 @@ Patch patchOf(Mesh mesh) {
   return cutIntoPatches(mesh, latticeFor(boxOf(mesh), 20), 65535).patches.at(0);
 }
 
-/// Triangles of any kind between `vertices` vertices: hardly a manifold edge among them.
+/// Random triangles between `vertices` vertices, with hardly a manifold edge among them.
 Patch tangle(std::uint32_t triangles, std::uint32_t vertices, std::uint32_t seed) {
   testing::Random random(seed);
   Mesh mesh;
@@ -79,7 +79,7 @@ Patch tangle(std::uint32_t triangles, std::uint32_t vertices, std::uint32_t seed
   return patchOf(mesh);
 }
 
-/// A vertex all around which lie `count` triangles.
+/// A closed fan of `count` triangles around a vertex.
 Patch wheel(std::uint32_t count) {
   Mesh mesh;
   mesh.positions.push_back({0, 0, 1});
@@ -126,7 +126,7 @@ void expectNumberedByFirstUse(const IndexedPatch& result) {
   ASSERT_EQ(used, result.vertexCount());
 }
 
-TEST(Triangles, AreThePatchsTriangles) {
+TEST(Triangles, AreThoseOfThePatch) {
   for (const Patch& patch : everyKindOfPatch()) {
     const IndexedPatch result = asTriangles(patch);
     expectWhole(result);
@@ -137,7 +137,7 @@ TEST(Triangles, AreThePatchsTriangles) {
   }
 }
 
-TEST(Triangles, ComeInFansOfTheirFirstVertex) {
+TEST(Triangles, AreGroupedIntoFansOfTheirFirstVertex) {
   const IndexedPatch result = asTriangles(patchOf(testing::sphere(20, 30)));
   for (std::size_t i = 3; i < result.indices.size(); i += 3)
     EXPECT_LE(result.indices[i - 3], result.indices[i]);
@@ -153,7 +153,7 @@ TEST(Strips, DrawThePatchsTriangles) {
   }
 }
 
-/// Triangles whose corners lie at three places; seen without indices, others cannot be told from joins.
+/// Triangles whose corners have three different positions; without indices the others look like the strip's joins.
 std::vector<Triangle> withArea(std::vector<Triangle> triangles) {
   std::erase_if(triangles, [](const Triangle& t) {
     const auto atOnePlace = [](const Corner& a, const Corner& b) {
@@ -189,15 +189,15 @@ TEST(Strips, TakeFewerIndicesThanTriangles) {
   }
 }
 
-TEST(Strips, AreCloseToTheFewestIndicesThatSurfacesAllow) {
-  // A vertex of valence v stands in a strip v / 3 times at least: docs/decisions/strips.md.
+TEST(Strips, AreCloseToTheMinimumNumberOfIndices) {
+  // A strip has at least v / 3 indices of a vertex of valence v: docs/decisions/strips.md.
   for (const Patch& patch : {patchOf(testing::grid(80)), patchOf(testing::torus(100, 60))}) {
     const IndexedPatch strips = asStrips(patch, 9);
     EXPECT_LT(static_cast<double>(strips.indices.size()), 1.08 * static_cast<double>(patch.elementCount()));
   }
 }
 
-TEST(Strips, LeaveLoneTrianglesToADrawOfTheirOwnWhereTheyAreMany) {
+TEST(Strips, LeaveManyLoneTrianglesToADrawOfTheirOwn) {
   const auto joined = [](std::uint32_t loose) {
     Mesh mesh = testing::grid(10);
     for (std::uint32_t i = 0; i < loose; ++i) {
@@ -216,7 +216,7 @@ TEST(Strips, LeaveLoneTrianglesToADrawOfTheirOwnWhereTheyAreMany) {
   EXPECT_EQ(many.draws[1], (Draw{Primitive::triangles, 1500}));
 }
 
-TEST(Strips, OfDegenerateTrianglesAloneAreThese) {
+TEST(Strips, OfDegenerateTrianglesAloneAreTheseTriangles) {
   Mesh mesh = testing::grid(1);
   mesh.corners = {0, 1, 1, 2, 2, 3};
   const Patch patch = patchOf(mesh);
@@ -253,7 +253,7 @@ std::vector<Line> linesIn(const IndexedPatch& patch) {
   return result;
 }
 
-TEST(Lines, AreThePatchsLinesWithAndWithoutStripsAndIndices) {
+TEST(Lines, AreThoseOfThePatchWithAndWithoutStripsAndIndices) {
   for (std::uint32_t seed = 0; seed < 300; ++seed) {
     Mesh mesh = testing::polylines(1 + seed % 40, seed);
     for (std::uint32_t& corner : mesh.corners)
@@ -276,7 +276,7 @@ TEST(Lines, AreThePatchsLinesWithAndWithoutStripsAndIndices) {
   }
 }
 
-TEST(LineStrips, TakeFewerIndicesThanLinesAndAreFew) {
+TEST(LineStrips, TakeFewerIndicesThanLinesInFewDraws) {
   Mesh mesh = testing::polylines(0, 1);
   mesh.corners.clear(), mesh.positions.clear(), mesh.wedgePositions.clear();
   for (std::uint32_t i = 0; i < 10000; ++i) { // one long line, and many of two vertices
@@ -335,7 +335,7 @@ TEST(Points, ComeInMortonOrder) {
     EXPECT_LE(code(result.positions[i - 1]), code(result.positions[i]));
 }
 
-TEST(TrianglesOf, MirrorEverySecondTriangleOfAStripAndBeginAnewWithEachDraw) {
+TEST(TrianglesOf, ReversesEverySecondTriangleOfAStripAndRestartsWithEachDraw) {
   IndexedPatch patch;
   patch.positions.resize(6);
   patch.draws = {{Primitive::triangleStrip, 5}, {Primitive::triangles, 3}, {Primitive::triangleStrip, 3}};
@@ -343,7 +343,7 @@ TEST(TrianglesOf, MirrorEverySecondTriangleOfAStripAndBeginAnewWithEachDraw) {
   EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {2, 1, 3}, {5, 4, 3}, {2, 1, 0}}));
   patch.indices.clear();
   patch.draws = {{Primitive::triangles, 6}};
-  EXPECT_TRUE(trianglesOf(patch).empty()); // all in one place
+  EXPECT_TRUE(trianglesOf(patch).empty()); // all positions are equal
   for (std::uint32_t i = 0; i < 6; ++i)
     patch.positions[i].x = i;
   EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {3, 4, 5}}));

@@ -1,8 +1,7 @@
-// A heat bath (Geman and Geman, "Stochastic relaxation, Gibbs distributions, and the
-// Bayesian restoration of images", 1984) over whole stars: the spokes around
-// a vertex are a ring in which each knows the next two, so that all of them can be
-// drawn at once, forward sums and backward draws (Carter and Kohn, "On Gibbs
-// sampling for state space models", 1994).
+// Blocked Gibbs sampling (Geman and Geman, "Stochastic relaxation, Gibbs distributions, and the Bayesian restoration of
+// images", 1984) with vertex stars as blocks. The spokes of a star, which are the edges at its centre, form a cyclic
+// chain in which the cost of a spoke depends on its two neighbours. So all spokes can be sampled at once by forward
+// filtering and backward sampling (Carter and Kohn, "On Gibbs sampling for state space models", 1994).
 
 #include "prepare/strip_links.h"
 
@@ -26,21 +25,21 @@ constexpr std::uint32_t before(std::uint32_t side) {
   return side == 0 ? 2 : side - 1;
 }
 
-/// Where a triangle's other link is, seen from a linked side: 1 at the side after it, 2 at the
-/// side before; 0 where the side is not linked or the only one.
+/// By the bits of a triangle's linked sides, and a side: 1 where the triangle's other link is at the side after it, 2
+/// at the side before; 0 where the side is not linked or the only linked one.
 constexpr std::uint8_t turns[8][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 2, 0},
                                       {0, 0, 0}, {2, 0, 1}, {0, 1, 2}, {0, 0, 0}};
 
-/// What a triangle of a star is besides its two spokes: its outer side is not
-/// linked; or is, to a triangle that ends there, turns on at the side after, or
-/// before; or there is no triangle, and a fan is open.
+/// State of a triangle of a star apart from its two spokes. Its outer side is not linked, or is linked to a triangle
+/// whose path ends there or continues at the side after or before it; or the triangle is missing, since the fan is
+/// open.
 enum Outer : std::uint8_t { outerFree, outerLinked, outerTurnsAfter, outerTurnsBefore, noTriangle, outerKinds };
 
 bool hasOuterLink(std::uint32_t outer) {
   return outer != outerFree;
 }
 
-/// factor^cost, or 0 for what cannot be.
+/// values[cost] is factor^cost.
 struct Powers {
   explicit Powers(float factor) {
     float power = 1;
@@ -52,7 +51,7 @@ struct Powers {
   std::array<float, 32> values;
 };
 
-/// The weights of everything that a star can meet, for one factor.
+/// The weights of all states of a triangle and of a spoke, for one factor.
 struct WeightTables {
   explicit WeightTables(float factor) {
     const Powers powers(factor);
@@ -65,7 +64,7 @@ struct WeightTables {
     odd = powers.values[oddCost];
   }
 
-  /// Ends that it is, and a swap at its outer side.
+  /// Weight of a triangle: the path ends that it forms, and a swap at its outer side. 0: not allowed.
   static float triangleWeight(const Powers& powers, std::uint32_t outer, std::uint32_t in, std::uint32_t out) {
     if (outer == noTriangle)
       return in + out == 0 ? 1.0f : 0.0f;
@@ -76,8 +75,8 @@ struct WeightTables {
     return powers.values[endCost * (2 - degree) + (isSwap ? swapCost : 0)];
   }
 
-  /// A swap at a spoke, or the tips at its far end, of which there are some odd already.
-  /// `links` has the spoke before it, itself and the one behind as bits.
+  /// Cost of a spoke: a swap there, or an odd number of tips at its outer vertex. `oddBefore`: the tips of other paths
+  /// there are odd. Bits of `links`: the previous spoke, the spoke itself and the next one.
   static std::uint32_t spokeCost(bool outerBefore, bool outerBehind, std::uint32_t oddBefore, std::uint32_t links) {
     const bool before = links & 1, here = links >> 1 & 1, behind = links >> 2 & 1;
     if (here) {
@@ -90,23 +89,23 @@ struct WeightTables {
   }
 
   float ofTriangle[outerKinds][4];
-  float ofSpoke[8][8]; ///< by outer links before and behind, oddness; by links
+  float ofSpoke[8][8]; ///< by outer links before and behind and oddness, then by links
   float odd;
 };
 
 } // namespace
 
-/// The draw of one star. Spoke i lies between triangles i - 1 and i; the first
-/// links bit of a state is the earlier spoke's.
-class StripLinks::StarDraw {
+/// Samples the spokes of one star. Spoke i is between triangles i - 1 and i. In a state of several spokes bit 0 is that
+/// of the first.
+class StripLinks::StarSampler {
 public:
-  StarDraw(StripLinks& links, const Star& star) : links_(links), size_(star.size) {
+  StarSampler(StripLinks& links, const Star& star) : links_(links), size_(star.size) {
     std::uint32_t at = star.corner;
     const std::uint32_t count = size_ - star.isOpen;
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t number = at / 4, in = at % 4, out = before(in), outer = after(in);
       const Triangle& triangle = links_.triangles_[number];
-      links_.toggleTip(number); // its tip goes; the new one comes back
+      links_.toggleTip(number); // removes its tip; run() adds the new one
       numbers_[i] = number;
       ins_[i] = in;
       outers_[i] = outerFree;
@@ -129,14 +128,14 @@ public:
   void run(const WeightTables& tables, XorShift64Star& random) {
     weigh(tables);
     sumForward();
-    if (drawBackward(links_.oddTips_[center_], tables.odd, random))
+    if (sampleBackward(links_.oddTips_[center_], tables.odd, random))
       write();
     for (std::uint32_t i = 0; i < count_; ++i)
       links_.toggleTip(numbers_[i]);
   }
 
 private:
-  /// weights_[i][l]: of spoke i and triangle i, by spokes i - 1, i and i + 1 as bits.
+  /// weights_[i][l] is the weight of spoke i and triangle i; bits of l: spokes i - 1, i and i + 1.
   void weigh(const WeightTables& tables) {
     for (std::uint32_t i = 0; i < size_; ++i) {
       const std::uint32_t previous = i == 0 ? size_ - 1 : i - 1;
@@ -145,13 +144,13 @@ private:
       const float* triangle = tables.ofTriangle[outers_[i]];
       for (std::uint32_t l = 0; l < 8; ++l)
         weights_[i][l] = spoke[l] * triangle[l >> 1];
-      // With none of its spokes linked but its outer side, a triangle has its tip at the centre.
+      // A triangle whose outer side alone is linked has its tip at the centre.
       isTipAtCenter_[i] = outers_[i] != outerFree && outers_[i] != noTriangle;
     }
   }
 
-  /// sums_[i][p][s][lane]: of all spokes before i, where spokes i - 1 and i are s, p is whether the
-  /// number of tips at the centre is odd, and lane is spokes 0 and 1.
+  /// sums_[i][p][s][lane] is the sum of the weights of all states of the spokes before i, given that spokes i - 1 and i
+  /// are s, the number of tips at the centre has parity p, and spokes 0 and 1 are `lane`.
   void sumForward() {
     for (auto& row : sums_[1])
       for (auto& lanes : row)
@@ -170,10 +169,10 @@ private:
         }
   }
 
-  /// Draws the spokes; false where nothing has any weight.
-  bool drawBackward(std::uint32_t centerOdd, float oddWeight, XorShift64Star& random) {
+  /// Samples the spokes; false where all weights are 0.
+  bool sampleBackward(std::uint32_t centerOdd, float oddWeight, XorShift64Star& random) {
     const std::uint32_t last = size_ - 1;
-    std::array<float, 32> ends{}; // by parity, the last two spokes, and the first two
+    std::array<float, 32> ends{}; // by parity, the last two spokes and the first two
     float total = 0;
     for (std::uint32_t n = 0; n < 32; ++n) {
       const std::uint32_t lane = n & 3, s = n >> 2 & 3, p = n >> 4;
@@ -187,7 +186,7 @@ private:
     }
     if (!(total > 0))
       return false;
-    float rest = total * random.share();
+    float rest = total * random.uniform();
     std::uint32_t picked = 32;
     for (std::uint32_t n = 0; n < 32 && (picked == 32 || rest >= 0); ++n)
       if (ends[n] > 0) {
@@ -203,9 +202,9 @@ private:
       const std::uint32_t here = s & 1;
       const float free = sums_[i][from][here << 1][lane] * weights_[i][s << 1];
       const float linked = sums_[i][from][here << 1 | 1][lane] * weights_[i][s << 1 | 1];
-      const std::uint32_t drawn = random.share() * (free + linked) >= free;
-      spokes_[i - 1] = drawn;
-      s = here << 1 | drawn;
+      const std::uint32_t sampled = random.uniform() * (free + linked) >= free;
+      spokes_[i - 1] = sampled;
+      s = here << 1 | sampled;
       p = from;
     }
     return true;
@@ -224,14 +223,14 @@ private:
 
   StripLinks& links_;
   std::uint32_t size_, count_, center_;
-  std::array<std::uint32_t, mostAround> numbers_; ///< of the triangles
-  std::array<std::uint32_t, mostAround> ins_;     ///< by triangle: the side that is its spoke
-  std::array<std::uint8_t, mostAround> outers_;   ///< by triangle: Outer
-  std::array<std::uint8_t, mostAround> farOdd_;   ///< by spoke: tips that the star has not put there are odd
-  std::array<bool, mostAround> isTipAtCenter_;
-  std::array<std::array<float, 8>, mostAround> weights_;
-  Lanes sums_[mostAround][2][4];
-  std::array<std::uint32_t, mostAround> spokes_;
+  std::array<std::uint32_t, maxStarSize> numbers_; ///< indices of the triangles
+  std::array<std::uint32_t, maxStarSize> ins_;     ///< by triangle: the side that is its first spoke
+  std::array<std::uint8_t, maxStarSize> outers_;   ///< by triangle: Outer
+  std::array<std::uint8_t, maxStarSize> farOdd_;   ///< by spoke: tips of other paths at its outer vertex are odd
+  std::array<bool, maxStarSize> isTipAtCenter_;
+  std::array<std::array<float, 8>, maxStarSize> weights_;
+  Lanes sums_[maxStarSize][2][4];
+  std::array<std::uint32_t, maxStarSize> spokes_;
 };
 
 StripLinks::StripLinks(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,
@@ -243,8 +242,8 @@ StripLinks::StripLinks(std::span<const std::uint32_t> corners, std::span<const s
   findStars(across);
 }
 
-/// Side 3t + s begins at corner s: the triangle before it around that corner lies across, and
-/// the one behind it across the side that ends there.
+/// Walks around each vertex by opposite half-edges: half-edge 3t + s begins at corner s of triangle t; the previous
+/// triangle around that corner is across this half-edge, the next one across the half-edge that ends there.
 void StripLinks::findStars(std::span<const std::uint32_t> across) {
   std::vector<bool> isFound(corners_.size());
   for (std::uint32_t corner = 0; corner < corners_.size(); ++corner) {
@@ -259,15 +258,15 @@ void StripLinks::findStars(std::span<const std::uint32_t> across) {
       isFound[at] = true;
       ++star.size;
     }
-    if (star.size >= 3 && star.size <= mostAround)
+    if (star.size >= 3 && star.size <= maxStarSize)
       stars_.push_back(star);
   }
 }
 
-void StripLinks::redraw(float factor, XorShift64Star& random) {
+void StripLinks::resample(float factor, XorShift64Star& random) {
   const WeightTables tables(factor);
   for (const Star& star : stars_)
-    StarDraw(*this, star).run(tables, random);
+    StarSampler(*this, star).run(tables, random);
 }
 
 std::uint32_t StripLinks::degree(std::uint32_t triangle) const {
@@ -279,8 +278,7 @@ bool StripLinks::isSwap(std::uint32_t triangle, std::uint32_t side) const {
   return (turns[triangles_[triangle].linked][side] ^ turns[triangles_[opposite / 4].linked][opposite % 4]) == 3;
 }
 
-/// Puts the tip of a triangle that has one link where it is, or takes it away;
-/// returns what that costs.
+/// Adds the tip of a triangle with exactly one link to its vertex, or removes it. Returns the change of cost.
 int StripLinks::toggleTip(std::uint32_t triangle) {
   const std::uint32_t linked = triangles_[triangle].linked;
   if (bitCounts[linked] != 1)
@@ -290,7 +288,7 @@ int StripLinks::toggleTip(std::uint32_t triangle) {
   return isOdd ? int{oddCost} : -int{oddCost};
 }
 
-/// What the triangles of a change cost as ends and at their links, tips apart.
+/// Cost of the path ends and swaps at the triangles of a change, without tips.
 int StripLinks::costAt(const Change& change) const {
   int cost = 0;
   const auto isIn = [&](std::uint32_t triangle, std::uint32_t count) {
@@ -300,14 +298,14 @@ int StripLinks::costAt(const Change& change) const {
   for (std::uint32_t i = 0; i < change.triangleCount; ++i) {
     const std::uint32_t triangle = change.triangles[i];
     cost += int{endCost} * (2 - static_cast<int>(degree(triangle)));
-    for (std::uint32_t side = 0; side < 3; ++side) // a link within the change counts at its first triangle
+    for (std::uint32_t side = 0; side < 3; ++side) // a link between two triangles of the change counts once
       if (isLinked(triangle, side) && isSwap(triangle, side) && !isIn(triangles_[triangle].across[side] / 4, i))
         cost += swapCost;
   }
   return cost;
 }
 
-/// Returns what the tips then cost more.
+/// Links or unlinks the sides of a change. Returns the change of the cost of tips.
 int StripLinks::toggle(const Change& change) {
   int cost = 0;
   for (std::uint32_t i = 0; i < change.triangleCount; ++i)
@@ -320,7 +318,7 @@ int StripLinks::toggle(const Change& change) {
   return cost;
 }
 
-/// A linked side of a triangle other than `besides`; noHalfEdge where there is none.
+/// The linked side of a triangle other than `besides`, or noHalfEdge.
 std::uint32_t StripLinks::linkedSide(std::uint32_t triangle, std::uint32_t besides) const {
   for (std::uint32_t side = 4 * triangle; side < 4 * triangle + 3; ++side)
     if (side != besides && isLinked(triangle, side % 4))
@@ -328,9 +326,9 @@ std::uint32_t StripLinks::linkedSide(std::uint32_t triangle, std::uint32_t besid
   return noHalfEdge;
 }
 
-void StripLinks::openRings() {
+void StripLinks::breakCycles() {
   std::vector<bool> isSeen(triangles_.size());
-  std::vector<std::uint32_t> sides; // by which the triangles of a path or ring are left
+  std::vector<std::uint32_t> sides; // of the triangles of a path or cycle: the side that leads to the next triangle
   const auto walk = [&](std::uint32_t triangle) {
     sides.clear();
     for (std::uint32_t entered = noHalfEdge; !isSeen[triangle];) {
@@ -349,12 +347,12 @@ void StripLinks::openRings() {
   for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
     if (!isSeen[triangle]) {
       walk(triangle);
-      openRing(sides);
+      breakCycle(sides);
     }
 }
 
-/// `ring` has the sides by which its triangles are left.
-void StripLinks::openRing(std::span<const std::uint32_t> ring) {
+/// `cycle` has the side of each triangle that leads to the next one.
+void StripLinks::breakCycle(std::span<const std::uint32_t> cycle) {
   Change best;
   int bestCost = 0;
   const auto consider = [&](const Change& change) {
@@ -365,7 +363,7 @@ void StripLinks::openRing(std::span<const std::uint32_t> ring) {
     if (best.sideCount == 0 || cost < bestCost)
       bestCost = cost, best = change;
   };
-  for (const std::uint32_t side : ring) {
+  for (const std::uint32_t side : cycle) {
     const std::uint32_t triangle = side / 4, next = triangles_[triangle].across[side % 4];
     consider({{side}, {triangle, next / 4}, 1, 2});
     for (const auto& [joined, other] : {std::pair(triangle, next / 4), std::pair(next / 4, triangle)})

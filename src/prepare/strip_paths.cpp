@@ -1,5 +1,4 @@
-// Simulated annealing (Kirkpatrick et al. 1983) of what the strip will cost:
-// docs/decisions/strips.md.
+// Simulated annealing (Kirkpatrick et al. 1983) of the cost of the strip: docs/decisions/strips.md.
 
 #include "prepare/strip_paths.h"
 
@@ -12,24 +11,24 @@ namespace imgeo {
 
 namespace {
 
-/// By effort: time grows as they do.
-constexpr int sweepsAt[] = {2, 3, 4, 5, 6, 8, 16, 32, 64, 128};
+/// Number of sweeps by effort. Time is proportional to it.
+constexpr int sweepCounts[] = {2, 3, 4, 5, 6, 8, 16, 32, 64, 128};
 
-/// Cools from where paths move freely to where hardly anything dearer is drawn; a short
-/// search has no time for so hot a beginning. In factors, not temperatures: no machine
-/// rounds a power differently.
+/// Cools from a state in which paths change freely to one in which hardly any higher cost is accepted. A short search
+/// begins cooler. The schedule is stated in weights and not in temperatures, since powers may be rounded differently
+/// on other machines.
 void anneal(StripLinks& links, int sweeps) {
-  const float hot = sweeps < 64 ? 0.5f : 0.65f, cold = 0.37f; // the weight of a quarter of an index
+  const float hot = sweeps < 64 ? 0.5f : 0.65f, cold = 0.37f; // weight of a cost of a quarter of an index
   XorShift64Star random;
   for (int sweep = 0; sweep < sweeps; ++sweep)
-    links.redraw(hot + (cold - hot) * static_cast<float>(sweep) / static_cast<float>(sweeps - 1), random);
+    links.resample(hot + (cold - hot) * static_cast<float>(sweep) / static_cast<float>(sweeps - 1), random);
 }
 
-/// Reads the paths off the links, among which there are no rings.
+/// Collects the paths that the links form. The links form no cycles.
 class PathReader {
 public:
-  PathReader(const StripLinks& links, std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across)
-      : links_(links), corners_(corners), across_(across), isRead_(links.triangleCount()) {}
+  PathReader(const StripLinks& links, std::span<const std::uint32_t> corners, std::span<const std::uint32_t> opposites)
+      : links_(links), corners_(corners), opposites_(opposites), isRead_(links.triangleCount()) {}
 
   StripPaths run() && {
     for (std::uint32_t triangle = 0; triangle < isRead_.size(); ++triangle)
@@ -44,7 +43,7 @@ private:
     return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
   }
 
-  /// The linked side of a triangle that is not `entered`, or else noHalfEdge.
+  /// The linked half-edge of a triangle that is not `entered`, or noHalfEdge.
   std::uint32_t otherLink(std::uint32_t triangle, std::uint32_t entered) const {
     for (std::uint32_t i = 0; i < 3; ++i)
       if (3 * triangle + i != entered && links_.isLinked(triangle, i))
@@ -56,30 +55,32 @@ private:
     for (std::uint32_t entered = noHalfEdge;;) {
       isRead_[triangle] = true;
       const std::uint32_t left = otherLink(triangle, entered);
-      paths_.sides.push_back(left != noHalfEdge ? left : entered != noHalfEdge ? nextHalfEdge(entered) : 3 * triangle);
+      paths_.halfEdges.push_back(left != noHalfEdge      ? left
+                                 : entered != noHalfEdge ? nextHalfEdge(entered)
+                                                         : 3 * triangle);
       if (left == noHalfEdge)
         break;
-      entered = across_[left];
+      entered = opposites_[left];
       triangle = entered / 3;
     }
-    paths_.ends.push_back(static_cast<std::uint32_t>(paths_.sides.size()));
+    paths_.ends.push_back(static_cast<std::uint32_t>(paths_.halfEdges.size()));
   }
 
   const StripLinks& links_;
-  std::span<const std::uint32_t> corners_, across_;
+  std::span<const std::uint32_t> corners_, opposites_;
   std::vector<bool> isRead_;
   StripPaths paths_;
 };
 
 } // namespace
 
-StripPaths findStripPaths(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,
+StripPaths findStripPaths(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> opposites,
                           std::size_t vertexCount, int effort) {
   assert(effort >= 0 && effort <= 9);
-  StripLinks links(corners, across, vertexCount);
-  anneal(links, sweepsAt[effort]);
-  links.openRings();
-  return PathReader(links, corners, across).run();
+  StripLinks links(corners, opposites, vertexCount);
+  anneal(links, sweepCounts[effort]);
+  links.breakCycles();
+  return PathReader(links, corners, opposites).run();
 }
 
 } // namespace imgeo

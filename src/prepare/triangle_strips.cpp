@@ -15,29 +15,28 @@ namespace {
 
 /// One end of a path: 2 * path, plus 1 for its last triangle.
 using PathEnd = std::uint32_t;
-/// One end of a trail of paths: 2 * trail, plus 1 for its last path.
+/// One end of a trail, which is a sequence of paths: 2 * trail, plus 1 for its last path.
 using TrailEnd = std::uint32_t;
 
-/// Fewer separate triangles than this are stitched after all: a draw takes some
-/// twenty bytes of the document and a call each frame, and saves two indices a triangle.
-constexpr std::size_t fewestSeparate = 32;
+/// Minimum number of separate triangles; fewer become part of the strip. A draw of their own takes some twenty bytes of
+/// the document and one draw call in each frame, and saves two indices a triangle.
+constexpr std::size_t minSeparateTriangles = 32;
 
-/// Orders paths, picks their directions and writes them one behind the other.
+/// Chooses the order and the directions of paths and joins them.
 ///
-/// A strip that ends in vertices y, z goes on with a path of n triangles at the
-/// cost of n + 2 indices where the path's tip is z, n + 3 where the tip is y or
-/// its first edge begins at z, n + 4 elsewhere. So paths are lines between their
-/// tips, and the strip draws them in trails, of which there are as few as there
-/// can be; a path of one triangle is a line between any two of its corners.
+/// A strip that ends in vertices y, z continues with a path of n triangles at the cost of n + 2 indices where the
+/// path's tip is z, n + 3 where the tip is y or its first edge begins at z, and n + 4 elsewhere. So each path is taken
+/// as a line between its two tips, and these lines are joined in the minimum number of trails (walks that repeat no
+/// line: findLineStrips). A path of one triangle is a line between any two of its corners.
 class Stitcher {
 public:
   Stitcher(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort)
-      : corners_(corners), across_(oppositeHalfEdges(corners)),
-        paths_(findStripPaths(corners, across_, vertexCount, effort)), tips_(tipsOfPaths(vertexCount)),
+      : corners_(corners), opposites_(oppositeHalfEdges(corners)),
+        paths_(findStripPaths(corners, opposites_, vertexCount, effort)), tips_(tipsOfPaths(vertexCount)),
         trails_(findLineStrips(tips_, vertexCount)), used_(trails_.count()) {
     for (TrailEnd end = 0; end < 2 * trails_.count(); ++end) {
-      const std::uint32_t side = firstSide(pathEnd(end, 0));
-      endCorners_.insert(endCorners_.end(), {tipOf(side), corners_[side], corners_[nextHalfEdge(side)]});
+      const std::uint32_t halfEdge = firstHalfEdge(pathEnd(end, 0));
+      endCorners_.insert(endCorners_.end(), {tipOf(halfEdge), corners_[halfEdge], corners_[nextHalfEdge(halfEdge)]});
     }
     endsAt_ = incidenceOf(endCorners_.size(), vertexCount, [&](std::size_t i) { return endCorners_[i]; });
     endsLeft_.resize(vertexCount);
@@ -45,10 +44,10 @@ public:
       endsLeft_[vertex] = static_cast<std::uint32_t>(endsAt_.of(vertex).size());
   }
 
-  Strips run() && {
-    result_.strip.reserve(paths_.sides.size() + 4 * paths_.count());
+  TriangleStrips run() && {
+    result_.strip.reserve(paths_.halfEdges.size() + 4 * paths_.count());
     separateLoneTriangles();
-    findWantedParities();
+    findRequiredParities();
     for (std::optional<TrailEnd> next = findNext(); next; next = findNext())
       append(*next);
     return std::move(result_);
@@ -56,10 +55,10 @@ public:
 
 private:
   bool isSingle(std::uint32_t path) const { return paths_.path(path).size() == 1; }
-  std::uint32_t tipOf(std::uint32_t side) const { return corners_[previousHalfEdge(side)]; }
+  std::uint32_t tipOf(std::uint32_t halfEdge) const { return corners_[previousHalfEdge(halfEdge)]; }
 
-  /// The two tips of every path. Those of a single triangle are corners where an odd number of
-  /// other paths end, if it has such: each trail begins and ends at one.
+  /// The two tips of every path. A single triangle takes as tips, where it can, corners at which an odd number of other
+  /// paths end, since each trail begins and ends at such a vertex.
   std::vector<std::uint32_t> tipsOfPaths(std::size_t vertexCount) const {
     std::vector<std::uint32_t> tips(2 * paths_.count());
     std::vector<bool> isOdd(vertexCount);
@@ -69,9 +68,9 @@ private:
     };
     for (std::uint32_t path = 0; path < paths_.count(); ++path)
       if (!isSingle(path)) {
-        const std::span<const std::uint32_t> sides = paths_.path(path);
-        setTip(2 * path, tipOf(sides.front()));
-        setTip(2 * path + 1, tipOf(across_[sides[sides.size() - 2]]));
+        const std::span<const std::uint32_t> halfEdges = paths_.path(path);
+        setTip(2 * path, tipOf(halfEdges.front()));
+        setTip(2 * path + 1, tipOf(opposites_[halfEdges[halfEdges.size() - 2]]));
       }
     for (std::uint32_t path = 0; path < paths_.count(); ++path)
       if (isSingle(path)) {
@@ -84,33 +83,33 @@ private:
     return tips;
   }
 
-  /// The side by which a walk from `end` leaves its first triangle; of a single one, the side
-  /// opposite its tip.
-  std::uint32_t firstSide(PathEnd end) const {
-    const std::span<const std::uint32_t> sides = paths_.path(end / 2);
-    if (sides.size() > 1)
-      return end % 2 == 0 ? sides.front() : across_[sides[sides.size() - 2]];
-    std::uint32_t side = sides.front();
-    while (tipOf(side) != tips_[end])
-      side = nextHalfEdge(side);
-    return side;
+  /// The half-edge by which a walk from `end` leaves the first triangle; in a single triangle, the half-edge opposite
+  /// its tip.
+  std::uint32_t firstHalfEdge(PathEnd end) const {
+    const std::span<const std::uint32_t> halfEdges = paths_.path(end / 2);
+    if (halfEdges.size() > 1)
+      return end % 2 == 0 ? halfEdges.front() : opposites_[halfEdges[halfEdges.size() - 2]];
+    std::uint32_t halfEdge = halfEdges.front();
+    while (tipOf(halfEdge) != tips_[end])
+      halfEdge = nextHalfEdge(halfEdge);
+    return halfEdge;
   }
 
-  /// The path that comes n-th in a walk along a trail from `end`, and the end that it is walked from.
+  /// The n-th path in a walk along a trail from `end`, as the end at which the walk enters it.
   PathEnd pathEnd(TrailEnd end, std::size_t n) const {
-    const std::span<const std::uint32_t> trail = trails_.trail(end / 2);
+    const std::span<const std::uint32_t> trail = trails_.strip(end / 2);
     return end % 2 == 0 ? trail[n] : trail[trail.size() - 1 - n] ^ 1;
   }
 
   void separateLoneTriangles() {
     const auto isLone = [&](std::uint32_t trail) {
-      return trails_.trail(trail).size() == 1 && isSingle(pathEnd(2 * trail, 0) / 2);
+      return trails_.strip(trail).size() == 1 && isSingle(pathEnd(2 * trail, 0) / 2);
     };
     std::vector<std::uint32_t> lone;
     for (std::uint32_t trail = 0; trail < trails_.count(); ++trail)
       if (isLone(trail))
         lone.push_back(trail);
-    if (lone.size() < fewestSeparate)
+    if (lone.size() < minSeparateTriangles)
       return;
     for (const std::uint32_t trail : lone) {
       used_[trail] = true;
@@ -119,73 +118,72 @@ private:
     }
   }
 
-  /// In a strip every second triangle is mirrored, so a path begins either with its
-  /// first turn or, for one index more, with the other; which one, the number of indices
-  /// before it says. LineStrips come in an order and a direction that save such indices.
-  void findWantedParities() {
-    wanted_.resize(2 * paths_.count());
+  /// The orientation alternates along a strip. So a path fits the strip either at even or at odd indices, and costs one
+  /// index more at the others. The order and the directions of trails are chosen to save such indices.
+  void findRequiredParities() {
+    requiredParities_.resize(2 * paths_.count());
     lengths_.resize(paths_.count());
     for (PathEnd end = 0; end < 2 * paths_.count(); ++end) {
       const std::size_t count = paths_.path(end / 2).size();
-      const std::uint32_t to = corners_[nextHalfEdge(firstSide(end))];
-      wanted_[end] = count == 2                                             ? Parity::any
-                     : (count == 1 ? tips_[end ^ 1] : keptAt(end, 1)) == to ? Parity::even
-                                                                            : Parity::odd;
+      const std::uint32_t to = corners_[nextHalfEdge(firstHalfEdge(end))];
+      requiredParities_[end] = count == 2                                             ? Parity::any
+                               : (count == 1 ? tips_[end ^ 1] : keptAt(end, 1)) == to ? Parity::even
+                                                                                      : Parity::odd;
       std::size_t swaps = 0;
       for (std::size_t i = 2; i + 1 < count; ++i)
-        swaps += keptAt(end, i) != tipOf(across_[sideAt(end, i - 2)]);
+        swaps += keptAt(end, i) != tipOf(opposites_[halfEdgeAt(end, i - 2)]);
       lengths_[end / 2] = count + 2 + swaps;
     }
-    turnCosts_.resize(std::size_t{4} * trails_.count());
+    parityCosts_.resize(std::size_t{4} * trails_.count());
     for (TrailEnd end = 0; end < 2 * trails_.count(); ++end)
       for (std::size_t parity = 0; parity < 2; ++parity)
-        turnCosts_[std::size_t{2} * end + parity] = turnCost(end, parity);
+        parityCosts_[std::size_t{2} * end + parity] = parityCost(end, parity);
   }
 
-  /// Indices that wrong first turns cost along a trail whose first triangle begins at an even or odd place.
-  std::uint32_t turnCost(TrailEnd end, std::size_t parity) const {
-    const std::size_t count = trails_.trail(end / 2).size();
+  /// Number of additional indices for parity along a trail whose first triangle begins at an even or odd index.
+  std::uint32_t parityCost(TrailEnd end, std::size_t parity) const {
+    const std::size_t count = trails_.strip(end / 2).size();
     std::uint32_t cost = 0;
     for (std::size_t n = 0; n < count; ++n) {
       const PathEnd path = pathEnd(end, n);
-      const bool isFree = wanted_[path] == Parity::any || (isSingle(path / 2) && n + 1 == count);
-      const bool isWrong = !isFree && static_cast<std::size_t>(wanted_[path]) != parity;
+      const bool isFree = requiredParities_[path] == Parity::any || (isSingle(path / 2) && n + 1 == count);
+      const bool isWrong = !isFree && static_cast<std::size_t>(requiredParities_[path]) != parity;
       cost += isWrong;
       parity = (parity + lengths_[path / 2] + isWrong) % 2;
     }
     return cost;
   }
 
-  /// The end of a trail that goes on best from the strip's last two vertices: among
-  /// those that touch them, and the next few in order. Nothing at the end.
+  /// The end of the unused trail that continues the strip at the least cost, among those that touch its last two
+  /// vertices and the next few in order. Nothing where all trails are used.
   std::optional<TrailEnd> findNext() {
-    constexpr std::uint32_t nextFew = 6;
+    constexpr std::uint32_t maxCandidates = 6;
     while (firstUnused_ < trails_.count() && used_[firstUnused_])
       ++firstUnused_;
     const std::vector<std::uint32_t>& strip = result_.strip;
     std::optional<TrailEnd> best;
     int bestCost = 0;
     const auto consider = [&](TrailEnd end, std::uint32_t joins) {
-      // Compared with what this trail would cost on average: it has to come some time.
-      int cost = static_cast<int>(4 * (joins + turnCosts_[std::size_t{2} * end + (strip.size() + joins) % 2]));
+      // Relative to the mean cost of this trail, since each trail has to be used once.
+      int cost = static_cast<int>(4 * (joins + parityCosts_[std::size_t{2} * end + (strip.size() + joins) % 2]));
       for (std::uint32_t i = 0; i < 4; ++i)
-        cost -= static_cast<int>(turnCosts_[std::size_t{4} * (end / 2) + i]);
+        cost -= static_cast<int>(parityCosts_[std::size_t{4} * (end / 2) + i]);
       if (!best || cost < bestCost)
         best = end, bestCost = cost;
     };
     if (!strip.empty()) {
       const std::uint32_t edgeStart = strip.size() % 2 == 0 ? 2 : 1;
-      visitEnds(strip.back(), [&](TrailEnd end, std::uint32_t place) {
-        if (place == 0 || place == edgeStart)
-          consider(end, place == 0 ? 0 : 1);
+      visitEnds(strip.back(), [&](TrailEnd end, std::uint32_t corner) {
+        if (corner == 0 || corner == edgeStart)
+          consider(end, corner == 0 ? 0 : 1);
       });
-      visitEnds(strip[strip.size() - 2], [&](TrailEnd end, std::uint32_t place) {
-        if (place == 0)
+      visitEnds(strip[strip.size() - 2], [&](TrailEnd end, std::uint32_t corner) {
+        if (corner == 0)
           consider(end, 1);
       });
     }
     const std::uint32_t joins = strip.empty() ? 0 : 2;
-    for (std::uint32_t trail = firstUnused_, few = 0; trail < trails_.count() && few < nextFew; ++trail)
+    for (std::uint32_t trail = firstUnused_, few = 0; trail < trails_.count() && few < maxCandidates; ++trail)
       if (!used_[trail]) {
         consider(2 * trail, joins);
         consider(2 * trail + 1, joins);
@@ -194,13 +192,13 @@ private:
     return best;
   }
 
-  /// Calls visit(end, place) for ends of unused trails of which `vertex` is the
-  /// tip (place 0) or another corner; of some tens at most.
+  /// Calls visit(end, corner) for up to 64 ends of unused trails that touch `vertex`: corner 0 is the tip of the end,
+  /// corners 1 and 2 are the vertices of its first edge.
   template <typename Visit> void visitEnds(std::uint32_t vertex, Visit visit) {
-    constexpr std::uint32_t enough = 64;
+    constexpr std::uint32_t maxEnds = 64;
     std::uint32_t* ends = endsAt_.corners.data() + endsAt_.offsets[vertex];
     std::uint32_t& left = endsLeft_[vertex];
-    for (std::uint32_t i = 0; i < left && i < enough;) {
+    for (std::uint32_t i = 0; i < left && i < maxEnds;) {
       if (used_[ends[i] / 6]) {
         ends[i] = ends[--left];
         continue;
@@ -212,7 +210,7 @@ private:
 
   void append(TrailEnd end) {
     used_[end / 2] = true;
-    const std::size_t count = trails_.trail(end / 2).size();
+    const std::size_t count = trails_.strip(end / 2).size();
     for (std::size_t n = 0; n < count; ++n) {
       const PathEnd path = pathEnd(end, n);
       if (isSingle(path / 2) && n + 1 < count)
@@ -222,50 +220,50 @@ private:
     }
   }
 
-  /// By which triangle i of a walk from `end` is left.
-  std::uint32_t sideAt(PathEnd end, std::size_t i) const {
-    const std::span<const std::uint32_t> sides = paths_.path(end / 2);
-    if (end % 2 == 0 || i + 1 == sides.size())
-      return sides[end % 2 == 0 ? i : 0];
-    return across_[sides[sides.size() - 2 - i]];
+  /// The half-edge by which a walk from `end` leaves triangle i.
+  std::uint32_t halfEdgeAt(PathEnd end, std::size_t i) const {
+    const std::span<const std::uint32_t> halfEdges = paths_.path(end / 2);
+    if (end % 2 == 0 || i + 1 == halfEdges.size())
+      return halfEdges[end % 2 == 0 ? i : 0];
+    return opposites_[halfEdges[halfEdges.size() - 2 - i]];
   }
 
-  /// The vertex of the edge into triangle i that the edge out of it shares.
+  /// The vertex that the edge into triangle i and the edge out of it share.
   std::uint32_t keptAt(PathEnd end, std::size_t i) const {
-    const std::uint32_t entered = across_[sideAt(end, i - 1)];
-    return corners_[sideAt(end, i) == nextHalfEdge(entered) ? nextHalfEdge(entered) : entered];
+    const std::uint32_t entered = opposites_[halfEdgeAt(end, i - 1)];
+    return corners_[halfEdgeAt(end, i) == nextHalfEdge(entered) ? nextHalfEdge(entered) : entered];
   }
 
   void appendPath(PathEnd end) {
     std::vector<std::uint32_t>& strip = result_.strip;
     const std::size_t count = paths_.path(end / 2).size();
-    appendFirst(firstSide(end));
+    appendFirst(firstHalfEdge(end));
     for (std::size_t i = 1; i < count; ++i) {
-      // A triangle that is left by the edge of the older vertex needs that vertex again.
+      // Where the path continues at the edge of the older vertex, a swap repeats that vertex.
       if (i + 1 < count && strip.back() != keptAt(end, i))
         strip.push_back(keptAt(end, i));
-      strip.push_back(tipOf(across_[sideAt(end, i - 1)]));
+      strip.push_back(tipOf(opposites_[halfEdgeAt(end, i - 1)]));
     }
   }
 
-  /// A triangle that must end in its other tip.
+  /// Appends a single triangle so that the strip ends in its other tip.
   void appendSingle(PathEnd end) {
-    appendFirst(firstSide(end));
+    appendFirst(firstHalfEdge(end));
     if (result_.strip.back() == tips_[end ^ 1])
       return;
-    // Once more the first vertex turns the other two around.
+    // Repeating the first vertex exchanges the other two.
     const std::array<std::uint32_t, 2> edge{result_.strip[result_.strip.size() - 2], result_.strip.back()};
     result_.strip.resize(result_.strip.size() - 2);
     result_.strip.insert(result_.strip.end(), {tips_[end], edge[1], edge[0]});
   }
 
-  /// Joins the triangle of `side`, its tip first and the edge of `side` last.
-  void appendFirst(std::uint32_t side) {
+  /// Joins the triangle of `halfEdge` to the strip: its tip first, then the vertices of `halfEdge`.
+  void appendFirst(std::uint32_t halfEdge) {
     std::vector<std::uint32_t>& strip = result_.strip;
-    const std::uint32_t tip = tipOf(side), from = corners_[side], to = corners_[nextHalfEdge(side)];
+    const std::uint32_t tip = tipOf(halfEdge), from = corners_[halfEdge], to = corners_[nextHalfEdge(halfEdge)];
     if (!strip.empty()) {
       const std::uint32_t last = strip.back(), beforeLast = strip[strip.size() - 2];
-      const std::uint32_t edgeStart = strip.size() % 2 == 0 ? to : from; // were there one index between
+      const std::uint32_t edgeStart = strip.size() % 2 == 0 ? to : from; // if one index is inserted before
       if (tip == beforeLast)
         strip.push_back(tip);
       else if (tip != last)
@@ -280,24 +278,24 @@ private:
   enum class Parity : std::uint8_t { even, odd, any };
 
   std::span<const std::uint32_t> corners_;
-  std::vector<std::uint32_t> across_;
+  std::vector<std::uint32_t> opposites_;
   StripPaths paths_;
   std::vector<std::uint32_t> tips_;       ///< by path end
-  LineStrips trails_;                     ///< of path ends
+  LineStrips trails_;                     ///< trails of paths; corners are path ends
   std::vector<bool> used_;                ///< by trail
-  std::vector<std::uint32_t> endCorners_; ///< three a trail end: its tip and the edge of its first side
-  Incidence endsAt_;                      ///< vertex -> its places in endCorners_
-  std::vector<std::uint32_t> endsLeft_;   ///< by vertex: how many of these are not known to be used
-  std::vector<Parity> wanted_;            ///< by path end: of the place at which its first triangle is to begin
-  std::vector<std::size_t> lengths_;      ///< by path: indices, where it begins as wanted
-  std::vector<std::uint32_t> turnCosts_;  ///< by trail end and parity of the place that it begins at
-  std::uint32_t firstUnused_ = 0;         ///< trails before it are used
-  Strips result_;
+  std::vector<std::uint32_t> endCorners_; ///< three for each trail end: its tip and the vertices of its first half-edge
+  Incidence endsAt_;                      ///< vertex -> indices in endCorners_
+  std::vector<std::uint32_t> endsLeft_;   ///< by vertex: number of these that are not known to be used
+  std::vector<Parity> requiredParities_;  ///< by path end: parity of the index at which its first triangle has to begin
+  std::vector<std::size_t> lengths_;      ///< by path: indices, if it begins at the required parity
+  std::vector<std::uint32_t> parityCosts_; ///< by trail end and parity of the index at which it begins
+  std::uint32_t firstUnused_ = 0;          ///< all trails before it are used
+  TriangleStrips result_;
 };
 
 } // namespace
 
-Strips makeStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort) {
+TriangleStrips makeTriangleStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort) {
   return Stitcher(corners, vertexCount, effort).run();
 }
 

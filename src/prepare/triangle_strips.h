@@ -1,5 +1,5 @@
 #pragma once
-// Triangle strips: paths through the dual graph, stitched into one strip.
+// Triangle strips: paths through the dual graph, joined into one strip.
 
 #include <cstdint>
 #include <span>
@@ -7,16 +7,16 @@
 
 namespace imgeo {
 
-struct Strips {
-  std::vector<std::uint32_t> strip;     ///< one strip
-  std::vector<std::uint32_t> triangles; ///< separate ones, three vertices each
+struct TriangleStrips {
+  std::vector<std::uint32_t> strip;     ///< vertices of one strip
+  std::vector<std::uint32_t> triangles; ///< separate triangles, three vertices each
 };
 
-/// Draws every non-degenerate triangle of `corners` (three vertices below `vertexCount`
-/// each) as often as it is there, in its orientation, and else only degenerate ones.
-/// Triangles that would lengthen the strip by more than three indices each are
-/// separate, where there are enough of them to be worth a draw of their own.
-/// Neighbours in `corners` come near each other. Effort: 0 fastest .. 9 fewest indices.
-Strips makeStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort);
+/// Makes a strip of the non-degenerate triangles of `corners` (three vertices below `vertexCount` each). Strip and
+/// separate triangles together draw each of them as often as `corners` has it, in its orientation, and otherwise
+/// degenerate triangles alone. Triangles that would lengthen the strip by more than three indices each are separate,
+/// where there are enough of them to be worth a draw of their own. Neighbours in `corners` stay close to each other.
+/// Effort: 0 (fastest) .. 9 (fewest indices).
+TriangleStrips makeTriangleStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort);
 
 } // namespace imgeo

@@ -31,7 +31,7 @@ std::uint64_t hashOf(std::uint64_t seed, const Vec3f& v) {
   return mixHash(mixHash(seed, keyOf(Vec2f{v.x, v.y})), keyOf(v.z));
 }
 
-/// Gives each index of the corners' array a new number, in the order of first use.
+/// New indices for positions or wedges, in the order of first use.
 struct Renumbering {
   std::vector<std::uint32_t> newOf; ///< old -> new; IndexHashTable::none where unused
   std::vector<std::uint32_t> kept;  ///< new -> the first old one
@@ -51,13 +51,13 @@ struct Renumbering {
   }
 };
 
-/// The values of a vertex of an attribute.
+/// The values of an attribute at a vertex.
 std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t vertex) {
   return std::span(attribute.values).subspan(std::size_t{vertex} * attribute.components, attribute.components);
 }
 
-/// For each position the first that is the same. In the order of memory, so that the slots
-/// of those to come can be fetched ahead: most of the time of a large table goes into waiting.
+/// For each position the first equal position. Works in memory order, so that hash slots can be prefetched: with a
+/// large table most of the time is memory latency.
 std::vector<std::uint32_t> firstAlike(const std::vector<Vec3f>& positions) {
   constexpr std::size_t ahead = 16;
   IndexHashTable table(positions.size());
@@ -91,8 +91,8 @@ Renumbering weldPositions(const Mesh& mesh) {
   return numbers;
 }
 
-/// Wedges of which two are the same where their positions are, which are welded
-/// already and numbered in the order of their first use: most scans.
+/// Welds wedges that are equal exactly where their positions are, as in most scans. Positions have been welded and
+/// numbered in the order of first use.
 Renumbering weldPlainWedges(const Mesh& mesh) {
   Renumbering numbers(mesh.wedgeCount());
   for (const std::uint32_t old : mesh.corners) {
@@ -108,11 +108,11 @@ Renumbering weldPlainWedges(const Mesh& mesh) {
   return numbers;
 }
 
-/// `mesh.wedgePositions` of wedges in use must name welded positions, of which there are `positionCount`.
+/// `mesh.wedgePositions` must refer to welded positions, of which there are `positionCount`, for all wedges in use.
 Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
   const bool arePlain =
       mesh.normals.empty() && mesh.texCoords.empty() && mesh.colors.empty() && mesh.namedAttributes.empty();
-  if (arePlain || mesh.wedgeCount() == positionCount) // as many: each has a position of its own
+  if (arePlain || mesh.wedgeCount() == positionCount) // each wedge has a position of its own
     return weldPlainWedges(mesh);
   Renumbering numbers(mesh.wedgeCount());
   IndexHashTable table(mesh.wedgeCount());
@@ -146,14 +146,14 @@ Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
   return numbers;
 }
 
-/// An element's corners turned so that the smallest sequence comes first.
-Vec3u turned(const std::uint32_t* corners, std::uint32_t count) {
+/// An element's corners, rotated to the lexicographically smallest sequence; lines are sorted.
+Vec3u canonicalCorners(const std::uint32_t* corners, std::uint32_t count) {
   if (count == 1)
     return {corners[0], 0, 0};
   if (count == 2)
     return {std::min(corners[0], corners[1]), std::max(corners[0], corners[1]), 0};
   const auto [a, b, c] = std::array{corners[0], corners[1], corners[2]};
-  // Where two are the least, the sequence begins with both.
+  // Where the minimum occurs twice, the sequence begins with both.
   if (a <= b && a < c)
     return {a, b, c};
   if (b <= c && b < a)
@@ -161,7 +161,7 @@ Vec3u turned(const std::uint32_t* corners, std::uint32_t count) {
   return {c, a, b};
 }
 
-/// An element's corners but for the least.
+/// An element's canonical corners without the first.
 struct OtherCorners {
   std::uint64_t corners;
   std::uint32_t element;
@@ -169,9 +169,10 @@ struct OtherCorners {
   auto operator<=>(const OtherCorners&) const = default;
 };
 
-/// Of elements with the same least corner, in ascending order: marks all that repeat one before.
+/// Marks the elements that repeat an earlier one, among elements with the same first canonical corner, which are given
+/// in ascending order.
 void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& repeated) {
-  constexpr std::size_t few = 8; // most have two: not worth sorting
+  constexpr std::size_t few = 8; // up to this number comparing all pairs is faster than sorting
   if (others.size() > few)
     std::sort(others.begin(), others.end());
   for (std::size_t i = 1; i < others.size(); ++i)
@@ -180,24 +181,26 @@ void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& 
         repeated[others[i].element] = 1;
 }
 
-/// One for each element that repeats an earlier one, zero for the others. Elements
-/// are told apart among those of the same least corner, which are few.
+/// By element: 1 if it repeats an earlier one, else 0. Elements are compared with those of the same first canonical
+/// corner, which are few.
 std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
-  const auto cornersOf = [&](std::size_t element) { return turned(mesh.corners.data() + element * count, count); };
-  std::vector<std::uint32_t> least(mesh.elementCount());
-  parallelForBlocks(least.size(), [&](std::size_t begin, std::size_t end) {
+  const auto cornersOf = [&](std::size_t element) {
+    return canonicalCorners(mesh.corners.data() + element * count, count);
+  };
+  std::vector<std::uint32_t> firstCorner(mesh.elementCount());
+  parallelForBlocks(firstCorner.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t element = begin; element < end; ++element)
-      least[element] = cornersOf(element).x;
+      firstCorner[element] = cornersOf(element).x;
   });
-  const Incidence byLeast =
-      incidenceOf(least.size(), mesh.wedgeCount(), [&](std::size_t element) { return least[element]; });
+  const Incidence byFirstCorner =
+      incidenceOf(firstCorner.size(), mesh.wedgeCount(), [&](std::size_t element) { return firstCorner[element]; });
   std::vector<std::uint8_t> repeated(mesh.elementCount());
   parallelForBlocks(mesh.wedgeCount(), [&](std::size_t begin, std::size_t end) {
     std::vector<OtherCorners> others;
     for (std::size_t first = begin; first < end; ++first) {
       others.clear();
-      for (const std::uint32_t element : byLeast.of(static_cast<std::uint32_t>(first))) {
+      for (const std::uint32_t element : byFirstCorner.of(static_cast<std::uint32_t>(first))) {
         const Vec3u corners = cornersOf(element);
         others.push_back({std::uint64_t{corners.y} << 32 | corners.z, element});
       }
@@ -207,7 +210,7 @@ std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   return repeated;
 }
 
-/// One for each element with two corners at one position, zero for the others.
+/// By element: 1 if two of its corners have the same position, else 0.
 std::vector<std::uint8_t> findDegenerate(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   std::vector<std::uint8_t> degenerate(mesh.elementCount());
@@ -224,7 +227,7 @@ std::size_t countOf(const std::vector<std::uint8_t>& marks) {
   return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
 }
 
-/// Removes the marked elements; says whether there were any.
+/// Removes the marked elements. Returns whether there were any.
 bool dropElements(Mesh& mesh, const std::vector<std::uint8_t>& marks) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   auto end = mesh.corners.begin();
@@ -236,8 +239,8 @@ bool dropElements(Mesh& mesh, const std::vector<std::uint8_t>& marks) {
   return isAny;
 }
 
-/// Finds them, and drops those that are to be dropped. Of welded meshes.
-void sortOut(Mesh& mesh, const DroppedElements& dropped, WeldReport& report) {
+/// Counts degenerate and repeated elements of a welded mesh, and removes those of the kinds in `dropped`.
+void removeElements(Mesh& mesh, const DroppedElements& dropped, WeldReport& report) {
   const std::vector<std::uint8_t> degenerate = findDegenerate(mesh), repeated = findRepeated(mesh);
   report.degenerateElements = countOf(degenerate);
   report.duplicateElements = countOf(repeated);
@@ -268,7 +271,7 @@ WeldReport weld(Mesh& mesh, const DroppedElements& dropped) {
       mesh.corners[corner] = wedges.newOf[mesh.corners[corner]];
   });
 
-  sortOut(mesh, dropped, report);
+  removeElements(mesh, dropped, report);
   return report;
 }
 

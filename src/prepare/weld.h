@@ -6,10 +6,9 @@
 
 namespace imgeo {
 
-/// Merges positions of equal bits (-0 counts as 0), then wedges of equal
-/// position and attributes, and drops what no element references. Never merges
-/// what merely quantises to the same place. Positions and wedges keep the order
-/// of their first use, elements theirs.
+/// Merges positions of equal bits (-0 counts as 0), then wedges of equal position and attributes, and drops positions
+/// and wedges that no element references. Positions that differ are not merged, even if the lattice will make them
+/// equal. Positions and wedges are put in the order of their first use; elements keep their order.
 WeldReport weld(Mesh& mesh, const DroppedElements& dropped = {});
 
 } // namespace imgeo

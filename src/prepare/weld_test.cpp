@@ -11,7 +11,7 @@ namespace {
 
 using testing::randomMesh;
 
-/// A corner's whole value, by which the welded mesh must still equal its source.
+/// The value of a corner: position and attributes, which welding must keep.
 auto valueOf(const Mesh& mesh, std::size_t corner) {
   const std::uint32_t wedge = mesh.corners[corner];
   const Vec3f p = mesh.cornerPosition(corner) + Vec3f{}; // -0 becomes 0
@@ -32,7 +32,7 @@ std::vector<decltype(valueOf(Mesh{}, 0))> valuesOf(const Mesh& mesh) {
   return values;
 }
 
-TEST(Weld, ChangesNoCorner) {
+TEST(Weld, KeepsTheValueOfEveryCorner) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Mesh mesh = randomMesh(seed);
     const auto before = valuesOf(mesh);
@@ -42,7 +42,7 @@ TEST(Weld, ChangesNoCorner) {
   }
 }
 
-TEST(Weld, LeavesNoTwoPositionsOrWedgesAlikeAndNoneUnused) {
+TEST(Weld, LeavesNoEqualAndNoUnusedPositionsOrWedges) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Mesh mesh = randomMesh(seed);
     const WeldReport report = weld(mesh);
@@ -93,7 +93,7 @@ TEST(Weld, MergesEqualBitsOnly) {
   mesh.positions = {{1, 0, 0}, {1, -0.0f, 0}, {next, 0, 0}, {0, 1, 0}, {7, 7, 7}};
   testing::addPlainWedges(mesh);
   testing::addTriangle(mesh, 0, 2, 3);
-  testing::addTriangle(mesh, 3, 1, 2); // the same again, turned, through the merged position
+  testing::addTriangle(mesh, 3, 1, 2); // the same triangle, rotated, with the merged position
   testing::addTriangle(mesh, 0, 1, 2); // degenerate
   const WeldReport report = weld(mesh);
   EXPECT_EQ(mesh.positions, (std::vector<Vec3f>{{1, 0, 0}, {next, 0, 0}, {0, 1, 0}}));
@@ -118,7 +118,7 @@ TEST(Weld, KeepsTheWedgesOfACreaseAtOnePosition) {
   EXPECT_EQ(mesh.wedgePositions[3], 0u);
 }
 
-TEST(Weld, CountsElementsThatRepeatAnotherWhicheverCornerTheyBeginAt) {
+TEST(Weld, CountsRepeatedElementsWhateverTheirFirstCorner) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Mesh mesh = randomMesh(seed);
     const WeldReport report = weld(mesh);
@@ -136,7 +136,7 @@ TEST(Weld, CountsElementsThatRepeatAnotherWhicheverCornerTheyBeginAt) {
   }
 }
 
-/// Each element's corners as values, turned so that the least comes first.
+/// The values of each element's corners, rotated so that the least comes first.
 auto elementsOf(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   std::vector<std::vector<decltype(valueOf(mesh, 0))>> elements;
@@ -153,7 +153,7 @@ auto elementsOf(const Mesh& mesh) {
   return elements;
 }
 
-TEST(Weld, DropsDegenerateAndRepeatedElementsWhereItIsToldToAndKeepsTheOrderOfTheRest) {
+TEST(Weld, DropsDegenerateAndRepeatedElementsOnRequestAndKeepsTheOrderOfTheRest) {
   std::size_t degenerates = 0, repeats = 0;
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Mesh kept = randomMesh(seed);
@@ -169,10 +169,10 @@ TEST(Weld, DropsDegenerateAndRepeatedElementsWhereItIsToldToAndKeepsTheOrderOfTh
       }
       if (dropped.degenerate)
         std::erase_if(expected, [&](const auto& corners) {
-          std::set<std::tuple<float, float, float>> places;
+          std::set<std::tuple<float, float, float>> positions;
           for (const auto& corner : corners)
-            places.insert({std::get<0>(corner), std::get<1>(corner), std::get<2>(corner)});
-          return places.size() < corners.size();
+            positions.insert({std::get<0>(corner), std::get<1>(corner), std::get<2>(corner)});
+          return positions.size() < corners.size();
         });
       Mesh mesh = randomMesh(seed);
       const WeldReport report = weld(mesh, dropped);

@@ -14,9 +14,8 @@ Vec3f encodedSrgb(Vec3f linear) {
 }
 
 Material phongOf(const PhysicalMaterial& material) {
-  // glTF 2.0, appendix B: a dielectric reflects 0.04, a metal its base colour and
-  // nothing diffusely. A metal without surroundings to mirror would be black, so
-  // half of its colour stays diffuse.
+  // glTF 2.0, appendix B: a dielectric has a specular reflectance of 0.04, a metal that of its base colour and no
+  // diffuse reflection. Since a metal would be black without an environment map, half of its colour stays diffuse.
   const Vec3f base = material.baseColor;
   const float metallic = std::clamp(material.metallic, 0.0f, 1.0f);
   const float smooth = 1 - std::clamp(material.roughness, 0.0f, 1.0f);

@@ -1,6 +1,5 @@
 #pragma once
-// What shapes look like: X3D 4's materials, and textures with their samplers.
-// Plain data; the defaults are X3D's.
+// Appearances: X3D 4's materials, and textures with their samplers. Plain data with X3D's defaults.
 
 #include "base/bytes.h"
 #include "base/vec.h"
@@ -24,8 +23,7 @@ struct Material {
   friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// X3D 4 PhysicalMaterial: glTF 2.0's metallic-roughness material, its colours
-/// linear as glTF has them.
+/// X3D 4 PhysicalMaterial: glTF 2.0's metallic-roughness material, with linear colours as in glTF.
 struct PhysicalMaterial {
   Vec3f baseColor{1, 1, 1};
   Vec3f emissiveColor{0, 0, 0};
@@ -46,11 +44,11 @@ struct UnlitMaterial {
 
 using AnyMaterial = std::variant<Material, PhysicalMaterial, UnlitMaterial>;
 
-/// The X3D Material that looks most like any other, for renderers that know no other.
+/// Approximates any material by an X3D Material (Phong), for renderers without the other kinds.
 Material phongOf(const AnyMaterial& material);
 
-/// The part of a material that a texture modulates. `color` is the texture of
-/// diffuseColor, baseColor or an UnlitMaterial's emissiveColor.
+/// The property of a material that a texture modulates. `color` is the texture of diffuseColor, baseColor or an
+/// UnlitMaterial's emissiveColor.
 enum class TextureRole : std::uint8_t {
   color,
   emissive,
@@ -75,20 +73,20 @@ enum class Filter : std::uint8_t { standard, nearest, linear };
 
 /// X3D ImageTexture with its TextureProperties.
 struct Texture {
-  std::string name;      ///< of the source; may be empty
+  std::string name;      ///< name in the source; may be empty
   std::size_t image = 0; ///< index into SceneGraph::images
   Boundary boundaryS = Boundary::repeat, boundaryT = Boundary::repeat;
   Filter magnification = Filter::standard, minification = Filter::standard;
-  Filter betweenMipMaps = Filter::standard; ///< nearest, linear; where `mipMaps`
+  Filter betweenMipMaps = Filter::standard; ///< between mip levels: nearest or linear; used if `mipMaps`
   bool mipMaps = true;
   friend bool operator==(const Texture&, const Texture&) = default;
 };
 
 /// An image file.
 struct ImageFile {
-  std::string url;       ///< in a document: relative to it. Of a source: what it calls the image
-  Bytes bytes{};         ///< the file as it was found; empty in a document that was read
-  std::string preview{}; ///< url of the same image in few pixels, shown until it is there; may be empty
+  std::string url;       ///< in a document: relative to it; in a source: the source's name for the image
+  Bytes bytes{};         ///< the file's content; empty in a document that was read
+  std::string preview{}; ///< url of the same image in few pixels, shown until the image has arrived; may be empty
   friend bool operator==(const ImageFile&, const ImageFile&) = default;
 };
 
@@ -103,9 +101,9 @@ enum class AlphaMode : std::uint8_t { automatic, opaque, mask, blend };
 
 /// X3D Appearance.
 struct Appearance {
-  std::string name; ///< of the source's material; may be empty
+  std::string name; ///< name of the source's material; may be empty
   AnyMaterial material;
-  std::vector<TextureUse> textures; ///< at most one a role
+  std::vector<TextureUse> textures; ///< at most one for each role
   AlphaMode alphaMode = AlphaMode::automatic;
   float alphaCutoff = 0.5f; ///< for AlphaMode::mask
   friend bool operator==(const Appearance&, const Appearance&) = default;

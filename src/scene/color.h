@@ -1,5 +1,5 @@
 #pragma once
-// The sRGB transfer function (IEC 61966-2-1), both ways, 0..1.
+// The sRGB transfer function (IEC 61966-2-1) and its inverse, for values 0..1.
 
 #include <cmath>
 

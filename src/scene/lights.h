@@ -5,19 +5,19 @@
 
 namespace imgeo {
 
-/// X3D DirectionalLight: shines along `direction`. Intensities of lights are 0 .. 1 in X3D
-/// and any number in glTF.
+/// X3D DirectionalLight: parallel light along `direction`. Intensities of lights are 0 .. 1 in X3D and unbounded in
+/// glTF.
 struct DirectionalLight {
   Vec3d direction{0, 0, -1};
   Vec3f color{1, 1, 1};
   float intensity = 1;
-  bool global = false;        ///< false: lights what stands below the light's parent
-  float ambientIntensity = 0; ///< 0 .. 1; reaches surfaces whichever way they face
+  bool global = false;        ///< false: lights the descendants of the light's parent only
+  float ambientIntensity = 0; ///< 0 .. 1; independent of the surface's orientation
   friend bool operator==(const DirectionalLight&, const DirectionalLight&) = default;
 };
 
-/// X3D PointLight: at distance d its light is divided by a + b d + c d^2 of
-/// `attenuation`, or 1 where that is less, and ends at `radius`.
+/// X3D PointLight: at distance d the light is divided by max(a + b d + c d^2, 1), where a, b, c are `attenuation`, and
+/// ends at `radius`.
 struct PointLight {
   Vec3d location;
   Vec3d attenuation{1, 0, 0};
@@ -29,8 +29,8 @@ struct PointLight {
   friend bool operator==(const PointLight&, const PointLight&) = default;
 };
 
-/// X3D SpotLight: a cone that is full up to `beamWidth` from its axis and fades
-/// to nothing at `cutOffAngle`, both in radians.
+/// X3D SpotLight: a cone of light, constant up to `beamWidth` from its axis and falling to zero at `cutOffAngle`, both
+/// in radians.
 struct SpotLight {
   Vec3d location;
   Vec3d direction{0, 0, -1};

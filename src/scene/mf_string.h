@@ -7,12 +7,11 @@
 
 namespace imgeo {
 
-/// The strings, which stand in double quotes with backslashes before quotes and
-/// backslashes; or one bare string. Takes text that breaks the rules for what it
-/// most likely means.
+/// Parses a list of strings in double quotes, in which backslashes escape quotes and backslashes, or one unquoted
+/// string. Tolerates malformed text.
 std::vector<std::string> parseStrings(std::string_view text);
 
-/// The text of such a list; every string in quotes.
+/// The text of a list of strings; every string is quoted.
 std::string strings(const std::vector<std::string>& values);
 
 } // namespace imgeo

@@ -8,7 +8,7 @@ namespace imgeo {
 
 namespace {
 
-/// Lists nodes in the order of their first mention.
+/// Depth-first traversal that visits each node once.
 struct Visit {
   const SceneGraph& graph;
   bool entersInlines = true;

@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::size_t maxShapeInstances = 1'000'000;
 
-[[noreturn]] void failOfPlaces(const std::string& where) {
+[[noreturn]] void failAtLimit(const std::string& where) {
   throw Error(ErrorKind::limit, where, "the scene shows more than a million shapes");
 }
 
-/// Counts shapes in all their places, as far as there may be: each node is looked at once.
-class PlaceCount {
+/// Counts shape instances up to the limit. Visits each node once.
+class InstanceCounter {
 public:
-  explicit PlaceCount(const SceneGraph& graph) : graph_(graph), counts_(graph.nodes.size()) {}
+  explicit InstanceCounter(const SceneGraph& graph) : graph_(graph), counts_(graph.nodes.size()) {}
 
   std::size_t below(const std::vector<std::size_t>& nodes) {
     std::size_t sum = 0;
@@ -42,51 +42,51 @@ private:
   std::vector<std::optional<std::size_t>> counts_;
 };
 
-/// Lists the places of the shapes below a node. Nodes below which there are none
-/// are visited once, however often they are USEd.
-class Placing {
+/// Lists the shape instances below nodes. A node without shapes below it is visited once, even if it is USEd several
+/// times.
+class InstanceCollector {
 public:
-  Placing(const SceneGraph& graph, const std::string& where)
-      : graph_(graph), where_(where), isBare_(graph.nodes.size()) {}
+  InstanceCollector(const SceneGraph& graph, const std::string& where)
+      : graph_(graph), where_(where), hasNoShapes_(graph.nodes.size()) {}
 
-  void place(std::size_t index, const Affine3d& worldFromParent) {
-    if (isBare_[index])
+  void collect(std::size_t index, const Affine3d& worldFromParent) {
+    if (hasNoShapes_[index])
       return;
     const Node& node = graph_.nodes[index];
     if (std::holds_alternative<Shape>(node.content)) {
-      if (placed.size() == maxShapeInstances)
-        failOfPlaces(where_);
-      placed.push_back({index, worldFromParent});
+      if (instances.size() == maxShapeInstances)
+        failAtLimit(where_);
+      instances.push_back({index, worldFromParent});
       return;
     }
-    const std::size_t before = placed.size();
+    const std::size_t before = instances.size();
     const Transform* transform = std::get_if<Transform>(&node.content);
     const Affine3d worldFromNode = transform ? worldFromParent * affineOf(*transform) : worldFromParent;
     for (const std::size_t child : node.children)
-      place(child, worldFromNode);
-    isBare_[index] = placed.size() == before;
+      collect(child, worldFromNode);
+    hasNoShapes_[index] = instances.size() == before;
   }
 
-  std::vector<ShapeInstance> placed;
+  std::vector<ShapeInstance> instances;
 
 private:
   const SceneGraph& graph_;
   const std::string& where_;
-  std::vector<bool> isBare_;
+  std::vector<bool> hasNoShapes_;
 };
 
 } // namespace
 
 void checkShapeInstanceLimit(const SceneGraph& graph, const std::string& location) {
-  if (PlaceCount(graph).below(graph.roots) > maxShapeInstances)
-    failOfPlaces(location);
+  if (InstanceCounter(graph).below(graph.roots) > maxShapeInstances)
+    failAtLimit(location);
 }
 
 std::vector<ShapeInstance> shapeInstances(const SceneGraph& graph, const std::string& location) {
-  Placing placing(graph, location);
+  InstanceCollector collector(graph, location);
   for (const std::size_t root : graph.roots)
-    placing.place(root, {});
-  return std::move(placing.placed);
+    collector.collect(root, {});
+  return std::move(collector.instances);
 }
 
 } // namespace imgeo

@@ -8,19 +8,17 @@
 
 namespace imgeo {
 
-/// A shape in one of the places where it stands.
+/// An instance of a shape: a path from the root to the Shape node.
 struct ShapeInstance {
   std::size_t node = 0;
   Affine3d worldFromShape;
 };
 
-/// Every shape as often as it is seen, in document order. Throws Error{limit} naming
-/// `location` for more than a million: groups of groups that are USEd grow without
-/// measure.
+/// All instances of all shapes, in document order. Throws Error{limit} with `location` for more than a million, since
+/// nested groups that are USEd multiply instances exponentially.
 std::vector<ShapeInstance> shapeInstances(const SceneGraph& graph, const std::string& location = "");
 
-/// The same limit for all shapes, those included that are no Shape of ours but an X3D
-/// source's element.
+/// Throws the same Error if the instances of all shapes, Shape elements in GenericNodes included, exceed the limit.
 void checkShapeInstanceLimit(const SceneGraph& graph, const std::string& location);
 
 } // namespace imgeo

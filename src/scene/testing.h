@@ -44,7 +44,7 @@ private:
   std::mt19937 engine_;
 };
 
-/// One wedge for every position.
+/// Adds one wedge for each position without one.
 inline void addPlainWedges(Mesh& mesh) {
   for (std::size_t i = mesh.wedgePositions.size(); i < mesh.positions.size(); ++i)
     mesh.wedgePositions.push_back(static_cast<std::uint32_t>(i));
@@ -154,9 +154,8 @@ inline Mesh soup(std::uint32_t triangles, std::uint32_t seed) {
   return mesh;
 }
 
-/// What no manifold has: an edge with three triangles, neighbours of opposite
-/// orientation, two fans that meet in one vertex, a triangle with two equal
-/// corners, the same triangle twice, and an unreferenced position.
+/// A non-manifold mesh: an edge with three triangles, neighbours of opposite orientation, two fans that share one
+/// vertex, a triangle with two equal corners, a repeated triangle, and an unreferenced position.
 inline Mesh nonManifold() {
   Mesh mesh;
   mesh.name = "non-manifold";
@@ -170,7 +169,7 @@ inline Mesh nonManifold() {
   addTriangle(mesh, 1, 6, 7);
   addTriangle(mesh, 4, 4, 8); // two equal corners
   addTriangle(mesh, 8, 7, 0);
-  addTriangle(mesh, 7, 0, 8); // the same again, turned
+  addTriangle(mesh, 7, 0, 8); // the same triangle, rotated
   return mesh;
 }
 
@@ -189,8 +188,8 @@ inline Mesh pointCloud(std::uint32_t count, std::uint32_t seed) {
   return mesh;
 }
 
-/// Lines of random length between random points, some of them closed, some that
-/// meet in a point of another, and one that goes nowhere.
+/// Polylines of random length between random points: some are closed, some meet a point of another, and one has no
+/// length.
 inline Mesh polylines(std::uint32_t count, std::uint32_t seed) {
   Random random(seed);
   Mesh mesh;
@@ -213,7 +212,7 @@ inline Mesh polylines(std::uint32_t count, std::uint32_t seed) {
   return mesh;
 }
 
-/// One to four numbers for each of `count` wedges: whole ones, fractions, or all the same.
+/// One to four components for each of `count` wedges: integers, fractions, or one value.
 inline NamedAttribute randomAttribute(Random& random, const std::string& name, std::uint32_t count) {
   const std::uint32_t kind = random.below(3), components = 1 + random.below(4);
   const float low = random.between(-1000, 1000), extent = std::exp2(static_cast<float>(random.below(20)) - 5);
@@ -237,7 +236,7 @@ inline Scene sceneOf(std::vector<Mesh> meshes) {
   return scene;
 }
 
-/// The first node of that content in a scene, or null.
+/// The content of the first node of a type, or null.
 template <typename T> const T* firstOf(const SceneGraph& graph) {
   for (const std::size_t node : nodesInOrder(graph))
     if (const T* content = std::get_if<T>(&graph.nodes[node].content))
@@ -250,18 +249,17 @@ inline const std::string& shapeName(const SceneGraph& graph, std::size_t n) {
   return graph.nodes.at(shapeNodes(graph).at(n)).name;
 }
 
-/// The look of the nth shape of a scene, which has one.
+/// The appearance of the nth shape of a scene, which must have one.
 inline const Appearance& appearanceOf(const SceneGraph& graph, std::size_t n) {
   return graph.appearances.at(shapeOf(graph, shapeNodes(graph).at(n)).appearance.value());
 }
 
-/// Any of the above, at random size and place, with or without each attribute,
-/// with creases and seams (positions that have several wedges), degenerate and
-/// duplicate triangles. Always consistent and finite, never without elements.
+/// A random one of these meshes, of random size and position, with or without each attribute, creases and seams
+/// (positions with several wedges), degenerate and duplicate triangles. Consistent, finite and not empty.
 inline Mesh randomMesh(std::uint32_t seed) {
   Random random(seed);
   Mesh mesh;
-  // Drawn one by one: the order in which arguments are evaluated is not the standard's.
+  // In separate statements, since the evaluation order of arguments is unspecified.
   const std::uint32_t kind = random.below(7), i = random.below(20), j = random.below(300), inner = random.bits();
   switch (kind) {
   case 0:
@@ -287,9 +285,9 @@ inline Mesh randomMesh(std::uint32_t seed) {
     break;
   }
   const float scale = std::exp2(static_cast<float>(random.below(21)) - 10);
-  const Vec3f place = random.once(2) ? Vec3f{} : random.point() * (10 * scale);
+  const Vec3f offset = random.once(2) ? Vec3f{} : random.point() * (10 * scale);
   for (Vec3f& position : mesh.positions)
-    position = position * scale + place;
+    position = position * scale + offset;
 
   if (mesh.topology == Topology::triangles) {
     for (std::uint32_t extra = random.once(3) ? random.below(10) : 0; extra > 0; --extra) {

@@ -33,8 +33,8 @@ struct Eigen {
   Vec3d values;
 };
 
-/// Jacobi's method for a symmetric matrix: turns one pair of axes after the
-/// other until nothing is left beside the diagonal.
+/// Eigenvalues of a symmetric matrix by Jacobi's method: rotates pairs of axes until all off-diagonal elements are
+/// zero.
 Eigen eigenOf(Affine3d m) {
   Affine3d axes;
   const auto column = [](Affine3d& of, int i) -> Vec3d& { return i == 0 ? of.x : i == 1 ? of.y : of.z; };
@@ -61,7 +61,7 @@ Vec3d lengthsOf(const Affine3d& m) {
   return {length(m.x), length(m.y), length(m.z)};
 }
 
-/// Whether the columns stand at right angles, but for rounding.
+/// Whether the columns are orthogonal, apart from rounding errors.
 bool isOrthogonal(const Affine3d& m, Vec3d lengths) {
   constexpr double slack = 1e-12;
   return std::abs(dot(m.x, m.y)) <= slack * lengths.x * lengths.y &&
@@ -69,15 +69,15 @@ bool isOrthogonal(const Affine3d& m, Vec3d lengths) {
          std::abs(dot(m.y, m.z)) <= slack * lengths.y * lengths.z;
 }
 
-/// Brings orthogonal columns to unit length and their lengths to `scale`. A column
-/// without length has no direction: any that completes the frame will do.
+/// Normalises orthogonal columns and stores their lengths in `scale`. A column of zero length gets a direction that
+/// completes the frame.
 Affine3d frameOf(const Affine3d& columns, Vec3d& scale) {
   Vec3d to[3] = {columns.x, columns.y, columns.z};
   scale = lengthsOf(columns);
   const double longest = std::max({scale.x, scale.y, scale.z});
   if (!(longest > 0))
     return {};
-  int known = 0; // a column of some length, which there is
+  int known = 0; // a column of nonzero length
   for (int axis = 0; axis < 3; ++axis) {
     if (scale[axis] <= 1e-9 * longest) {
       scale[axis] = 0;
@@ -98,7 +98,7 @@ Affine3d frameOf(const Affine3d& columns, Vec3d& scale) {
   return {to[0], to[1], to[2], {}};
 }
 
-/// M = R P with P = sqrt(M^T M), whose axes and factors are the stretch.
+/// M = R P with P = sqrt(M^T M); the eigenvectors and eigenvalues of P are the axes and factors of the stretch.
 Transform polarDecomposition(const Affine3d& linear) {
   const Eigen stretch = eigenOf(transposed(linear) * linear);
   Transform transform;
@@ -114,7 +114,7 @@ Rotation rotationOfQuaternion(double x, double y, double z, double w) {
   const double aside = length(Vec3d{x, y, z});
   if (!(aside > 0))
     return {};
-  const double sign = w < 0 ? -1 : 1; // the shorter way round
+  const double sign = w < 0 ? -1 : 1; // the rotation by at most pi
   return {Vec3d{x, y, z} * (sign / aside), 2 * std::atan2(aside, std::abs(w))};
 }
 
@@ -138,13 +138,13 @@ Affine3d affineOf(const Transform& transform) {
 
 Transform transformOf(const Affine3d& map) {
   Affine3d linear{map.x, map.y, map.z, {}};
-  // A mirror image is a rotation and a stretch by negative factors.
+  // A reflection is a rotation and a stretch by negative factors.
   const double sign = linear.determinant() < 0 ? -1 : 1;
   if (sign < 0)
     linear = {linear.x * -1, linear.y * -1, linear.z * -1, {}};
   const Vec3d lengths = lengthsOf(linear);
   Transform transform;
-  if (isOrthogonal(linear, lengths)) // most are: a scale along the axes, which then stays as it was
+  if (isOrthogonal(linear, lengths)) // the common case: a scale along the axes needs no scaleOrientation
     transform.rotation = rotationOf(frameOf(linear, transform.scale));
   else
     transform = polarDecomposition(linear);

@@ -1,11 +1,11 @@
 #pragma once
-// X3D's Transform (ISO/IEC 19775-1, 10.4.4) and the affine map it stands for.
+// X3D's Transform (ISO/IEC 19775-1, 10.4.4) and its conversion to and from affine maps.
 
 #include "base/affine.h"
 
 namespace imgeo {
 
-/// A turn about `axis` (which need not be of unit length) by `angle` radians.
+/// A rotation about `axis` (of any length) by `angle` radians.
 struct Rotation {
   Vec3d axis{0, 0, 1};
   double angle = 0;
@@ -17,7 +17,7 @@ struct Transform {
   Vec3d translation;
   Rotation rotation;
   Vec3d scale{1, 1, 1};
-  Rotation scaleOrientation; ///< the axes along which `scale` scales
+  Rotation scaleOrientation; ///< orientation of the axes along which `scale` scales
   Vec3d center;
   friend bool operator==(const Transform&, const Transform&) = default;
 };
@@ -27,9 +27,8 @@ Rotation rotationOfQuaternion(double x, double y, double z, double w);
 Affine3d affineOf(const Rotation& rotation);
 Affine3d affineOf(const Transform& transform);
 
-/// The Transform of any affine map, sheared and mirrored ones included: the polar
-/// decomposition into a rotation and a stretch along three axes (Shoemake & Duff,
-/// "Matrix animation and polar decomposition", 1992).
+/// The Transform of any affine map, including sheared and mirrored ones, by polar decomposition into a rotation and a
+/// stretch along three axes (Shoemake & Duff, "Matrix animation and polar decomposition", 1992).
 Transform transformOf(const Affine3d& map);
 
 } // namespace imgeo

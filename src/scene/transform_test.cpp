@@ -25,17 +25,17 @@ Affine3d randomMap(Random& random) {
   return {randomVector(random), randomVector(random), randomVector(random), randomVector(random)};
 }
 
-TEST(Transform, TurnsScalesAndMovesAsX3dSaysIt) {
+TEST(Transform, IsAppliedInTheOrderOfX3d) {
   Transform transform;
   transform.rotation = {{0, 0, 2}, std::numbers::pi / 2};
   transform.scale = {2, 1, 1};
   transform.center = {1, 0, 0};
   transform.translation = {0, 0, 5};
-  // (3, 0, 0) is 2 from the centre, 4 once scaled, then stands above the centre.
+  // (3, 0, 0) is at distance 2 from the centre, 4 after scaling, and is then rotated above the centre.
   EXPECT_LE(length(affineOf(transform).point({3, 0, 0}) - Vec3d{1, 4, 5}), 1e-12);
 }
 
-TEST(Transform, OfAnyMapIsThatMap) {
+TEST(Transform, OfAnyAffineMapIsThatMap) {
   Random random(5);
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);
@@ -63,7 +63,7 @@ TEST(Transform, OfTheIdentityIsTheDefault) {
   EXPECT_EQ(transformOf({}), Transform{});
 }
 
-TEST(Transform, MayMakeThingsFlatOrVanish) {
+TEST(Transform, MayBeSingular) {
   Random random(7);
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
@@ -91,7 +91,7 @@ TEST(NormalMap, KeepsNormalsAtRightAnglesToTheirSurface) {
     const Vec3d normal = normalMapOf(map).direction(cross(a, b));
     EXPECT_NEAR(dot(normal, map.direction(a)), 0, 1e-9);
     EXPECT_NEAR(dot(normal, map.direction(b)), 0, 1e-9);
-    // It stays on the side on which it was, mirrored or not.
+    // It stays on the same side of the surface, also for reflections.
     const Vec3d side = randomVector(random);
     EXPECT_GT(dot(normal, map.direction(side)) * dot(cross(a, b), side), 0);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// What a wedge of a mesh, or a vertex of what is drawn, has besides its place.
+// Attributes of the wedges of a mesh or the vertices of a patch: all vertex data except positions.
 
 #include "base/vec.h"
 
@@ -10,27 +10,26 @@
 
 namespace imgeo {
 
-/// A further attribute by the name that its source gives it: what a scanner or a
-/// simulation measured at every vertex.
+/// A further vertex attribute with the name that its source gives it, such as a quantity of a scan or a simulation.
 struct NamedAttribute {
   std::string name;
   std::uint32_t components = 1; ///< 1..4
-  std::vector<float> values;    ///< `components` a wedge, finite
+  std::vector<float> values;    ///< `components` for each wedge, finite
 
   std::size_t count() const { return values.size() / components; }
   friend bool operator==(const NamedAttribute&, const NamedAttribute&) = default;
 };
 
-/// All of them, one a wedge each; an attribute that is not there is empty.
+/// All attributes, with one value for each wedge; an absent attribute is empty.
 struct VertexAttributes {
   std::vector<Vec3f> normals; ///< unit length
   std::vector<Vec2f> texCoords;
   std::vector<Rgba8> colors;
-  std::uint32_t colorComponents = 3;           ///< 3: every alpha is 255; 4: alpha counts
-  std::vector<NamedAttribute> namedAttributes; ///< no two of one name
+  std::uint32_t colorComponents = 3;           ///< 3: every alpha is 255; 4: with alpha
+  std::vector<NamedAttribute> namedAttributes; ///< with unique names
 };
 
-/// values[from[0]], values[from[1]], ...; nothing of what is not there.
+/// values[from[0]], values[from[1]], ...; empty for an absent attribute.
 template <typename T> std::vector<T> gather(const std::vector<T>& values, std::span<const std::uint32_t> from) {
   std::vector<T> result;
   if (values.empty())
@@ -42,11 +41,11 @@ template <typename T> std::vector<T> gather(const std::vector<T>& values, std::s
 }
 VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> from);
 
-/// Appends what `more` has of `moreCount` vertices to what `attributes` has of
-/// `count`. Normals (0, 0, 1), white and zeros stand for what one of them lacks.
+/// Appends the attributes of `moreCount` vertices to those of `count` vertices. Where one side lacks an attribute that
+/// the other has, its values are the normal (0, 0, 1), white or zeros.
 void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more, std::size_t moreCount);
 
-/// Whether every attribute that is there is one a vertex, and no two have one name.
+/// Whether every attribute that is present has `count` values, and names are unique.
 bool isConsistent(const VertexAttributes& attributes, std::size_t count);
 
 } // namespace imgeo

@@ -21,7 +21,7 @@ TEST(VertexAttributes, AreGatheredByVertex) {
   EXPECT_TRUE(isConsistent(gathered, 4));
 }
 
-TEST(VertexAttributes, AreFilledUpWhereOneOfTwoLacksThem) {
+TEST(VertexAttributes, AreFilledWithDefaultsWhereOneSideLacksThem) {
   VertexAttributes plain, rich;
   rich.texCoords = {{1, 2}, {3, 4}};
   rich.namedAttributes = {{"flow", 2, {1, 2, 3, 4}}};
@@ -34,7 +34,7 @@ TEST(VertexAttributes, AreFilledUpWhereOneOfTwoLacksThem) {
   EXPECT_TRUE(isConsistent(plain, 4));
 }
 
-TEST(VertexAttributes, AreInconsistentWithAnotherCountOrANameTwice) {
+TEST(VertexAttributes, AreInconsistentWithAnotherCountOrARepeatedName) {
   VertexAttributes attributes;
   attributes.namedAttributes = {{"heat", 1, {1, 2}}};
   EXPECT_TRUE(isConsistent(attributes, 2));

@@ -17,18 +17,17 @@ struct Viewpoint {
   friend bool operator==(const Viewpoint&, const Viewpoint&) = default;
 };
 
-/// X3D OrthoViewpoint: the same without perspective.
+/// X3D OrthoViewpoint: a viewpoint with a parallel projection.
 struct OrthoViewpoint {
   std::string description;
   Vec3d position{0, 0, 10};
   Rotation orientation;
-  Vec2<double> min{-1, -1}, max{1, 1}; ///< what is seen, in units of the scene
+  Vec2<double> min{-1, -1}, max{1, 1}; ///< the visible rectangle, in scene units
   Vec3d centerOfRotation;
   friend bool operator==(const OrthoViewpoint&, const OrthoViewpoint&) = default;
 };
 
-/// A viewpoint from which a box is seen whole, from slightly above and beside,
-/// centred on the box; for pages whose source brings none.
+/// A default viewpoint from which a whole box is visible: centred on the box, slightly above and to the side.
 Viewpoint viewpointFor(const Box3d& box);
 
 } // namespace imgeo
