@@ -1,7 +1,9 @@
 #pragma once
 // Base meshes of compact -> files that several of them share.
 
-#include "transcode/encode/patch_files.h"
+#include "containers/geometry_description.h"
+#include "transcode/encode/file_contents.h"
+#include "transcode/site/content_files.h"
 
 #include <utility>
 #include <vector>

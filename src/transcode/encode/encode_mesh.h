@@ -11,30 +11,29 @@
 
 namespace imgeo {
 
-/// What became of a mesh, counted as it is drawn.
+/// An encoded mesh: its description, patches that are not written yet, and measurements.
 struct EncodedMesh {
   GeometryDescription geometry;
-  std::optional<compact::CompactPatch> base;  ///< the geometry's, which has no file yet
-  std::optional<compact::CompactPatch> small; ///< its only patch, which has none either: many share one
-  ElementCounts elements;
+  std::optional<compact::CompactPatch> base;  ///< base mesh, to be written by BaseFiles
+  std::optional<compact::CompactPatch> small; ///< the only patch, to be written by PatchFiles
+  ElementCounts elements;                     ///< as drawn
   std::size_t vertices = 0;
-  ElementCounts collapsed;       ///< those that lost their area or length on the lattice
-  double positionError = 0;      ///< by which its vertices may be off, along an axis
-  double normalErrorDegrees = 0; ///< by which its stored normals may be off
+  ElementCounts collapsed;       ///< elements that lost their area or length on the lattice
+  double positionError = 0;      ///< maximum error of a vertex along an axis
+  double normalErrorDegrees = 0; ///< maximum error of stored normals
   bool hasNormals = false, hasColors = false;
-  std::optional<double> texCoordError; ///< by which its texture coordinates may be off, where it has any
+  std::optional<double> texCoordError; ///< maximum error of texture coordinates, if there are any
 };
 
-/// Called with how many more elements have been written.
+/// Called with the number of elements that have been written since the last call. May be called from any thread.
 using ElementsDone = std::function<void(std::size_t count)>;
 
-/// Vertices (wedges) of a patch of compact that shares its file with others, at most; and
-/// of all patches of such a file: docs/decisions/compact.md has the measurement.
-inline constexpr std::size_t sharedFileVertices = 16384;
+/// Maximum number of wedges of a file of compact that several patches share: docs/decisions/compact.md has the
+/// measurement. Larger patches have a file of their own.
+inline constexpr std::size_t maxSharedFileWedges = 16384;
 
-/// Cuts a mesh into patches and writes them, but for what is to share a file, several at a time; a patch's
-/// memory is given back when its files are written, so that the peak is the patches and not their encodings.
-/// `mesh` is used up. Deterministic.
+/// Cuts a mesh into patches, encodes them in parallel and writes them, except a single small patch, which will share a
+/// file. The memory of a patch is freed as soon as its files are written. Deterministic.
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done);
 
 } // namespace imgeo

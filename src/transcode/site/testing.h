@@ -7,6 +7,7 @@
 #include "imgeo/convert.h"
 #include "imgeo/site.h"
 #include "imgeo/verify.h"
+#include "transcode/export/export_site.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/staged_site.h"
 
