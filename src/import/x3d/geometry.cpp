@@ -1,6 +1,7 @@
 #include "import/x3d/geometry.h"
 
 #include "import/mesh/unit_normal.h"
+#include "import/x3d/elevation_grid.h"
 #include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
 
@@ -263,20 +264,8 @@ private:
     const auto columns = static_cast<std::uint32_t>(columnsField), rows = static_cast<std::uint32_t>(rowsField);
     if (columns < 2 || rows < 2)
       return;
-    const double stepX = source_.real(node_, "xSpacing", 1), stepZ = source_.real(node_, "zSpacing", 1);
-    const bool hasTexCoords = !data_.texCoords.empty();
-    for (std::uint32_t z = 0; z < rows; ++z)
-      for (std::uint32_t x = 0; x < columns; ++x) {
-        data_.positions.push_back(Vec3f(Vec3d{stepX * x, heights[std::size_t{z} * columns + x], stepZ * z}));
-        if (!hasTexCoords)
-          data_.texCoords.push_back({static_cast<float>(x) / static_cast<float>(columns - 1),
-                                     static_cast<float>(z) / static_cast<float>(rows - 1)});
-      }
-    for (std::uint32_t z = 0; z + 1 < rows; ++z)
-      for (std::uint32_t x = 0; x + 1 < columns; ++x) {
-        const std::uint32_t corner = z * columns + x;
-        addFace({corner, corner + columns, corner + columns + 1, corner + 1});
-      }
+    addElevationGrid({columns, rows, source_.real(node_, "xSpacing", 1), source_.real(node_, "zSpacing", 1), heights},
+                     data_, faces_);
     addVertexAttributes();
     hasCreaseAngle_ = true;
   }
