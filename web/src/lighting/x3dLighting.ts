@@ -1,5 +1,5 @@
 // X3D's lighting (ISO/IEC 19775-1, 17.2.2) in GLSL, for pages and for the preview: per light,
-// diffuse N.L + specular (N.H)^(128 shininess), plus its ambient part.
+// diffuse N.L + specular (N.H)^(128 shininess), plus its ambient term.
 //
 // Colours are not converted: the document's values are display values, and light adds up in them,
 // as X3D's equations are written and as X3DOM draws them. A grey of 0.5 that faces the headlight is

@@ -174,11 +174,11 @@ function setTextureMaps(
 function setTextureMap(material: Material, slot: string, texture: Texture | undefined): void {
   if (!(slot in material)) return;
   const maps = material as unknown as Record<string, Texture | null>;
-  const laid = (material.userData.imgeoMaps ??= {}) as Record<string, Texture>;
+  const sceneTextures = (material.userData.imgeoMaps ??= {}) as Record<string, Texture>;
   const before = maps[slot] ?? null;
-  if (before === texture || (texture === undefined && (before === null || before !== laid[slot]))) return;
+  if (before === texture || (texture === undefined && (before === null || before !== sceneTextures[slot]))) return;
   maps[slot] = texture ?? null;
-  if (texture) laid[slot] = texture;
+  if (texture) sceneTextures[slot] = texture;
   if ((before === null) !== (texture === undefined)) material.needsUpdate = true;
 }
 

@@ -305,7 +305,7 @@ describe("small meshes", () => {
     assert.deepEqual(
       meshIn(packed).instances,
       members.slice(3).flatMap((member) => Array<number>(3).fill(member.instanceIndex)),
-      "it is written anew",
+      "it is rebuilt",
     );
   });
 

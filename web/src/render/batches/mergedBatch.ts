@@ -68,7 +68,7 @@ export class MergedBatch implements Batch {
     this.#resources.material.dispose();
   }
 
-  /** Makes the geometry anew, which three.js uploads with the next frame. */
+  /** Makes a new geometry, which three.js uploads with the next frame. */
   #send(): void {
     this.#hasChanged = false;
     this.#geometry.dispose();

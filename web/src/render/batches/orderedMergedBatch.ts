@@ -80,7 +80,7 @@ export class OrderedMergedBatch implements Batch {
     return (this.#objects[n] ??= this.#resources.addObject(this.#shared()));
   }
 
-  /** Makes the geometry anew, which three.js uploads with the next frame. */
+  /** Makes a new geometry, which three.js uploads with the next frame. */
   #send(): void {
     this.#hasChanged = false;
     if (this.#mesh.lostShare > 0.5) this.#mesh.rebuild();

@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, mock, test } from "node:test";
 import { FramePacer } from "./framePacing.ts";
 
-/** A simulated GPU that needs `frameMs` for each frame, and a renderer that draws when it is told to. */
-function renderer(frameMs: number): { pace: FramePacer; frames: number[]; draw: () => void; ask: () => void } {
+/** A simulated GPU that needs `frameMs` for each frame, and a renderer that draws on request. */
+function renderer(frameMs: number): { pacer: FramePacer; frames: number[]; draw: () => void; request: () => void } {
   const begun: number[] = [];
   const gl = {
     TIMEOUT_EXPIRED: 1,
@@ -14,20 +14,20 @@ function renderer(frameMs: number): { pace: FramePacer; frames: number[]; draw: 
     deleteSync: () => undefined,
     isContextLost: () => false,
   };
-  const pace = new FramePacer(gl as unknown as WebGL2RenderingContext);
+  const pacer = new FramePacer(gl as unknown as WebGL2RenderingContext);
   const frames: number[] = [];
   const draw = (): void => {
     const now = performance.now();
-    pace.begin();
+    pacer.begin();
     frames.push(now);
-    pace.end(now);
+    pacer.end(now);
   };
   return {
-    pace,
+    pacer,
     frames,
     draw,
-    ask: () => {
-      pace.request(draw);
+    request: () => {
+      pacer.request(draw);
     },
   };
 }
@@ -53,9 +53,9 @@ describe("frames that only refine the picture", () => {
   });
 
   test("leave a slow GPU idle for two thirds of the time, and lose no change", async () => {
-    const { frames, ask } = renderer(100);
+    const { frames, request } = renderer(100);
     for (let ms = 0; ms < 1000; ms += 10) {
-      ask();
+      request();
       await pass(10);
     }
     assert.ok(frames.length >= 3 && frames.length <= 4, `${frames.length} frames in a second`);
@@ -63,24 +63,24 @@ describe("frames that only refine the picture", () => {
       assert.ok(at - (frames[i] ?? 0) >= 300);
     });
     const before = frames.length;
-    ask();
+    request();
     await pass(1000);
     assert.equal(frames.length, before + 1);
   });
 
   test("are drawn at every request where the GPU is fast", async () => {
-    const { frames, ask } = renderer(4);
+    const { frames, request } = renderer(4);
     for (let ms = 0; ms < 1000; ms += 20) {
-      ask();
+      request();
       await pass(20);
     }
     assert.equal(frames.length, 50);
   });
 
   test("do not delay other frames, and are skipped when another frame has shown their changes", async () => {
-    const { frames, ask, draw } = renderer(100);
-    ask();
-    ask(); // is delayed
+    const { frames, request, draw } = renderer(100);
+    request();
+    request(); // is delayed
     draw();
     draw();
     assert.equal(frames.length, 3);

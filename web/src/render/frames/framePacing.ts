@@ -8,14 +8,14 @@ import { fencePassed } from "./gpuFence.ts";
 
 /** Frames of up to this duration cause no delay. */
 const quickFrameMs = 16;
-const restPerFrame = 2;
-const longestRestMs = 2000;
+const delayPerFrame = 2;
+const maxDelayMs = 2000;
 
 export class FramePacer {
   readonly #gl: WebGL2RenderingContext;
-  #rest: Promise<void> | undefined;
-  #isAsked = false;
-  #wasAsked = false;
+  #delay: Promise<void> | undefined;
+  #isPending = false;
+  #wasPending = false;
 
   constructor(gl: WebGL2RenderingContext) {
     this.#gl = gl;
@@ -23,36 +23,36 @@ export class FramePacer {
 
   /** A frame has been requested and has not been drawn yet. */
   get isFramePending(): boolean {
-    return this.#isAsked;
+    return this.#isPending;
   }
 
   /** Calls back once, however often it is requested before the frame: immediately, or after the delay. */
   request(callback: () => void): void {
-    if (this.#isAsked) return;
-    this.#isAsked = true;
-    if (this.#rest === undefined) callback();
+    if (this.#isPending) return;
+    this.#isPending = true;
+    if (this.#delay === undefined) callback();
     else
-      void this.#rest.then(() => {
-        if (this.#isAsked) callback();
+      void this.#delay.then(() => {
+        if (this.#isPending) callback();
       });
   }
 
   /** Call before any frame is submitted to the GPU, whether or not it was requested here. */
   begin(): void {
-    this.#wasAsked = this.#isAsked;
-    this.#isAsked = false;
+    this.#wasPending = this.#isPending;
+    this.#isPending = false;
   }
 
   /** Call after the frame has been submitted to the GPU. `begunAt`: when `begin` was called, by `performance.now()`. */
   end(begunAt: number): void {
-    if (!this.#wasAsked || this.#rest !== undefined) return;
-    this.#rest = restAfter(this.#gl, begunAt).then(() => {
-      this.#rest = undefined;
+    if (!this.#wasPending || this.#delay !== undefined) return;
+    this.#delay = delayAfter(this.#gl, begunAt).then(() => {
+      this.#delay = undefined;
     });
   }
 }
 
-async function restAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<void> {
+async function delayAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<void> {
   const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.flush();
   await fencePassed(gl, fence);
@@ -60,6 +60,6 @@ async function restAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<v
   const took = performance.now() - begunAt;
   if (took > quickFrameMs)
     await new Promise((resolve) => {
-      setTimeout(resolve, Math.min(restPerFrame * took, longestRestMs));
+      setTimeout(resolve, Math.min(delayPerFrame * took, maxDelayMs));
     });
 }

@@ -50,12 +50,12 @@ export function makeLights(lights: readonly LightInstance[]): SceneLights {
       light.decay = attenuations.length;
       attenuations.push(new Vector3(...attenuation));
     }
-    const place = new Group();
-    place.matrixAutoUpdate = false;
-    place.matrix.copy(sceneFromLight);
-    place.add(light);
-    if (!(light instanceof PointLight)) place.add(light.target);
-    root.add(place);
+    const group = new Group();
+    group.matrixAutoUpdate = false;
+    group.matrix.copy(sceneFromLight);
+    group.add(light);
+    if (!(light instanceof PointLight)) group.add(light.target);
+    root.add(group);
     if (scope === sceneScope) ambient.add(ambientOf(description));
   }
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));

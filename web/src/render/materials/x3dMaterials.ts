@@ -127,12 +127,12 @@ function applyAppearance(
   surfaceTextures: SurfaceTextures,
 ): void {
   const description = appearance.material;
-  const shown = material as PatchMaterial;
-  const isLit = shown instanceof MeshPhongMaterial;
-  if (isLit) applyLit(shown, description, litParametersOf(description, colors !== "none"));
-  else setColor(shown.color, unlitColorOf(description, colors !== "none"));
+  const x3dMaterial = material as PatchMaterial;
+  const isLit = x3dMaterial instanceof MeshPhongMaterial;
+  if (isLit) applyLit(x3dMaterial, description, litParametersOf(description, colors !== "none"));
+  else setColor(x3dMaterial.color, unlitColorOf(description, colors !== "none"));
   material.opacity = opacityOf(appearance);
-  setTextureMaps(shown, description, surfaceTextures, isLit ? shown.userData.lit : undefined);
+  setTextureMaps(x3dMaterial, description, surfaceTextures, isLit ? x3dMaterial.userData.lit : undefined);
   setGlyphDefine(material, appearance);
   const isTransparent = blends(appearance, colors, surfaceTextures);
   if (material.transparent !== isTransparent) material.needsUpdate = true;
@@ -168,9 +168,9 @@ const allKindDefines = Object.values(kindDefines).flat();
 /** Updates the #defines; three.js compiles another program where the kind has changed. */
 function setKind(material: LitMaterial, kind: MaterialDescription["kind"]): void {
   const defines = material.defines ?? {};
-  const wanted = kindDefines[kind];
-  if (allKindDefines.every((name) => wanted.includes(name) === name in defines)) return;
+  const kindNames = kindDefines[kind];
+  if (allKindDefines.every((name) => kindNames.includes(name) === name in defines)) return;
   const others = Object.entries(defines).filter(([name]) => !allKindDefines.includes(name));
-  material.defines = { ...Object.fromEntries(others), ...Object.fromEntries(wanted.map((name) => [name, ""])) };
+  material.defines = { ...Object.fromEntries(others), ...Object.fromEntries(kindNames.map((name) => [name, ""])) };
   material.needsUpdate = true;
 }

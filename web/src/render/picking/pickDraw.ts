@@ -49,7 +49,7 @@ export class PickDraw {
   /** Undefined for vertices from images. */
   readonly #stage: BufferStage | undefined;
   readonly #context: PickDrawOptions;
-  #made: { readonly parts: PickResources; readonly material: PickMaterial } | undefined;
+  #made: { readonly resources: PickResources; readonly material: PickMaterial } | undefined;
   #contents: BufferContents | undefined;
   #isDisposed = false;
 
@@ -75,8 +75,8 @@ export class PickDraw {
 
   /** The object to draw in the picking pass; its pixels get this id. */
   objectFor(pickId: number, worldFromStored: Matrix4): DrawnObject {
-    const { parts, material } = (this.#made ??= this.#make());
-    const object = makeDrawnObject(this.range, parts.geometry, material);
+    const { resources, material } = (this.#made ??= this.#make());
+    const object = makeDrawnObject(this.range, resources.geometry, material);
     object.frustumCulled = false; // candidatesInView has already culled
     object.matrixAutoUpdate = false;
     object.matrixWorldAutoUpdate = false;
@@ -107,10 +107,10 @@ export class PickDraw {
     this.#contents = undefined;
   }
 
-  /** What it draws with is made anew when it is wanted again. */
+  /** Releases what it draws with, until it is drawn again. */
   releaseResources(): void {
     this.#made?.material.dispose();
-    this.#made?.parts.release();
+    this.#made?.resources.release();
     this.#made = undefined;
   }
 
@@ -120,8 +120,8 @@ export class PickDraw {
     this.releaseResources();
   }
 
-  #make(): { parts: PickResources; material: PickMaterial } {
-    const parts = this.#context.acquireResources();
-    return { parts, material: makePickMaterial({ ...parts.request, primitive: this.range.primitive }) };
+  #make(): { resources: PickResources; material: PickMaterial } {
+    const resources = this.#context.acquireResources();
+    return { resources, material: makePickMaterial({ ...resources.request, primitive: this.range.primitive }) };
   }
 }

@@ -79,16 +79,16 @@ export class Picker {
   /** Blocks until the GPU is done. For clicks. */
   pick(
     camera: PerspectiveCamera,
-    place: PixelPosition,
+    pixel: PixelPosition,
     slack: number,
     candidates: Iterable<PickCandidate>,
   ): Hit | undefined {
-    const near = candidatesNearPixel(camera, place, slack, candidates);
+    const near = candidatesNearPixel(camera, pixel, slack, candidates);
     if (near.length === 0) return undefined;
-    this.#draw(camera, place, near);
+    this.#draw(camera, pixel, near);
     const words = readPixel(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
-    return this.#hitOf(words, camera, place, near);
+    return this.#hitOf(words, camera, pixel, near);
   }
 
   /**
@@ -97,19 +97,19 @@ export class Picker {
    */
   async pickAsync(
     camera: PerspectiveCamera,
-    place: PixelPosition,
+    pixel: PixelPosition,
     slack: number,
     candidates: Iterable<PickCandidate>,
   ): Promise<Hit | "stale" | undefined> {
-    const near = candidatesNearPixel(camera, place, slack, candidates);
+    const near = candidatesNearPixel(camera, pixel, slack, candidates);
     if (near.length === 0) return undefined;
-    this.#draw(camera, place, near);
+    this.#draw(camera, pixel, near);
     const reading = readPixelAsync(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
     const seenBy = new PerspectiveCamera().copy(camera, false); // the original may move meanwhile
     const words = await reading;
     const hit = near[(words[pickedWordOffsets.pickId] ?? 0) - 1];
-    return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, place, near);
+    return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, pixel, near);
   }
 
   dispose(): void {
@@ -130,8 +130,8 @@ export class Picker {
     this.#target ??= makePickTarget();
     // The picture's viewport, shifted so that the requested pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
-    this.#scene.children = candidates.map(({ pick, worldFromStored }, place) =>
-      pick.objectFor(place + 1, worldFromStored),
+    this.#scene.children = candidates.map(({ pick, worldFromStored }, index) =>
+      pick.objectFor(index + 1, worldFromStored),
     );
     this.#renderer.setRenderTarget(this.#target);
     this.#renderer.render(this.#scene, camera);
@@ -141,7 +141,7 @@ export class Picker {
   #hitOf(
     words: Uint32Array,
     camera: PerspectiveCamera,
-    place: PixelPosition,
+    pixel: PixelPosition,
     candidates: readonly CandidateInView[],
   ): Hit | undefined {
     const candidate = candidates[(words[pickedWordOffsets.pickId] ?? 0) - 1];
@@ -151,7 +151,7 @@ export class Picker {
     const stored = new Vector3().fromArray(floats, pickedWordOffsets.position);
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
     const faceNormal = worldNormalOf(face.normal, worldFromStored);
-    const ray = rayThrough(camera, place);
+    const ray = rayThrough(camera, pixel);
     // The normal points to the viewer's side of the face.
     if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);

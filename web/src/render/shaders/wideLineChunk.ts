@@ -51,7 +51,7 @@ vec2 onScreen(vec4 clip) {
   return viewport.xy + (clip.xy / clip.w * 0.5 + 0.5) * viewport.zw;
 }
 
-// The part of a line before the near plane has no screen position; the line is cut there.
+// In front of the near plane a line has no screen position; it is cut there.
 vec2 sharesSeen(vec4 begin, vec4 end) {
   vec2 ahead = vec2(begin.z + begin.w, end.z + end.w);
   float cut = ahead.x / (ahead.x - ahead.y);

@@ -1,5 +1,5 @@
 // Program warm-up: compiles the shader programs of shapes, as far as the document determines them,
-// while the first files are loading. Drivers take a good part of a second for them, and drawing
+// while the first files are loading. Drivers take a large fraction of a second for them, and drawing
 // with a program that is not ready blocks the page.
 
 import type { Object3D } from "three";
@@ -27,7 +27,7 @@ const placeholderTexture: SurfaceTexture = { texture: new Texture(), hasAlpha: f
 export function warmUpObjects(
   shapes: Iterable<ShapeDescription>,
   plan: BatchingPlan,
-  look: MaterialFactory,
+  materialFactory: MaterialFactory,
   shared: SceneUniforms,
 ): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
@@ -47,15 +47,24 @@ export function warmUpObjects(
     for (const bareStage of expectedStages(described, textures.length > 0)) {
       const stage = lines ? withWideLines(bareStage) : bareStage;
       for (const range of stage.draws) {
-        const laid = stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+        const applicable = stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
         const isBatched =
-          look.batching !== undefined &&
-          drawModeOf(stage, plan.drawModesOf(described), appearance, laid, look.batching) !== "alone";
+          materialFactory.batching !== undefined &&
+          drawModeOf(stage, plan.drawModesOf(described), appearance, applicable, materialFactory.batching) !== "alone";
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
-        const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, ...laid.keys()]);
+        const key = JSON.stringify([
+          { ...request, shared: undefined },
+          kind,
+          transparency > 0,
+          alpha,
+          ...applicable.keys(),
+        ]);
         if (objects.has(key)) continue;
         const geometry = stage.kind === "buffers" ? inBuffers : bare;
-        objects.set(key, makeDrawnObject(range, geometry, look.makeMaterial(request, appearance, laid)));
+        objects.set(
+          key,
+          makeDrawnObject(range, geometry, materialFactory.makeMaterial(request, appearance, applicable)),
+        );
       }
     }
   }
@@ -83,9 +92,9 @@ function expectedStages(geometry: GeometryDescription, isTextured: boolean): Sta
   if (patch.index !== undefined)
     stages.push({ ...surface, name: "points", draws: [{ primitive: "points", first: 0, count: 1 }], index: undefined });
   let stage = surface;
-  const add = (part: "normal" | "texCoord" | "color", isThere: boolean) => {
+  const add = (attribute: "normal" | "texCoord" | "color", isThere: boolean) => {
     if (!isThere) return;
-    stage = { ...stage, name: "shaded", [part]: placeholderTexels };
+    stage = { ...stage, name: "shaded", [attribute]: placeholderTexels };
     stages.push(stage);
   };
   add("normal", patch.normal !== undefined);

@@ -22,16 +22,16 @@ viewer.updateMatrixWorld();
 class Watched {
   readonly shapes = new Map<NodeInstance, { shape: ShapeDescription; group: ShapeGroup }>();
   readonly graph = new SceneGroups({
-    onEnter: (shape, place, group) => {
-      assert.ok(!this.shapes.has(place));
-      this.shapes.set(place, { shape, group });
+    onEnter: (shape, instance, group) => {
+      assert.ok(!this.shapes.has(instance));
+      this.shapes.set(instance, { shape, group });
     },
-    onChange: (shape, place, group, before) => {
-      assert.deepEqual([this.shapes.get(place)?.shape, this.shapes.get(place)?.group], [before, group]);
-      this.shapes.set(place, { shape, group });
+    onChange: (shape, instance, group, before) => {
+      assert.deepEqual([this.shapes.get(instance)?.shape, this.shapes.get(instance)?.group], [before, group]);
+      this.shapes.set(instance, { shape, group });
     },
-    onLeave: (_, place) => {
-      assert.ok(this.shapes.delete(place));
+    onLeave: (_, instance) => {
+      assert.ok(this.shapes.delete(instance));
     },
   });
 
@@ -87,17 +87,17 @@ test("shapes that have not changed are not reported again", () => {
     "<X3D><Transform><Shape/></Transform><Transform><Shape/></Transform><Group><Shape/></Group></X3D>",
   );
   const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
-  const told: string[] = [];
-  const tell = (shape: ShapeDescription) => {
-    told.push(shape.element === x3d.children[1]?.children[0] ? "second" : "another");
+  const reported: string[] = [];
+  const report = (shape: ShapeDescription) => {
+    reported.push(shape.element === x3d.children[1]?.children[0] ? "second" : "another");
   };
-  const graph = new SceneGroups({ onEnter: tell, onChange: tell, onLeave: tell });
+  const graph = new SceneGroups({ onEnter: report, onChange: report, onLeave: report });
   graph.follow(reader.read().root);
-  assert.equal(told.splice(0).length, 3);
+  assert.equal(reported.splice(0).length, 3);
   x3d.children[1]?.attributes.set("translation", "1 0 0");
   for (const element of x3d.children) reader.touch(element);
   graph.follow(reader.read().root);
-  assert.deepEqual(told, ["second"]);
+  assert.deepEqual(reported, ["second"]);
 });
 
 const identity = Object.fromEntries(

@@ -21,13 +21,13 @@ import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
 
-/** Is told of shape instances. The world matrix of the given group is up to date. */
+/** Receives the shape instances of a scene. The world matrix of the given group is up to date. */
 export interface ShapeInstanceListener {
   /** The shape has one more instance. */
-  onEnter(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup): void;
+  onEnter(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
   /** The description, the transform or the light scope of the instance has changed. */
-  onChange(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
-  onLeave(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup): void;
+  onChange(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
+  onLeave(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
   /** The object for a group of the scene; undefined: a plain Group. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
   /** The instance has turned with a billboard around it. */
@@ -97,7 +97,7 @@ export class SceneGroups implements InstanceTreeListener {
 
   /**
    * Follows a new description of the scene. Returns whether light scopes have been renumbered, also for instances that
-   * the listener is not told of.
+   * the listener gets no call for.
    */
   follow(root: GroupDescription): boolean {
     const { summary: reach } = this.#tree.update(root).root;

@@ -63,23 +63,23 @@ export class SceneShapes {
     this.#context = context;
     this.#batches = context.batches;
     this.#graph = new SceneGroups({
-      onEnter: (shape, place, group) => {
+      onEnter: (shape, instance, group) => {
         this.#objectOf(shape).addInstance(group, shape.host);
         if (shape.geometry) this.#plan.add(shape.geometry);
-        this.#changes.recordPresent(shape, place);
+        this.#changes.recordPresent(shape, instance);
       },
-      onChange: (shape, place, group, before) => {
+      onChange: (shape, instance, group, before) => {
         this.#objectOf(shape).updateInstance(group);
         if (before.geometry !== shape.geometry) {
           if (before.geometry) this.#plan.remove(before.geometry);
           if (shape.geometry) this.#plan.add(shape.geometry);
         }
-        this.#changes.recordPresent(shape, place);
+        this.#changes.recordPresent(shape, instance);
       },
-      onLeave: (shape, place, group) => {
+      onLeave: (shape, instance, group) => {
         this.#shapes.get(shape.element)?.removeInstance(group);
         if (shape.geometry) this.#plan.remove(shape.geometry);
-        this.#changes.recordRemoved(shape, place);
+        this.#changes.recordRemoved(shape, instance);
       },
       onTurn: (shape, group) => {
         this.#objectOf(shape).updateInstance(group);

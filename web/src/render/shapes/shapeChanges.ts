@@ -1,4 +1,4 @@
-// Collects the changes of shapes while a scene is described anew.
+// Collects the changes of shapes while a scene gets a new description.
 
 import type { ShapeDescription } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
@@ -19,14 +19,14 @@ export class ShapeChanges {
   readonly shapes = new Map<SceneElement, ShapeDescription>();
   readonly instances = new Map<NodeInstance, ShapeInstance | undefined>();
 
-  recordPresent(shape: ShapeDescription, place: NodeInstance): void {
+  recordPresent(shape: ShapeDescription, instance: NodeInstance): void {
     this.shapes.set(shape.element, shape);
-    this.instances.set(place, { shape, sceneFromShape: place.sceneFromNode, lightScope: place.lightScope });
+    this.instances.set(instance, { shape, sceneFromShape: instance.sceneFromNode, lightScope: instance.lightScope });
   }
 
   /** The shape's other instances are unchanged, or are recorded themselves. */
-  recordRemoved(shape: ShapeDescription, place: NodeInstance): void {
+  recordRemoved(shape: ShapeDescription, instance: NodeInstance): void {
     if (!this.shapes.has(shape.element)) this.shapes.set(shape.element, shape);
-    this.instances.set(place, undefined);
+    this.instances.set(instance, undefined);
   }
 }

@@ -156,28 +156,28 @@ export class ShapeObject {
   }
 
   #applyAppearance(): void {
-    for (const [place, shown] of Array.from(this.#patches)) {
-      const patch = shown.geometry.patches[place];
+    for (const [patchIndex, displayed] of Array.from(this.#patches)) {
+      const patch = displayed.geometry.patches[patchIndex];
       const isSame =
         patch !== undefined &&
-        this.#drawnOf(shown.stage, patch) === shown.drawn &&
-        this.#drawModeOf(shown.stage) === shown.drawMode;
-      if (isSame) shown.draws.applyAppearance(this.#appearance, new Map(this.#surfaceTextures));
-      else this.setStage(shown.geometry, place, shown.stage);
+        this.#drawnOf(displayed.stage, patch) === displayed.drawn &&
+        this.#drawModeOf(displayed.stage) === displayed.drawMode;
+      if (isSame) displayed.draws.applyAppearance(this.#appearance, new Map(this.#surfaceTextures));
+      else this.setStage(displayed.geometry, patchIndex, displayed.stage);
     }
   }
 
   /** Replaces the stage of a patch at once; textures that both stages use stay on the GPU. Undefined: removes it. */
-  setStage(geometry: GeometryDescription, place: number, stage: Stage | undefined): void {
-    const patch = geometry.patches[place];
-    if (patch === undefined) throw new RangeError(`no patch ${place}`);
-    const before = this.#patches.get(place);
-    if (stage === undefined) this.#patches.delete(place);
-    else this.#patches.set(place, this.#show(geometry, patch, stage));
+  setStage(geometry: GeometryDescription, patchIndex: number, stage: Stage | undefined): void {
+    const patch = geometry.patches[patchIndex];
+    if (patch === undefined) throw new RangeError(`no patch ${patchIndex}`);
+    const before = this.#patches.get(patchIndex);
+    if (stage === undefined) this.#patches.delete(patchIndex);
+    else this.#patches.set(patchIndex, this.#display(geometry, patch, stage));
     before?.draws.dispose();
   }
 
-  #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): DisplayedPatch {
+  #display(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): DisplayedPatch {
     const { batches, ...context } = this.#context;
     const { batching } = context.materialFactory;
     const drawMode = this.#drawModeOf(stage);
@@ -199,8 +199,8 @@ export class ShapeObject {
 
   /** The same object for the same stage, unless the drawing of points or lines changes. */
   #drawnOf(stage: Stage, { vertexCount }: PatchDescription): Stage {
-    const shown = this.#context.drawing.asPoints ? surfaceAsPoints(stage, vertexCount) : stage;
-    return this.#appearance.lines ? withWideLines(shown) : shown;
+    const drawn = this.#context.drawing.asPoints ? surfaceAsPoints(stage, vertexCount) : stage;
+    return this.#appearance.lines ? withWideLines(drawn) : drawn;
   }
 
   #drawModeOf(stage: Stage): DrawMode {
@@ -224,7 +224,8 @@ export class ShapeObject {
 
   /** Draws everything again, after a change of the context. */
   redraw(): void {
-    for (const [place, { geometry, stage }] of Array.from(this.#patches)) this.setStage(geometry, place, stage);
+    for (const [patchIndex, { geometry, stage }] of Array.from(this.#patches))
+      this.setStage(geometry, patchIndex, stage);
   }
 
   clear(): void {

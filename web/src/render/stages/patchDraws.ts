@@ -40,26 +40,26 @@ export interface PatchDraws {
 
 /** Draws each draw of the stage by one object per instance. */
 export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
-  const { geometry, patch, materialFactory: look, buffers } = context;
+  const { geometry, patch, materialFactory, buffers } = context;
   const { box, sphere } = boundsOf(geometry, patch, stage);
   const shapeFromStored = shapeFromStoredOf(geometry, patch);
   const uniforms = uniformsOf(stage, context);
   // Without texture coordinates, textures cannot be applied.
-  const laid = (surfaceTextures: SurfaceTextures) =>
+  const applicable = (surfaceTextures: SurfaceTextures) =>
     stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
-  let shown = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
-  const draws = context.geometries.acquire(stage).flatMap((shape, place) => {
-    const range = stage.draws[place];
+  let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
+  const draws = context.geometries.acquire(stage).flatMap((shape, drawIndex) => {
+    const range = stage.draws[drawIndex];
     if (range === undefined || range.count === 0) return [];
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared);
     const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
     const materials = new MaterialPerLightScope((lightScope) =>
-      look.makeMaterial(
+      materialFactory.makeMaterial(
         { ...request, uniforms: { ...request.uniforms, lightScope } },
-        shown.appearance,
-        laid(shown.surfaceTextures),
+        displayed.appearance,
+        applicable(displayed.surfaceTextures),
       ),
     );
     const pick = new PickDraw(stage, range, {
@@ -68,7 +68,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       shapeFromStored,
       acquireResources: () => ({
         geometry: shape,
-        request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.surfaceTextures),
+        request: pickRequestOf(stage, range, side, uniforms.of(range), displayed.appearance, displayed.surfaceTextures),
         release: () => undefined,
       }),
     });
@@ -85,7 +85,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       const here = draws.map(({ range, shape, materials, request }) => {
         const material = materials.of(group);
         const object = objectWithMatrix(range, shape, material, shapeFromStored);
-        look.prepareObject(object, request, material);
+        materialFactory.prepareObject(object, request, material);
         return object;
       });
       if (here.length > 0) group.add(...here);
@@ -93,21 +93,21 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     },
     updateInstance(group) {
       // Objects are children of the group and move with it.
-      objects.get(group)?.forEach((object, place) => {
-        const { materials, request } = draws[place] ?? {};
+      objects.get(group)?.forEach((object, drawIndex) => {
+        const { materials, request } = draws[drawIndex] ?? {};
         const material = materials?.of(group);
         if (request === undefined || material === undefined || material === object.material) return;
         object.material = material;
-        look.prepareObject(object, request, material);
+        materialFactory.prepareObject(object, request, material);
       });
     },
     removeInstance: leave,
     applyAppearance(appearance, surfaceTextures) {
-      shown = { appearance, surfaceTextures };
+      displayed = { appearance, surfaceTextures };
       setAppearance(uniforms.common, geometry, appearance);
       for (const { materials, pick } of draws) {
         for (const material of materials.all)
-          look.applyAppearance(material, appearance, colorsOf(stage), laid(surfaceTextures));
+          materialFactory.applyAppearance(material, appearance, colorsOf(stage), applicable(surfaceTextures));
         pick.releaseResources();
       }
     },
