@@ -20,50 +20,6 @@ namespace {
 
 constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942, magic = 0x46546c67;
 
-/// A map that turns -z to a direction and moves the origin.
-Affine3d facing(Vec3d direction, Vec3d origin) {
-  const double size = length(direction);
-  if (size == 0)
-    return {.translation = origin};
-  const Vec3d z = direction * (-1 / size), aside = cross(std::abs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, z);
-  const Vec3d x = aside * (1 / length(aside));
-  return {x, cross(z, x), z, origin};
-}
-
-struct PlacedLight {
-  Json json; ///< of KHR_lights_punctual
-  Affine3d place;
-};
-
-/// What glTF can say of a light: it shines on everything and, but for a directional
-/// one, falls off by the square of the distance.
-std::optional<PlacedLight> lightOf(const NodeContent& content) {
-  const auto common = [](const char* type, const auto& light) {
-    return Json{
-        {"type", type}, {"color", {light.color.x, light.color.y, light.color.z}}, {"intensity", light.intensity}};
-  };
-  const auto placed = [&](const char* type, const auto& light) {
-    Json json = common(type, light);
-    json["range"] = light.radius;
-    return json;
-  };
-  const auto isOfGltf = [](const auto& light) {
-    return light.global && light.attenuation == Vec3d{0, 0, 1} && light.radius > 0;
-  };
-  if (const auto* sun = std::get_if<DirectionalLight>(&content); sun && sun->global)
-    return PlacedLight{common("directional", *sun), facing(sun->direction, {})};
-  if (const auto* lamp = std::get_if<PointLight>(&content); lamp && isOfGltf(*lamp))
-    return PlacedLight{placed("point", *lamp), {.translation = lamp->location}};
-  if (const auto* spot = std::get_if<SpotLight>(&content); spot && isOfGltf(*spot)) {
-    Json json = placed("spot", *spot);
-    const double outer = std::min(spot->cutOffAngle, std::numbers::pi / 2);
-    // The inner angle has to be the smaller one.
-    json["spot"] = {{"innerConeAngle", std::min(spot->beamWidth, outer * 0.999)}, {"outerConeAngle", outer}};
-    return PlacedLight{std::move(json), facing(spot->direction, spot->location)};
-  }
-  return {};
-}
-
 /// Collects the top-level arrays of a glTF file. The arrays of a mesh are written once, even if several shapes use it
 /// with several materials.
 class GltfBuilder {

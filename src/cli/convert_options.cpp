@@ -1,0 +1,116 @@
+#include "cli/convert_options.h"
+
+#include "base/error.h"
+#include "cli/choices.h"
+#include "containers/encodings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace imgeo::cli {
+
+namespace {
+
+/// The attributes of "all", "none" or a list of names separated by commas.
+AttributeChoice attributesNamed(const std::string& text) {
+  AttributeChoice choice;
+  choice.all = text == "all";
+  if (choice.all || text == "none")
+    return choice;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = std::min(text.find(',', begin), text.size());
+    if (end > begin)
+      choice.names.insert(text.substr(begin, end - begin));
+  }
+  return choice;
+}
+
+/// The error of "0.02" or "0.05%".
+MaxError maxErrorFrom(const std::string& text) {
+  MaxError error;
+  const char* end = text.data() + text.size();
+  error.isPercent = text.ends_with('%');
+  const auto [last, fault] = std::from_chars(text.data(), end - error.isPercent, error.value);
+  if (fault != std::errc{} || last != end - error.isPercent || !(error.value > 0) || !std::isfinite(error.value))
+    throw Error(ErrorKind::usage, "--max-error", fmt::format("\"{}\" is no length, nor one of percent", text));
+  return error;
+}
+
+double basePercentFrom(const std::string& text) {
+  double percent = 0;
+  const char* end = text.data() + text.size();
+  const auto [last, fault] = std::from_chars(text.data(), end, percent);
+  if (fault != std::errc{} || last != end || !std::isfinite(percent))
+    throw Error(ErrorKind::usage, "--base", fmt::format("\"{}\" is no number of percent", text));
+  return percent;
+}
+
+TextureOptions texturesFrom(const Arguments& arguments) {
+  TextureOptions textures;
+  textures.format = valueNamed(texturesChoices, arguments.text("textures"));
+  if (!arguments.text("texture-size").empty())
+    textures.size = static_cast<std::uint32_t>(arguments.integer("texture-size"));
+  if (!arguments.text("texture-quality").empty())
+    textures.quality = static_cast<int>(arguments.integer("texture-quality"));
+  textures.previewEdge = static_cast<std::uint32_t>(arguments.integer("texture-preview"));
+  return textures;
+}
+
+/// The encoding that --container and --profile name; nothing if convert is to choose between several.
+std::optional<Encoding> encodingFrom(const Arguments& arguments) {
+  const std::string container = arguments.text("container"), profile = arguments.text("profile");
+  std::optional<Encoding> encoding;
+  for (const EncodingRow* row : allEncodings())
+    if (row->container == container && (profile == "auto" || row->profile == profile)) {
+      if (encoding)
+        return std::nullopt;
+      encoding = row->encoding;
+    }
+  if (!encoding)
+    throw Error(ErrorKind::usage, "--profile",
+                fmt::format("{} is a profile of sig, and {} has none", profile, container));
+  return encoding;
+}
+
+} // namespace
+
+ConvertOptions convertOptionsFrom(const Arguments& arguments) {
+  ConvertOptions options;
+  options.encoding = encodingFrom(arguments);
+  options.target = valueNamed(targetChoices, arguments.text("target"));
+  options.x3domUrl = arguments.text("x3dom-url");
+  options.primitives = valueNamed(primitivesChoices, arguments.text("primitives"));
+  options.indexed = valueNamed(indexChoices, arguments.text("index"));
+  options.normalWeighting = valueNamed(normalWeightingChoices, arguments.text("normal-weighting"));
+  const auto takeBits = [&](const char* name, std::uint32_t& bits) {
+    if (!arguments.text(name).empty())
+      bits = static_cast<std::uint32_t>(arguments.integer(name));
+  };
+  takeBits("position-bits", options.positionBits);
+  takeBits("normal-bits", options.normalBits);
+  takeBits("texcoord-bits", options.texCoordBits);
+  takeBits("color-bits", options.colorBits);
+  if (!arguments.text("max-error").empty())
+    options.maxError = maxErrorFrom(arguments.text("max-error"));
+  if (!arguments.text("base").empty())
+    options.basePercent = basePercentFrom(arguments.text("base"));
+  options.coordType = valueNamed(coordTypeChoices, arguments.text("coord-type"));
+  options.layout = valueNamed(layoutChoices, arguments.text("layout"));
+  options.normals = valueNamed(normalsChoices, arguments.text("normals"));
+  options.dropped = valueNamed(dropChoices, arguments.text("drop"));
+  options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
+  if (!arguments.text("attribute-bits").empty())
+    options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));
+  options.textures = texturesFrom(arguments);
+  options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
+  options.effort = static_cast<int>(arguments.integer("effort"));
+  options.title = arguments.text("title");
+  options.outside = arguments.has("outside");
+  options.strict = arguments.has("strict");
+  options.force = arguments.has("force");
+  return options;
+}
+
+} // namespace imgeo::cli

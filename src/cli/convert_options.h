@@ -1,0 +1,12 @@
+#pragma once
+// The arguments of `imgeo convert` -> ConvertOptions.
+
+#include "cli/arguments.h"
+#include "imgeo/convert.h"
+
+namespace imgeo::cli {
+
+/// Throws Error{usage} for values that the parser cannot check.
+ConvertOptions convertOptionsFrom(const Arguments& arguments);
+
+} // namespace imgeo::cli

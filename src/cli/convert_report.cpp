@@ -1,0 +1,240 @@
+#include "cli/convert_report.h"
+
+#include "cli/choices.h"
+#include "cli/element_counts.h"
+#include "cli/terminal.h"
+#include "containers/encodings.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace imgeo::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Where normals come from: "source", or the weighting of computed ones.
+std::string normalsOf(const Arguments& arguments, const ConvertReport& report) {
+  return report.normalsComputed ? arguments.text("normal-weighting") : "source";
+}
+
+/// Maximum error of a colour component of 0..255: half a step, rounded to a whole number.
+double colorErrorBound(std::uint32_t bits) {
+  return bits >= 8 ? 0 : std::floor(127.5 / ((1u << bits) - 1) + 0.5);
+}
+
+void printLine(const std::string& label, const std::string& text) {
+  fmt::print("{} {}\n", bold(fmt::format("{:10}", label)), text);
+}
+
+std::string positionsOf(const Arguments& arguments, const ConvertReport& report) {
+  const bool asFloats = arguments.text("coord-type") == "float32";
+  const std::string lattice = asFloats && arguments.text("position-bits").empty() ? "the source's numbers"
+                              : report.minPositionBits < report.maxPositionBits
+                                  ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.minPositionBits,
+                                                report.maxPositionBits, report.maxStep)
+                                  : fmt::format("{} bits: step {:.4g}", report.maxPositionBits, report.maxStep);
+  return fmt::format("{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
+                     asFloats ? " as float32" : "", report.positionError);
+}
+
+/// "12 files: 34.1 MB as found, 3.2 MB as written; 2 made smaller, 10 re-encoded; 12 previews of 14 kB"
+std::string texturesOf(const TextureReport& textures) {
+  std::string text =
+      fmt::format("{} {}: {} as found, {} as written", textures.files, textures.files == 1 ? "file" : "files",
+                  byteSize(textures.sourceBytes), byteSize(textures.bytes));
+  if (textures.resized + textures.reencoded > 0)
+    text += fmt::format("; {} made smaller, {} re-encoded", textures.resized, textures.reencoded);
+  if (textures.previews > 0)
+    text += fmt::format("; {} {} of {}", textures.previews, textures.previews == 1 ? "preview" : "previews",
+                        byteSize(textures.previewBytes));
+  return text;
+}
+
+void printTextures(const TextureReport& textures) {
+  if (textures.files > 0)
+    printLine("textures", texturesOf(textures));
+}
+
+/// "computed: triangles count by their area"
+std::string normalSource(const Arguments& arguments, const ConvertReport& report) {
+  if (!report.normalsComputed)
+    return "the source's, where it has any";
+  switch (valueNamed(normalWeightingChoices, arguments.text("normal-weighting"))) {
+  case NormalWeighting::area:
+    return "computed: triangles count by their area";
+  case NormalWeighting::angle:
+    return "computed: triangles count by their angle";
+  case NormalWeighting::uniform:
+    break;
+  }
+  return "computed: triangles count by one each";
+}
+
+void printWelding(const Arguments& arguments, const ConvertReport& report) {
+  const WeldReport& weld = report.weld;
+  const DroppedElements dropped = valueNamed(dropChoices, arguments.text("drop"));
+  printLine("welding", fmt::format("merged {} positions and {} wedges, dropped {} unreferenced positions",
+                                   grouped(weld.mergedPositions), grouped(weld.mergedWedges),
+                                   grouped(weld.unreferencedPositions)));
+  if (weld.degenerateElements + weld.duplicateElements == 0)
+    return;
+  const bool isStrips = arguments.text("primitives") == "strips"; // strips draw no degenerate triangles
+  printLine("", fmt::format("{} {} degenerate elements, {} {} repeated ones",
+                            dropped.degenerate || isStrips ? "dropped" : "kept", grouped(weld.degenerateElements),
+                            dropped.repeated ? "dropped" : "kept", grouped(weld.duplicateElements)));
+}
+
+void printChoices(const Arguments& arguments, const ConvertReport& report) {
+  const EncodingRow& row = rowOf(report.encoding);
+  printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
+  if (report.patches == 0) { // a scene of a few primitives
+    printLine("elements", "none to encode: what geometry there is stays in the document as it is");
+    return printTextures(report.textures);
+  }
+  printLine("elements", fmt::format("{} of {} vertices", listed(report.elements), grouped(report.vertices)));
+  const bool onlyPoints = report.elements.points == report.elements.sum();
+  printLine("container", fmt::format("{} ({}), profile {}, target {}, {}{}", row.container, row.fileKind, row.profile,
+                                     arguments.text("target"), onlyPoints ? "points" : arguments.text("primitives"),
+                                     onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
+  if (!report.x3domUrl.empty())
+    printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
+  printLine("positions", positionsOf(arguments, report));
+  if (report.collapsed.sum() > 0)
+    printLine("", fmt::format("too coarse for {}, without area or length there", listed(report.collapsed)));
+  if (report.hasNormals)
+    printLine("normals", fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
+                                     report.normalBits, report.normalErrorDegrees, normalSource(arguments, report)));
+  const auto bitsOf = [&](std::uint32_t bits) {
+    return row.storage != PatchStorage::arrays ? fmt::format("{} bits: ", bits) : "";
+  };
+  if (report.texCoordError)
+    printLine("texcoords", fmt::format("{}off by at most {:.3g}", bitsOf(report.texCoordBits), *report.texCoordError));
+  if (report.hasColors)
+    printLine("colours", bitsOf(report.colorBits) +
+                             (report.colorBits >= 8
+                                  ? "the source's own of 8"
+                                  : fmt::format("off by at most {:.0f} of 255", colorErrorBound(report.colorBits))));
+  for (const AttributeReport& attribute : report.attributes)
+    printLine("attribute",
+              fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits, attribute.error));
+  printTextures(report.textures);
+  printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
+                                   grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
+  printWelding(arguments, report);
+}
+
+void printBytes(const ConvertReport& report) {
+  fmt::print("\n{}\n", bold(fmt::format("{:10} {:>7} {:>14} {:>16}", "role", "files", "bytes", "bytes/triangle")));
+  RoleBytes sum{"together", 0, 0};
+  const auto print = [&](const RoleBytes& role) {
+    const std::size_t triangles = report.elements.triangles;
+    const bool counts = triangles > 0;
+    const double each = counts ? static_cast<double>(role.bytes) / static_cast<double>(triangles) : 0;
+    fmt::print("{:10} {:>7} {:>14} {:>16}\n", role.role, role.files, grouped(role.bytes),
+               counts ? fmt::format("{:.3f}", each) : "");
+  };
+  for (const RoleBytes& role : report.roles) {
+    print(role);
+    sum.bytes += role.bytes;
+    sum.files += role.files;
+  }
+  print(sum);
+  if (report.elements.triangles > 0)
+    fmt::print("\nGeometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
+               report.bytesPerTriangle);
+}
+
+/// ", 83 bytes a triangle"; empty if there are no triangles.
+std::string bytesPerTriangleOf(const ConvertReport& report) {
+  return report.elements.triangles == 0
+             ? ""
+             : fmt::format(", {} bytes a triangle", grouped(report.peakMemoryBytes / report.elements.triangles));
+}
+
+} // namespace
+
+std::string convertJson(const Arguments& arguments, const ConvertReport& report) {
+  Json json;
+  json["input"] = arguments.text("input");
+  json["output"] = arguments.text("output");
+  json["format"] = report.format;
+  json["sourceBytes"] = report.sourceBytes;
+  json["container"] = arguments.text("container");
+  json["profile"] = rowOf(report.encoding).profile;
+  for (const char* name : {"target", "primitives", "index"})
+    json[name] = arguments.text(name);
+  if (!report.x3domUrl.empty())
+    json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
+  json["positionBits"] = report.maxPositionBits;
+  json["leastPositionBits"] = report.minPositionBits;
+  json["coordType"] = arguments.text("coord-type");
+  json["layout"] = arguments.text("layout");
+  json["normalEncoding"] = nameOf(report.normalEncoding);
+  json["normalBits"] = report.normalBits;
+  json["normalErrorDegrees"] = report.normalErrorDegrees;
+  json["attributes"] = Json::array();
+  for (const AttributeReport& attribute : report.attributes)
+    json["attributes"].push_back({{"name", attribute.name},
+                                  {"components", attribute.components},
+                                  {"bits", attribute.bits},
+                                  {"error", attribute.error}});
+  const TextureReport& textures = report.textures;
+  json["textures"] = {{"format", arguments.text("textures")},
+                      {"files", textures.files},
+                      {"resized", textures.resized},
+                      {"reencoded", textures.reencoded},
+                      {"previews", textures.previews},
+                      {"sourceBytes", textures.sourceBytes},
+                      {"bytes", textures.bytes},
+                      {"previewBytes", textures.previewBytes}};
+  json["texCoordBits"] = report.texCoordBits;
+  if (report.texCoordError)
+    json["texCoordError"] = *report.texCoordError;
+  json["colorBits"] = report.colorBits;
+  if (report.hasColors)
+    json["colorError"] = colorErrorBound(report.colorBits);
+  json["patchVertices"] = arguments.integer("patch-vertices");
+  json["effort"] = arguments.integer("effort");
+  json["normals"] = normalsOf(arguments, report);
+  json["step"] = report.maxStep;
+  json["positionError"] = report.positionError;
+  json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};
+  json["triangles"] = report.elements.triangles;
+  json["lines"] = report.elements.lines;
+  json["points"] = report.elements.points;
+  json["vertices"] = report.vertices;
+  json["patches"] = report.patches;
+  json["weld"] = {{"mergedPositions", report.weld.mergedPositions},
+                  {"mergedWedges", report.weld.mergedWedges},
+                  {"unreferencedPositions", report.weld.unreferencedPositions},
+                  {"degenerateElements", report.weld.degenerateElements},
+                  {"duplicateElements", report.weld.duplicateElements},
+                  {"drop", arguments.text("drop")}};
+  json["roles"] = Json::array();
+  for (const RoleBytes& role : report.roles)
+    json["roles"].push_back({{"role", role.role}, {"files", role.files}, {"bytes", role.bytes}});
+  json["bytesPerTriangle"] = report.bytesPerTriangle;
+  json["warnings"] = report.warnings;
+  json["seconds"] = {{"import", report.importSeconds},
+                     {"prepare", report.prepareSeconds},
+                     {"encode", report.encodeSeconds},
+                     {"total", report.totalSeconds}};
+  json["peakMemoryBytes"] = report.peakMemoryBytes;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void printReport(const Arguments& arguments, const ConvertReport& report) {
+  printChoices(arguments, report);
+  printBytes(report);
+}
+
+void printCosts(const ConvertReport& report) {
+  fmt::print("It took {:.2f} s (import {:.2f}, prepare {:.2f}, encode {:.2f}) and at most {} of memory{}.\n",
+             report.totalSeconds, report.importSeconds, report.prepareSeconds, report.encodeSeconds,
+             byteSize(report.peakMemoryBytes), bytesPerTriangleOf(report));
+}
+
+} // namespace imgeo::cli
