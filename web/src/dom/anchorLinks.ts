@@ -1,13 +1,13 @@
-// Where a scene's Anchors lead: links of the browser's own, so that keyboards,
-// screen readers and the browser's habits (a new tab, going back) find them. They
-// are seen while they have the focus; a click on a shape is one on its link.
+// An <a> element for each Anchor of a scene, so that keyboards, screen readers and the
+// browser's own features (new tabs, history) work. A link is visible while it has the
+// focus; a click on a shape in an Anchor becomes a click on its link.
 
 import type { AnchorDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { CameraController } from "../navigation/cameraController.ts";
 
-/** What of the native event a link minds. */
+/** Modifier keys of a click. */
 type Keys = Pick<MouseEvent, "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
 export class AnchorLinks {
@@ -22,16 +22,16 @@ export class AnchorLinks {
     this.#warn = warn;
   }
 
-  /** The scene has these now. A link that stays keeps the focus. */
+  /** Updates the links to these Anchors. A link that remains keeps the focus. */
   update(anchors: readonly AnchorDescription[]): void {
-    const wanted = new Map(anchors.map((anchor) => [anchor.element, anchor]));
+    const described = new Map(anchors.map((anchor) => [anchor.element, anchor]));
     for (const [element, link] of this.#links) {
-      if (wanted.has(element)) continue;
+      if (described.has(element)) continue;
       link.remove();
       this.#links.delete(element);
     }
     let next = this.#nav.firstElementChild;
-    for (const anchor of wanted.values()) {
+    for (const anchor of described.values()) {
       const link = this.#linkOf(anchor);
       if (link === undefined) continue;
       if (link === next) next = link.nextElementSibling;
@@ -40,12 +40,12 @@ export class AnchorLinks {
     this.#nav.hidden = this.#links.size === 0;
   }
 
-  /** What leads there; undefined where nothing that may be followed does. */
+  /** The link of an Anchor; undefined where it has no http(s) URL. */
   of(anchor: AnchorDescription): HTMLAnchorElement | undefined {
     return this.#links.get(anchor.element);
   }
 
-  /** As if the link had been clicked with these keys held. */
+  /** Clicks the Anchor's link with these keys held. */
   follow(anchor: AnchorDescription, { ctrlKey, metaKey, shiftKey, altKey }: Keys): void {
     this.of(anchor)?.dispatchEvent(
       new MouseEvent("click", { view: window, bubbles: true, cancelable: true, ctrlKey, metaKey, shiftKey, altKey }),
@@ -72,7 +72,7 @@ export class AnchorLinks {
     return link;
   }
 
-  /** `#NAME` is a Viewpoint of the scene, where it has one of that name; else a place of the page. */
+  /** `#NAME` binds the scene's Viewpoint of that name; where there is none, it is a fragment of the page. */
   #bind(href: string, event: Event): void {
     const viewpoint =
       href.startsWith("#") &&
@@ -83,7 +83,7 @@ export class AnchorLinks {
   }
 }
 
-/** Scripts and data that somebody else's document brings are not. */
+/** Whether a URL is http(s): a document may not bring `javascript:` or `data:` URLs. */
 export function isFollowable(url: string): boolean {
   if (!URL.canParse(url, document.baseURI)) return false;
   return /^https?:$/.test(new URL(url, document.baseURI).protocol);

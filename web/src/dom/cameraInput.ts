@@ -1,12 +1,12 @@
-// What hands and keys can do to the camera: the navigator's movements, less what
-// the page's author has switched off.
+// Camera input from pointers and keys: passes movements to the navigator, unless the
+// page's author has disabled them.
 
 import type { NavigationType } from "../navigation/navigationType.ts";
 import type { CameraController } from "../navigation/cameraController.ts";
 import type { MovementInput } from "../navigation/firstPerson.ts";
 
 export interface CameraInputLimits {
-  /** Nothing moves. */
+  /** Ignores all input. */
   readonly isDisabled: boolean;
   readonly canZoom: boolean;
   readonly canPan: boolean;
@@ -21,7 +21,7 @@ export class CameraInput {
     this.#limits = limits;
   }
 
-  /** How one moves now; setting what the scene does not allow does nothing. */
+  /** The navigation type in use. Setting a type that the scene does not allow has no effect. */
   get type(): NavigationType {
     return this.#limits().isDisabled ? "none" : this.#navigator.type;
   }
@@ -35,17 +35,17 @@ export class CameraInput {
     return canZoom && !isStill;
   }
 
-  /** Radians to the right and over the top. */
+  /** Turns by radians to the right and over the top. */
   turn(right: number, over: number): void {
     if (this.type !== "none") this.#navigator.turn(right, over);
   }
 
-  /** Multiplies the distance to what is seen. */
+  /** Multiplies the camera's distance to its target. */
   zoom(factor: number): void {
     if (this.canZoom) this.#navigator.zoom(factor);
   }
 
-  /** Shares of the view's shorter side by which the scene follows the hand. */
+  /** Moves the scene by shares of the view's shorter side. */
   pan(right: number, up: number): void {
     if (this.type !== "none" && this.#limits().canPan) this.#navigator.pan(right, up);
   }

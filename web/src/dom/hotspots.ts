@@ -1,7 +1,7 @@
-// Hotspots: children of the view with slot="hotspot-…" that stand at a place of
-// the scene. They stay the page's own elements, readable and focusable; only
-// where they are comes from here, and whether they are seen: whether the surface
-// under them faces the camera, and nothing of the scene stands before them.
+// Hotspots: children of the view with slot="hotspot-…" at positions in the scene. They
+// remain the page's own elements, readable and focusable. This file sets where they are
+// on the screen, and whether they are visible: whether their surface faces the camera
+// and nothing of the scene covers them.
 
 import type { View } from "../render/view.ts";
 
@@ -12,41 +12,41 @@ interface Hotspot {
   readonly frame: HTMLElement;
   readonly position: Point;
   readonly normal: Point | undefined;
-  /** In CSS pixels of the picture; undefined beside it. */
+  /** In CSS pixels of the canvas; undefined outside of it. */
   pixel: readonly [x: number, y: number] | undefined;
   isFacing: boolean;
   isCovered: boolean;
-  /** What its element has been told; undefined: nothing yet. */
-  isSeen: boolean | undefined;
+  /** As last reported to the element; undefined before. */
+  isVisible: boolean | undefined;
 }
 
-/** How a picture is looked at. */
+/** What hotspots need to know of their view. */
 export interface HotspotView {
-  /** No other frame is to come unless something happens. */
+  /** Whether no frame is due. */
   readonly isStill: () => boolean;
-  /** The place in the scene that is seen at a pixel; undefined where nothing is. */
-  readonly placeAt: (x: number, y: number) => Promise<Point | undefined>;
+  /** The visible point of the scene at a CSS pixel; undefined where there is none. */
+  readonly pointAt: (x: number, y: number) => Promise<Point | undefined>;
 }
 
-/** Something that is nearer to the eye by no more than this share of the way is the hotspot's own surface. */
+/** A surface in front of a hotspot by at most this share of the distance counts as the hotspot's own surface. */
 const slack = 0.02;
 
 export class Hotspots {
   readonly #host: Element;
   readonly #layer: HTMLElement;
-  readonly #sight: HotspotView;
+  readonly #hotspotView: HotspotView;
   #hotspots: Hotspot[] = [];
   #frameRequest = 0;
-  /** Counts frames: what is found out about an earlier one no longer counts. */
+  /** Number of the current frame: results for an earlier frame are dropped. */
   #frame = 0;
 
   constructor(host: Element, layer: HTMLElement, sight: HotspotView) {
     this.#host = host;
     this.#layer = layer;
-    this.#sight = sight;
+    this.#hotspotView = sight;
   }
 
-  /** The page has changed its hotspots, or what it says of them. */
+  /** Reads the page's hotspots again, after they have changed. */
   read(): void {
     const frames = new Map(this.#hotspots.map(({ element, frame }) => [element, frame]));
     this.#hotspots = Array.from(this.#host.children).flatMap((child) => {
@@ -64,46 +64,46 @@ export class Hotspots {
           pixel: undefined,
           isFacing: true,
           isCovered: false,
-          isSeen: undefined,
+          isVisible: undefined,
         },
       ];
     });
     this.#layer.replaceChildren(...this.#hotspots.map(({ frame }) => frame));
   }
 
-  /** Puts all in their places in a picture of this size, in CSS pixels. When it stays, they are looked at. */
+  /** Positions all hotspots for a view of this size in CSS pixels. If no other frame follows, tests whether they are covered. */
   place(view: View, width: number, height: number): void {
-    this.#forgetFrame();
+    this.#invalidateFrame();
     if (this.#hotspots.length === 0) return;
-    for (const hotspot of this.#hotspots) placeIn(view, width, height, hotspot);
+    for (const hotspot of this.#hotspots) projectInto(view, width, height, hotspot);
     this.#frameRequest = requestAnimationFrame(() => {
-      if (this.#sight.isStill()) void this.#lookAtAll(view.position, this.#frame);
+      if (this.#hotspotView.isStill()) void this.#testVisibility(view.position, this.#frame);
     });
   }
 
   dispose(): void {
-    this.#forgetFrame();
+    this.#invalidateFrame();
   }
 
-  #forgetFrame(): void {
+  #invalidateFrame(): void {
     this.#frame += 1;
     cancelAnimationFrame(this.#frameRequest);
   }
 
-  /** One at a time, by the picking pass: no frame is drawn for it. */
-  async #lookAtAll(eye: Point, frame: number): Promise<void> {
+  /** Tests one hotspot after the other by picking, which draws no frame. */
+  async #testVisibility(eye: Point, frame: number): Promise<void> {
     for (const hotspot of this.#hotspots) {
       if (hotspot.pixel === undefined || !hotspot.isFacing) continue;
-      const found = await this.#sight.placeAt(...hotspot.pixel);
+      const found = await this.#hotspotView.pointAt(...hotspot.pixel);
       if (frame !== this.#frame) return;
       hotspot.isCovered =
         found !== undefined && distanceOf(eye, found) < (1 - slack) * distanceOf(eye, hotspot.position);
-      tell(hotspot);
+      sendVisibility(hotspot);
     }
   }
 }
 
-function placeIn(view: View, width: number, height: number, hotspot: Hotspot): void {
+function projectInto(view: View, width: number, height: number, hotspot: Hotspot): void {
   const { frame, position } = hotspot;
   const [x, y, , w] = clipOf(view.clipFromScene, position);
   const isInView = w > 0 && Math.abs(x) <= w && Math.abs(y) <= w;
@@ -111,18 +111,18 @@ function placeIn(view: View, width: number, height: number, hotspot: Hotspot): v
   hotspot.pixel = isInView ? [((x / w + 1) / 2) * width, ((1 - y / w) / 2) * height] : undefined;
   if (hotspot.pixel) frame.style.transform = `translate(${hotspot.pixel[0]}px, ${hotspot.pixel[1]}px)`;
   hotspot.isFacing = hotspot.normal === undefined || facing(view.position, position, hotspot.normal);
-  tell(hotspot);
+  sendVisibility(hotspot);
 }
 
-function tell(hotspot: Hotspot): void {
+function sendVisibility(hotspot: Hotspot): void {
   const { frame, element, isFacing, isCovered } = hotspot;
-  const isSeen = isFacing && !isCovered;
-  if (isSeen === hotspot.isSeen) return;
-  hotspot.isSeen = isSeen;
-  frame.classList.toggle("unseen", !isSeen);
+  const isVisible = isFacing && !isCovered;
+  if (isVisible === hotspot.isVisible) return;
+  hotspot.isVisible = isVisible;
+  frame.classList.toggle("unseen", !isVisible);
   const name = element.getAttribute("data-visibility-attribute");
-  if (name !== null && name !== "") element.toggleAttribute(`data-${name}`, isSeen);
-  element.dispatchEvent(new CustomEvent("hotspot-visibility", { detail: { visible: isSeen } }));
+  if (name !== null && name !== "") element.toggleAttribute(`data-${name}`, isVisible);
+  element.dispatchEvent(new CustomEvent("hotspot-visibility", { detail: { visible: isVisible } }));
 }
 
 function distanceOf(a: Point, b: Point): number {
@@ -135,14 +135,14 @@ function facing(eye: Point, position: Point, normal: Point): boolean {
   );
 }
 
-/** Homogeneous coordinates; the matrix column by column. */
+/** Homogeneous clip coordinates; the matrix is column-major. */
 function clipOf(matrix: readonly number[], [x, y, z]: Point): [number, number, number, number] {
-  const row = (place: number) =>
-    (matrix[place] ?? 0) * x + (matrix[place + 4] ?? 0) * y + (matrix[place + 8] ?? 0) * z + (matrix[place + 12] ?? 0);
+  const row = (index: number) =>
+    (matrix[index] ?? 0) * x + (matrix[index + 4] ?? 0) * y + (matrix[index + 8] ?? 0) * z + (matrix[index + 12] ?? 0);
   return [row(0), row(1), row(2), row(3)];
 }
 
-/** "1 2 3", also with <model-viewer>'s "m" behind each number. */
+/** Parses "1 2 3", also with an "m" after each number as <model-viewer> has it. */
 function pointOf(text: string | null): Point | undefined {
   const numbers = (text ?? "")
     .trim()

@@ -1,5 +1,5 @@
-// <imgeo-view>: the picture inside an <x3d>. <x3d> itself is no custom element
-// and can have no shadow root, so the runtime puts this one into it.
+// <imgeo-view>: the element inside an <x3d> that displays its scene. <x3d> itself is no
+// custom element and cannot have a shadow root.
 
 import type { Orbit } from "../navigation/orbit.ts";
 import { orbitOf } from "../navigation/orbit.ts";
@@ -18,7 +18,7 @@ const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2
 
 export interface BlobOptions {
   readonly mimeType?: string;
-  /** 0 … 1, for formats that lose something. */
+  /** 0 … 1, for lossy formats. */
   readonly qualityArgument?: number;
 }
 
@@ -29,26 +29,26 @@ export interface ViewpointEntry {
   readonly isBound: boolean;
 }
 
-/** A place on a shape. */
+/** A point on a shape. */
 export interface SurfacePoint {
   readonly position: Vector3D;
-  /** Of length 1; null on points and lines without normals. */
+  /** Unit vector; null on points and lines without normals. */
   readonly normal: Vector3D | null;
   readonly shape: Element;
 }
 
 export class ImgeoView extends HTMLElement {
-  #presentation: ViewController | undefined;
+  #controller: ViewController | undefined;
   #canvas: HTMLCanvasElement | undefined;
 
-  /** What has been drawn, requested, and is held on the GPU; undefined without a picture. */
+  /** Counts of frames, requests and GPU memory; undefined while the view is not connected. */
   get statistics(): ViewStatistics | undefined {
-    return this.#presentation?.viewer.statistics;
+    return this.#controller?.viewer.statistics;
   }
 
   /** In document order. */
   get viewpoints(): readonly ViewpointEntry[] {
-    const navigator = this.#presentation?.viewer.navigator;
+    const navigator = this.#controller?.viewer.navigator;
     return (navigator?.viewpoints ?? []).map(({ element, viewpoint }) => ({
       element: element as Element,
       description: viewpoint.description,
@@ -56,59 +56,59 @@ export class ImgeoView extends HTMLElement {
     }));
   }
 
-  /** Does not turn by itself. */
+  /** Whether the scene does not turn by itself. */
   get paused(): boolean {
-    return this.#presentation?.viewer.navigator.autoRotation.isStopped ?? true;
+    return this.#controller?.viewer.navigator.autoRotation.isStopped ?? true;
   }
 
-  /** Turns the scene, as `auto-rotate` does, but at once, and also for people who prefer less motion. */
+  /** Turns the scene as `auto-rotate` does, but without delay, and even where the user prefers reduced motion. */
   play(): void {
-    this.#presentation?.play();
+    this.#controller?.play();
   }
 
   pause(): void {
-    this.#presentation?.pause();
+    this.#controller?.pause();
   }
 
-  /** Takes the poster away; with `reveal="manual"` nothing else does. */
+  /** Removes the poster; with `reveal="manual"` nothing else does. */
   dismissPoster(): void {
-    this.#presentation?.poster.dismiss();
+    this.#controller?.poster.dismiss();
   }
 
-  /** Travels to a viewpoint, given as its element or its description. */
+  /** Moves the camera to a viewpoint, given as its element or its description. */
   bindViewpoint(viewpoint: Element | string): void {
     const entry = this.viewpoints.find(
       ({ element, description }) => element === viewpoint || description === viewpoint,
     );
-    if (entry) this.#presentation?.viewer.navigator.bind(entry.element);
+    if (entry) this.#controller?.viewer.navigator.bind(entry.element);
   }
 
-  /** Travels back to the bound viewpoint. */
+  /** Moves the camera back to the bound viewpoint. */
   resetView(): void {
-    this.#presentation?.viewer.navigator.reset();
+    this.#controller?.viewer.navigator.reset();
   }
 
   showAll(): void {
-    this.#presentation?.viewer.navigator.showAll();
+    this.#controller?.viewer.navigator.showAll();
   }
 
-  /** Where the camera is on its orbit; as a string in the form of the attribute `camera-orbit`. */
+  /** The camera's orbit; as a string in the form of the attribute `camera-orbit`. */
   getCameraOrbit(): Orbit & { toString(): string } {
-    const navigator = this.#presentation?.viewer.navigator;
+    const navigator = this.#controller?.viewer.navigator;
     const orbit = navigator ? orbitOf(navigator.pose) : { theta: 0, phi: 0, radius: 0 };
     return { ...orbit, toString: () => `${orbit.theta}rad ${orbit.phi}rad ${orbit.radius}m` };
   }
 
-  /** Where the eye is, in the scene's coordinates. */
+  /** The camera's position in scene coordinates. */
   getCameraPosition(): Vector3D {
-    return vector3DOf(this.#presentation?.viewer.navigator.pose.position ?? { x: 0, y: 0, z: 0 });
+    return vector3DOf(this.#controller?.viewer.navigator.pose.position ?? { x: 0, y: 0, z: 0 });
   }
 
-  /** The picture as a file. Rejects where there is none. */
+  /** Draws the scene into an image file. Rejects where there is no picture. */
   async toBlob({ mimeType = "image/png", qualityArgument }: BlobOptions = {}): Promise<Blob> {
     const canvas = this.#canvas;
-    // In one turn of the event loop: afterwards the picture is the browser's alone.
-    this.#presentation?.viewer.renderer.draw();
+    // In one turn of the event loop: afterwards the canvas' content cannot be read.
+    this.#controller?.viewer.renderer.draw();
     const blob = await new Promise<Blob | null>((resolve) => {
       if (canvas === undefined) resolve(null);
       else canvas.toBlob(resolve, mimeType, qualityArgument);
@@ -117,10 +117,10 @@ export class ImgeoView extends HTMLElement {
     return blob;
   }
 
-  /** What is seen at a point of the window, in CSS pixels as events' clientX and clientY; null where no shape is. */
+  /** The visible point of a shape at a position in the viewport, in CSS pixels as clientX and clientY; null where there is no shape. */
   positionAndNormalFromPoint(x: number, y: number): SurfacePoint | null {
-    if (this.#presentation === undefined || this.#canvas === undefined) return null;
-    const hit = this.#presentation.viewer.pick(...pixelAt(this.#canvas, x, y));
+    if (this.#controller === undefined || this.#canvas === undefined) return null;
+    const hit = this.#controller.viewer.pick(...pixelAt(this.#canvas, x, y));
     if (hit === undefined) return null;
     const { position, normal, element } = hit;
     return { position: vector3DOf(position), normal: normal ? vector3DOf(normal) : null, shape: element as Element };
@@ -128,34 +128,34 @@ export class ImgeoView extends HTMLElement {
 
   connectedCallback(): void {
     const x3d = this.parentElement;
-    if (this.#presentation !== undefined || x3d === null) return;
-    const look = takePreview(this);
-    const face = makeUserInterface(this.shadowRoot ?? this.attachShadow({ mode: "open" }), look?.canvas);
-    const context = contextOf(face.canvas);
+    if (this.#controller !== undefined || x3d === null) return;
+    const preview = takePreview(this);
+    const ui = makeUserInterface(this.shadowRoot ?? this.attachShadow({ mode: "open" }), preview?.canvas);
+    const context = contextOf(ui.canvas);
     if (context === null) {
-      look?.end();
-      face.showMessage(noWebGl);
+      preview?.end();
+      ui.showMessage(noWebGl);
       refuse(x3d);
       return;
     }
-    this.#canvas = face.canvas;
-    this.#presentation = new ViewController(x3d, this, face, context, look);
+    this.#canvas = ui.canvas;
+    this.#controller = new ViewController(x3d, this, ui, context, preview);
     lendMembers(this, x3d);
-    this.#presentation.start();
+    this.#controller.start();
   }
 
   disconnectedCallback(): void {
-    // An element that is only being moved is connected again before this runs.
+    // An element that is being moved is connected again before this runs.
     queueMicrotask(() => {
       if (this.isConnected) return;
-      this.#presentation?.dispose();
-      this.#presentation = undefined;
+      this.#controller?.dispose();
+      this.#controller = undefined;
       this.#canvas = undefined;
     });
   }
 }
 
-/** What <x3d> can do too, since that is the element that pages know. */
+/** Methods that <x3d> gets too, since pages know that element. */
 const lentMethods = [
   "play",
   "pause",
@@ -184,7 +184,7 @@ function lendMembers(view: ImgeoView, x3d: Element): void {
   }
 }
 
-/** Tells the page that nothing will be shown. */
+/** Reports that no shape will be displayed, as events of each element and on the console. */
 function refuse(x3d: Element): void {
   const error = new Error(noWebGl);
   console.error(`imgeo: ${noWebGl}`);

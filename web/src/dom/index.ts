@@ -1,4 +1,4 @@
-// The runtime in one module, for those who bundle it themselves.
+// The entry of the npm package for pages: the runtime in one module, for apps with their own bundler.
 
 import { ImgeoView } from "./imgeoView.ts";
 import { registerViews } from "./register.ts";

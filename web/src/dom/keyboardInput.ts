@@ -1,6 +1,6 @@
-// Keys -> movements of the camera. While examining, each press (and repeat) of an
-// arrow is one step; while walking or flying one goes on for as long as it is
-// held. Tab and everything else stay the browser's, so that nobody is trapped.
+// Camera input from the keyboard. In EXAMINE each press or repeat of an arrow key is one
+// step; in WALK and FLY the camera moves while the key is held. Tab and all other keys
+// keep their meaning in the browser, so that the focus can leave the view.
 
 import type { NavigationType } from "../navigation/navigationType.ts";
 import type { MovementInput } from "../navigation/firstPerson.ts";
@@ -12,30 +12,30 @@ const panStep = 0.05;
 const zoomStep = 1.1;
 
 /** Listens until `signal` aborts. */
-export function listenToKeyboard(canvas: HTMLElement, hands: CameraInput, signal: AbortSignal): void {
+export function listenToKeyboard(canvas: HTMLElement, input: CameraInput, signal: AbortSignal): void {
   const held = new Map<string, Partial<MovementInput>>();
-  const moveOn = () => {
-    hands.move(Array.from(held.values()).reduce<MovementInput>(together, noMovement));
+  const applyHeld = () => {
+    input.move(Array.from(held.values()).reduce<MovementInput>(sumOf, noMovement));
   };
-  const letGo = () => {
+  const releaseAll = () => {
     if (held.size === 0) return;
     held.clear();
-    moveOn();
+    applyHeld();
   };
   canvas.addEventListener(
     "keydown",
     (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
-      const motion = isTravelling(hands.type) ? motionOf(event) : undefined;
+      const motion = isTravelling(input.type) ? motionOf(event) : undefined;
       const act = motion
         ? () => {
             held.set(event.code, motion);
-            moveOn();
+            applyHeld();
           }
-        : actionOf(event, hands, canvas);
+        : actionOf(event, input, canvas);
       if (act === undefined) return;
       event.preventDefault();
-      if (motion === undefined) letGo(); // R and the like end what is held
+      if (motion === undefined) releaseAll(); // a reset ends movements
       act();
     },
     { signal },
@@ -43,19 +43,19 @@ export function listenToKeyboard(canvas: HTMLElement, hands: CameraInput, signal
   canvas.addEventListener(
     "keyup",
     (event) => {
-      if (held.delete(event.code)) moveOn();
+      if (held.delete(event.code)) applyHeld();
     },
     { signal },
   );
-  // Whoever looks away will not tell us that he lets go.
-  canvas.addEventListener("blur", letGo, { signal });
+  // Without the focus there is no keyup event.
+  canvas.addEventListener("blur", releaseAll, { signal });
 }
 
 function isTravelling(type: NavigationType): boolean {
   return type === "walk" || type === "fly";
 }
 
-/** What a key that is held does to who walks or flies. */
+/** The motion of a held key in WALK and FLY. */
 function motionOf({ key, shiftKey }: KeyboardEvent): Partial<MovementInput> | undefined {
   switch (key) {
     case "ArrowUp":
@@ -75,43 +75,43 @@ function motionOf({ key, shiftKey }: KeyboardEvent): Partial<MovementInput> | un
   }
 }
 
-function together(motion: MovementInput, other: Partial<MovementInput>): MovementInput {
-  const sum = (part: keyof MovementInput) => Math.max(-1, Math.min(1, motion[part] + (other[part] ?? 0)));
+function sumOf(motion: MovementInput, other: Partial<MovementInput>): MovementInput {
+  const sum = (axis: keyof MovementInput) => Math.max(-1, Math.min(1, motion[axis] + (other[axis] ?? 0)));
   return { forward: sum("forward"), right: sum("right"), up: sum("up"), turn: sum("turn"), look: sum("look") };
 }
 
-/** What a key press does, whoever one is. */
-function actionOf(event: KeyboardEvent, hands: CameraInput, canvas: HTMLElement): (() => void) | undefined {
+/** The action of a key press, in any navigation type. */
+function actionOf(event: KeyboardEvent, input: CameraInput, canvas: HTMLElement): (() => void) | undefined {
   const arrow = (right: number, up: number) =>
     event.shiftKey
       ? () => {
-          hands.pan(right * panStep, up * panStep);
+          input.pan(right * panStep, up * panStep);
         }
       : () => {
-          hands.turn(right * turnStep, up * -turnStep);
+          input.turn(right * turnStep, up * -turnStep);
         };
   switch (event.key) {
     case "e":
     case "E":
       return () => {
-        hands.type = "examine";
+        input.type = "examine";
       };
     case "w":
     case "W":
       return () => {
-        hands.type = "walk";
+        input.type = "walk";
       };
     case "f":
     case "F":
       return () => {
-        hands.type = "fly";
+        input.type = "fly";
       };
     case "Escape":
       return () => {
         canvas.blur();
       };
   }
-  if (hands.type === "none") return undefined; // arrows scroll the page
+  if (input.type === "none") return undefined; // arrows scroll the page
   switch (event.key) {
     case "ArrowLeft":
       return arrow(-1, 0);
@@ -124,28 +124,28 @@ function actionOf(event: KeyboardEvent, hands: CameraInput, canvas: HTMLElement)
     case "+":
     case "=":
     case "PageUp":
-      return !hands.canZoom
+      return !input.canZoom
         ? undefined
         : () => {
-            hands.zoom(1 / zoomStep);
+            input.zoom(1 / zoomStep);
           };
     case "-":
     case "_":
     case "PageDown":
-      return !hands.canZoom
+      return !input.canZoom
         ? undefined
         : () => {
-            hands.zoom(zoomStep);
+            input.zoom(zoomStep);
           };
     case "r":
     case "R":
       return () => {
-        hands.reset();
+        input.reset();
       };
     case "a":
     case "A":
       return () => {
-        hands.showAll();
+        input.showAll();
       };
     default:
       return undefined;

@@ -1,4 +1,4 @@
-// What is said to those who do not see the picture.
+// Labels and descriptions for screen readers.
 
 import type { StageName } from "../stage/stage.ts";
 import type { NavigationType } from "../navigation/navigationType.ts";
@@ -13,7 +13,7 @@ export const stageLabels: Readonly<Record<StageName | "none", string>> = {
   full: "all of it is shown",
 };
 
-/** Keys, for the description of the picture. */
+/** The keys of each navigation type, for the description of the canvas. */
 export const keyLabels: Readonly<Record<NavigationType, string>> = {
   examine:
     "Arrow keys turn, with Shift they move, plus and minus zoom, R goes back to the start, A shows all, P shows points or the surface.",
@@ -42,7 +42,7 @@ const sides = [
   "the front left",
 ];
 
-/** Where one looks from, as eight sides and three heights. */
+/** Describes an orbit's direction as one of eight sides and three heights. */
 export function viewLabelOf({ theta, phi }: Pick<Orbit, "theta" | "phi">): string {
   const side = sides[((Math.round(theta / (Math.PI / 4)) % 8) + 8) % 8] ?? "";
   if (phi < Math.PI / 8) return "View from above";

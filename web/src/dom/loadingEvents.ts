@@ -1,6 +1,6 @@
-// What a page learns about loading: events and promises on <x3d> and on each
-// <shape>. Events do not bubble. Those that speak of a picture (first-image,
-// refine, load) are sent after the frame that shows it.
+// Loading events and promises of <x3d>, of each <shape> and of each <inline>. Events do
+// not bubble. Events about what is displayed (first-image, refine, load) are dispatched
+// after the frame that displays it.
 
 import type { StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
@@ -8,70 +8,71 @@ import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress } from "../delivery/progress.ts";
 
 export interface ProgressDetail extends Progress {
-  /** What is on the screen. */
+  /** The stage that the last frame displays. */
   readonly stage: StageName | "none";
 }
 
 export interface ErrorDetail {
   /** "http", "network", "timeout", "truncated", "malformed", "unsupported", "limit" or "webgl". */
   readonly type: string;
-  /** The file as the document names it; "" where none is concerned. */
+  /** The file's URL as the document has it; "" where no file is concerned. */
   readonly url: string;
   readonly element: Element;
   readonly message: string;
 }
 
-/** Properties that the runtime gives to <x3d> and to each <shape>. */
+/** Properties that the runtime adds to <x3d> and to each <shape>. */
 export interface Loadable {
-  /** Resolves when something of it is on the screen. */
+  /** Resolves when any of it is displayed. */
   readonly firstImage: Promise<undefined>;
   /**
-   * Resolves when all that this view needs is on the screen. A shape's rejects where
-   * a file of it failed; the scene's resolves even then, after the error events.
+   * Resolves when everything that the view needs is displayed. A shape's promise rejects
+   * where one of its files has failed; the scene's resolves even then, after the error
+   * events.
    */
   readonly complete: Promise<undefined>;
-  /** What has failed so far, in order; of the scene, of all its shapes. */
+  /** The errors so far, in order; of <x3d>, those of all its shapes. */
   readonly errors: readonly ErrorDetail[];
-  /** Every file that has been asked for, as far as it is now; of the scene, those of all its shapes. */
+  /** The state of every requested file; of <x3d>, those of all its shapes. */
   readonly resources: readonly ResourceEntry[];
 }
 
 /** A file that an element needs. */
 export interface ResourceEntry {
-  /** As the document names it. */
+  /** The URL as the document has it. */
   readonly url: string;
   readonly state: Transfer["state"];
   readonly loadedBytes: number;
-  /** An estimate until the server says, exact in the end. */
+  /** An estimate until the server answers, exact when the file has come. */
   readonly totalBytes: number;
-  /** Requests sent for it so far. */
+  /** Requests sent for the file so far. */
   readonly tries: number;
-  /** Why it is of no use; null while it may be. */
+  /** Why the file has failed; null otherwise. */
   readonly error: string | null;
 }
 
-/** The loading of one element, from its start to `load`. */
+/** The events and promises of one element, from the start of loading to `load`. */
 export class LoadingEvents {
   readonly #element: Element;
   readonly #firstImage = Promise.withResolvers<undefined>();
   readonly #complete = Promise.withResolvers<undefined>();
   #progress: Progress = noProgress;
-  /** What the next frame will show, and what the last one has. */
+  /** The stage that the next frame displays, and the one that the last frame has displayed. */
   #stage: StageName | "none" = "none";
-  #shownStage: StageName | "none" = "none";
+  #displayedStage: StageName | "none" = "none";
   #outcome: "loading" | "settled" | "ended" | "abandoned" = "loading";
   #error: Error | undefined;
   readonly #errors: ErrorDetail[] = [];
 
-  /** Puts fresh promises, and an empty list of errors, on the element. `shown`: its first image has been seen, and told. */
+  /** Sets new promises and an empty list of errors on the element. `previewed`: the stage that a preview displays, whose `first-image` event has been sent. */
   constructor(
     element: Element,
     transfers: () => readonly Readonly<Transfer>[] = () => [],
-    shown: StageName | "none" = "none",
+    previewed: StageName | "none" = "none",
   ) {
     this.#element = element;
-    this.#stage = this.#shownStage = shown;
-    if (shown !== "none") this.#firstImage.resolve(undefined);
+    this.#stage = this.#displayedStage = previewed;
+    if (previewed !== "none") this.#firstImage.resolve(undefined);
     const properties: Omit<Loadable, "resources"> = {
       firstImage: this.#firstImage.promise,
       complete: this.#complete.promise,
@@ -85,7 +86,7 @@ export class LoadingEvents {
       configurable: true,
       enumerable: true,
     });
-    // Nobody has to listen; a rejection must not show up as an unhandled one.
+    // A page need not use the promises: their rejections must not be reported as unhandled.
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
   }
 
@@ -93,12 +94,12 @@ export class LoadingEvents {
     return this.#progress;
   }
 
-  /** This view needs nothing more. */
+  /** Whether the view needs nothing more. */
   get isSettled(): boolean {
     return this.#outcome !== "loading";
   }
 
-  /** `load` has been sent, or nothing will be. */
+  /** Whether the last event has been sent. */
   get isEnded(): boolean {
     return this.#outcome === "ended" || this.#outcome === "abandoned";
   }
@@ -107,7 +108,7 @@ export class LoadingEvents {
     return this.#stage;
   }
 
-  /** Stages only ever rise. */
+  /** The next frame displays this stage. A lower stage than before is ignored. */
   reach(stage: StageName | "none"): void {
     if (rankOf(stage) > rankOf(this.#stage)) this.#stage = stage;
   }
@@ -116,7 +117,7 @@ export class LoadingEvents {
     const { totalProgress, loadedBytes } = this.#progress;
     if (progress.totalProgress === totalProgress && progress.loadedBytes === loadedBytes) return;
     this.#progress = progress;
-    const detail: ProgressDetail = { ...progress, stage: this.#shownStage };
+    const detail: ProgressDetail = { ...progress, stage: this.#displayedStage };
     this.#send("progress", detail);
   }
 
@@ -126,17 +127,17 @@ export class LoadingEvents {
     this.#send("error", detail);
   }
 
-  /** Says that this view needs nothing more. */
+  /** The view needs nothing more: the next frame sends `load`, or rejects. */
   settle(): void {
     if (this.#outcome === "loading") this.#outcome = "settled";
   }
 
-  /** A frame with everything reached so far is on the screen. After `load`, a nearer look may still refine. */
+  /** A frame has displayed the stage reached so far. After `load`, a `refine` may follow when the camera comes nearer. */
   onFrame(isScene: boolean): void {
     if (this.#outcome === "abandoned") return;
-    if (this.#stage !== this.#shownStage) {
-      const isFirst = this.#shownStage === "none";
-      this.#shownStage = this.#stage;
+    if (this.#stage !== this.#displayedStage) {
+      const isFirst = this.#displayedStage === "none";
+      this.#displayedStage = this.#stage;
       if (isFirst) {
         this.#firstImage.resolve(undefined);
         this.#send("first-image", { stage: this.#stage });
@@ -147,7 +148,7 @@ export class LoadingEvents {
     if (this.#outcome !== "settled") return;
     this.#outcome = "ended";
     if (this.#error === undefined || isScene) {
-      this.#firstImage.resolve(undefined); // an empty scene has shown all it has
+      this.#firstImage.resolve(undefined); // an empty scene has no first image
       this.#complete.resolve(undefined);
       this.#send("load", {});
     } else {
@@ -156,7 +157,7 @@ export class LoadingEvents {
     }
   }
 
-  /** The element is gone or begins anew. */
+  /** The element has been removed, or loads another geometry. */
   abandon(reason: Error = new DOMException("The element was removed or its geometry replaced.", "AbortError")): void {
     const wasEnded = this.isEnded;
     this.#outcome = "abandoned";
@@ -178,7 +179,7 @@ function rankOf(stage: StageName | "none"): number {
   return stage === "none" ? -1 : stageNames.indexOf(stage);
 }
 
-/** The least of some stages: a scene is as far as its last shape. */
+/** The lowest of some stages. */
 export function lowestStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
-  return stages.reduce((least, stage) => (rankOf(stage) < rankOf(least) ? stage : least), stages[0] ?? "none");
+  return stages.reduce((lowest, stage) => (rankOf(stage) < rankOf(lowest) ? stage : lowest), stages[0] ?? "none");
 }

@@ -1,6 +1,6 @@
-// The lists that a scene may bring: its viewpoints, where it has several with
-// names, and its types of navigation, where NavigationInfo names several. Native
-// lists: keyboard, touch and screen readers know them already.
+// Menus of a scene: its viewpoints, where it has several with a description, and its
+// navigation types, where NavigationInfo names several. They are native <select>
+// elements, which support keyboard, touch and screen readers.
 
 import type { ViewpointInstance } from "../scene/instances.ts";
 import type { NavigationType } from "../navigation/navigationType.ts";
@@ -40,7 +40,7 @@ export class Menus {
     );
   }
 
-  /** Shows what the navigator knows now. */
+  /** Updates the menus from the navigator. */
   update(): void {
     const { viewpoints, bound, type } = this.#navigator;
     this.#named = viewpoints.filter(({ viewpoint }) => viewpoint.description !== "");
@@ -66,7 +66,7 @@ function listOf(label: string): HTMLSelectElement {
   return list;
 }
 
-/** A list of one is no choice. Options are made anew only where they differ, so that an open list stays open. */
+/** Hides a menu of fewer than two options. Options are replaced only where they differ, so that an open menu stays open. */
 function fill(list: HTMLSelectElement, names: readonly string[], selected: number): void {
   const isSame =
     names.length === list.options.length && names.every((name, place) => list.options[place]?.text === name);

@@ -1,16 +1,17 @@
 /**
- * Tells over which protocol files come ("http/1.1", "h2", …), and whenever that changes. Until a file has come,
- * whatever else has come from the page's own host tells, which is where files lie as a rule.
+ * Calls back with the protocol of the scene's files ("http/1.1", "h2", …), and whenever it
+ * changes. Until the first file has come, other resources from the page's own host count,
+ * since files are usually served from there.
  */
 export function watchNetworkProtocol(signal: AbortSignal, onProtocol: (protocol: string) => void): void {
   let known = "";
-  let isOfFiles = false;
+  let hasFile = false;
   const observer = new PerformanceObserver((list) => {
     for (const { name, initiatorType, nextHopProtocol } of list.getEntries() as PerformanceResourceTiming[]) {
       const isFile = initiatorType === "fetch";
-      // Empty for files of the cache, and for origins that do not want it told.
-      if (nextHopProtocol === "" || !(isFile || (!isOfFiles && new URL(name).origin === location.origin))) continue;
-      isOfFiles ||= isFile;
+      // Empty for cached files, and for origins without Timing-Allow-Origin.
+      if (nextHopProtocol === "" || !(isFile || (!hasFile && new URL(name).origin === location.origin))) continue;
+      hasFile ||= isFile;
       if (nextHopProtocol === known) continue;
       known = nextHopProtocol;
       onProtocol(known);

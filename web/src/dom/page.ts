@@ -1,40 +1,43 @@
-// What a page loads first: it draws what can be drawn without the runtime, and
-// brings the runtime, which takes the picture over.
+// The module that a page loads first: it draws previews, which need no runtime, and
+// loads the runtime, which takes them over.
 
 import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import type { Preview } from "../preview/preview.ts";
 import { startPreviews } from "../preview/startPreviews.ts";
 
-/** The file of `register.ts` and of all that it takes, beside this one. */
+/** The bundle of `register.ts` and of all its imports, beside this file. */
 const runtimeUrl = new URL("imgeo-scene.js", import.meta.url);
 
-/** A base that has not come by then is not waited for. */
-const patienceMs = 3000;
+/** The runtime waits this long for the bases of previews. */
+const maxWaitMs = 3000;
 
 async function start(): Promise<void> {
   adoptPageStyle(document);
-  const looks = looksOrNone();
-  if (looks.length > 0) await leaveTheWayTo(looks);
+  const previews = startPreviewsIfPossible();
+  if (previews.length > 0) await waitForPreviews(previews);
   const { registerViews } = await import("./register.ts");
-  // Bases that have come meanwhile are drawn before the runtime begins to work, which takes longer.
-  await Promise.all(looks.filter(({ isDue }) => isDue).map(({ settled }) => settled));
+  // Previews whose bases have come meanwhile are drawn before the runtime starts, which takes longer.
+  await Promise.all(previews.filter(({ isDue }) => isDue).map(({ settled }) => settled));
   registerViews();
-  for (const look of looks) if (!look.canvas.isConnected) look.end(); // the page has taken it away
+  for (const preview of previews) if (!preview.canvas.isConnected) preview.end(); // the page has removed it
 }
 
-/** The line is theirs until their files are here, and the processor until they are drawn; the runtime comes in between. */
-async function leaveTheWayTo(looks: readonly Preview[]): Promise<void> {
-  const patience = new Promise((resolve) => setTimeout(resolve, patienceMs));
-  await Promise.race([Promise.all(looks.map(({ downloaded: arrived, settled }) => Promise.race([arrived, settled]))), patience]);
+/** Leaves the network to the previews until their files are here, then preloads the runtime, and leaves the processor to them until they are drawn. */
+async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
+  const timeout = new Promise((resolve) => setTimeout(resolve, maxWaitMs));
+  await Promise.race([
+    Promise.all(previews.map(({ downloaded: arrived, settled }) => Promise.race([arrived, settled]))),
+    timeout,
+  ]);
   const link = document.createElement("link");
   link.rel = "modulepreload";
   link.href = runtimeUrl.href;
   document.head.append(link);
-  await Promise.race([Promise.all(looks.map(({ settled }) => settled)), patience]);
+  await Promise.race([Promise.all(previews.map(({ settled }) => settled)), timeout]);
 }
 
-/** Whatever goes wrong with them, the runtime comes. */
-function looksOrNone(): readonly Preview[] {
+/** An error in a preview does not keep the runtime from being loaded. */
+function startPreviewsIfPossible(): readonly Preview[] {
   try {
     return startPreviews();
   } catch (error) {

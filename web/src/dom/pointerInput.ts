@@ -1,5 +1,5 @@
-// Mouse and touch -> movements of the camera. No inertia: the picture stands
-// still when the hand does, which also is what `prefers-reduced-motion` asks for.
+// Camera input from mouse, touch and wheel. There is no inertia: the camera stops with
+// the pointer, which also respects `prefers-reduced-motion`.
 
 import type { CameraInput } from "./cameraInput.ts";
 import { listenToKeyboard } from "./keyboardInput.ts";
@@ -7,19 +7,19 @@ import { listenToKeyboard } from "./keyboardInput.ts";
 const radiansPerView = Math.PI;
 
 /** Listens until `signal` aborts. */
-export function listenForCameraInput(canvas: HTMLCanvasElement, hands: CameraInput, signal: AbortSignal): void {
-  listenToPointers(canvas, hands, signal);
+export function listenForCameraInput(canvas: HTMLCanvasElement, input: CameraInput, signal: AbortSignal): void {
+  listenToPointers(canvas, input, signal);
   canvas.addEventListener(
     "wheel",
     (event) => {
-      if (!hands.canZoom) return; // the page scrolls
+      if (!input.canZoom) return; // the page scrolls
       event.preventDefault();
       const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
-      hands.zoom(Math.exp(clamp(pixels, 200) / 500));
+      input.zoom(Math.exp(clamp(pixels, 200) / 500));
     },
     { passive: false, signal },
   );
-  listenToKeyboard(canvas, hands, signal);
+  listenToKeyboard(canvas, input, signal);
   // The right button pans.
   canvas.addEventListener(
     "contextmenu",
@@ -35,8 +35,8 @@ interface Point {
   readonly y: number;
 }
 
-/** One pointer turns (with Shift or another button it pans), two pan by their middle and zoom by their distance. */
-function listenToPointers(canvas: HTMLCanvasElement, hands: CameraInput, signal: AbortSignal): void {
+/** One pointer turns the camera, or pans it with Shift or another button. Two pan by their midpoint and zoom by their distance. */
+function listenToPointers(canvas: HTMLCanvasElement, input: CameraInput, signal: AbortSignal): void {
   const down = new Map<number, Point>();
 
   const lift = (event: PointerEvent) => {
@@ -47,7 +47,7 @@ function listenToPointers(canvas: HTMLCanvasElement, hands: CameraInput, signal:
   canvas.addEventListener(
     "pointerdown",
     (event) => {
-      if (event.defaultPrevented || down.size === 2 || hands.type === "none") return;
+      if (event.defaultPrevented || down.size === 2 || input.type === "none") return;
       down.set(event.pointerId, pointOf(event));
       canvas.setPointerCapture(event.pointerId);
     },
@@ -65,12 +65,12 @@ function listenToPointers(canvas: HTMLCanvasElement, hands: CameraInput, signal:
       const right = (to.x - from.x) / shorter;
       const below = (to.y - from.y) / shorter;
       if (other !== undefined) {
-        hands.pan(right / 2, -below / 2);
-        hands.zoom(Math.max(distance(from, other), 1) / Math.max(distance(to, other), 1));
+        input.pan(right / 2, -below / 2);
+        input.zoom(Math.max(distance(from, other), 1) / Math.max(distance(to, other), 1));
       } else if (event.shiftKey || (event.buttons & 6) !== 0) {
-        hands.pan(right, -below);
+        input.pan(right, -below);
       } else {
-        hands.turn(right * radiansPerView, below * radiansPerView);
+        input.turn(right * radiansPerView, below * radiansPerView);
       }
     },
     { signal },

@@ -1,4 +1,4 @@
-// A poster stands before the picture until there is one to show, or until the
+// The poster of a view: covers the canvas until the scene has a picture, or until the
 // page dismisses it.
 
 import type { UserInterface } from "./userInterface.ts";
@@ -8,50 +8,50 @@ export type Reveal = "auto" | "manual";
 export class Poster {
   reveal: Reveal = "auto";
   readonly #host: Element;
-  readonly #face: Pick<UserInterface, "poster" | "posterImage" | "canvas">;
+  readonly #ui: Pick<UserInterface, "poster" | "posterImage" | "canvas">;
   readonly #send: (event: "poster-dismissed" | "model-visibility", detail: object) => void;
   #hasPicture = false;
-  /** What the page has heard of it. */
-  #toldVisible = false;
+  /** The value in the last `model-visibility` event. */
+  #sentVisible = false;
 
-  /** `host` is where a page's own poster would be slotted. */
+  /** `host`: the element into which a page slots its own poster. */
   constructor(
     host: Element,
-    face: Pick<UserInterface, "poster" | "posterImage" | "canvas">,
+    ui: Pick<UserInterface, "poster" | "posterImage" | "canvas">,
     send: (event: "poster-dismissed" | "model-visibility", detail: object) => void,
   ) {
     this.#host = host;
-    this.#face = face;
+    this.#ui = ui;
     this.#send = send;
   }
 
-  /** Shows the image at `url`, or what the page has slotted; nothing where there is neither, or a picture already. */
+  /** Shows the image at `url`, or the page's slotted poster. Shows nothing where there is neither, or already a picture. */
   show(url: string, alt: string): void {
     const hasOwn = Array.from(this.#host.children).some((child) => child.slot === "poster");
-    if (url !== "") this.#face.posterImage.src = url;
-    this.#face.posterImage.hidden = url === "";
-    this.#face.posterImage.alt = alt;
-    const { poster } = this.#face;
+    if (url !== "") this.#ui.posterImage.src = url;
+    this.#ui.posterImage.hidden = url === "";
+    this.#ui.posterImage.alt = alt;
+    const { poster } = this.#ui;
     poster.classList.remove("leaving");
     poster.hidden = this.reveal === "auto" && (this.#hasPicture || (url === "" && !hasOwn));
-    this.#face.canvas.inert = this.#isCovering;
-    this.#tell();
+    this.#ui.canvas.inert = this.#isCovering;
+    this.#sendVisibility();
   }
 
-  /** The first picture is on the screen. */
+  /** The canvas displays its first picture. */
   onPicture(): void {
     this.#hasPicture = true;
     if (this.reveal === "auto") this.dismiss();
-    this.#tell();
+    this.#sendVisibility();
   }
 
-  /** With nothing to show yet, the poster goes all the same. */
+  /** Removes the poster, even before there is a picture. */
   dismiss(): void {
     if (!this.#isCovering) return;
-    const { poster, canvas } = this.#face;
+    const { poster, canvas } = this.#ui;
     poster.classList.add("leaving");
     canvas.inert = false;
-    // Without a transition there is no end of one.
+    // Without a transition there is no `transitionend`.
     if (
       getComputedStyle(poster)
         .transitionDuration.split(",")
@@ -67,22 +67,22 @@ export class Poster {
         { once: true },
       );
     this.#send("poster-dismissed", {});
-    this.#tell();
+    this.#sendVisibility();
   }
 
   get #isCovering(): boolean {
-    return !this.#face.poster.hidden && !this.#face.poster.classList.contains("leaving");
+    return !this.#ui.poster.hidden && !this.#ui.poster.classList.contains("leaving");
   }
 
-  /** There is a picture, and nothing before it. */
+  /** Whether there is a picture, and no poster in front of it. */
   get isModelVisible(): boolean {
     return this.#hasPicture && !this.#isCovering;
   }
 
-  #tell(): void {
+  #sendVisibility(): void {
     const visible = this.isModelVisible;
-    if (visible === this.#toldVisible) return;
-    this.#toldVisible = visible;
+    if (visible === this.#sentVisible) return;
+    this.#sentVisible = visible;
     this.#send("model-visibility", { visible });
   }
 }

@@ -1,4 +1,4 @@
-// Puts a view into every <x3d> of the page, now and later.
+// Adds a view to every <x3d> of the page, now and later.
 
 import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
@@ -8,12 +8,12 @@ function fillAll(): void {
   for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
 }
 
-/** Once; a second time does nothing. */
+/** Defines <imgeo-view> and adds one to every <x3d>. A second call has no effect. */
 export function registerViews(): void {
   if (customElements.get(viewTag) !== undefined) return;
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);
   fillAll();
-  // Also brings a view back where a page has replaced all of an <x3d>'s content.
+  // Also adds a view again where a page has replaced all of an <x3d>'s content.
   new MutationObserver(fillAll).observe(document, { subtree: true, childList: true });
 }

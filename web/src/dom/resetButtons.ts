@@ -1,5 +1,5 @@
-// Two buttons for those who have lost their way and have no keyboard: they are
-// there while a hand has moved the camera. Keyboards have R and A for the same.
+// Two buttons that reset the camera: to the whole scene and to the start. They are
+// visible after the user has moved the camera. The keys A and R do the same.
 
 import type { CameraController } from "../navigation/cameraController.ts";
 
@@ -30,8 +30,8 @@ export class ResetButtons {
 
   update(): void {
     const { isAtHome, source, type } = this.#navigator;
-    const isLost = source === "user-interaction" && !isAtHome && type !== "none";
-    for (const button of this.#buttons) if (button.hidden === isLost) button.hidden = !isLost;
+    const isMovedAway = source === "user-interaction" && !isAtHome && type !== "none";
+    for (const button of this.#buttons) if (button.hidden === isMovedAway) button.hidden = !isMovedAway;
   }
 }
 

@@ -1,9 +1,8 @@
-// Pointer events as a <shape> sends them: the browser's own event once more, from
-// the element that is seen under the pointer, with what was hit there.
+// The pointer events that a <shape> gets: copies of the browser's events, with what was hit.
 
 import type { Hit } from "../render/picking/picker.ts";
 
-/** A point or direction in the scene's coordinates; as text it is an SFVec3f. */
+/** A point or direction in scene coordinates; as a string an SFVec3f. */
 export interface Vector3D {
   readonly x: number;
   readonly y: number;
@@ -11,18 +10,18 @@ export interface Vector3D {
   toString(): string;
 }
 
-/** What pointer events on shapes have besides what they have everywhere. */
+/** Additional properties of pointer events on shapes. */
 export interface ShapeEventProperties {
   readonly worldPosition: Vector3D;
-  /** Of length 1; null on points and lines without normals. */
+  /** Unit vector; null on points and lines without normals. */
   readonly worldNormal: Vector3D | null;
-  /** Which patch of the geometry; the two that follow count in it. */
+  /** Index of the geometry's patch, in which `vertexId` and `triangleId` count. */
   readonly patch: number;
-  /** The record of the nearest vertex of what was hit. */
+  /** Index of the nearest vertex of the primitive that was hit. */
   readonly vertexId: number;
   /** Null on points and lines. */
   readonly triangleId: number | null;
-  /** X3DOM's names for the same. */
+  /** The same under X3DOM's names. */
   readonly hitObject: Element;
   readonly hitPnt: readonly [number, number, number];
   readonly worldX: number;
@@ -39,7 +38,7 @@ export function vector3DOf({ x, y, z }: { x: number; y: number; z: number }): Ve
   return Object.freeze({ x, y, z, toString: () => `${x} ${y} ${z}` });
 }
 
-/** An event like `native` but of that type; without a hit it says nothing of the scene. */
+/** A copy of `native` with another type; without a hit it has no additional properties. */
 export function shapePointerEventOf(
   native: PointerEvent | MouseEvent,
   type: string,

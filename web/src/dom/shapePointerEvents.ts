@@ -1,25 +1,24 @@
-// The pointer on shapes. The browser knows one canvas; here its events are taken
-// from there and sent from the <shape> that is seen at their place, so that they
-// bubble through the document as if each shape were painted by itself. Where no
-// shape is, they are the view's as ever.
+// Pointer and mouse events on shapes. The browser dispatches them at the canvas; this
+// file dispatches copies at the <shape> that is visible at their position, so that they
+// bubble through the document. Where there is no shape, the view's own events remain.
 //
-// Hovering never waits for the GPU; what happens on a press does, because a page
-// that prevents its default must be heard before the camera moves.
+// Picking for hover events does not wait for the GPU. Picking for presses does, because
+// a page may prevent the default before the camera moves.
 
 import type { Hit } from "../render/picking/picker.ts";
 import { shapePointerEventOf } from "./shapePointerEvent.ts";
 
 export interface Pickable {
-  /** In pixels of the canvas' buffer, from its top left. */
+  /** The hit at a pixel of the canvas' buffer, from its top left. Waits for the GPU. */
   pick(x: number, y: number): Hit | undefined;
   pickAsync(x: number, y: number): Promise<Hit | undefined>;
 }
 
-/** Hears of the pointer what happens by itself, after pages have heard of it. */
+/** Default actions, after the page's listeners have run. */
 export interface ShapePointerListener {
-  /** The pointer is on this now; undefined: on no shape. */
+  /** The pointer is over this hit; undefined: over no shape. */
   onHover(hit: Hit | undefined): void;
-  /** Nobody has prevented it. */
+  /** A click on a shape whose default has not been prevented. */
   onClick(hit: Hit, native: MouseEvent): void;
 }
 
@@ -35,10 +34,10 @@ const redirected = [
   "contextmenu",
 ] as const;
 
-/** CSS pixels that a finger or hand may tremble in a click; farther is a drag, and the camera's. */
+/** CSS pixels that the pointer may move during a click. A longer movement is a drag, which moves the camera. */
 const maxClickMovement = 5;
 
-/** Listens until `signal` aborts; before whatever moves the camera, so that it sees what pages have prevented. */
+/** Listens until `signal` aborts. Call this before adding camera input, so that camera input sees what pages have prevented. */
 export function sendShapePointerEvents(
   canvas: HTMLCanvasElement,
   view: HTMLElement,
@@ -65,7 +64,7 @@ export function sendShapePointerEvents(
   canvas.addEventListener(
     "mousemove",
     (event) => {
-      pointing.keepBack(event);
+      pointing.suppress(event);
     },
     { signal },
   );
@@ -83,7 +82,7 @@ export function sendShapePointerEvents(
   });
 }
 
-/** Where a button went down, and whether the camera has it since. */
+/** A pressed button: where, and whether the pointer has moved since. */
 interface Press {
   readonly x: number;
   readonly y: number;
@@ -97,12 +96,12 @@ class ShapePointerEvents {
   readonly #view: HTMLElement;
   readonly #pickable: Pickable;
   readonly #listener: ShapePointerListener;
-  /** The view, or the shape that the pointer is on. */
+  /** The shape under the pointer, or the view. */
   #hovered: Element;
   #hit: Hit | undefined;
   #press: Press | undefined;
-  /** The latest move that nobody has answered yet. */
-  #waiting: PointerEvent | undefined;
+  /** The latest move that has not been picked yet. */
+  #pendingMove: PointerEvent | undefined;
   #isPicking = false;
   #isInside = false;
 
@@ -114,7 +113,7 @@ class ShapePointerEvents {
     this.#hovered = view;
   }
 
-  /** Sends a press, a release or a click from what is under it, now. */
+  /** Dispatches a press, a release or a click at the shape under the pointer, synchronously. */
   redirect(native: MouseEvent): void {
     const hit = this.#pickable.pick(...this.#pixelOf(native));
     const target = targetOf(hit) ?? this.#view;
@@ -137,16 +136,16 @@ class ShapePointerEvents {
     const press = this.#press;
     if (press && native.buttons !== 0) {
       press.hasMoved ||= Math.hypot(native.clientX - press.x, native.clientY - press.y) > maxClickMovement;
-      if (!press.isPrevented) return; // the camera moves, the pointer points at nothing
+      if (!press.isPrevented) return; // the drag moves the camera
     }
     native.stopPropagation();
     this.#isInside = true;
-    this.#waiting = native;
-    if (!this.#isPicking) void this.#answerMoves();
+    this.#pendingMove = native;
+    if (!this.#isPicking) void this.#processMoves();
   }
 
-  /** What is sent later from a shape must not arrive now from the view. */
-  keepBack(native: MouseEvent): void {
+  /** Stops an event at the view whose copy is dispatched at a shape later. */
+  suppress(native: MouseEvent): void {
     if (!this.#press || this.#press.isPrevented || native.buttons === 0) native.stopPropagation();
   }
 
@@ -159,14 +158,14 @@ class ShapePointerEvents {
 
   end(): void {
     this.#isInside = false;
-    this.#waiting = undefined;
+    this.#pendingMove = undefined;
   }
 
-  async #answerMoves(): Promise<void> {
+  async #processMoves(): Promise<void> {
     this.#isPicking = true;
     try {
-      for (let native = this.#waiting; native !== undefined; native = this.#waiting) {
-        this.#waiting = undefined;
+      for (let native = this.#pendingMove; native !== undefined; native = this.#pendingMove) {
+        this.#pendingMove = undefined;
         const hit = await this.#pickable.pickAsync(...this.#pixelOf(native));
         if (!this.#isInside) continue;
         this.#hover(native, hit);
@@ -177,14 +176,14 @@ class ShapePointerEvents {
     }
   }
 
-  /** After a drag by which the camera moved, and across two shapes, there is no click. */
+  /** There is no click after a drag that has moved the camera, or across two shapes. */
   #isClickOn(target: Element): boolean {
     const press = this.#press;
     return press === undefined || (press.target === target && (press.isPrevented || !press.hasMoved));
   }
 
   #release(native: PointerEvent): void {
-    // A finger that is lifted points at nothing.
+    // A lifted finger hovers over nothing.
     if (native.pointerType === "touch" && this.#hovered !== this.#view) this.#leaveShape(native, null);
   }
 
@@ -214,7 +213,7 @@ class ShapePointerEvents {
     this.#hit = undefined;
   }
 
-  /** The element and its ancestors below the one that holds the view. */
+  /** The element and its ancestors below the <x3d>. */
   #insideScene(element: Element): Element[] {
     const chain: Element[] = [];
     const outer = this.#view.parentElement;
@@ -223,7 +222,7 @@ class ShapePointerEvents {
     return chain;
   }
 
-  /** As pointer event and, for a mouse, as mouse event. */
+  /** Dispatches a pointer event and, for a mouse, a mouse event. */
   #sendBoth(
     native: MouseEvent,
     what: string,
@@ -236,7 +235,7 @@ class ShapePointerEvents {
       this.#send(native, `mouse${what}`, target, hit, relatedTarget);
   }
 
-  /** False where a listener has prevented the default. */
+  /** Returns false where a listener has prevented the default. */
   #send(
     native: MouseEvent,
     type: string,
@@ -256,7 +255,7 @@ function targetOf(hit: Hit | undefined): Element | undefined {
   return hit?.element as Element | undefined;
 }
 
-/** The pixel of the canvas' buffer under a point of the window. */
+/** The pixel of the canvas' buffer at a position in the viewport. */
 export function pixelAt(canvas: HTMLCanvasElement, clientX: number, clientY: number): [x: number, y: number] {
   const { left, top, width, height } = canvas.getBoundingClientRect();
   return [

@@ -1,13 +1,13 @@
-// Which finger movements are the page's. A view that takes them all is a trap in
-// a page that scrolls; one that leaves the page what runs up and down, as
-// <model-viewer> does, cannot be turned over the top. So by itself it is the
-// latter until a tap, or the keyboard, gives it the focus, and where there is
-// nothing to scroll it takes them all.
+// The CSS touch-action of a view. A view that handles all touch gestures traps the finger
+// in a page that scrolls; one that leaves vertical gestures to the page, as <model-viewer>
+// does, cannot be turned over the top. By default a view leaves vertical gestures to the
+// page until it has the focus, by a tap or the keyboard, and handles all of them in a page
+// that cannot scroll.
 
-/** Of CSS; `manipulation` leaves the page all that it has. */
+/** Values of CSS touch-action; `manipulation` leaves scrolling and pinching to the page. */
 export type TouchAction = "none" | "pan-x" | "pan-y" | "manipulation";
 
-/** Keeps the canvas' style; the function that comes back says that `setting` may tell another. "auto": as is best. */
+/** Sets the canvas' touch-action until `signal` aborts. Call the returned function when `setting` may have changed. */
 export function keepTouchAction(
   canvas: HTMLCanvasElement,
   setting: () => TouchAction | "auto",
@@ -15,8 +15,8 @@ export function keepTouchAction(
 ): () => void {
   let hasFocus = false;
   const apply = () => {
-    const wanted = setting();
-    canvas.style.touchAction = wanted !== "auto" ? wanted : hasFocus || !canScroll() ? "none" : "pan-y";
+    const chosen = setting();
+    canvas.style.touchAction = chosen !== "auto" ? chosen : hasFocus || !canScroll() ? "none" : "pan-y";
   };
   const focus = (now: boolean) => () => {
     hasFocus = now;

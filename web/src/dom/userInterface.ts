@@ -1,5 +1,5 @@
-// What people see of a view besides the picture: poster, thin bar, hotspots,
-// lists, a message. Pages replace or style them by slots and parts.
+// The user interface of a view around its canvas: poster, progress bar, hotspots, menus
+// and a message. Pages replace or style its elements through slots and parts.
 
 import { viewStyle } from "../element/viewStyle.ts";
 
@@ -8,20 +8,20 @@ export interface UserInterface {
   readonly poster: HTMLElement;
   readonly posterImage: HTMLImageElement;
   readonly hotspots: HTMLElement;
-  /** For lists; pages may put their own controls in its place. */
+  /** Holds the menus and buttons; pages may slot their own controls instead. */
   readonly controls: HTMLElement;
-  /** For those who do not point. */
+  /** Holds a link for each Anchor of the scene, for keyboards and screen readers. */
   readonly links: HTMLElement;
-  /** 0 … 1; at 1 the bar goes away. `words` say the same to those who do not see it. */
-  showProgress(share: number, words: string): void;
-  /** Says something to those who do not see the picture. */
+  /** Sets the progress bar, 0 … 1; at 1 it disappears. Screen readers read `label`. */
+  showProgress(share: number, label: string): void;
+  /** Has screen readers read a text. */
   announce(text: string): void;
-  /** Instead of the picture. */
+  /** Displays a message instead of the canvas. */
   showMessage(text: string): void;
 }
 
-/** Fills the shadow root. `first` is a picture in it that stays, before the canvas and behind the rest. */
-export function makeUserInterface(root: ShadowRoot, first?: HTMLCanvasElement): UserInterface {
+/** Fills the shadow root. `preview`: a canvas in it that stays, in front of the view's canvas and behind everything else. */
+export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement): UserInterface {
   root.adoptedStyleSheets = [viewStyle];
   const canvas = document.createElement("canvas");
 
@@ -50,9 +50,9 @@ export function makeUserInterface(root: ShadowRoot, first?: HTMLCanvasElement): 
   const spoken = elementOf("p", { class: "spoken", role: "status" });
   const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
   const above = [hotspots, poster, links, slotOf("controls", controls), barSlot, spoken, message];
-  if (first?.parentNode === root) {
-    first.before(canvas);
-    first.after(...above);
+  if (preview?.parentNode === root) {
+    preview.before(canvas);
+    preview.after(...above);
   } else {
     root.replaceChildren(canvas, ...above);
   }
@@ -64,13 +64,13 @@ export function makeUserInterface(root: ShadowRoot, first?: HTMLCanvasElement): 
     hotspots,
     controls,
     links,
-    showProgress(share, words) {
-      const percent = Math.floor(share * 100); // 100 is said of what is whole alone
+    showProgress(share, label) {
+      const percent = Math.floor(share * 100); // 100 only when everything is loaded
       fill.style.transform = `scaleX(${share})`;
       bar.setAttribute("aria-valuenow", String(percent));
-      bar.setAttribute("aria-valuetext", `${percent} %, ${words}`);
+      bar.setAttribute("aria-valuetext", `${percent} %, ${label}`);
       bar.classList.toggle("done", share >= 1);
-      // What is complete is no progress any more: it leaves the accessibility tree.
+      // A completed progress bar leaves the accessibility tree.
       bar.ariaHidden = share >= 1 ? "true" : null;
     },
     announce(text) {
@@ -84,7 +84,7 @@ export function makeUserInterface(root: ShadowRoot, first?: HTMLCanvasElement): 
   };
 }
 
-/** The children stand where the page puts nothing into the slot. */
+/** A slot whose default content are the children. */
 function slotOf(name: string, ...children: Node[]): HTMLSlotElement {
   return elementOf("slot", { name }, ...children);
 }

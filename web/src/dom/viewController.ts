@@ -1,5 +1,5 @@
-// Joins a viewer to its face: attributes, poster, progress, lists, hotspots, and
-// what is said to those who do not see the picture.
+// Connects a page's viewer with the user interface of its view: attributes, poster,
+// progress, menus, hotspots, camera input and announcements to screen readers.
 
 import type { StageName } from "../stage/stage.ts";
 import { orbitOf } from "../navigation/orbit.ts";
@@ -22,42 +22,42 @@ import { deviceSizeOf, observeDeviceSize, whenNearViewport } from "../element/vi
 import { ResetButtons } from "./resetButtons.ts";
 import { drawingLabels, keyLabels, stageLabels, navigationTypeLabels, viewLabelOf } from "./labels.ts";
 
-/** So long after the last movement the view is described. */
-const quietMs = 700;
+/** The view is announced to screen readers this long after the last movement. */
+const announcementDelayMs = 700;
 
-/** In screens around the visible part of the page. */
-const marginOfLoading = { auto: 1, lazy: 0, eager: Infinity } as const;
+/** Distance from the viewport, in viewport sizes, within which a scene is loaded, by the attribute `loading`. */
+const loadingMargins = { auto: 1, lazy: 0, eager: Infinity } as const;
 
 export class ViewController {
   readonly viewer: PageViewer;
   readonly poster: Poster;
   readonly #x3d: Element;
-  readonly #face: UserInterface;
-  readonly #hands: CameraInput;
-  readonly #lists: Menus;
+  readonly #ui: UserInterface;
+  readonly #cameraInput: CameraInput;
+  readonly #menus: Menus;
   readonly #links: AnchorLinks;
-  readonly #waysBack: ResetButtons;
+  readonly #resetButtons: ResetButtons;
   readonly #hotspots: Hotspots;
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
-  readonly #lessMotion = matchMedia("(prefers-reduced-motion: reduce)");
+  readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
   #settings: ViewSettings;
   #size = { width: 0, height: 0 };
-  #shownPose: unknown;
-  #shownType: string | undefined;
-  #quietTimer: ReturnType<typeof setTimeout> | undefined;
+  #lastPose: unknown;
+  #lastType: string | undefined;
+  #announcementTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
-  /** Stands before the picture until that shows as much. */
-  #look: Preview | undefined;
+  /** Covers the canvas until that displays as much. */
+  #preview: Preview | undefined;
 
-  /** `host` is the element in `x3d` whose shadow root the face fills. */
-  constructor(x3d: Element, host: HTMLElement, face: UserInterface, context: WebGL2RenderingContext, look?: Preview) {
+  /** `host`: the view element in `x3d`, in whose shadow root `ui` is. */
+  constructor(x3d: Element, host: HTMLElement, ui: UserInterface, context: WebGL2RenderingContext, preview?: Preview) {
     this.#x3d = x3d;
-    this.#face = face;
-    this.#hotspots = new Hotspots(host, face.hotspots, {
+    this.#ui = ui;
+    this.#hotspots = new Hotspots(host, ui.hotspots, {
       isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.navigator.isMoving,
-      placeAt: async (x, y) => {
-        const { canvas } = face;
+      pointAt: async (x, y) => {
+        const { canvas } = ui;
         const hit = await this.viewer.pickAsync(
           Math.floor((x * canvas.width) / this.#size.width),
           Math.floor((y * canvas.height) / this.#size.height),
@@ -65,13 +65,13 @@ export class ViewController {
         return hit?.position.toArray();
       },
     });
-    this.poster = new Poster(host, face, (name, detail) => {
+    this.poster = new Poster(host, ui, (name, detail) => {
       this.#send(name, detail);
-      this.#rotate();
+      this.#updateRotation();
     });
     this.viewer = new PageViewer(
       x3d,
-      face.canvas,
+      ui.canvas,
       context,
       {
         onProgress: (share, stage) => {
@@ -87,35 +87,35 @@ export class ViewController {
           this.#links.update(anchors);
         },
       },
-      look?.shapes,
+      preview?.shapes,
     );
     const { signal } = this.#listeners;
     const { navigator } = this.viewer;
-    this.#hands = new CameraInput(navigator, this.#limits);
-    this.#lists = new Menus(face.controls, navigator, signal);
-    this.#links = new AnchorLinks(face.links, navigator, (sentence) => {
+    this.#cameraInput = new CameraInput(navigator, this.#limits);
+    this.#menus = new Menus(ui.controls, navigator, signal);
+    this.#links = new AnchorLinks(ui.links, navigator, (sentence) => {
       this.#warnOnce(sentence);
     });
-    this.#waysBack = new ResetButtons(face.controls, navigator, signal);
+    this.#resetButtons = new ResetButtons(ui.controls, navigator, signal);
     this.#settings = this.#readSettings();
-    navigator.isInstant = this.#lessMotion.matches;
-    this.#lessMotion.addEventListener(
+    navigator.isInstant = this.#reducedMotion.matches;
+    this.#reducedMotion.addEventListener(
       "change",
       ({ matches }) => {
         navigator.isInstant = matches;
-        this.#rotate();
+        this.#updateRotation();
       },
       { signal },
     );
     this.#applyTouchAction = keepTouchAction(
-      face.canvas,
-      () => (this.#hands.type === "none" ? "manipulation" : this.#settings["touch-action"]),
+      ui.canvas,
+      () => (this.#cameraInput.type === "none" ? "manipulation" : this.#settings["touch-action"]),
       signal,
     );
     adoptSlotted(x3d, host);
-    this.#follow(host);
+    this.#observe(host);
     this.#apply();
-    if (look !== undefined) this.#stayBehind(look);
+    if (preview !== undefined) this.#coverWith(preview);
     this.poster.show(this.#settings.poster, this.#label);
     x3d.addEventListener(
       "first-image",
@@ -127,17 +127,17 @@ export class ViewController {
     x3d.addEventListener(
       "load",
       () => {
-        face.announce("The scene is complete.");
+        ui.announce("The scene is complete.");
       },
       { signal },
     );
     sendShapePointerEvents(
-      face.canvas,
+      ui.canvas,
       host,
       this.viewer,
       {
         onHover: (hit) => {
-          this.#pointAt(hit);
+          this.#onHover(hit);
         },
         onClick: (hit, native) => {
           const anchor = this.viewer.renderer.anchorOf(hit);
@@ -146,49 +146,49 @@ export class ViewController {
       },
       signal,
     );
-    listenForCameraInput(face.canvas, this.#hands, signal);
-    face.canvas.addEventListener(
+    listenForCameraInput(ui.canvas, this.#cameraInput, signal);
+    ui.canvas.addEventListener(
       "keydown",
       (event) => {
         this.#toggleDrawing(event);
       },
       { signal },
     );
-    observeDeviceSize(face.canvas, signal, (width, height, ratio) => {
+    observeDeviceSize(ui.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };
       this.viewer.renderer.resize(width, height, ratio);
     });
   }
 
-  /** The view's own canvas is not seen while the look stands. */
-  #stayBehind(look: Preview): void {
-    const { classList } = this.#face.canvas;
-    this.#look = look;
-    look.onEnd = () => {
-      this.#look = undefined;
+  /** Hides the view's own canvas behind a preview until that ends. */
+  #coverWith(preview: Preview): void {
+    const { classList } = this.#ui.canvas;
+    this.#preview = preview;
+    preview.onEnd = () => {
+      this.#preview = undefined;
       classList.remove("covered");
-      this.#rotate();
+      this.#updateRotation();
     };
-    if (look.shapes.length === 0) return;
+    if (preview.shapes.length === 0) return;
     classList.add("covered");
     this.poster.onPicture();
   }
 
-  /** Begins to show the document; what is far outside of the window waits to be loaded. */
+  /** Begins to follow the document. A scene far outside of the viewport is loaded later. */
   start(): void {
-    // Known before the first request: what is asked for first depends on what is seen.
-    this.viewer.renderer.setSize(...deviceSizeOf(this.#face.canvas));
+    // Before the first request: the order of requests depends on the view.
+    this.viewer.renderer.setSize(...deviceSizeOf(this.#ui.canvas));
     this.viewer.start();
-    const margin = marginOfLoading[this.#settings.loading];
+    const margin = loadingMargins[this.#settings.loading];
     if (margin === Infinity) this.viewer.load();
     else
-      whenNearViewport(this.#face.canvas, margin, this.#listeners.signal, () => {
+      whenNearViewport(this.#ui.canvas, margin, this.#listeners.signal, () => {
         this.viewer.load();
       });
-    if (this.#look?.shapes.length === 0) this.#look.end(); // its files are the viewer's now
+    if (this.#preview?.shapes.length === 0) this.#preview.end(); // the viewer has taken over its files
   }
 
-  /** Turns the scene, from now on. */
+  /** Starts to turn the scene. */
   play(): void {
     this.viewer.navigator.autoRotation.start(false);
   }
@@ -198,32 +198,32 @@ export class ViewController {
   }
 
   dispose(): void {
-    clearTimeout(this.#quietTimer);
+    clearTimeout(this.#announcementTimer);
     this.#hotspots.dispose();
     this.#listeners.abort();
-    this.#look?.end();
+    this.#preview?.end();
     this.viewer.dispose();
   }
 
-  /** What the picture is called. */
+  /** The label of the canvas. */
   get #label(): string {
-    const words = [
+    const labels = [
       this.#settings.alt,
       ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
       this.#x3d.querySelector("worldinfo")?.getAttribute("title"),
     ];
-    return words.find((word) => word !== "" && word !== null && word !== undefined) ?? "3D scene";
+    return labels.find((label) => label !== "" && label !== null && label !== undefined) ?? "3D scene";
   }
 
-  /** What hands and keys may not do now. */
+  /** Camera input that the page's author has disabled. */
   readonly #limits = (): CameraInputLimits => ({
     isDisabled: !this.#settings["camera-controls"],
     canZoom: !this.#settings["disable-zoom"],
     canPan: !this.#settings["disable-pan"],
   });
 
-  /** Attributes, and elements for slots, that come and go later. */
-  #follow(host: Element): void {
+  /** Observes attributes, and elements for slots, that change later. */
+  #observe(host: Element): void {
     const onChildren = new MutationObserver(() => {
       adoptSlotted(this.#x3d, host);
     });
@@ -260,9 +260,9 @@ export class ViewController {
     console.warn(`imgeo: ${sentence}`);
   }
 
-  /** Shows whether a click would lead anywhere. */
-  #pointAt(hit: Hit | undefined): void {
-    const { canvas } = this.#face;
+  /** Shows whether a click follows a link. */
+  #onHover(hit: Hit | undefined): void {
+    const { canvas } = this.#ui;
     const anchor = hit && this.viewer.renderer.anchorOf(hit);
     const link = anchor && this.#links.of(anchor);
     canvas.classList.toggle("points-at-link", link !== undefined);
@@ -280,71 +280,71 @@ export class ViewController {
     this.viewer.setBudget(settings.budget);
     this.poster.reveal = settings.reveal;
     this.#describe();
-    this.#rotate();
+    this.#updateRotation();
   }
 
-  /** Turns by itself where the page asks for it, there is something to see, and people do not mind motion. */
-  #rotate(): void {
+  /** Starts or stops the turntable: it turns by `auto-rotate`, once the scene is visible, unless the user prefers reduced motion. */
+  #updateRotation(): void {
     const { autoRotation: turntable } = this.viewer.navigator;
-    const wanted =
+    const isRotating =
       this.#settings["auto-rotate"] &&
       this.poster.isModelVisible &&
-      this.#look === undefined &&
-      !this.#lessMotion.matches;
-    if (!wanted) turntable.stop();
+      this.#preview === undefined &&
+      !this.#reducedMotion.matches;
+    if (!isRotating) turntable.stop();
     else if (turntable.isStopped) turntable.start(true);
   }
 
-  /** Says what the picture is and how it moves. */
+  /** Describes the canvas and its keys to screen readers, and updates what depends on the navigation type. */
   #describe(): void {
-    const { canvas } = this.#face;
+    const { canvas } = this.#ui;
     const { type } = this.viewer.navigator;
-    const isStill = this.#hands.type === "none";
+    const isStill = this.#cameraInput.type === "none";
     canvas.setAttribute("aria-label", this.#label);
-    // An application is what gets the arrow keys from screen readers.
+    // Screen readers pass arrow keys on to the role `application` only.
     canvas.setAttribute("role", isStill ? "img" : "application");
     canvas.ariaRoleDescription = isStill ? null : "3D view";
     canvas.ariaDescription = isStill ? null : keyLabels[type];
     canvas.tabIndex = isStill ? -1 : 0;
     canvas.classList.toggle("moves", !isStill);
     this.#applyTouchAction();
-    this.#lists.update();
-    if (this.#shownType !== undefined && this.#shownType !== type)
-      this.#face.announce(`${navigationTypeLabels[type]}. ${keyLabels[type]}`);
-    this.#shownType = type;
+    this.#menus.update();
+    if (this.#lastType !== undefined && this.#lastType !== type)
+      this.#ui.announce(`${navigationTypeLabels[type]}. ${keyLabels[type]}`);
+    this.#lastType = type;
   }
 
-  /** P: the attribute says how surfaces are drawn, so that pages can follow. */
+  /** The key P changes the attribute `draw-as`, so that pages can observe it. */
   #toggleDrawing({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
-    if (key.toLowerCase() !== "p" || ctrlKey || metaKey || altKey || this.#hands.type === "none") return;
+    if (key.toLowerCase() !== "p" || ctrlKey || metaKey || altKey || this.#cameraInput.type === "none") return;
     const drawing = this.#settings["draw-as"] === "points" ? "surface" : "points";
     this.#x3d.setAttribute("draw-as", drawing);
-    this.#face.announce(drawingLabels[drawing]);
+    this.#ui.announce(drawingLabels[drawing]);
   }
 
   #showProgress(share: number, stage: StageName | "none"): void {
-    this.#face.showProgress(share, stageLabels[stage]);
+    this.#ui.showProgress(share, stageLabels[stage]);
   }
 
   #onFrame(): void {
     const { navigator, renderer } = this.viewer;
     const { view } = renderer;
-    if (this.#look && this.viewer.displays(this.#look.shapes)) this.#look.end();
+    if (this.#preview && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
     if (view !== undefined) this.#hotspots.place(view, this.#size.width, this.#size.height);
-    this.#waysBack.update();
-    if (navigator.pose === this.#shownPose) return;
-    const isFirst = this.#shownPose === undefined;
-    this.#shownPose = navigator.pose;
+    this.#resetButtons.update();
+    if (navigator.pose === this.#lastPose) return;
+    const isFirst = this.#lastPose === undefined;
+    this.#lastPose = navigator.pose;
     this.#send("camera-change", { source: navigator.source });
-    if (!isFirst && navigator.source !== "automatic") this.#sayViewSoon();
+    if (!isFirst && navigator.source !== "automatic") this.#announceViewSoon();
   }
 
-  #sayViewSoon(): void {
-    clearTimeout(this.#quietTimer);
-    this.#quietTimer = setTimeout(() => {
+  #announceViewSoon(): void {
+    clearTimeout(this.#announcementTimer);
+    this.#announcementTimer = setTimeout(() => {
       const { navigator } = this.viewer;
-      this.#face.announce(navigator.viewpointName ?? viewLabelOf(orbitOf(navigator.pose)));
-    }, quietMs);
+      this.#ui.announce(navigator.viewpointName ?? viewLabelOf(orbitOf(navigator.pose)));
+    }, announcementDelayMs);
   }
 
   #send(name: string, detail: object): void {
@@ -352,7 +352,7 @@ export class ViewController {
   }
 }
 
-/** Moves a page's elements for our slots to where slots see them. */
+/** Moves the page's slotted elements from <x3d> into the view, whose shadow root has the slots. */
 function adoptSlotted(x3d: Element, host: Element): void {
   host.append(...Array.from(x3d.children).filter((child) => child !== host && child.hasAttribute("slot")));
 }
