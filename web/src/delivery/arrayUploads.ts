@@ -1,16 +1,16 @@
-// The arrays of one patch on their way out of JavaScript: each is stored once,
-// whichever attributes read it, and given back when the last of them is gone.
+// Uploads of the vertex arrays of one patch: each array is stored once, however many attributes read it, and freed when
+// the last of them is replaced.
 
 import type { ElementArray, IndexArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf } from "../stage/elementType.ts";
 import type { ArrayUse, StoredBytes, StoredIndex, StoredVertices } from "../stage/stage.ts";
 
-/** Brings an array to where draws read it. Rejects with the signal's reason; nothing is then left behind. */
+/** Uploads an array to where draws read it. Rejects with the signal's reason; nothing then remains allocated. */
 export type StoreBytes = (array: ElementArray, use: ArrayUse, signal: AbortSignal) => Promise<StoredBytes>;
 
 export class ArrayUploads {
   readonly #store: StoreBytes;
-  /** By the memory that the bytes come from, and their place in it: records of a file hold several attributes. */
+  /** By buffer, use and byte range: interleaved attributes are views of one buffer. */
   readonly #stored = new WeakMap<ArrayBuffer, Map<string, Promise<StoredBytes>>>();
   readonly #uses = new Map<StoredBytes, number>();
   #retired: StoredBytes[] = [];
@@ -19,7 +19,7 @@ export class ArrayUploads {
     this.#store = store;
   }
 
-  /** Of all that is stored and not given back. */
+  /** Bytes of all arrays that are stored and not freed. */
   get byteLength(): number {
     let sum = 0;
     for (const { byteLength } of this.#uses.keys()) sum += byteLength;
@@ -43,12 +43,12 @@ export class ArrayUploads {
     return { bytes: await this.#bytesOf(array, "index", signal), type: elementTypeOf(array) };
   }
 
-  /** These are used no more after the next stage; once each. */
+  /** The next stage does not use these arrays; to be called once for each. */
   retire(...arrays: readonly ({ readonly bytes: StoredBytes } | undefined)[]): void {
     for (const array of arrays) if (array !== undefined) this.#retired.push(array.bytes);
   }
 
-  /** Gives back what has been retired; no stage that used it may be drawn any more. */
+  /** Frees the retired arrays. No stage that uses them may be drawn any more. */
   sweep(): void {
     for (const bytes of this.#retired.splice(0)) {
       const uses = (this.#uses.get(bytes) ?? 0) - 1;
@@ -62,12 +62,12 @@ export class ArrayUploads {
   }
 
   async #bytesOf(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
-    const places = this.#stored.get(array.buffer) ?? new Map<string, Promise<StoredBytes>>();
-    this.#stored.set(array.buffer, places);
-    const place = `${use} ${array.byteOffset}+${array.byteLength}`;
-    const begun = places.get(place);
+    const uploads = this.#stored.get(array.buffer) ?? new Map<string, Promise<StoredBytes>>();
+    this.#stored.set(array.buffer, uploads);
+    const key = `${use} ${array.byteOffset}+${array.byteLength}`;
+    const begun = uploads.get(key);
     if (begun !== undefined) {
-      const known = await begun.catch(() => undefined); // whoever has begun may have been told to stop
+      const known = await begun.catch(() => undefined); // the first caller may have been aborted
       signal.throwIfAborted();
       const uses = known && this.#uses.get(known);
       if (known !== undefined && uses !== undefined) {
@@ -76,7 +76,7 @@ export class ArrayUploads {
       }
     }
     const storing = this.#store(array, use, signal);
-    places.set(place, storing);
+    uploads.set(key, storing);
     const bytes = await storing;
     if (signal.aborted) {
       bytes.close();

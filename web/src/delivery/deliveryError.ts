@@ -1,7 +1,7 @@
 import { DecodeError } from "../decode/decodeError.ts";
 import { RequestError } from "../scheduler/download.ts";
 
-/** A file that did not come or is not what it should be; told to people as it stands. */
+/** A file that could not be loaded or decoded. The message is shown to users. */
 export class DeliveryError extends Error {
   override readonly name = "DeliveryError";
   readonly kind: RequestError["kind"] | DecodeError["kind"];

@@ -1,5 +1,5 @@
-// What a shape needs of its files for a view, and how soon: the three factors of
-// paper section 5.4 put together, and "closer objects get higher precision".
+// Which files of a geometry a view needs, and with which priority (paper section 5.4). Byte planes too fine to be seen are
+// not needed.
 
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { boxAround, isUnbounded } from "../document/geometry.ts";
@@ -12,23 +12,23 @@ import type { FilePriority } from "./geometryDelivery.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import type { TextureChunk } from "./textureDeliveries.ts";
 
-/** A vertex that moves by less than half of this many device pixels moves unseen. */
+/** Lattice steps of fewer device pixels than this are invisible. */
 const minVisibleStepPixels = 0.5;
 
-/** A geometry in one of the places where it stands in the scene; stays the same while only the camera moves. */
+/** A geometry and one of its instances in the scene; it stays the same while only the camera moves. */
 export interface GeometryInstance {
   readonly geometry: GeometryDescription;
-  /** The author's priority, there. */
+  /** The author's priority of the instance. */
   readonly authorPriority: number;
-  /** Around each patch, in the scene. */
+  /** The bounding sphere of each patch, in the scene. */
   readonly spheres: readonly Sphere[];
-  /** Of each patch, in the scene: the distance between two values of the first byte. */
+  /** For each patch: the distance between two values of the first byte plane, in the scene. */
   readonly coarseSteps: readonly number[];
-  /** A texture is laid over it. */
+  /** Whether the appearance has a texture. */
   readonly isTextured: boolean;
 }
 
-/** Around what may lie wherever it likes: it counts as before the camera, and as large. */
+/** The sphere of a patch without known bounds: it counts as in view, and as large. */
 const anywhere: Sphere = { center: [0, 0, 0], radius: 1e12 };
 
 export function geometryInstance(
@@ -53,35 +53,35 @@ export function geometryInstance(
   };
 }
 
-/** What is the same for all shapes of a scene. */
+/** What all shapes of a scene have in common. */
 export interface ViewState {
-  /** Undefined while there is no picture: everything is then wanted. */
+  /** Undefined before the first frame: all files are then needed. */
   readonly camera: Camera | undefined;
   readonly weights: ChunkWeights;
 }
 
-/** What is wanted of a geometry that is seen in these places; nothing where it is seen in none. */
-export function filePriorityFor(places: Iterable<GeometryInstance>, viewing: ViewState): FilePriority {
-  // Of a geometry of which nothing is asked, nobody looks where its places are.
-  let demands: readonly FilePriority[] | undefined;
-  return (patch, part) => {
-    demands ??= Array.from(places, (placed) => filePriorityAt(placed, viewing));
-    let most: number | undefined;
-    for (const demand of demands) {
-      const priority = demand(patch, part);
-      if (priority !== undefined && (most === undefined || priority > most)) most = priority;
+/** The priorities of a geometry's files for its visible instances; undefined for all files where there are none. */
+export function filePriorityFor(instances: Iterable<GeometryInstance>, view: ViewState): FilePriority {
+  // Computed lazily: most calls concern geometries whose files are all ready.
+  let priorities: readonly FilePriority[] | undefined;
+  return (patchIndex, file) => {
+    priorities ??= Array.from(instances, (instance) => filePriorityAt(instance, view));
+    let max: number | undefined;
+    for (const priorityAt of priorities) {
+      const priority = priorityAt(patchIndex, file);
+      if (priority !== undefined && (max === undefined || priority > max)) max = priority;
     }
-    return most;
+    return max;
   };
 }
 
-/** How soon a texture, or its preview, is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
+/** The priority of a texture, or of its preview, on these visible instances of a geometry; undefined where there are none. */
 export function texturePriorityFor(
-  places: Iterable<GeometryInstance>,
+  instances: Iterable<GeometryInstance>,
   type: TextureChunk,
   { camera, weights }: ViewState,
 ): number | undefined {
-  const priorities = Array.from(places).flatMap(({ spheres, authorPriority: content }) =>
+  const priorities = Array.from(instances).flatMap(({ spheres, authorPriority: content }) =>
     spheres.map((sphere) =>
       priorityOf(content, { type, plane: 0 }, camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics, weights),
     ),
@@ -89,29 +89,28 @@ export function texturePriorityFor(
   return priorities.length > 0 ? Math.max(...priorities) : undefined;
 }
 
-function filePriorityAt(placed: GeometryInstance, { camera, weights }: ViewState): FilePriority {
+function filePriorityAt(instance: GeometryInstance, { camera, weights }: ViewState): FilePriority {
   let views: readonly ViewMetrics[] | undefined;
-  return (place, part) => {
-    if (part.chunk.type === "texCoord" && !placed.isTextured) return undefined;
-    views ??= placed.spheres.map((sphere) => (camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics));
-    const view = views[place] ?? unknownViewMetrics;
-    const patch = placed.geometry.patches[place];
-    const coarseStep = placed.coarseSteps[place] ?? Infinity;
-    if (patch !== undefined && isTooFine(part, patch, coarseStep, view)) return undefined;
-    return priorityOf(placed.authorPriority, part.chunk, view, weights);
+  return (patchIndex, file) => {
+    if (file.chunk.type === "texCoord" && !instance.isTextured) return undefined;
+    views ??= instance.spheres.map((sphere) => (camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics));
+    const view = views[patchIndex] ?? unknownViewMetrics;
+    const patch = instance.geometry.patches[patchIndex];
+    const coarseStep = instance.coarseSteps[patchIndex] ?? Infinity;
+    if (patch !== undefined && isTooFine(file, patch, coarseStep, view)) return undefined;
+    return priorityOf(instance.authorPriority, file.chunk, view, weights);
   };
 }
 
 /**
- * A byte plane waits while the planes above it place every vertex where the eye
- * would see it anyway. Not where a surface has no normals: its shading comes from
- * the slope between vertices, which shows steps that are far smaller.
+ * A byte plane waits while the planes above it leave steps smaller than half a pixel. Surfaces without normals are
+ * exempt: their shading comes from the slope between vertices, which shows far smaller steps.
  */
-function isTooFine(part: PatchFile, patch: PatchDescription, coarseStep: number, view: ViewMetrics): boolean {
-  if (part.chunk.type !== "refinement") return false;
+function isTooFine(file: PatchFile, patch: PatchDescription, coarseStep: number, view: ViewMetrics): boolean {
+  if (file.chunk.type !== "refinement") return false;
   const isShadedBySlope =
     patch.normal === undefined &&
     patch.draws.some(({ primitive }) => primitive === "triangles" || primitive === "triangleStrip");
-  const stepAbove = coarseStep / 256 ** (part.plane - 1);
+  const stepAbove = coarseStep / 256 ** (file.plane - 1);
   return !isShadedBySlope && stepAbove * view.pixelsPerUnit < minVisibleStepPixels;
 }

@@ -1,5 +1,4 @@
-// One delivery for each geometry, however many shapes show it: a geometry that
-// is USEd is downloaded, decoded and stored once.
+// The deliveries of all geometries, one each: a geometry that several shapes USE is downloaded, decoded and stored once.
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription } from "../document/description.ts";
@@ -10,15 +9,16 @@ import type { Transfer } from "./progress.ts";
 import type { ResourcePool } from "./resourcePool.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
 
-/** What one of those who share a delivery sees of it. */
+/** A member's view of a shared delivery. */
 export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel">;
 
 interface Shared {
   readonly delivery: Delivery;
-  /** Those who have joined, and those of them who have been told what came before. */
-  members: number;
+  /** Number of joined members. */
+  memberCount: number;
+  /** The members that have been given what arrived before they joined. */
   readonly listeners: Set<DeliveryListener>;
-  /** What has been told so far, for those who join late. */
+  /** What has been reported so far, for members that join later. */
   readonly stages: Map<number, Stage>;
   readonly errors: DeliveryError[];
 }
@@ -32,15 +32,14 @@ export class GeometryDeliveries {
   }
 
   /**
-   * The geometry's stages as they come; what has come already follows in the next
-   * microtask. Never calls the listener before it returns. The last one to cancel
-   * ends the delivery.
+   * Reports the geometry's stages as they arrive; those that are there already follow in the next microtask. Never
+   * calls the listener before it returns. The delivery ends when its last member cancels.
    */
   join(geometry: GeometryDescription, listener: DeliveryListener): JoinedDelivery {
     const shared = this.#shared.get(geometry) ?? this.#start(geometry);
     const { delivery } = shared;
     let isCancelled = false;
-    shared.members += 1;
+    shared.memberCount += 1;
     queueMicrotask(() => {
       if (isCancelled) return;
       shared.listeners.add(listener);
@@ -62,34 +61,34 @@ export class GeometryDeliveries {
         if (isCancelled) return;
         isCancelled = true;
         shared.listeners.delete(listener);
-        shared.members -= 1;
-        if (shared.members > 0) return;
+        shared.memberCount -= 1;
+        if (shared.memberCount > 0) return;
         this.#shared.delete(geometry);
         delivery.cancel();
       },
     };
   }
 
-  /** What all of them would take on the GPU, as far as is known; what several share counts for each. */
+  /** Estimated bytes of all geometries on the GPU; files that several share count for each. */
   get storedBytes(): number {
     let bytes = 0;
     for (const { delivery } of this.#shared.values()) bytes += delivery.storedBytes;
     return bytes;
   }
 
-  /** Of all files that were asked for, each once. */
+  /** The transfers of all requested files, each once. */
   transfers(): Readonly<Transfer>[] {
     const all = new Set<Readonly<Transfer>>();
     for (const { delivery } of this.#shared.values()) for (const transfer of delivery.transfers) all.add(transfer);
     return Array.from(all);
   }
 
-  /** What they want, and have, of the GPU. */
+  /** What all geometries need and have of the GPU. */
   budgetRequests(demandOf: (geometry: GeometryDescription) => FilePriority): readonly (readonly BudgetRequest[])[] {
     return Array.from(this.#shared).flatMap(([geometry, { delivery }]) => delivery.budgetRequests(demandOf(geometry)));
   }
 
-  /** Says what is wanted of each geometry, for all who show it; of claims what is granted, and the rest is given up. */
+  /** Updates the priorities of all files. Where `granted` is given, budget requests that are not in it are evicted. */
   request(demandOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [geometry, { delivery }] of this.#shared) {
       if (granted !== undefined || !delivery.isExhausted) delivery.request(demandOf(geometry), granted);
@@ -114,7 +113,7 @@ export class GeometryDeliveries {
         for (const listener of listeners) listener.onSettled();
       },
     });
-    const shared: Shared = { delivery, members: 0, listeners, stages, errors };
+    const shared: Shared = { delivery, memberCount: 0, listeners, stages, errors };
     this.#shared.set(geometry, shared);
     return shared;
   }

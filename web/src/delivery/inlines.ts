@@ -1,6 +1,5 @@
-// Documents that Inlines of a scene name: asked for through the same queue as
-// everything else, before it, and kept outside of any page, whose elements they
-// never become. They end with the last Inline that names them.
+// Loads the documents that Inlines name, through the same queue as all files and before them. They are kept outside the
+// page's DOM, and freed with the last Inline that names them.
 
 import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -11,26 +10,26 @@ import { parseInlined } from "./inlinedDocument.ts";
 import type { Transfer } from "./progress.ts";
 import type { ResourceHandle, ResourcePool } from "./resourcePool.ts";
 
-/** Before every vertex that is known already: what it holds is not even known. */
+/** Documents come before all vertex data: their content is not known yet. */
 const documentWeight = 2 ** 24;
 const expectedBytes = 30_000;
 
 export interface InlinesListener {
   /** It is asked for. Not called again for the same Inline before `onLeave`. */
   onBegin?(inline: SceneElement): void;
-  /** Its document is here, or none of its urls has led to one: the Inline is to be read anew. */
+  /** Its document is ready, or all its urls have failed: the Inline is to be read again. */
   onEnd(inline: SceneElement, error: DeliveryError | undefined): void;
-  /** The scene no longer has it, or it names others. */
+  /** The scene no longer contains it, or its urls have changed. */
   onRemove?(inline: SceneElement): void;
 }
 
 export interface InlinesOptions {
   readonly pool: ResourcePool;
-  /** The absolute url of one that an Inline names. Throws DecodeError for what must not be asked for. */
+  /** The absolute URL of one that an Inline names. Throws DecodeError for a URL that must not be requested. */
   readonly urlOf: (url: string) => string;
-  /** The document that the scene begins with, which is here, though it cannot stand in itself. */
+  /** The document of the scene itself, which need not be loaded. */
   readonly ownDocument?: InlinedDocument;
-  /** The <X3D> in a document; relative urls in it become absolute. Throws DecodeError. */
+  /** Parses a document to its <X3D> element; relative URLs become absolute. Throws DecodeError. */
   readonly parse?: (bytes: Uint8Array, url: string) => SceneElement;
 }
 
@@ -45,7 +44,7 @@ export class Inlines {
   readonly #options: InlinesOptions;
   readonly #listener: InlinesListener;
   readonly #followed = new Map<SceneElement, Followed>();
-  /** By their absolute url, so that two Inlines of one document show the same shapes. */
+  /** By absolute URL: Inlines of one document share its shapes. */
   readonly #documents = new Map<string, InlinedDocument>();
 
   constructor(options: InlinesOptions, listener: InlinesListener) {
@@ -53,46 +52,46 @@ export class Inlines {
     this.#listener = listener;
   }
 
-  /** For who reads the scene. */
+  /** The document of an Inline, once it is ready. */
   documentOf(inline: SceneElement): InlinedDocument | undefined {
     return this.#followed.get(inline)?.document;
   }
 
-  /** Its document has come, or none will. */
+  /** Its document is ready, or all its urls have failed. */
   isEnded(inline: SceneElement): boolean {
     return this.#followed.get(inline)?.isEnded === true;
   }
 
-  /** All that are asked for have ended. */
+  /** Every requested document is ready or has failed. */
   get isSettled(): boolean {
     return Array.from(this.#followed.values()).every(({ isEnded }) => isEnded);
   }
 
-  /** Of the file that an Inline has asked for last. */
+  /** The transfer of the URL that the Inline requested last. */
   transfersOf(inline: SceneElement): readonly Readonly<Transfer>[] {
-    const lease = this.#followed.get(inline)?.handle;
-    return lease === undefined ? [] : [lease.transfer];
+    const handle = this.#followed.get(inline)?.handle;
+    return handle === undefined ? [] : [handle.transfer];
   }
 
   get transfers(): readonly Readonly<Transfer>[] {
     return Array.from(this.#followed.keys()).flatMap((inline) => this.transfersOf(inline));
   }
 
-  /** Asks for what is seen, and lets go of what the scene no longer has. */
+  /** Requests the documents of visible Inlines, and releases those of Inlines that the scene no longer contains. */
   follow(described: readonly InlineDescription[]): void {
-    const seen = new Map<SceneElement, InlineDescription>();
+    const present = new Map<SceneElement, InlineDescription>();
     for (const inline of described) {
-      const before = seen.get(inline.element);
-      if (before === undefined || inline.visible) seen.set(inline.element, inline);
+      const before = present.get(inline.element);
+      if (before === undefined || inline.visible) present.set(inline.element, inline);
     }
     for (const [element, followed] of this.#followed) {
-      const inline = seen.get(element);
+      const inline = present.get(element);
       if (inline !== undefined && isSame(inline.urls, followed.urls)) continue;
       this.#followed.delete(element);
       followed.handle?.release();
       this.#listener.onRemove?.(element);
     }
-    for (const inline of seen.values()) this.#ask(inline);
+    for (const inline of present.values()) this.#request(inline);
     const inUse = new Set(Array.from(this.#followed.values(), ({ document }) => document));
     for (const [url, document] of this.#documents) if (!inUse.has(document)) this.#documents.delete(url);
   }
@@ -101,7 +100,7 @@ export class Inlines {
     this.follow([]);
   }
 
-  #ask({ element, urls, visible, priority }: InlineDescription): void {
+  #request({ element, urls, visible, priority }: InlineDescription): void {
     const known = this.#followed.get(element);
     known?.handle?.setPriority(priority * documentWeight);
     if (known !== undefined || !visible) return;
@@ -111,7 +110,7 @@ export class Inlines {
     void this.#load(element, followed, priority * documentWeight);
   }
 
-  /** One url after the other until one leads to a document. */
+  /** Tries one URL after the other until one leads to a document. */
   async #load(element: SceneElement, followed: Followed, priority: number): Promise<void> {
     const isOver = () => this.#followed.get(element) !== followed;
     let failure: DeliveryError | undefined;
@@ -134,26 +133,26 @@ export class Inlines {
     const url = urlOf(named);
     const known = url === own?.url ? own : this.#documents.get(url);
     if (known !== undefined) return known;
-    const lease = pool.acquire({ kind: "bytes", url, priority, expectedBytes });
+    const handle = pool.acquire({ kind: "bytes", url, priority, expectedBytes });
     followed.handle?.release();
-    followed.handle = lease;
-    const content = await lease.content;
+    followed.handle = handle;
+    const content = await handle.content;
     try {
-      const sooner = this.#documents.get(url); // for another Inline
-      if (sooner !== undefined) return sooner;
+      const loaded = this.#documents.get(url); // by another Inline meanwhile
+      if (loaded !== undefined) return loaded;
       if (content.kind !== "bytes") throw new TypeError("the pool gave no bytes");
       const document = { url, x3d: parse(content.bytes, url) };
       this.#documents.set(url, document);
       return document;
     } catch (error) {
-      lease.fail(error);
+      handle.fail(error);
       throw error;
     } finally {
-      lease.finish();
+      handle.finish();
     }
   }
 }
 
 function isSame(a: readonly string[], b: readonly string[]): boolean {
-  return a.length === b.length && a.every((url, place) => url === b[place]);
+  return a.length === b.length && a.every((url, index) => url === b[index]);
 }

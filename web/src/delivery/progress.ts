@@ -1,17 +1,17 @@
 import type { DownloadState } from "../scheduler/download.ts";
 
-/** One file on its way. Of those that are not asked for there is none. */
+/** The transfer of one requested file. */
 export interface Transfer {
-  /** As the document writes it. */
+  /** The URL as the document writes it. */
   readonly url: string;
-  /** `decoding`: all bytes are here. `ready` and `failed`: nothing more will follow. */
+  /** `decoding`: all bytes have arrived. `ready` and `failed` are final. */
   state: DownloadState | "decoding" | "ready" | "failed";
   loadedBytes: number;
-  /** An estimate until the server says, exact once settled. */
+  /** An estimate until the server states it; exact once settled. */
   totalBytes: number;
-  /** Requests sent for it so far. */
+  /** Number of requests sent for it so far. */
   tries: number;
-  /** Why it has failed. */
+  /** Why it failed. */
   error: string | undefined;
 }
 
@@ -20,7 +20,7 @@ export function isSettled({ state }: Pick<Transfer, "state">): boolean {
 }
 
 export interface Progress {
-  /** 0 … 1; 1 only when everything is settled. Never smaller than before. */
+  /** 0 … 1; 1 only when every transfer is settled. Never decreases. */
   readonly totalProgress: number;
   readonly loadedBytes: number;
   readonly totalBytes: number;
@@ -29,9 +29,8 @@ export interface Progress {
 export const noProgress: Progress = { totalProgress: 0, loadedBytes: 0, totalBytes: 0 };
 
 /**
- * The progress of some transfers. Sizes of files that have not begun are
- * estimates, so the bare quotient may fall when a server tells a larger one;
- * people are shown the largest share so far, and 1 only at the very end.
+ * The progress of some transfers. Sizes of files that have not begun are estimates, so the plain quotient would decrease
+ * when a server states a larger one; the result is the largest quotient so far, and 1 only once all are settled.
  */
 export function progressOf(
   transfers: readonly Pick<Transfer, "state" | "loadedBytes" | "totalBytes">[],

@@ -1,5 +1,4 @@
-// What is asked for of all geometries and textures of a scene, within what they
-// may take on the GPU together.
+// Requests the files of all geometries and textures of a scene, within the GPU memory that they may take together.
 
 import type { GeometryDescription } from "../document/description.ts";
 import { grantedRequests } from "../scheduler/budget.ts";
@@ -12,27 +11,29 @@ export interface SceneDeliveries {
   readonly textures: TextureDeliveries;
 }
 
-/** What they would take on the GPU, as far as is known; what several share counts for each. */
+/** Estimated bytes on the GPU; files that several geometries share count for each. */
 export function storedBytesOf({ geometries, textures }: SceneDeliveries): number {
   return geometries.storedBytes + textures.storedBytes;
 }
 
 /**
- * Says what is wanted, for all who show it. Where all of it would take more than
- * `mostBytes` on the GPU, what matters most is asked for, and what matters less than
- * that is given up.
+ * Updates the priorities of all files. Where all of them would take more than `maxBytes` on the GPU, only the most
+ * important are requested and the rest is evicted.
  */
 export function requestWithinBudget(
   deliveries: SceneDeliveries,
-  demandOf: (geometry: GeometryDescription) => FilePriority,
-  textureDemand: TexturePriority,
-  mostBytes = Infinity,
+  priorityOf: (geometry: GeometryDescription) => FilePriority,
+  texturePriority: TexturePriority,
+  maxBytes = Infinity,
 ): void {
   const { geometries, textures } = deliveries;
   const granted =
-    storedBytesOf(deliveries) > mostBytes
-      ? grantedRequests([...geometries.budgetRequests(demandOf), ...textures.budgetRequests(textureDemand)], mostBytes)
+    storedBytesOf(deliveries) > maxBytes
+      ? grantedRequests(
+          [...geometries.budgetRequests(priorityOf), ...textures.budgetRequests(texturePriority)],
+          maxBytes,
+        )
       : undefined;
-  geometries.request(demandOf, granted);
-  textures.request(textureDemand, granted);
+  geometries.request(priorityOf, granted);
+  textures.request(texturePriority, granted);
 }

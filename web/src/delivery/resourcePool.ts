@@ -1,7 +1,6 @@
-// One request per URL, however many patches and shapes use it. A resource lives
-// while somebody holds a lease on it; with the last lease its download is
-// aborted or its image is given back. Bytes go sooner: when all who hold a lease
-// have taken of them what they need.
+// One download per URL, however many patches and shapes use it. A resource lives while there is a handle to it: with the
+// last handle its download is aborted, or its image freed. Downloaded bytes are freed sooner: once all handles have
+// taken what they need.
 
 import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
@@ -42,13 +41,13 @@ type FileJob<Output> = {
     : never;
 }[JobName];
 
-/** An image that is looked at, in any format that the browser knows; where textures are read from. */
+/** A texture image, of any format that the browser decodes. */
 export interface Picture {
   readonly image: DecodedImage;
   readonly hasAlpha: boolean;
 }
 
-/** Brings a picture to where it can be laid over a surface. Rejects with DecodeError, or with the signal's reason. */
+/** Decodes a texture image and uploads it. Rejects with DecodeError, or with the signal's reason. */
 export type MakePicture = (
   bytes: Uint8Array<ArrayBuffer>,
   sampling: SamplingDescription,
@@ -56,61 +55,61 @@ export type MakePicture = (
 ) => Promise<Picture>;
 
 export type ResourceRequest = ContentTarget & {
-  /** As the document writes it, without its fragment. */
+  /** The URL as the document writes it, without its fragment. */
   readonly url: string;
-  /** Larger comes first. Of several leases the largest counts. */
+  /** Larger comes first. The largest of all handles counts. */
   readonly priority: number;
-  /** What the file is likely to weigh, until the server says; of patches and bases what is wanted of it. */
+  /** Estimated size of the file until the server states it; for patches and bases, of what this handle needs of it. */
   readonly expectedBytes: number;
 };
 
 export interface ResourceHandle {
   readonly transfer: Readonly<Transfer>;
-  /** Rejects with RequestError, DecodeError, or an AbortError after the last release. To be asked for before `finish`. */
+  /** Rejects with RequestError, DecodeError, or an AbortError after the last release. To be read before `finish`. */
   readonly content: Promise<Content>;
   setPriority(priority: number): void;
-  /** The content is not what it should be. */
+  /** Marks the transfer as failed: the content is invalid. */
   fail(error: unknown): void;
-  /** The content is not looked at again. An image stays until it is released; whoever asks for bytes later gets them anew. */
+  /** The content is not read again. An image stays until `release`; a later handle downloads bytes again. */
   finish(): void;
   release(): void;
 }
 
 export interface DeliveryOptions {
   readonly scheduler: Scheduler;
-  /** Brings the image that these bytes are to where stages can use it. Rejects with DecodeError, or with the signal's reason. */
+  /** Decodes an image of vertex data and uploads it. Rejects with DecodeError, or with the signal's reason. */
   readonly makeImage: (png: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<DataImage>;
-  /** Whether shaders read textures as they should; asked when a file is here that may become one. */
+  /** Whether shaders read textures exactly; called when a file has arrived that may become a texture. */
   readonly readsTextures: () => Promise<boolean>;
-  /** Texels of the longest edge that a texture may have. */
+  /** The longest edge of a texture, in texels. */
   readonly maxTextureSize: number;
   readonly runJob: RunJob;
-  /** The same on the main thread, for what is small and must not wait for a worker; where it is not given, it waits. */
+  /** The same on the main thread, for small files that must not wait for a worker; default: `runJob`. */
   readonly runOnMainThread?: RunJob;
-  /** Bases that are on their way, or here, for who asks first; undefined for all other URLs. */
+  /** Base meshes whose download began before the runtime; given to the first caller, undefined for all other URLs. */
   readonly prefetchedBases?: (url: string) => Promise<PrefetchedBases> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makePicture: MakePicture;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
   readonly resolve: (url: string) => string;
-  /** Called whenever a transfer has moved. */
+  /** Called whenever a transfer has changed. */
   readonly onTransfer: () => void;
 }
 
-/** A file that somebody else has asked for. */
+/** A file of base meshes whose download began before the runtime. */
 export interface PrefetchedBases {
   readonly byteLength: number;
   readonly bases: readonly BaseBuffers[];
 }
 
-/** Downloaded bytes that may wait for their decoder, and for their way to the GPU. */
+/** Downloaded bytes that may wait for decoding and upload. */
 const maxPendingBytes = 8 * 2 ** 20;
 
 export class ResourcePool {
   readonly #options: DeliveryOptions;
-  readonly #backlog = new ByteSemaphore(maxPendingBytes);
-  /** Those that can be leased once more. */
+  readonly #semaphore = new ByteSemaphore(maxPendingBytes);
+  /** The resources that further handles can share. */
   readonly #resources = new Map<string, Resource>();
 
   constructor(options: DeliveryOptions) {
@@ -133,8 +132,8 @@ export class ResourcePool {
     const { scheduler, resolve } = this.#options;
     const key = JSON.stringify([resolve(request.url), ...keyOf(request)]);
     const resource = this.#resources.get(key) ?? this.#start(key, request);
-    const leased = { priority: request.priority, expectedBytes: request.expectedBytes };
-    resource.add(leased);
+    const state = { priority: request.priority, expectedBytes: request.expectedBytes };
+    resource.add(state);
     scheduler.reorder();
     const forget = () => {
       if (this.#resources.get(key) === resource) this.#resources.delete(key);
@@ -145,7 +144,7 @@ export class ResourcePool {
         return resource.content;
       },
       setPriority(priority) {
-        leased.priority = priority;
+        state.priority = priority;
         resource.reconsider();
         scheduler.reorder();
       },
@@ -153,11 +152,11 @@ export class ResourcePool {
         resource.fail(error);
       },
       finish() {
-        resource.finish(leased);
+        resource.finish(state);
         if (resource.dropBytes()) forget();
       },
       release: () => {
-        if (!resource.remove(leased)) return;
+        if (!resource.remove(state)) return;
         if (resource.isUnused) resource.end();
         if (resource.isUnused || resource.dropBytes()) forget();
       },
@@ -165,7 +164,7 @@ export class ResourcePool {
   }
 
   #start(key: string, request: ResourceRequest): Resource {
-    const resource = new Resource(request, this.#options, this.#backlog);
+    const resource = new Resource(request, this.#options, this.#semaphore);
     this.#resources.set(key, resource);
     return resource;
   }
@@ -179,29 +178,29 @@ interface HandleState {
 class Resource {
   readonly transfer: Transfer;
   readonly #options: DeliveryOptions;
-  readonly #backlog: ByteSemaphore;
+  readonly #semaphore: ByteSemaphore;
   readonly #aborter = new AbortController();
-  readonly #leases = new Set<HandleState>();
-  /** Those of them who still look at the content: of files that thousands share, all but the last keep the bytes. */
-  readonly #looking = new Set<HandleState>();
-  /** Whoever leases it wants another piece. */
-  readonly #isInPieces: boolean;
+  readonly #handles = new Set<HandleState>();
+  /** The handles that still read the content: the bytes stay until the last one has finished. */
+  readonly #reading = new Set<HandleState>();
+  /** Handles need different patches of the file. */
+  readonly #isShared: boolean;
   #content: Promise<Content> | undefined;
-  /** Gives the room of the bytes back. */
-  #leave: () => void = () => undefined;
+  /** Frees the bytes' share of the semaphore. */
+  #freeBytes: () => void = () => undefined;
   #hasBytes = false;
   #priority: number | undefined;
 
-  constructor(request: ResourceRequest, options: DeliveryOptions, backlog: ByteSemaphore) {
+  constructor(request: ResourceRequest, options: DeliveryOptions, semaphore: ByteSemaphore) {
     this.#options = options;
-    this.#backlog = backlog;
+    this.#semaphore = semaphore;
     this.#priority = request.priority;
-    this.#isInPieces = request.kind === "patches" || request.kind === "bases";
+    this.#isShared = request.kind === "patches" || request.kind === "bases";
     this.transfer = {
       url: request.url,
       state: "waiting",
       loadedBytes: 0,
-      totalBytes: this.#isInPieces ? 0 : request.expectedBytes,
+      totalBytes: this.#isShared ? 0 : request.expectedBytes,
       tries: 0,
       error: undefined,
     };
@@ -214,37 +213,37 @@ class Resource {
   }
 
   get priority(): number {
-    this.#priority ??= Array.from(this.#leases).reduce((most, { priority }) => Math.max(most, priority), 0);
+    this.#priority ??= Array.from(this.#handles).reduce((max, { priority }) => Math.max(max, priority), 0);
     return this.#priority;
   }
 
   get isUnused(): boolean {
-    return this.#leases.size === 0;
+    return this.#handles.size === 0;
   }
 
-  /** A lease has another priority. Only looked at when the scheduler asks: there may be thousands. */
+  /** Call when a handle's priority has changed. It is recomputed when the scheduler reads it: there may be thousands. */
   reconsider(): void {
     this.#priority = undefined;
   }
 
-  add(lease: HandleState): void {
-    this.#leases.add(lease);
-    this.#looking.add(lease);
-    this.#expect(lease.expectedBytes);
+  add(handle: HandleState): void {
+    this.#handles.add(handle);
+    this.#reading.add(handle);
+    this.#expect(handle.expectedBytes);
     this.reconsider();
   }
 
-  /** False where the lease has been given back before. */
-  remove(lease: HandleState): boolean {
+  /** False where the handle was released before. */
+  remove(handle: HandleState): boolean {
     this.reconsider();
-    this.#looking.delete(lease);
-    if (!this.#leases.delete(lease)) return false;
-    this.#expect(-lease.expectedBytes);
+    this.#reading.delete(handle);
+    if (!this.#handles.delete(handle)) return false;
+    this.#expect(-handle.expectedBytes);
     return true;
   }
 
-  finish(lease: HandleState): void {
-    this.#looking.delete(lease);
+  finish(handle: HandleState): void {
+    this.#reading.delete(handle);
   }
 
   fail(error: unknown): void {
@@ -252,28 +251,28 @@ class Resource {
     this.transfer.error = error instanceof Error ? error.message : String(error);
   }
 
-  /** Where nobody needs them any more; false where there are none to drop. */
+  /** Frees the bytes once no handle reads them; false where there are none to free. */
   dropBytes(): boolean {
-    if (!this.#hasBytes || this.#looking.size > 0) return false;
+    if (!this.#hasBytes || this.#reading.size > 0) return false;
     this.#content = undefined;
-    this.#leave();
+    this.#freeBytes();
     return true;
   }
 
   end(): void {
     this.#aborter.abort();
-    this.#leave();
+    this.#freeBytes();
     this.#content?.then(
       (content) => {
         if ("image" in content) content.image.close();
       },
-      () => undefined, // whoever held a lease has been told
+      () => undefined, // every handle's `content` has rejected
     );
   }
 
-  /** Sizes are added up until there is a true one. */
+  /** Sums the handles' estimates until the download states the size. */
   #expect(bytes: number): void {
-    if (this.#isInPieces && this.transfer.state === "waiting") this.transfer.totalBytes += bytes;
+    if (this.#isShared && this.transfer.state === "waiting") this.transfer.totalBytes += bytes;
   }
 
   async #fetch(request: ResourceRequest): Promise<Content> {
@@ -294,7 +293,7 @@ class Resource {
     }
   }
 
-  /** What was asked for before there was anybody to ask; where it has come to nothing it is asked for again. */
+  /** Takes over a download that began before the runtime; undefined where it failed: the file is then requested again. */
   async #takeOver(file: Promise<PrefetchedBases>): Promise<Content | undefined> {
     const { transfer } = this;
     transfer.state = "loading";
@@ -309,9 +308,9 @@ class Resource {
     }
   }
 
-  #download(url: string): Promise<{ bytes: Uint8Array<ArrayBuffer>; leave: () => void }> {
+  #download(url: string): Promise<{ bytes: Uint8Array<ArrayBuffer>; freeBytes: () => void }> {
     const { transfer } = this;
-    if (url.startsWith("data:")) return Promise.resolve({ bytes: bytesOfDataUrl(url), leave: () => undefined });
+    if (url.startsWith("data:")) return Promise.resolve({ bytes: bytesOfDataUrl(url), freeBytes: () => undefined });
     const { scheduler, download, resolve, onTransfer } = this.#options;
     const listener = {
       onState: (state: Transfer["state"]) => {
@@ -333,22 +332,22 @@ class Resource {
       listener,
       async (bytes, signal) => {
         transfer.state = "decoding";
-        return { bytes, leave: await this.#backlog.acquire(bytes.byteLength, signal) };
+        return { bytes, freeBytes: await this.#semaphore.acquire(bytes.byteLength, signal) };
       },
     );
   }
 
   async #decode(
     request: ResourceRequest,
-    { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void },
+    { bytes, freeBytes }: { bytes: Uint8Array<ArrayBuffer>; freeBytes: () => void },
   ): Promise<Content> {
-    this.#leave = leave;
+    this.#freeBytes = freeBytes;
     try {
       const content = await this.#contentOf(request, bytes);
       this.#hasBytes = !("image" in content);
       return content;
     } finally {
-      if (!this.#hasBytes || this.isUnused) leave();
+      if (!this.#hasBytes || this.isUnused) freeBytes();
     }
   }
 
@@ -379,7 +378,7 @@ function keyOf(target: ContentTarget): readonly string[] {
   return "job" in target ? [target.kind, target.job] : [target.kind];
 }
 
-/** Of "data:…;base64,…": nothing is asked of the network, nor of the page's content policy. */
+/** The bytes of "data:…;base64,…". No request is made, so that no content security policy applies. */
 function bytesOfDataUrl(url: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (character) => character.charCodeAt(0));
 }

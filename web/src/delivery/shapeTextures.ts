@@ -1,5 +1,4 @@
-// The textures of one shape: joins what its document names and leaves what it no
-// longer does.
+// The textures of one shape: joins the deliveries of those that its appearance names and leaves the others.
 
 import type { TextureDescription, TextureRole } from "../document/description.ts";
 import type { DeliveryError } from "./deliveryError.ts";
@@ -9,7 +8,7 @@ import type { JoinedTexture, TextureDeliveries } from "./textureDeliveries.ts";
 import { pictureKeyOf } from "./textureDeliveries.ts";
 
 export interface ShapeTexturesListener {
-  /** Undefined: none of this role any more. The one before is used no more after this. */
+  /** Undefined: the role has no texture any more. The previous one must not be used after the call. */
   onPicture(role: TextureRole, picture: Picture | undefined): void;
   onError(error: DeliveryError): void;
   onSettled(): void;
@@ -34,12 +33,12 @@ export class ShapeTextures {
     return Array.from(this.#followed.values()).flatMap(({ joined }) => joined.transfers);
   }
 
-  /** None of them is on its way. */
+  /** None of their files is on its way. */
   get isSettled(): boolean {
     return Array.from(this.#followed.values()).every(({ joined }) => joined.isSettled);
   }
 
-  /** These from now on. New ones are joined before old ones are left: what both show is not fetched again. */
+  /** Replaces the textures. New ones are joined before old ones are left, so that shared files are not fetched again. */
   follow(textures: readonly TextureDescription[]): void {
     const before = this.#followed;
     this.#followed = new Map(
@@ -54,7 +53,7 @@ export class ShapeTextures {
     for (const [, { joined }] of left) joined.cancel();
   }
 
-  /** No call to the listener follows, until others are followed. Pictures must no longer be used. */
+  /** No call to the listener follows until the next `follow`. Pictures must no longer be used. */
   cancel(): void {
     for (const { joined } of this.#followed.values()) joined.cancel();
     this.#followed.clear();

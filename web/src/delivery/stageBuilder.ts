@@ -1,6 +1,5 @@
-// From the files of a patch to its stages. A builder takes a patch's parts in
-// whatever order they come, checks each against the document, and says what can
-// be shown with those that are here. A part that never comes is merely absent.
+// The interface of stage builders. A builder takes the files of a patch in any order, checks each against the document,
+// and builds the best stage from those that are available.
 
 import type { RunJob } from "../decode/jobs.ts";
 import type { DrawRange, Stage, StageName } from "../stage/stage.ts";
@@ -11,31 +10,31 @@ import type { Content } from "./resourcePool.ts";
 
 export interface StageBuilder {
   /**
-   * Throws, or rejects with, DecodeError where the content does not hold what the
-   * document says, or the signal's reason; the part then counts as absent.
+   * Throws, or rejects with, DecodeError where the content contradicts the document, or the signal's reason; the file
+   * then counts as absent.
    */
-  accept(part: PatchFile, content: Content, signal: AbortSignal): void | Promise<void>;
-  /** Undefined while nothing can be shown. */
+  accept(file: PatchFile, content: Content, signal: AbortSignal): void | Promise<void>;
+  /** The best stage now; undefined while nothing can be drawn. */
   stage(): Stage | undefined;
-  /** Whether parts can be given up one by one; otherwise only all of them, with `clear`. */
+  /** Whether files can be dropped one by one; otherwise only all of them, with `clear`. */
   readonly isDivisible: boolean;
-  /** Of stored arrays; images belong to whoever leases them. */
+  /** Bytes of the stored arrays. Images are not counted: their resource handles own them. */
   readonly storedBytes: number;
-  /** The part counts as absent from now on; where parts can be given up one by one. */
-  drop(part: PatchFile): void;
-  /** All parts count as absent. */
+  /** The file counts as absent from now on; only where `isDivisible`. */
+  drop(file: PatchFile): void;
+  /** All files count as absent. */
   clear(): void;
-  /** Gives back what earlier stages used and the next one does not; they must no longer be drawn. */
+  /** Frees what only earlier stages used; they must no longer be drawn. */
   sweep(): void;
 }
 
-/** What builders work with. */
+/** What builders get to decode and upload with. */
 export interface BuilderTools {
   readonly runJob: RunJob;
   readonly storeBytes: StoreBytes;
 }
 
-/** The patch's draws with the running number that each begins at. */
+/** The patch's draws, each with its first index. */
 export function drawRangesOf(patch: PatchDescription): DrawRange[] {
   let first = 0;
   return patch.draws.map(({ primitive, count }) => {
@@ -45,20 +44,22 @@ export function drawRangesOf(patch: PatchDescription): DrawRange[] {
   });
 }
 
-/** What is here of a patch, for its stage's name. */
+/** The attributes of a patch that are available. */
 export interface AvailableAttributes {
   readonly index: unknown;
   readonly coord: readonly unknown[];
   readonly normal: unknown;
   readonly color: unknown;
-  /** Planes, or its only array. */
+  /** Byte planes, or the only array. */
   readonly value: readonly unknown[];
 }
 
-export function attainedStageName(patch: PatchDescription, here: AvailableAttributes): StageName {
-  const lacks = (part: "index" | "normal" | "color") => patch[part] !== undefined && here[part] === undefined;
+/** The name of the stage that these attributes make. */
+export function attainedStageName(patch: PatchDescription, available: AvailableAttributes): StageName {
+  const lacks = (attribute: "index" | "normal" | "color") =>
+    patch[attribute] !== undefined && available[attribute] === undefined;
   if (lacks("index")) return "points";
   if (lacks("normal")) return "surface";
-  const isWhole = here.coord.length === patch.coord.length && here.value.length === patch.value.length;
+  const isWhole = available.coord.length === patch.coord.length && available.value.length === patch.value.length;
   return lacks("color") || !isWhole ? "shaded" : "full";
 }

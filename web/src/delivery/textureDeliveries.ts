@@ -1,6 +1,6 @@
-// Pictures for surfaces, through the same queue as the data of vertices: one for
-// each file and way of sampling, however many shapes show it. A preview, where the
-// document names one, is shown first, and again where the picture has to go.
+// Deliveries of textures, through the same queue as vertex data: one for each file and way of sampling, however many
+// shapes use it. Where the document names a small preview, it is displayed until the full picture arrives, and again
+// after the full picture was evicted.
 
 import type { SamplingDescription, TextureDescription } from "../document/description.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
@@ -11,56 +11,56 @@ import type { Transfer } from "./progress.ts";
 import type { ResourceHandle, Picture, ResourcePool } from "./resourcePool.ts";
 
 export interface TextureListener {
-  /** Another picture; undefined: there is none any more. The one before is used no more after this. */
+  /** A new picture; undefined: none is left. The previous one must not be used after the call. */
   onPicture(picture: Picture | undefined): void;
-  /** Once, where the texture is of no use. */
+  /** Called once, when the texture has failed. */
   onError(error: DeliveryError): void;
-  /** All that was asked for has come or failed. */
+  /** Every requested file is ready or has failed. */
   onSettled(): void;
 }
 
-/** What one of those who show a texture sees of its delivery. */
+/** A member's view of a texture's delivery. */
 export interface JoinedTexture {
   readonly transfers: readonly Readonly<Transfer>[];
-  /** It is not on its way. */
+  /** None of its files is on its way. */
   readonly isSettled: boolean;
   /** No call to the listener follows. The picture must no longer be used. */
   cancel(): void;
 }
 
-/** What a file of a texture is: all of it, or what stands in for it. */
+/** The file of a texture: the small preview, or the full picture. */
 export type TextureChunk = "preview" | "texture";
 
-/** How soon a file of a texture is wanted, by the key of its picture; undefined: not now. */
+/** The priority of a texture's file, by the key of its picture; undefined: it is not needed now. */
 export type TexturePriority = (key: string, chunk: TextureChunk) => number | undefined;
 
-/** A file of a texture, and how far it is. */
+/** A file of a texture, and its state. */
 interface Source {
   readonly chunk: TextureChunk;
   readonly url: string;
   handle: ResourceHandle | undefined;
-  state: "absent" | "asked" | "here" | "failed";
+  state: "absent" | "requested" | "ready" | "failed";
   picture: Picture | undefined;
-  /** On the GPU: an estimate until it has been there. */
+  /** Bytes on the GPU: an estimate until the file has been there once. */
   storedBytes: number;
   budgetRequest: BudgetRequest | undefined;
 }
 
 interface Shared {
   readonly sampling: SamplingDescription;
-  /** In the order of their use. */
+  /** The preview, where there is one, before the full picture. */
   readonly sources: readonly Source[];
   readonly listeners: Set<TextureListener>;
-  members: number;
+  memberCount: number;
   displayed: Picture | undefined;
   error: DeliveryError | undefined;
 }
 
-/** Mipmaps are a third more. Until it is here, a picture counts as one of 512 x 512. */
+/** Mipmaps take a third more. A picture counts as 512 x 512 texels until it is there. */
 const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
 const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
 
-/** The same for textures that can share a picture. */
+/** Textures of equal keys share a picture. */
 export function pictureKeyOf({ url, preview, sampling }: TextureDescription): string {
   return JSON.stringify([url, preview, sampling]);
 }
@@ -73,12 +73,12 @@ export class TextureDeliveries {
     this.#pool = pool;
   }
 
-  /** Asks for nothing before `demand`. Never calls the listener before it returns. The last one to cancel ends the delivery. */
+  /** Requests nothing before `request`. Never calls the listener before it returns. Ends when the last member cancels. */
   join(texture: TextureDescription, listener: TextureListener): JoinedTexture {
     const key = pictureKeyOf(texture);
     const shared = this.#shared.get(key) ?? sharedOf(texture);
     this.#shared.set(key, shared);
-    shared.members += 1;
+    shared.memberCount += 1;
     let isCancelled = false;
     queueMicrotask(() => {
       if (isCancelled) return;
@@ -98,15 +98,15 @@ export class TextureDeliveries {
         if (isCancelled) return;
         isCancelled = true;
         shared.listeners.delete(listener);
-        shared.members -= 1;
-        if (shared.members > 0) return;
+        shared.memberCount -= 1;
+        if (shared.memberCount > 0) return;
         this.#shared.delete(key);
         for (const source of shared.sources) release(source);
       },
     };
   }
 
-  /** What all of them would take on the GPU, as far as is known. */
+  /** Estimated bytes of all textures on the GPU. */
   get storedBytes(): number {
     let bytes = 0;
     for (const { sources } of this.#shared.values())
@@ -118,12 +118,12 @@ export class TextureDeliveries {
     return Array.from(this.#shared.values()).flatMap(transfersOf);
   }
 
-  /** What they want, and have, of the GPU: for each in the order of use. */
+  /** What each texture needs and has of the GPU: its preview before the full picture. */
   budgetRequests(priorityOf: TexturePriority): readonly (readonly BudgetRequest[])[] {
     return Array.from(this.#shared, ([key, shared]) =>
       shared.sources.flatMap((source) => {
-        const isNeedless = source.chunk === "preview" && hasTexture(shared);
-        const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
+        const isUnneeded = source.chunk === "preview" && hasTexture(shared);
+        const priority = isUnneeded ? undefined : priorityOf(key, source.chunk);
         source.budgetRequest =
           source.state === "failed" || (priority === undefined && source.state === "absent")
             ? undefined
@@ -139,31 +139,31 @@ export class TextureDeliveries {
   }
 
   /**
-   * Asks for what is wanted and aborts what is no longer. What is here stays, but of
-   * claims only what is granted. A preview is not asked for where its picture is here.
+   * Requests the files that have a priority and aborts those without. Ready files stay; but where `granted` is given,
+   * budget requests that are not in it are evicted. A preview is not requested once its full picture is ready.
    */
   request(priorityOf: TexturePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [key, shared] of this.#shared) {
       const denied = shared.sources.filter(
         ({ budgetRequest: claim }) => granted !== undefined && claim !== undefined && !granted.has(claim),
       );
-      const evicted = denied.filter(({ state }) => state === "here");
+      const evicted = denied.filter(({ state }) => state === "ready");
       if (evicted.length > 0) {
         updateDisplayed(shared, evicted);
         evicted.forEach(release);
       }
       for (const source of shared.sources) {
-        if (source.state === "here" || source.state === "failed") continue;
-        const isNeedless = denied.includes(source) || (source.chunk === "preview" && hasTexture(shared));
-        const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
+        if (source.state === "ready" || source.state === "failed") continue;
+        const isUnneeded = denied.includes(source) || (source.chunk === "preview" && hasTexture(shared));
+        const priority = isUnneeded ? undefined : priorityOf(key, source.chunk);
         if (priority === undefined) release(source);
         else if (source.handle !== undefined) source.handle.setPriority(priority);
-        else this.#ask(shared, source, priority);
+        else this.#startRequest(shared, source, priority);
       }
     }
   }
 
-  #ask(shared: Shared, source: Source, priority: number): void {
+  #startRequest(shared: Shared, source: Source, priority: number): void {
     const { url, chunk } = source;
     source.handle = this.#pool.acquire({
       kind: "picture",
@@ -172,18 +172,18 @@ export class TextureDeliveries {
       priority,
       expectedBytes: expected[chunk].bytes,
     });
-    source.state = "asked";
-    void this.#await(shared, source, source.handle);
+    source.state = "requested";
+    void this.#receive(shared, source, source.handle);
   }
 
-  async #await(shared: Shared, source: Source, lease: ResourceHandle): Promise<void> {
-    // Given up in between, or given up and asked for again.
-    const isOver = () => source.handle !== lease;
+  async #receive(shared: Shared, source: Source, handle: ResourceHandle): Promise<void> {
+    // Withdrawn meanwhile, or withdrawn and requested again.
+    const isOver = () => source.handle !== handle;
     try {
-      const content = await lease.content;
+      const content = await handle.content;
       if (isOver() || content.kind !== "picture") return;
       source.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
-      source.state = "here";
+      source.state = "ready";
       source.picture = content;
       updateDisplayed(shared);
     } catch (error) {
@@ -211,7 +211,7 @@ function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
   return {
     sampling,
     listeners: new Set(),
-    members: 0,
+    memberCount: 0,
     displayed: undefined,
     error: undefined,
     sources: [...(preview === "" ? [] : [source("preview", preview)]), source("texture", url)],
@@ -219,18 +219,18 @@ function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
 }
 
 function hasTexture({ sources }: Shared): boolean {
-  return sources.some(({ chunk, state }) => chunk === "texture" && state === "here");
+  return sources.some(({ chunk, state }) => chunk === "texture" && state === "ready");
 }
 
 function isSettled({ sources }: Shared): boolean {
-  return sources.every(({ state }) => state !== "asked");
+  return sources.every(({ state }) => state !== "requested");
 }
 
 function transfersOf({ sources }: Shared): Readonly<Transfer>[] {
-  return sources.flatMap(({ handle: lease }) => (lease ? [lease.transfer] : []));
+  return sources.flatMap(({ handle: handle }) => (handle ? [handle.transfer] : []));
 }
 
-/** The best that is here, but none of `without`. */
+/** Displays the best picture that is ready, except those of `without`. */
 function updateDisplayed(shared: Shared, without: readonly Source[] = []): void {
   const best = shared.sources.findLast((source) => source.picture !== undefined && !without.includes(source))?.picture;
   if (best === shared.displayed) return;
