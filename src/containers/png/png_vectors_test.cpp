@@ -1,0 +1,59 @@
+// The files of vectors/png, which web/src/decode/pngVectors.test.ts reads as well: both decoders give the same pixels,
+// and refuse the same files for the same kind of reason. In verdicts.json `crc32` is that of the pixels.
+#include "base/error.h"
+#include "base/file.h"
+#include "containers/png/png.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <libdeflate.h>
+#include <nlohmann/json.hpp>
+
+namespace imgeo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+const std::filesystem::path folder = IMGEO_VECTORS "/png";
+
+Json verdicts() {
+  return Json::parse(asText(readFile(folder / "verdicts.json")));
+}
+
+Bytes pngOf(const std::string& name) {
+  return readFile(folder / (name + ".png"));
+}
+
+const char* nameOf(ErrorKind kind) {
+  static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
+  return names.at(static_cast<std::size_t>(kind));
+}
+
+TEST(PngVectors, AreReadToTheirPixels) {
+  for (const Json& expected : verdicts().at("read")) {
+    const auto name = expected.at("name").get<std::string>();
+    SCOPED_TRACE(name);
+    const Image image = decodePng(pngOf(name), name);
+    EXPECT_EQ(image.width, expected.at("width"));
+    EXPECT_EQ(image.height, expected.at("height"));
+    EXPECT_EQ(image.channels, expected.at("channels"));
+    EXPECT_EQ(fmt::format("{:08x}", libdeflate_crc32(0, image.pixels.data(), image.pixels.size())),
+              expected.at("crc32"));
+  }
+}
+
+TEST(PngVectors, AreRefusedForTheirReason) {
+  for (const Json& expected : verdicts().at("refused")) {
+    const auto name = expected.at("name").get<std::string>();
+    SCOPED_TRACE(name);
+    try {
+      decodePng(pngOf(name), name);
+      ADD_FAILURE() << "was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(expected.at("kind"), nameOf(error.kind())) << error.what();
+    }
+  }
+}
+
+} // namespace
+} // namespace imgeo
