@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "export/export.h"
-#include "imgeo/convert.h"
+#include "imgeo/imgeo.h"
 #include "import/import.h"
 #include "scene/testing.h"
 #include "transcode/export/export_site.h"

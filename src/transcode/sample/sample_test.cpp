@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "base/testing.h"
-#include "imgeo/convert.h"
+#include "imgeo/imgeo.h"
 #include "scene/shape_instances.h"
 #include "transcode/sample/sample_file.h"
 #include "transcode/sample/sample_hall.h"
