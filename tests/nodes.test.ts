@@ -203,3 +203,34 @@ test("every field that the converter reads by its name is documented, with that 
     );
   }
 });
+
+/** The strings of a list in a C++ source, which begins behind `beginning`. */
+function stringsOf(path: string, beginning: string): string[] {
+  const text = read(path);
+  const begin = text.indexOf(beginning);
+  assert.ok(begin >= 0, `${path} has no ${beginning}`);
+  return [...text.slice(begin, text.indexOf("}", begin)).matchAll(/"(\w+)"/g)].map(([, name = ""]) => name);
+}
+
+test("the converter takes those geometry nodes for drawn in pages that are documented", () => {
+  const [, documentGeometry = ""] = read("docs/formats/nodes.md").split("\n## Geometry in the document\n");
+  const notGeometry = ["Coordinate", "Normal", "TextureCoordinate", "Color", "FontStyle"];
+  const inDocument = [...documented].filter(([heading]) =>
+    documentGeometry.split("\n## ")[0]?.includes(`### ${heading}\n`),
+  );
+  const expected = inDocument.flatMap(([, { nodes }]) => nodes).filter((node) => !notGeometry.includes(node));
+  assert.deepEqual(
+    stringsOf("src/import/x3d/summary.cpp", "> drawn{").toSorted(),
+    [...expected, "ImageGeometry", "BinaryGeometry"].toSorted(),
+  );
+});
+
+test("pages may have every documented node of X3D", () => {
+  const allowed = stringsOf("src/documents/page_sanitizer.cpp", "allowedElements[]");
+  const ours = ["X3D", "ImageGeometry", "BinaryGeometry", "GeometryPatch"];
+  const nodes = [...documented.values()].flatMap((section) => section.nodes).filter((node) => !ours.includes(node));
+  assert.deepEqual(
+    nodes.filter((node) => !allowed.includes(node)),
+    [],
+  );
+});
