@@ -1,6 +1,6 @@
-// Every node and field that the runtime reads, with types and defaults: the
-// table of docs/formats/nodes.md. Nothing else in the runtime knows a field's
-// name or default.
+// The table of nodes and fields that the runtime reads, with types and defaults. tests/nodes.test.ts compares it with
+// docs/formats/nodes.md and with the converter's table. A few attributes that are not fields of one node (DEF, USE,
+// containerField, mapping) are read elsewhere in this folder.
 
 import type { SceneElement } from "./element.ts";
 import { attributesOf } from "./element.ts";
