@@ -19,7 +19,7 @@ namespace {
   throw Error(ErrorKind::usage, "", fmt::format("{}; see imgeo {}--help", message, command ? command->name + " " : ""));
 }
 
-/// What is wrong with a value; empty where nothing is.
+/// What is wrong with a value; empty if it is valid.
 std::string faultOf(const Flag& flag, const std::string& value) {
   if (flag.value == Value::choice && std::ranges::find(flag.choices, value) == flag.choices.end())
     return fmt::format("\"{}\" is not {}", value, fmt::join(flag.choices, " or "));
@@ -49,7 +49,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// ", did you mean NAME?" for the nearest of `names`, if any is near.
+/// ", did you mean NAME?" for the most similar of `names`; empty if none is similar.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const auto nearest =
       std::ranges::min_element(names, {}, [&](const std::string& name) { return editDistance(word, name); });
@@ -86,7 +86,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
       app.add_flag("--" + flag.name, arguments.switches[flag.name]);
       continue;
     }
-    // A positional argument with a short name may be given by its long one too.
+    // A positional argument that has a short name also has its long name.
     const std::string names =
         flag.positional ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name) : "--" + flag.name;
     arguments.values[flag.name] = flag.defaultValue;
@@ -94,7 +94,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
       return faultOf(flag, value);
     });
   }
-  std::ranges::reverse(words); // CLI11 takes them from the back
+  std::ranges::reverse(words); // CLI11 reads them in reverse order
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
@@ -112,7 +112,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
   return arguments;
 }
 
-/// The long form of one word, where it is a short name of the flag.
+/// The long form of an argument that is a short name of the flag.
 std::optional<std::vector<std::string>> expand(const Flag& flag, const std::string& word) {
   for (const std::string& alias : flag.aliases) {
     if (!word.starts_with(alias))

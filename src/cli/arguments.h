@@ -1,5 +1,5 @@
 #pragma once
-// The words of a command line -> the values of the flag table.
+// The arguments of a command line -> the values of the flags.
 
 #include "cli/flags.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The subcommands. Each prints its result on standard output and returns the
-// process's exit code; faults leave as exceptions, which main reports.
+// The subcommands. Each prints its result on standard output and returns the exit code of the process. They throw
+// errors; main reports them.
 
 #include "cli/arguments.h"
 

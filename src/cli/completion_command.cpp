@@ -16,7 +16,7 @@ std::vector<std::string> commandNames() {
   return names;
 }
 
-/// Every spelling of a flag; of a positional argument none.
+/// All names of a flag; positional arguments have none.
 std::vector<std::string> spellings(const Flag& flag) {
   std::vector<std::string> all = flag.aliases;
   if (!flag.positional)
@@ -63,7 +63,7 @@ std::string bashScript() {
   return script + "  esac\n}\ncomplete -o filenames -F _imgeo imgeo\n";
 }
 
-/// Text inside a single-quoted word of zsh's _arguments, where [ ] : are its own.
+/// Escapes text for a single-quoted argument of zsh's _arguments, where [ ] : have a meaning.
 std::string zshText(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

@@ -7,8 +7,7 @@
 
 namespace imgeo::cli {
 
-/// "1,200 triangles, 1 point": the kinds of which there are any; "0 triangles"
-/// where there are none.
+/// "1,200 triangles, 1 point": all kinds with a count above 0; "0 triangles" if there are none.
 std::string listed(const ElementCounts& counts);
 
 } // namespace imgeo::cli

@@ -1,6 +1,5 @@
 #pragma once
-// The one table of commands and flags. The parser, the help texts, the shell
-// completions and the manual page are all made from it.
+// The table of commands and flags: the source of the parser, the help texts, the shell completions and the manual page.
 
 #include <cstdint>
 #include <span>
@@ -9,11 +8,11 @@
 
 namespace imgeo::cli {
 
-/// What the value of a flag is; completions and checks follow from it.
+/// Kind of a flag's value. Checks and completions depend on it.
 enum class Value : std::uint8_t { none, text, file, directory, integer, choice };
 
 struct Flag {
-  std::string name;                   ///< "position-bits"; of a positional argument "input"
+  std::string name;                   ///< "position-bits"; for positional arguments "input"
   std::vector<std::string> aliases{}; ///< short names: "-vp", "-qp"
   Value value = Value::none;
   std::string valueName{};            ///< "N", "DIR"

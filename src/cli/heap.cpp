@@ -9,22 +9,22 @@ namespace imgeo::cli {
 
 namespace {
 
-/// Addresses, not memory: what nothing is written to costs nothing.
+/// Size of the reserved address range. Pages that are never written take no memory.
 constexpr std::uintptr_t heapBytes = 64 << 20;
 constexpr std::uintptr_t largePageBytes = 2 << 20;
 
 } // namespace
 
 void prepareHeap() {
-  // One heap for all threads, which ask for little that is not large: what one has freed
-  // the next one uses.
+  // One heap for all threads, so that a thread reuses memory that another one has freed. Small allocations are rare, so
+  // threads seldom wait for each other.
   mallopt(M_ARENA_MAX, 1);
-  // What is freed at the heap's end, or was mapped by itself, would go back to the system
-  // only to be asked for again, page by page.
+  // By default, freed memory at the end of the heap and separately mapped blocks return to the system, and the next
+  // allocation has to get them back page by page.
   mallopt(M_TRIM_THRESHOLD, 2 * heapBytes);
   mallopt(M_MMAP_THRESHOLD, heapBytes / 2);
   mallopt(M_TOP_PAD, heapBytes);
-  void* const first = std::malloc(largePageBytes); // lets the heap grow
+  void* const first = std::malloc(largePageBytes); // makes the heap grow
   mallopt(M_TOP_PAD, largePageBytes);
   if (first) {
     const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(first) + largePageBytes - 1) & ~(largePageBytes - 1);

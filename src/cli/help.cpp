@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t lineWidth = 80;
 
-/// Words filled into lines that begin at `indent`; the first line is already there.
+/// Wraps text into lines that are indented by `indent` columns; the first line is already indented.
 std::string filled(const std::string& text, std::size_t indent) {
   std::string lines;
   std::istringstream words(text);
@@ -65,7 +65,7 @@ std::string exitCodeList() {
   return text;
 }
 
-/// Text in which troff sees nothing to act upon.
+/// Escapes text for troff.
 std::string troff(const std::string& text) {
   std::string escaped = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
   for (const char c : text) {

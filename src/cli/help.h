@@ -1,5 +1,5 @@
 #pragma once
-// The flag table as text for people: help on a terminal, and the manual page.
+// The flag table as text: help on a terminal, and the manual page.
 
 #include "cli/flags.h"
 

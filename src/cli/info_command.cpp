@@ -78,7 +78,7 @@ std::string textOf(const GeometryInfo& geometry) {
   return text;
 }
 
-/// Each way to store geometry once.
+/// Prints each distinct way in which geometries are stored.
 void printGeometries(const std::vector<GeometryInfo>& geometries) {
   for (auto it = geometries.begin(); it != geometries.end(); ++it)
     if (std::find(geometries.begin(), it, *it) == it)
@@ -141,7 +141,7 @@ Json jsonOf(const SourceInfo& info) {
 }
 
 void printSource(const SourceInfo& info) {
-  const auto has = [](bool there, const char* name) { return fmt::format("{}{}", there ? "" : "no ", name); };
+  const auto has = [](bool isPresent, const char* name) { return fmt::format("{}{}", isPresent ? "" : "no ", name); };
   fmt::print("{}, {}: {}, {} vertices in {} {}\n", info.format, byteSize(info.bytes), listed(info.elements),
              grouped(info.vertices), info.shapes, info.shapes == 1 ? "shape" : "shapes");
   fmt::print("{}, {}, {}\n", has(info.normals, "normals"), has(info.texCoords, "texture coordinates"),
@@ -176,8 +176,8 @@ template <typename Info> int print(const Arguments& arguments, const Info& info,
   return 0;
 }
 
-/// Whether an X3D file is a site's and not a source: its geometry lies in containers.
-bool namesContainers(const std::filesystem::path& file) {
+/// Whether an X3D file is the document of a site and not a source: its geometry is in containers.
+bool refersToContainers(const std::filesystem::path& file) {
   const Bytes bytes = readFile(file);
   std::string text(asText(bytes));
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -191,7 +191,7 @@ int runInfo(const Arguments& arguments) {
   std::error_code none;
   const std::string extension = path.extension();
   if (std::filesystem::is_directory(path, none) || extension == ".html" ||
-      (extension == ".x3d" && namesContainers(path)))
+      (extension == ".x3d" && refersToContainers(path)))
     return print(arguments, inspect(path), printSite);
   if (extension == ".png" || extension == ".bin")
     return print(arguments, inspectGeometryFile(path), printGeometryFile);

@@ -25,7 +25,7 @@ void noteInterruptions() {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN)
-      sigaction(signal, &action, nullptr); // nohup stays nohup
+      sigaction(signal, &action, nullptr); // a signal that nohup ignores stays ignored
   }
 }
 

@@ -1,22 +1,20 @@
 #pragma once
-// Ctrl-C, a request to end and a closed terminal, made into an exception at a
-// place where everything can be put in order.
+// Ctrl-C (SIGINT), SIGTERM and SIGHUP as an exception, so that destructors clean up.
 
 namespace imgeo::cli {
 
-/// Thrown by throwIfInterrupted; no error, and nothing to catch but in main.
+/// Thrown by throwIfInterrupted and caught in main. It is not an Error.
 struct Interrupted {
   int signal;
 };
 
-/// From here on SIGINT, SIGTERM and SIGHUP are noted instead of ending the
-/// process. A second one of the same kind ends it.
+/// Makes SIGINT, SIGTERM and SIGHUP set a flag instead of ending the process. A second signal of the same kind ends it.
 void noteInterruptions();
 
-/// Throws Interrupted once a signal has been noted. Safe from any thread.
+/// Throws Interrupted if a signal has arrived. Safe from any thread.
 void throwIfInterrupted();
 
-/// Ends the process by the signal, as its parent expects it.
+/// Ends the process by the signal, so that its parent sees the cause.
 [[noreturn]] void endBy(Interrupted interrupted);
 
 } // namespace imgeo::cli

@@ -47,7 +47,7 @@ int report(int code, const std::string& message) {
   return code;
 }
 
-/// Every fault ends here: one sentence and the documented exit code.
+/// Runs the command. Reports every exception as one sentence and the documented exit code.
 int runAndReport(int count, char** words) {
   try {
     const int code = run(parseArguments({words + 1, words + count}));

@@ -21,8 +21,8 @@ bool isTerminal(std::FILE* stream) {
 
 std::string bold(const std::string& text) {
   const char* noColor = std::getenv("NO_COLOR");
-  static const bool wanted = isTerminal(stdout) && !(noColor && *noColor);
-  return wanted ? "\x1b[1m" + text + "\x1b[0m" : text;
+  static const bool isBold = isTerminal(stdout) && !(noColor && *noColor);
+  return isBold ? "\x1b[1m" + text + "\x1b[0m" : text;
 }
 
 std::string grouped(std::uint64_t number) {
@@ -48,7 +48,7 @@ ProgressBar::~ProgressBar() {
     fmt::print(stderr, "\r\x1b[K");
 }
 
-void ProgressBar::show(double share, const std::string& doing) {
+void ProgressBar::show(double share, const std::string& step) {
   if (!isTerminal_)
     return;
   const auto now = std::chrono::steady_clock::now();
@@ -56,7 +56,7 @@ void ProgressBar::show(double share, const std::string& doing) {
     return;
   constexpr std::size_t width = 30;
   const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * width);
-  const std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, doing);
+  const std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, step);
   if (line == shown_)
     return;
   fmt::print(stderr, "\r{}\x1b[K", line);

@@ -1,5 +1,5 @@
 #pragma once
-// How a terminal is spoken to; files and pipes get plain text and no progress.
+// Output for terminals. Files and pipes get plain text and no progress bar.
 
 #include <chrono>
 #include <cstdint>
@@ -7,8 +7,7 @@
 
 namespace imgeo::cli {
 
-/// Text in bold where standard output is a terminal that takes it and NO_COLOR
-/// (https://no-color.org) is not set.
+/// Bold text if standard output is a terminal and NO_COLOR (https://no-color.org) is not set.
 std::string bold(const std::string& text);
 
 /// "1,234,567"
@@ -16,8 +15,7 @@ std::string grouped(std::uint64_t number);
 /// "12.3 MB" (of a million bytes), "812 B"
 std::string byteSize(std::uint64_t bytes);
 
-/// One line on standard error that says how far the work is; nothing where that
-/// is no terminal.
+/// A progress bar on standard error, if that is a terminal.
 class ProgressBar {
 public:
   ProgressBar();
@@ -25,8 +23,8 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// From any thread, one call at a time.
-  void show(double share, const std::string& doing);
+  /// Draws the bar. May be called from any thread, one call at a time.
+  void show(double share, const std::string& step);
 
 private:
   bool isTerminal_;
