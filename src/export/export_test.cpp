@@ -104,7 +104,7 @@ TEST(ExportedPly, IsReadBackByOurImport) {
   }
 }
 
-TEST(ExportedPly, HoldsAllShapesAndWhatOnlySomeHave) {
+TEST(ExportedPly, HoldsAllShapesAndAttributesThatOnlySomeHave) {
   Mesh plain = testing::grid(3), colored = testing::sphere(4, 5);
   colored.colors.assign(colored.wedgeCount(), {1, 2, 3, 255});
   Scene scene = sceneOf({plain, colored});
@@ -284,7 +284,7 @@ TEST(ExportedGlb, HoldsMoreVerticesThanSixteenBitsCount) {
   expectEqual(cornersOf(*read->mMeshes[0], 3), cornersOf(mesh));
 }
 
-TEST(ExportedGlb, IsMadeOfWholeWordsAsItsHeaderSays) {
+TEST(ExportedGlb, HasChunksOfWholeWordsAndTheLengthOfItsHeader) {
   const Bytes glb = writeGlb(sceneOf({testing::torus(3, 3)}));
   EXPECT_EQ(loadLittle<std::uint32_t>(&glb[8]), glb.size());
   const std::uint32_t json = loadLittle<std::uint32_t>(&glb[12]);
@@ -310,7 +310,7 @@ TEST(Glb, KeepsViewpoints) {
   ADD_FAILURE() << "the viewpoint is lost";
 }
 
-TEST(Glb, HasOneNodeForAMeshAndItsPlaceUnlessBothHaveNames) {
+TEST(Glb, MergesAShapeAndItsTransformIntoOneNodeUnlessBothHaveNames) {
   Scene scene = sceneOf({testing::sphere(4, 6)});
   scene.graph.roots.clear();
   const std::size_t seat = addNode(scene.graph, {"seat", Shape{0, {}, true}, {}, ""});
@@ -336,7 +336,7 @@ TEST(Glb, HasOneNodeForAMeshAndItsPlaceUnlessBothHaveNames) {
   EXPECT_EQ(inRow.children, read.nodes[read.roots[0]].children) << "one shape stands in all places";
 }
 
-TEST(Glb, KeepsLightsThatItHasWordsFor) {
+TEST(Glb, KeepsTheLightsThatGltfCanExpress) {
   Scene scene = sceneOf({testing::sphere(4, 6)});
   const Vec3d bySquare{0, 0, 1};
   addRoot(scene.graph, {"sun", DirectionalLight{{1, -2, 0.5}, {1, 0.5f, 0.25f}, 2, true}, {}, ""});

@@ -20,7 +20,7 @@ protected:
   std::string input_ = directory_ / "statue.ply", site_ = directory_ / "site";
 };
 
-TEST_F(Convert, SaysWhatItChose) {
+TEST_F(Convert, ReportsWhatItChose) {
   const Outcome outcome = run({"convert", input_, "-o", site_});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "silent where standard error is no terminal";
@@ -33,7 +33,7 @@ TEST_F(Convert, SaysWhatItChose) {
             (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html", "runtime", "scene.x3d"}));
 }
 
-TEST_F(Convert, SaysTheErrorOfAllThatItRounds) {
+TEST_F(Convert, ReportsTheErrorOfEverythingThatItRounds) {
   const std::string input = directory_ / "painted.ply", points = directory_ / "points.ply";
   write(input, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -55,7 +55,7 @@ TEST_F(Convert, SaysTheErrorOfAllThatItRounds) {
     EXPECT_EQ(plain.find(label), std::string::npos) << label << " are in:\n" << plain;
 }
 
-TEST_F(Convert, SaysTheBitsOfEveryMeshThatTheErrorChose) {
+TEST_F(Convert, ReportsTheBitsThatMaxErrorChoosesForEachMesh) {
   const std::string input = directory_ / "two.obj";
   write(input, "o small\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no large\nv 0 0 9\nv 1000 0 9\nv 0 1000 9\nf 4 5 6\n");
   const Json report = Json::parse(run({"convert", input, "-o", site_, "--max-error", "0.002", "--json"}).out);
@@ -64,7 +64,7 @@ TEST_F(Convert, SaysTheBitsOfEveryMeshThatTheErrorChose) {
   EXPECT_LE(report["positionError"].get<double>() * std::sqrt(3.0), 0.002);
 }
 
-TEST_F(Convert, IsCompactUnlessWhatIsAskedForIsClassics) {
+TEST_F(Convert, ChoosesCompactUnlessOptionsNeedClassic) {
   const auto profileOf = [&](std::vector<std::string> options) {
     std::vector<std::string> line{"convert", input_, "-o", site_, "--json"};
     line.insert(line.end(), options.begin(), options.end());
@@ -83,7 +83,7 @@ TEST_F(Convert, IsCompactUnlessWhatIsAskedForIsClassics) {
     EXPECT_EQ(profileOf(options), "classic") << options[0];
 }
 
-TEST_F(Convert, PutsABaseBeforeLargeMeshes) {
+TEST_F(Convert, WritesABaseMeshForLargeMeshes) {
   write(input_, gridPly(80)); // 12,800 triangles
   const auto bytesOf = [&](std::vector<std::string> options) {
     std::vector<std::string> line{"convert", input_, "-o", site_, "--patch-vertices", "3000", "--json"};
@@ -168,7 +168,7 @@ TEST_F(Convert, TakesEveryShortName) {
   EXPECT_EQ(run({"convert", "-h"}).out, run({"convert", "--help"}).out);
 }
 
-TEST_F(Convert, StoresNormalsAsItIsTold) {
+TEST_F(Convert, StoresNormalsAsRequested) {
   const auto bound = [&](std::vector<std::string> options) {
     std::vector<std::string> line{"convert", input_, "-o", site_, "--json"};
     line.insert(line.end(), options.begin(), options.end());
@@ -190,7 +190,7 @@ TEST_F(Convert, StoresNormalsAsItIsTold) {
   EXPECT_NEAR(bound({"--normals", "spherical", "--container", "bg", "-vp", "10"}), 0.789, 0.001);
 }
 
-TEST_F(Convert, SaysHowManyTrianglesTooFewBitsCollapse) {
+TEST_F(Convert, ReportsTrianglesThatCollapseOnACoarseLattice) {
   write(input_, gridPly(600)); // more quads along a side than 8 bits have steps
   const Outcome coarse = run({"convert", input_, "-o", site_, "-vp", "8", "--json", "--effort", "0"});
   ASSERT_EQ(coarse.code, 0) << coarse.err;
@@ -260,7 +260,7 @@ TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
   EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"other.ply", "site", "statue.ply", "whole"}));
 }
 
-TEST_F(Convert, InterruptedRemovesWhatItHasBegun) {
+TEST_F(Convert, RemovesItsFilesWhenInterrupted) {
   write(input_, gridPly(400));
   for (const int signal : {SIGINT, SIGTERM}) {
     const pid_t child = start({"convert", input_, "-o", site_, "--effort", "9"}, "/dev/null", directory_ / "err");
@@ -278,7 +278,7 @@ TEST_F(Convert, InterruptedRemovesWhatItHasBegun) {
   }
 }
 
-TEST_F(Convert, InfoHasTheseKeysAndTheyAddUp) {
+TEST_F(Convert, InfoHasItsDocumentedKeysAndConsistentSums) {
   ASSERT_EQ(run({"convert", input_, "-o", site_, "--patch-vertices", "256"}).code, 0);
   const Outcome outcome = run({"info", site_, "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -309,7 +309,7 @@ TEST_F(Convert, InfoHasTheseKeysAndTheyAddUp) {
   EXPECT_EQ(Json::parse(run({"info", input_, "--json"}).out)["triangles"], 800);
 }
 
-TEST_F(Convert, VerifyExitsWithThreeAndSentencesWhereTheSiteIsAnother) {
+TEST_F(Convert, VerifyExitsWithThreeAndReportsDifferencesOfAnotherSite) {
   ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
   EXPECT_EQ(run({"verify", site_, input_}).code, 0);
   write(directory_ / "other.ply", gridPly(19));
@@ -360,7 +360,7 @@ TEST_F(Convert, KeepsMoreAttributesThanCompactHoldsInClassic) {
   EXPECT_NE(refused.err.find("13 further attributes of a mesh, not 14"), std::string::npos) << refused.err;
 }
 
-TEST_F(Convert, DropsElementsThatAddNothingWhereItIsTold) {
+TEST_F(Convert, DropsDegenerateAndRepeatedElementsOnRequest) {
   write(input_, "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
                 "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
                 "0 0 0\n1 0 0\n0 1 0\n1 1 0\n5 5 5\n3 0 1 2\n3 1 3 2\n3 2 0 1\n3 4 4 1\n");

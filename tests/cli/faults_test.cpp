@@ -48,7 +48,7 @@ TEST_F(Faults, ATruncatedPly) {
   expectRefusal("cut.ply", header("binary_little_endian", "100", "10") + std::string(50, 'x'), 3, "cut.ply");
 }
 
-TEST_F(Faults, APlyThatPromisesFourBillionFaces) {
+TEST_F(Faults, APlyThatClaimsFourBillionFaces) {
   expectRefusal("liar.ply", header("ascii", "3", "4294967295") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, "liar.ply");
   expectRefusal("liar.ply", header("binary_little_endian", "0", "4294967295"), 3, "liar.ply");
 }
@@ -70,7 +70,7 @@ TEST_F(Faults, TextureCoordinatesAndAttributesThatAreNoNumbers) {
   expectRefusal("bad.ply", heat, 1, "no attribute \"cold\" but heat", {"--keep-attributes", "cold"});
 }
 
-TEST_F(Faults, AMeshWithNothingInIt) {
+TEST_F(Faults, AnEmptyMesh) {
   expectRefusal("empty.ply", header("ascii", "0", "0"), 3, "empty.ply");
   expectRefusal("empty.ply", "", 3, "empty.ply");
   expectRefusal("empty.obj", "# nothing\n", 3, "empty.obj");
@@ -81,7 +81,7 @@ TEST_F(Faults, AnUnknownFormat) {
   expectRefusal("photo.png", "\x89PNG\r\n\x1a\n", 3, "photo.png");
 }
 
-TEST_F(Faults, AnInputThatIsNotThereOrIsADirectory) {
+TEST_F(Faults, AnInputThatIsMissingOrADirectory) {
   expectSentence(run({"convert", directory_ / "missing.ply", "-o", directory_ / "site"}), 2, "No such file");
   expectSentence(run({"convert", "/tmp", "-o", directory_ / "site"}), 2, "is a directory");
   expectSentence(run({"verify", directory_ / "site", directory_ / "missing.ply"}), 2, "site");

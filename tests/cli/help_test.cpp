@@ -19,13 +19,13 @@ void expectGolden(const std::string& name, const std::vector<std::string>& words
   EXPECT_EQ(outcome.out, textOf(file)) << file;
 }
 
-TEST(Help, IsAsItWasReviewed) {
+TEST(Help, EqualsItsReviewedGoldens) {
   expectGolden("help.txt", {"--help"});
   for (const std::string command : {"convert", "info", "verify", "export", "sample", "serve", "completion", "manual"})
     expectGolden("help-" + command + ".txt", {command, "--help"});
 }
 
-TEST(Help, CompletionsAndManualAreAsTheyWereReviewed) {
+TEST(Help, CompletionsAndManualEqualTheirReviewedGoldens) {
   for (const std::string shell : {"bash", "zsh", "fish"})
     expectGolden("completion." + shell, {"completion", shell});
   expectGolden("imgeo.1", {"manual"});

@@ -45,7 +45,7 @@ protected:
   testing::TemporaryDirectory directory_;
 };
 
-TEST_F(DamagedSource, HasFieldsThatCountAsAbsentWhereTheyAreMalformed) {
+TEST_F(DamagedSource, MalformedFieldsCountAsAbsent) {
   expectWarning("<Viewpoint position='a b c'/>", "index.html:15: Viewpoint: position holds a word that is no number");
   expectWarning("<OrthoViewpoint fieldOfView='1 2'/>", "fieldOfView has 2 numbers and needs 4");
   expectWarning("<DirectionalLight direction='down'/>", "direction holds");
@@ -57,7 +57,7 @@ TEST_F(DamagedSource, HasFieldsThatCountAsAbsentWhereTheyAreMalformed) {
   expectWarning("<Group bboxSize='a b c'><Shape>" + strip() + "</Shape></Group>", "bboxSize holds");
 }
 
-TEST_F(DamagedSource, NamesTexturesThatAreNotThereOrNotInItsFolder) {
+TEST_F(DamagedSource, KeepsUrlsOfMissingTexturesAndOfTexturesOutsideItsFolder) {
   for (const std::string url : {"lost.png", "../out.png", "/etc/hostname"}) {
     expectWarning("<Shape><Appearance><ImageTexture url='\"" + url + "\"'/></Appearance>" + strip() + "</Shape>", url);
     EXPECT_EQ(inspect(directory_ / "site").missing, std::vector<std::string>{url});
@@ -80,14 +80,14 @@ TEST_F(DamagedSource, HasShapesWithoutGeometry) {
   EXPECT_EQ(warnings, std::vector<std::string>{"Geometry without faces, lines or points: IndexedFaceSet (1)."});
 }
 
-TEST_F(DamagedSource, IsReadAlsoWhereItsGeometryIsSmall) {
+TEST_F(DamagedSource, IsReadEvenIfItsGeometryIsSmall) {
   const std::string coordinate = "<Coordinate point='0 0 0 1 0 0 0 1 0'/>";
   expectWarning("<Shape><IndexedTriangleSet index='0 1 7'>" + coordinate + "</IndexedTriangleSet></Shape>",
                 "position 7 of 3");
   expectWarning("<Shape><ElevationGrid xDimension='100000' zDimension='100000' height='0'/></Shape>", "ElevationGrid");
 }
 
-TEST_F(DamagedSource, OfShapesInMoreThanAMillionPlacesIsRefused) {
+TEST_F(DamagedSource, WithMoreThanAMillionShapeInstancesIsRefused) {
   for (const std::string& geometry : {strip(), std::string("<Box/>")}) {
     std::string nodes = "<Group DEF='g0'><Shape>" + geometry + "</Shape></Group>";
     for (int i = 1; i <= 40; ++i) {
@@ -104,7 +104,7 @@ TEST_F(DamagedSource, OfShapesInMoreThanAMillionPlacesIsRefused) {
   }
 }
 
-TEST_F(DamagedSource, IsSeenWholeButForWhatNobodyCanDraw) {
+TEST_F(DamagedSource, DefaultViewpointIgnoresShapesThatCannotBeDrawn) {
   const std::string gltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 2]}],
     "nodes": [{"scale": [1e38, 1e38, 1e38], "children": [1]}, {"scale": [1e38, 1e38, 1e38], "mesh": 0}, {"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],

@@ -73,7 +73,7 @@ TEST_F(InlineSite, KeepsItsDocumentsApart) {
     EXPECT_NE(page.find(kept), std::string::npos) << kept;
 }
 
-TEST_F(InlineSite, SpeaksX3domInEachOfThem) {
+TEST_F(InlineSite, WritesEachDocumentForX3dom) {
   ConvertOptions options;
   options.target = Target::x3dom;
   convertHall(options);
@@ -83,7 +83,7 @@ TEST_F(InlineSite, SpeaksX3domInEachOfThem) {
   EXPECT_EQ(seat.find("GeometryPatch"), std::string::npos) << seat;
 }
 
-TEST_F(InlineSite, SaysOnceWhatItLeaves) {
+TEST_F(InlineSite, WarnsOnceOfContentThatItLeavesOut) {
   const ConvertReport report = convertHall();
   const auto count = [&](const std::string& part) {
     return std::ranges::count_if(report.warnings,

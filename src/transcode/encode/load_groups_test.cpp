@@ -5,7 +5,7 @@
 namespace imgeo {
 namespace {
 
-TEST(LoadGroups, SetTheChoicesOfASwitchApart) {
+TEST(LoadGroups, GiveEachChoiceOfASwitchItsOwnGroup) {
   SceneGraph graph;
   const auto add = [&](NodeContent content, std::vector<std::size_t> children) {
     return addNode(graph, {"", std::move(content), std::move(children), "", {}});

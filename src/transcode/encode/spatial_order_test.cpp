@@ -21,7 +21,7 @@ std::size_t addMoved(SceneGraph& graph, Vec3d translation, std::size_t child) {
   return addNode(graph, {"", transform, {child}, "", {}});
 }
 
-TEST(ShapesByPlace, FollowEachOtherInBlocksNotInRows) {
+TEST(SpatialOrder, GroupsShapesInBlocksNotInRows) {
   SceneGraph graph;
   constexpr std::size_t side = 8;
   std::vector<std::size_t> shapes;
@@ -44,7 +44,7 @@ TEST(ShapesByPlace, FollowEachOtherInBlocksNotInRows) {
   }
 }
 
-TEST(ShapesByPlace, HaveEachShapeOnceHoweverOftenAndWhereverItStands) {
+TEST(SpatialOrder, ContainsEachShapeOnceWhateverItsInstancesAndTransforms) {
   SceneGraph graph;
   const std::size_t twice = addNode(graph, {"", Shape{}, {}, "", {}}), far = addNode(graph, {"", Shape{}, {}, "", {}});
   constexpr double infinite = std::numeric_limits<double>::infinity();

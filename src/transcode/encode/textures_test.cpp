@@ -46,7 +46,7 @@ Bytes pictureBytes(std::uint32_t edge) {
   return encodeLosslessWebp(testRaster(edge, edge));
 }
 
-TEST_F(Textures, AreKeptAsTheyAreWhereBrowsersShowThem) {
+TEST_F(Textures, AreKeptUnchangedIfBrowsersDisplayThem) {
   const Bytes image = pictureBytes(16);
   use(TextureRole::color, image);
   const TextureReport report = write();
@@ -55,14 +55,14 @@ TEST_F(Textures, AreKeptAsTheyAreWhereBrowsersShowThem) {
   EXPECT_EQ(report.bytes, report.sourceBytes);
 }
 
-TEST_F(Textures, ThatBrowsersDoNotShowAreWrittenAnewWithoutLoss) {
+TEST_F(Textures, InFormatsThatBrowsersDoNotDisplayAreReencodedWithoutLoss) {
   use(TextureRole::color, tgaOf(testRaster(24, 8, true)));
   EXPECT_EQ(write().reencoded, 1u);
   EXPECT_EQ(imageType(written(0)), ".webp");
   EXPECT_EQ(raster(0), testRaster(24, 8, true));
 }
 
-TEST_F(Textures, ThatDoNotDecodeLeaveTheSceneWithASentence) {
+TEST_F(Textures, ThatCannotBeDecodedAreLeftOutWithAWarning) {
   Bytes cut = tgaOf(testRaster(24, 8));
   cut.resize(100);
   use(TextureRole::color, cut, "cut.tga");
@@ -78,7 +78,7 @@ TEST_F(Textures, ThatDoNotDecodeLeaveTheSceneWithASentence) {
   EXPECT_THROW(write(), Error);
 }
 
-TEST_F(Textures, AreMadeSmallerAndNeverLarger) {
+TEST_F(Textures, AreShrunkAndNeverEnlarged) {
   use(TextureRole::color, tgaOf(testRaster(64, 16)));
   use(TextureRole::emissive, pictureBytes(20));
   options.textures.size = 32;
@@ -88,7 +88,7 @@ TEST_F(Textures, AreMadeSmallerAndNeverLarger) {
   EXPECT_EQ(raster(1).width, 20u);
 }
 
-TEST_F(Textures, AreLossyOnlyWherePeopleLookAtThem) {
+TEST_F(Textures, AreLossyOnlyIfTheyAreColours) {
   const Raster noise = testRaster(64, 64);
   use(TextureRole::color, tgaOf(noise));
   use(TextureRole::normal, tgaOf(noise));
@@ -107,7 +107,7 @@ TEST_F(Textures, AreLossyOnlyWherePeopleLookAtThem) {
   EXPECT_EQ(raster(1), noise);
 }
 
-TEST_F(Textures, StayAsTheyAreWhereAnotherFormatWouldTakeMoreBytes) {
+TEST_F(Textures, StayUnchangedIfAnotherFormatTakesMoreBytes) {
   const Bytes webp = encodeWebp(testRaster(64, 64), 5);
   use(TextureRole::color, webp);
   options.textures.format = TextureFormat::png;
@@ -115,7 +115,7 @@ TEST_F(Textures, StayAsTheyAreWhereAnotherFormatWouldTakeMoreBytes) {
   EXPECT_EQ(written(0), webp);
 }
 
-TEST_F(Textures, HaveAPreviewWhereTheyAreLargeAndLookedAt) {
+TEST_F(Textures, HaveAPreviewIfTheyAreLargeColourImages) {
   const Bytes large = tgaOf(noiseRaster(256, 128));
   use(TextureRole::color, large);
   use(TextureRole::metallicRoughness, large);
@@ -132,14 +132,14 @@ TEST_F(Textures, HaveAPreviewWhereTheyAreLargeAndLookedAt) {
   EXPECT_EQ(graph.images[1].preview + graph.images[2].preview, "");
 }
 
-TEST_F(Textures, OfX3dSourcesAreDataByTheFieldTheyStandIn) {
+TEST_F(Textures, OfX3dSourcesHaveTheRoleOfTheirField) {
   graph.images.push_back({"n.tga", tgaOf(testRaster(8, 8))});
   addRoot(graph, {"", GenericNode{"ImageTexture", "", 0}, {}, "", {{"containerField", "normalTexture"}}});
   const ImageUse use = imageUses(graph).at(0);
   EXPECT_TRUE(use.isUsed && use.isData && use.isNormal && !use.isColor);
 }
 
-TEST(TexturedSite, TellsItsTexturesAndTheirPreviews) {
+TEST(TexturedSite, ListsItsTexturesAndTheirPreviews) {
   const TemporaryDirectory directory;
   writeFile(directory.path() / "plane.obj", asBytes("mtllib plane.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 "
                                                     "0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));

@@ -29,7 +29,7 @@ void expectComesBack(const Mesh& mesh, const ConvertOptions& options, const std:
   EXPECT_LE(written.vertices, info.vertices);
 }
 
-TEST(ExportSite, GivesBackEveryMeshOfEveryContainer) {
+TEST(ExportSite, WritesEveryMeshOfEveryEncoding) {
   for (std::uint32_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     ConvertOptions options;
@@ -58,7 +58,7 @@ TEST(ExportSite, JoinsPatchesAtTheirBorders) {
   EXPECT_EQ(read.scene.meshes.at(0).elementCount(), mesh.elementCount());
 }
 
-TEST(ExportSite, SaysInAGlbHowOneMoves) {
+TEST(ExportSite, WritesNavigationTypesIntoAGlb) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& file) { return directory.path() / file; };
   std::string points; // more than stays in the document

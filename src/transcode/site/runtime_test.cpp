@@ -7,7 +7,7 @@
 namespace imgeo {
 namespace {
 
-TEST(Runtime, TheToolCarriesTheBundlesByteForByte) {
+TEST(Runtime, IsLinkedIntoTheLibraryByteForByte) {
   const auto expectSame = [](std::string_view bundled, const char* path) {
     const Bytes module = readFile(path);
     EXPECT_FALSE(module.empty());
@@ -20,7 +20,7 @@ TEST(Runtime, TheToolCarriesTheBundlesByteForByte) {
   expectSame(worker, IMGEO_WORKER_MODULE);
 }
 
-TEST(Runtime, InASiteModulesNameEachOthersFilesAndAllAreNamedByTheirContent) {
+TEST(Runtime, ModulesOfASiteAreNamedByTheirContentAndImportEachOtherByTheseNames) {
   const auto [page, shared, scene, worker] = runtimeOfSite();
   const auto expectNamed = [](const RuntimeFile& file, const std::string& stem) {
     EXPECT_EQ(file.name, stem + "-" + contentName(asBytes(file.text)) + ".js");

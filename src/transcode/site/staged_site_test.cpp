@@ -62,7 +62,7 @@ ErrorKind kindOfRefusal(const fs::path& target, bool force = false) {
   return ErrorKind::limit;
 }
 
-TEST(Site, ComesWholeToANewPlaceAndReplacesAnOldSite) {
+TEST(StagedSite, IsPublishedAsANewDirectoryAndReplacesAnOldSite) {
   const TemporaryDirectory directory;
   const fs::path target = directory / "site";
   publish(target, "old");
@@ -73,7 +73,7 @@ TEST(Site, ComesWholeToANewPlaceAndReplacesAnOldSite) {
   EXPECT_EQ(namesIn(directory.path()), std::vector<std::string>{"site"});
 }
 
-TEST(Site, IsTheSameWhereDirectoriesCannotBeExchanged) {
+TEST(StagedSite, IsPublishedWithoutRenameat2) {
   const TemporaryDirectory directory;
   const fs::path target = directory / "site", other = directory / "other";
   for (const std::string version : {"old", "new"}) {
@@ -84,7 +84,7 @@ TEST(Site, IsTheSameWhereDirectoriesCannotBeExchanged) {
   EXPECT_EQ(namesIn(directory.path()), (std::vector<std::string>{"other", "site"}));
 }
 
-TEST(Site, IsOldOrNewWhereverTheFallbackIsKilled) {
+TEST(StagedSite, IsOldOrNewWhereverTheFallbackIsKilled) {
   for (int survived = 0; survived < 8; ++survived) {
     const TemporaryDirectory directory;
     const fs::path target = directory / "site";
@@ -113,7 +113,7 @@ TEST(Site, IsOldOrNewWhereverTheFallbackIsKilled) {
   }
 }
 
-TEST(Site, LeavesNoTraceUnlessItIsPublished) {
+TEST(StagedSite, IsRemovedUnlessItIsPublished) {
   const TemporaryDirectory directory;
   {
     StagedSite site(directory / "made/for/it/site", false);
@@ -122,7 +122,7 @@ TEST(Site, LeavesNoTraceUnlessItIsPublished) {
   EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
-TEST(Site, TakesOverAnEmptyDirectoryWithItsPermissions) {
+TEST(StagedSite, ReplacesAnEmptyDirectoryAndKeepsItsPermissions) {
   const TemporaryDirectory directory;
   fs::create_directory(directory / "site");
   fs::permissions(directory / "site", fs::perms(0711));
@@ -131,7 +131,7 @@ TEST(Site, TakesOverAnEmptyDirectoryWithItsPermissions) {
   EXPECT_EQ(fs::status(directory / "site").permissions(), fs::perms(0711));
 }
 
-TEST(Site, DoesNotTakeWhatIsNotItsOwn) {
+TEST(StagedSite, DoesNotReplaceADirectoryThatIsNotASite) {
   const TemporaryDirectory directory;
   fs::create_directory(directory / "photos");
   writeFile(directory / "photos/cat.jpg", asBytes("cat"));
@@ -147,7 +147,7 @@ TEST(Site, DoesNotTakeWhatIsNotItsOwn) {
   EXPECT_FALSE(fs::exists(directory / "photos/cat.jpg"));
 }
 
-TEST(Site, FollowsASymbolicLink) {
+TEST(StagedSite, FollowsASymbolicLink) {
   const TemporaryDirectory directory;
   publish(directory / "releases/one", "old");
   fs::create_directory_symlink(directory / "releases/one", directory / "current");
@@ -156,7 +156,7 @@ TEST(Site, FollowsASymbolicLink) {
   EXPECT_EQ(wholeVersionAt(directory / "releases/one"), "new");
 }
 
-TEST(Site, StaysTheWorkingDirectoryThatItIs) {
+TEST(StagedSite, IsPublishedInPlaceIfItIsTheWorkingDirectory) {
   const TemporaryDirectory directory;
   publish(directory / "site", "old");
   const fs::path before = fs::current_path();
@@ -170,7 +170,7 @@ TEST(Site, StaysTheWorkingDirectoryThatItIs) {
   fs::current_path(before);
 }
 
-TEST(Site, RemovesWhatKilledRunsLeftAndNothingElse) {
+TEST(StagedSite, RemovesWhatKilledRunsLeftAndNothingElse) {
   const TemporaryDirectory directory;
   fs::create_directories(directory / ".site.imgeo-killed/geometry");
   fs::create_directories(directory / ".site.imgeo-living");
@@ -184,7 +184,7 @@ TEST(Site, RemovesWhatKilledRunsLeftAndNothingElse) {
   close(living);
 }
 
-TEST(Site, LetsTheLastOfTwoRunsWin) {
+TEST(StagedSite, LastOfTwoRunsWins) {
   const TemporaryDirectory directory;
   StagedSite first(directory / "site", false), second(directory / "site", false);
   fill(first.path(), "first");
@@ -194,7 +194,7 @@ TEST(Site, LetsTheLastOfTwoRunsWin) {
   EXPECT_EQ(wholeVersionAt(directory / "site"), "second");
 }
 
-TEST(Site, DoesNotTakeADirectoryThatWasFilledMeanwhile) {
+TEST(StagedSite, DoesNotReplaceADirectoryThatHasBeenFilledMeanwhile) {
   const TemporaryDirectory directory;
   StagedSite site(directory / "site", false);
   fill(site.path(), "new");

@@ -273,19 +273,19 @@ TEST_F(AoptSite, WithImagesAsImageTextures) {
   expectVerified(true, true, false);
 }
 
-TEST_F(AoptSite, IsVerifiedThoughItsWriterComputedInSinglePrecision) {
+TEST_F(AoptSite, EqualsItsInputAlthoughItsWriterComputedInSinglePrecision) {
   writeSigned([](double v) { return static_cast<std::int16_t>(std::lround(v + (v > 0 ? 0.03 : -0.03))); });
   expectVerified(true, false, false);
 }
 
-TEST_F(AoptSite, IsNotVerifiedWhereItsWriterCutOffInsteadOfRounding) {
+TEST_F(AoptSite, DiffersFromItsInputIfItsWriterTruncatedInsteadOfRounding) {
   writeSigned([](double v) { return static_cast<std::int16_t>(v); });
   const VerifyReport report = verified(true, false, false);
   EXPECT_FALSE(report.equal);
   EXPECT_GT(report.missing.triangles, 0u);
 }
 
-TEST_F(AoptSite, IsVerifiedWithoutTheNormalsThatItsInputLacks) {
+TEST_F(AoptSite, EqualsAnInputWithoutNormals) {
   writeSigned([](double v) { return static_cast<std::int16_t>(std::lround(v)); });
   expectVerified(true, false, false);
   expectVerified(false, false, false);

@@ -48,7 +48,7 @@ void setNormals(ConvertOptions& options, std::uint32_t seed) {
   std::tie(options.normals, options.normalBits) = all[seed % (fit ? 6 : 5)];
 }
 
-TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
+TEST(RoundTrip, EveryEncodingPrimitiveAndPrecisionPreservesEveryMesh) {
   std::uint32_t seed = 1;
   for (const std::optional<Encoding> encoding : imagesAndArrays)
     for (const Primitives primitives : {Primitives::triangles, Primitives::strips, Primitives::points})
@@ -75,7 +75,7 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
         }
 }
 
-TEST(RoundTrip, CompactGivesBackEveryMeshAtEveryPrecision) {
+TEST(RoundTrip, CompactPreservesEveryMeshAtEveryPrecision) {
   std::uint32_t seed = 900;
   for (const Primitives primitives : {Primitives::triangles, Primitives::points})
     for (const std::uint32_t bits : {8u, 12u, 16u, 24u, 30u})
@@ -112,7 +112,7 @@ Mesh meshOver(std::uint32_t pointCount, const std::vector<std::array<std::uint32
 }
 
 /// Each after what the codec's own tests have of it: here it is welded, cut, simplified, written and proven.
-TEST(RoundTrip, CompactGivesBackWhatNoSurfaceIs) {
+TEST(RoundTrip, CompactPreservesMeshesThatAreNotManifold) {
   constexpr std::uint32_t count = 30'000;
   using Triangle = std::array<std::uint32_t, 3>;
   const std::pair<const char*, Triangle (*)(std::uint32_t)> kinds[] = {
@@ -166,7 +166,7 @@ TEST(RoundTrip, CompactGivesBackWhatNoSurfaceIs) {
   }
 }
 
-TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
+TEST(RoundTrip, MaxErrorChoosesTheSmallestNumberOfBits) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::torus(20, 12)); // 2.7 wide
   for (const auto& [error, bits] :
@@ -179,7 +179,7 @@ TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
     }
 }
 
-TEST(RoundTrip, EveryElementTypeAndLayoutGivesBackEveryMesh) {
+TEST(RoundTrip, EveryElementTypeAndLayoutPreservesEveryMesh) {
   using enum NormalEncoding;
   struct Case {
     std::optional<ElementType> type;
@@ -211,7 +211,7 @@ TEST(RoundTrip, EveryElementTypeAndLayoutGivesBackEveryMesh) {
         }
 }
 
-TEST(RoundTrip, FloatsAreTheSourcesOwn) {
+TEST(RoundTrip, Float32KeepsTheNumbersOfTheSource) {
   const TemporaryDirectory directory;
   const Mesh mesh = testing::torus(40, 20);
   testing::writeMesh(directory / "input.ply", mesh);
@@ -237,7 +237,7 @@ TEST(RoundTrip, FloatsAreTheSourcesOwn) {
   EXPECT_GT(own, mesh.corners.size() / 2);
 }
 
-TEST(RoundTrip, PatchesOfMoreThan16BitIndicesNameGiveBackTheMesh) {
+TEST(RoundTrip, PatchesWith32BitIndicesPreserveTheMesh) {
   for (const std::optional<Encoding> encoding : imagesAndArrays)
     for (const Mesh& mesh : {testing::torus(400, 170), testing::polylines(30'000, 7)}) {
       ASSERT_GT(mesh.wedgeCount(), 65'535u);
@@ -249,7 +249,7 @@ TEST(RoundTrip, PatchesOfMoreThan16BitIndicesNameGiveBackTheMesh) {
     }
 }
 
-TEST(RoundTrip, EveryNormalWeightingIsTheOneThatVerifyRepeats) {
+TEST(RoundTrip, VerifyRepeatsEveryNormalWeighting) {
   for (const NormalWeighting weighting : {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform}) {
     ConvertOptions options;
     options.normalWeighting = weighting;
@@ -257,7 +257,7 @@ TEST(RoundTrip, EveryNormalWeightingIsTheOneThatVerifyRepeats) {
   }
 }
 
-TEST(RoundTrip, AMeshWithoutExtentIsStillAMesh) {
+TEST(RoundTrip, MeshesWithoutExtentAreConverted) {
   for (const std::optional<Encoding> encoding : imagesAndArrays) {
     Mesh flat = testing::grid(3);
     for (Vec3f& position : flat.positions)
@@ -274,7 +274,7 @@ TEST(RoundTrip, AMeshWithoutExtentIsStillAMesh) {
   }
 }
 
-TEST(RoundTrip, SitesAreTheSameWhateverTheThreads) {
+TEST(RoundTrip, SitesDoNotDependOnTheNumberOfThreads) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::torus(120, 60));
   ConvertOptions options;
@@ -296,7 +296,7 @@ TEST(RoundTrip, SitesAreTheSameWhateverTheThreads) {
   expectSame("compact");
 }
 
-TEST(RoundTrip, WhatProgressThrowsLeavesTheOldSite) {
+TEST(RoundTrip, ExceptionsFromProgressLeaveTheOldSite) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::sphere(40, 40));
   ConvertOptions options;

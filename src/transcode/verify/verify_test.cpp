@@ -85,7 +85,7 @@ void expectFinding(const DamagedSite& site, const std::string& words) {
   EXPECT_TRUE(said) << words << "; said instead: " << (report.findings.empty() ? "nothing" : report.findings.front());
 }
 
-TEST(Verify, FindsNothingInAWholeSite) {
+TEST(Verify, FindsNoDifferenceInAnUndamagedSite) {
   DamagedSite site;
   ASSERT_GT(site.geometry().patches.size(), 2u);
   EXPECT_TRUE(site.verified().equal);
@@ -118,7 +118,7 @@ TEST(Verify, SeesOneIndexOff) {
   expectFinding(site, "missing from the site");
 }
 
-TEST(Verify, SeesALineThatIsDrawnInThePlaceOfAnother) {
+TEST(Verify, SeesALineThatIsDrawnInsteadOfAnother) {
   DamagedSite site(Encoding::bg, testing::polylines(60, 1));
   EXPECT_TRUE(site.verified().equal);
   // Two indices of two bytes a line.
@@ -268,7 +268,7 @@ TEST(Verify, ReadsNoFileOutsideTheSite) {
   expectFinding(site, "is not a file of the site");
 }
 
-TEST(Verify, SeesAnotherMaterialAndAnotherPlaceOfATexture) {
+TEST(Verify, SeesAnotherMaterialAndAnotherTextureTransform) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = directory / "hall.glb", site = directory / "site";
   writeSampleHall(40, input);

@@ -86,7 +86,7 @@ protected:
   std::string page, file;
 };
 
-TEST_F(X3dSite, HasEverythingButTheGeometryAsItWas) {
+TEST_F(X3dSite, KeepsAllContentButGeometry) {
   for (const char* kept : {"<WorldInfo title=\"A hall\">", "<NavigationInfo type='\"WALK\"' headlight=\"false\">",
                            "<Viewpoint DEF=\"Door\" position=\"0 1.6 8\">", "<Switch whichChoice=\"0\">",
                            "<Transform DEF=\"Seat\" translation=\"1 0 0\" id=\"first\">", "<Shape class=\"seat\"",
@@ -114,7 +114,7 @@ TEST_F(X3dSite, ChangesNothingButGeometryNodes) {
   EXPECT_EQ(after, before);
 }
 
-TEST_F(X3dSite, HastensNothingThatItsViewerMayNeverSee) {
+TEST_F(X3dSite, PreloadsNothingThatMayStayInvisible) {
   const std::string plate =
       source.substr(source.find("<IndexedFaceSet"), source.find("</Shape>") - source.find("<IndexedFaceSet"));
   writeFile(directory_ / "lod.x3d",

@@ -81,7 +81,7 @@ TEST(X3domSite, HoldsEveryMeshInEveryArray) {
     }
 }
 
-TEST(X3domSite, HasNoRuntimeOfOurs) {
+TEST(X3domSite, DoesNotContainOurRuntime) {
   const TemporaryDirectory directory;
   writeMesh(testing::torus(9, 9), directory.path() / "in.ply");
   ConvertOptions options = optionsFor(Encoding::classic);
