@@ -1,5 +1,4 @@
-// Relative urls of a document that will be read as part of another: made absolute
-// where they stand.
+// Makes the relative URLs of a document absolute before the document is inlined into another one.
 
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
@@ -8,7 +7,7 @@ export interface WritableElement extends SceneElement {
   setAttribute(name: string, value: string): void;
 }
 
-/** Fields that are urls, by element; of geometry nodes every reference. */
+/** URL fields by element; for geometry nodes all reference fields. */
 const references = ["index", "coord", "normal", "texcoord", "color", "data", "base", "attrib"];
 const urlFields: Readonly<Record<string, readonly string[]>> = {
   imagegeometry: references,
@@ -30,7 +29,7 @@ export function absoluteUrls(element: WritableElement, base: string): void {
   for (const child of childrenOf(element)) absoluteUrls(child as WritableElement, base);
 }
 
-/** Of one bare url, or of strings in quotes. What is no url stays as it is. */
+/** For one bare URL or quoted strings. Text that is no URL stays unchanged. */
 export function withAbsoluteUrls(text: string, base: string): string {
   if (!text.includes('"')) return text.trim() === "" ? text : absolute(text.trim(), base);
   return text.replace(/"((?:[^"\\]|\\.)*)"/g, (_, quoted: string) => `"${absolute(quoted, base)}"`);

@@ -1,4 +1,4 @@
-// Appearance -> what a shape looks like.
+// Reads Appearance nodes: material, alpha, textures, point and line properties.
 
 import type {
   AlphaDescription,
@@ -21,10 +21,10 @@ import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { pngOfPixels } from "./pixelImage.ts";
 
-/** The children of an element, with what they USE in their place. */
+/** An element's children, with USEs resolved. */
 export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
 
-/** By the material's name, the fields that its textures are in. */
+/** The texture fields of each material, by texture role. */
 const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole, string>>>>> = {
   material: {
     color: "diffuseTexture",
@@ -47,7 +47,7 @@ const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole
 
 const dataRoles: readonly TextureRole[] = ["metallicRoughness", "normal", "occlusion", "shininess"];
 
-/** `colorMap`: the shape has it, as X3D's Appearance knows of no such thing. */
+/** `colorMap` comes from the Shape: X3D's Appearance has no such field. */
 export function readAppearance(
   element: SceneElement | undefined,
   colorMap: ColorMapDescription | undefined,
@@ -73,18 +73,24 @@ export function readAppearance(
 function readMaterial(element: SceneElement | undefined, warnings: Warning[]): MaterialDescription {
   switch (element && lowerNameOf(element)) {
     case "physicalmaterial":
-      return { kind: "physical", ...readFields(element ?? nothing, nodeFields.PhysicalMaterial, warnings) };
+      return { kind: "physical", ...readFields(element ?? emptyElement, nodeFields.PhysicalMaterial, warnings) };
     case "unlitmaterial":
-      return { kind: "unlit", ...readFields(element ?? nothing, nodeFields.UnlitMaterial, warnings) };
+      return { kind: "unlit", ...readFields(element ?? emptyElement, nodeFields.UnlitMaterial, warnings) };
     case "material":
-      return { kind: "phong", ...readFields(element ?? nothing, nodeFields.Material, warnings) };
-    // Without a material no light counts (ISO/IEC 19775-1, 17.2.2.2): what is seen is white, a texture, or colours.
+      return { kind: "phong", ...readFields(element ?? emptyElement, nodeFields.Material, warnings) };
+    // Without a material there is no lighting (ISO/IEC 19775-1, 17.2.2.2): white, a texture, or vertex colors are
+    // shown.
     default:
-      return { kind: "unlit", ...readFields(nothing, nodeFields.UnlitMaterial, warnings) };
+      return { kind: "unlit", ...readFields(emptyElement, nodeFields.UnlitMaterial, warnings) };
   }
 }
 
-const nothing: SceneElement = { localName: "", children: [], getAttribute: () => null, getAttributeNames: () => [] };
+const emptyElement: SceneElement = {
+  localName: "",
+  children: [],
+  getAttribute: () => null,
+  getAttributeNames: () => [],
+};
 
 const automaticAlpha: AlphaDescription = { mode: "AUTO", cutoff: 0.5 };
 
@@ -94,7 +100,9 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
   return { mode: mode ?? "AUTO", cutoff: alphaCutoff };
 }
 
-/** Of a MultiTexture one texture is shown: how several are mixed X3D 4 has left to materials. */
+/**
+ * The first texture of a MultiTexture, which X3D 4 replaces by the materials' texture fields; other elements unchanged.
+ */
 function firstTextureOf(part: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
   if (lowerNameOf(part) !== "multitexture") return [part];
   warnings.push({ element: part, message: "of a <MultiTexture> only the first picture is shown" });
@@ -105,7 +113,7 @@ function isTexture(part: SceneElement): boolean {
   return ["imagetexture", "pixeltexture"].includes(lowerNameOf(part));
 }
 
-/** A texture of the main colour stands in its material, or where X3D has it since version 3. */
+/** Textures are in the material's fields (X3D 4); the color texture may be the Appearance's (X3D 3). */
 function readTextures(
   parts: readonly SceneElement[],
   material: SceneElement | undefined,
@@ -157,7 +165,7 @@ function readTexture(
   ];
 }
 
-/** What textures say, wherever their picture is; no url: there is none. */
+/** The common fields of textures; no URL: there is no image. */
 type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & {
   readonly url: string | undefined;
 };
@@ -190,15 +198,15 @@ function samplingOf(
     wrapS: wrapOf(values.boundaryModeS),
     wrapT: wrapOf(values.boundaryModeT),
     isSmooth: !isNearest(values.magnificationFilter),
-    // A picture that is seen small without them glitters: only who asks for it gets that.
+    // Mipmaps are on unless a filter without them is requested: minified textures would shimmer.
     hasMipmaps: !/^(NEAREST|AVG|AVG_PIXEL|FASTEST|NEAREST_PIXEL)$/i.test(values.minificationFilter.trim()),
     anisotropy: Math.max(1, values.anisotropicDegree),
   };
 }
 
 function wrapOf(mode: string): WrapMode {
-  const word = mode.trim().toUpperCase();
-  return word.startsWith("CLAMP") ? "clamp" : word === "MIRRORED_REPEAT" ? "mirror" : "repeat";
+  const name = mode.trim().toUpperCase();
+  return name.startsWith("CLAMP") ? "clamp" : name === "MIRRORED_REPEAT" ? "mirror" : "repeat";
 }
 
 function transformFor(
@@ -217,7 +225,7 @@ function transformFor(
 
 const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1] as const;
 
-/** X3D's -C S R C T (ISO/IEC 19775-1, 18.4.8), column by column: what is applied first stands last. */
+/** X3D's -C S R C T (ISO/IEC 19775-1, 18.4.8), in column-major order: the rightmost factor applies first. */
 function matrixOf(element: SceneElement | undefined, warnings: Warning[]): TextureDescription["transform"] {
   if (element === undefined) return identity;
   const {

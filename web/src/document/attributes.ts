@@ -1,5 +1,6 @@
-// Further attributes of vertices (FloatVertexAttribute), and the one that colours a
-// shape: `colorBy` names it, and its values are laid over a map of colours.
+// Custom vertex attributes (FloatVertexAttribute), and the attribute that colors a shape: `colorBy` names it, and a
+// color
+// map maps its values to colors.
 
 import type {
   AttributeDescription,
@@ -37,7 +38,7 @@ export function readAttributes(element: SceneElement, encoding: Encoding, warnin
   });
 }
 
-/** The files of an attribute among all that a patch has, which stand one after the other. */
+/** The files of one attribute among a patch's attribute files. */
 function filesOf(
   attributes: readonly AttributeDescription[],
   attribute: AttributeDescription,
@@ -47,9 +48,7 @@ function filesOf(
   return references.slice(first, first + attribute.fileCount);
 }
 
-/**
- * The geometry with the values of one of its attributes beside its vertices; undefined where it has none of the name.
- */
+/** The geometry with the values of a named attribute; undefined where it has no such attribute. */
 export function withValues(geometry: GeometryDescription, name: string): GeometryDescription | undefined {
   const value = geometry.attributes.find((attribute) => attribute.name === name);
   if (value === undefined) return undefined;
@@ -60,11 +59,11 @@ export function withValues(geometry: GeometryDescription, name: string): Geometr
   return { ...geometry, value, patches };
 }
 
-/** Of several components the length counts. */
+/** The range of an attribute's values; for several components the range of their length. */
 function rangeOf({ components, min, size }: AttributeDescription): readonly [number, number] {
-  const least = min[0] ?? 0;
-  if (components === 1) return [least, least + (size[0] ?? 0)];
-  return [0, Math.hypot(...min.map((low, c) => Math.max(Math.abs(low), Math.abs(low + (size[c] ?? 0)))))];
+  const low = min[0] ?? 0;
+  if (components === 1) return [low, low + (size[0] ?? 0)];
+  return [0, Math.hypot(...min.map((lowest, c) => Math.max(Math.abs(lowest), Math.abs(lowest + (size[c] ?? 0)))))];
 }
 
 export function colorMapOf(

@@ -1,14 +1,14 @@
-// Maps of colours for values: a name, or colours at equal distances.
+// Color maps for scalar values: a named map, or a list of equidistant colors.
 
 import type { Field, FieldType, Vec3 } from "./fieldTypes.ts";
 
-/** Colours of a map at most: they are uniforms of a shader. */
+/** The limit of shader uniforms for a map's colors. */
 export const maxMapColors = 32;
 
 const named: Readonly<Record<string, string>> = {
-  // Smith and van der Walt 2015, "A better default colormap for matplotlib": as even to the eye as to numbers.
+  // Smith and van der Walt 2015, "A better default colormap for matplotlib": perceptually uniform.
   viridis: "440154 482878 3e4989 31688e 26828e 1f9e89 35b779 6dcd59 b4de2c fde725",
-  // Moreland 2009, "Diverging color maps for scientific visualization": for what has a middle.
+  // Moreland 2009, "Diverging color maps for scientific visualization": diverging from a middle value.
   coolwarm: "3b4cc0 8db0fe dddddd f49a7b b40426",
   gray: "000000 ffffff",
 };

@@ -1,7 +1,6 @@
-// From stored integers to points of the shape: the decode box as an origin and a
-// step per axis ("Stored values" in docs/formats/nodes.md). It becomes a matrix,
-// so that shaders and buffers keep the integers and the one conversion happens
-// in double precision, together with the camera's.
+// Dequantization of stored integers to shape coordinates: an origin and a step per axis ("Stored values" in
+// docs/formats/nodes.md). Renderers put it into the model matrix in double precision, so that buffers keep the
+// integers.
 
 import type { GeometryDescription, PatchDescription, Vec3 } from "./description.ts";
 import { formatOf } from "./encodings.ts";
@@ -12,7 +11,7 @@ export interface Dequantization {
   readonly step: Vec3;
 }
 
-/** The stored value that stands for the far side of the decode box. */
+/** The stored value of the upper side of the quantization box. */
 export function maxStoredValueOf(geometry: GeometryDescription, patch: PatchDescription): number {
   return formatOf(geometry).maxStoredValue(geometry, patch);
 }
@@ -21,10 +20,10 @@ export function dequantizationOf(geometry: GeometryDescription, patch: PatchDesc
   const { position, size } = geometry;
   if (geometry.coordType === "Float32") return { origin: [0, 0, 0], step: [1, 1, 1] };
   const maxStored = maxStoredValueOf(geometry, patch);
-  // Signed coordinates spread around the centre; X3DOM gives them half the range, -PMAX/2 .. PMAX/2.
+  // Signed coordinates are relative to the center; X3DOM maps -PMAX/2 … PMAX/2 to the box.
   const signed = geometry.coordType.startsWith("Int");
   const along = (axis: 0 | 1 | 2) => (signed ? position[axis] : position[axis] - size[axis] / 2);
-  // A flat box would make a matrix without an inverse; what is stored along its thin axis is 0.
+  // A flat box would make a singular matrix; the values stored along its thin axis are 0.
   const edge = (axis: 0 | 1 | 2) => size[axis] || Math.max(...size) || 1;
   return {
     origin: [along(0), along(1), along(2)],
@@ -33,10 +32,9 @@ export function dequantizationOf(geometry: GeometryDescription, patch: PatchDesc
 }
 
 /**
- * What stands for the bytes of a coordinate that have not come: the middle of
- * the values that they may hold, which halves the worst error of X3DOM's
- * stretching (b0 / 255) and moves a vertex by at most half a coarse step when
- * the next plane comes. With `positionBits` the lowest bits are known to be 0.
+ * Stands in for coordinate bytes whose planes have not arrived: the midpoint of the values that the bytes may have. It
+ * halves the largest error of X3DOM's scaling (b0 / 255) and moves a vertex by at most half a coarse step when the next
+ * plane arrives. With `positionBits` the lowest bits are known to be 0.
  */
 export function missingBytesMidpoint(geometry: GeometryDescription, planes: number, planesPresent: number): number {
   if (planesPresent >= planes) return 0;

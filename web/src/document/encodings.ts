@@ -1,5 +1,5 @@
-// What documents say of each encoding: one row each. How its files become stages is in
-// delivery/encodings. Mirrors src/containers/encodings.h.
+// The document format of each encoding, one row each. Stage builders are in delivery/encodings. Mirrors
+// src/containers/encodings.h.
 
 import type {
   ElementType,

@@ -1,6 +1,5 @@
-// X3D's field types in their text form (ISO/IEC 19776-1): values are separated
-// by white space or commas. Each type says how to read a text; undefined means
-// that the text is not of that type.
+// Parsers of X3D's field types in XML encoding (ISO/IEC 19776-1), where white space or commas separate values. A parser
+// returns undefined for text that is not of its type.
 
 import type { Vec3 } from "../tessellate/vectors.ts";
 import type { PixelImage } from "./pixelImage.ts";
@@ -16,7 +15,7 @@ export interface FieldType<Value> {
   parse(text: string): Value | undefined;
 }
 
-/** One field of a node: its type and the value it has where the document is silent. */
+/** A field of a node: its type and default value. */
 export interface Field<Value> {
   readonly type: FieldType<Value>;
   readonly defaultValue: Value;
@@ -74,7 +73,7 @@ const mfInt32: FieldType<readonly number[]> = {
   },
 };
 
-/** How much sooner than other things: a number of 0 or more, or one of the words of HTML's `fetchpriority`. */
+/** A relative priority: a number of 0 or more, or a keyword of HTML's `fetchpriority`. */
 const priority: FieldType<number> = {
   name: "priority (a number of 0 or more, high, auto or low)",
   parse(text) {
@@ -89,7 +88,7 @@ const priorityWords: Readonly<Record<string, number>> = { high: 4, auto: 1, low:
 
 const sfString: FieldType<string> = { name: "SFString", parse: (text) => text };
 
-/** Quoted strings ("a" "b"); a text without quotes is taken word by word, as people write one URL. */
+/** Quoted strings ("a" "b"); in text without quotes every word is a string, so that a single URL needs no quotes. */
 const mfString: FieldType<readonly string[]> = {
   name: "MFString",
   parse(text) {
@@ -103,7 +102,7 @@ const mfString: FieldType<readonly string[]> = {
   },
 };
 
-/** The same, but a text without quotes is one string. */
+/** Like MFString, but text without quotes is one string. */
 const mfText: FieldType<readonly string[]> = {
   name: "MFString",
   parse: (text) => (text.includes('"') ? mfString.parse(text) : text === "" ? [] : [text]),
@@ -130,7 +129,7 @@ function maker<Value>(type: FieldType<Value>): (defaultValue: Value) => Field<Va
   return (defaultValue) => ({ type, defaultValue });
 }
 
-/** The same field, but its absence means something of its own. */
+/** The same field with undefined as its default. */
 export function optional<Value>(field: Field<Value>): Field<Value | undefined> {
   return { ...field, defaultValue: undefined };
 }

@@ -1,7 +1,5 @@
-// ImageGeometry and BinaryGeometry -> GeometryDescription. A node with
-// GeometryPatch children takes draws and references from them alone; without,
-// it is its own only patch, and its ImageTexture children (X3DOM's form) may
-// give the references.
+// Reads ImageGeometry and BinaryGeometry. A node with GeometryPatch children takes draws and references from them only.
+// A node without them is its own single patch, and its ImageTexture children (X3DOM's form) may give the references.
 
 import type {
   Box3,
@@ -87,7 +85,7 @@ function withNormalsInCoords(geometry: GeometryDescription): GeometryDescription
   return { ...geometry, normalEncoding: "spherical", normalType: "Uint8", patches };
 }
 
-/** The last two bytes of 16-bit coordinate records, which their three components leave free. */
+/** The last two bytes of 16-bit coordinate records, which three components leave free. */
 function fourthElementOf({ coord: [coord] }: PatchDescription): ByteReference | undefined {
   if (coord === undefined || !("byteOffset" in coord)) return undefined;
   return { url: coord.url, byteOffset: coord.byteOffset + 6, byteStride: coord.byteStride || 8 };
@@ -109,7 +107,9 @@ export function hasNormalsInCoords(geometry: GeometryDescription, patch: PatchDe
   );
 }
 
-/** Whether nothing tells where a patch lies before its coordinates are here: floats need not lie in the decode box. */
+/**
+ * Whether a patch's bounds are unknown before its coordinates are loaded: floats need not lie in the quantization box.
+ */
 export function isUnbounded({ coordType }: Pick<GeometryDescription, "coordType">, { box }: PatchDescription): boolean {
   return coordType === "Float32" && box === undefined;
 }
@@ -119,7 +119,7 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
   return encoding === "octahedral" || encoding === "spherical";
 }
 
-/** What only images have. */
+/** Fields of ImageGeometry only. */
 type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode";
 
 function commonOf(
@@ -143,7 +143,7 @@ function commonOf(
   };
 }
 
-/** The one of `choices` that the text names, without regard to case. */
+/** The choice that the text names, case-insensitively. */
 function choiceOf<Choice extends string>(
   element: SceneElement,
   field: string,
@@ -157,7 +157,7 @@ function choiceOf<Choice extends string>(
   return found ?? fallback;
 }
 
-/** The box of `bboxCenter` and `bboxSize`; X3D's size -1 -1 -1 says that there is none. */
+/** The box of `bboxCenter` and `bboxSize`; undefined for X3D's size -1 -1 -1. */
 export function boxOf(values: { bboxCenter: Vec3; bboxSize: Vec3 }): Box3 | undefined {
   if (values.bboxSize.some((edge) => edge < 0)) return undefined;
   return boxAround(values.bboxCenter, values.bboxSize);
@@ -239,7 +239,7 @@ function patchOf(
   };
 }
 
-/** Of a grid the size says all: its vertices, and two triangles between each four of them. */
+/** A grid's vertices and triangles follow from its size. */
 function withGrid(
   element: SceneElement,
   patch: PatchDescription,
@@ -271,8 +271,8 @@ const primitives: Readonly<Record<string, Primitive>> = {
 };
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
-  return values.vertexCount.map((count, place) => {
-    const name = values.primType[place] ?? "TRIANGLES";
+  return values.vertexCount.map((count, index) => {
+    const name = values.primType[index] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
     if (primitive === undefined)
       warnings.push({ element, message: `primType "${name}" is not drawn as such but as TRIANGLES` });

@@ -148,8 +148,8 @@ function indexedRuns(fields: Fields, data: VertexData): Runs {
   const { coordIndex, normalIndex, colorIndex, texCoordIndex } = fields;
   const runs: Corner[][] = [[]];
   const indexOf = (index: readonly number[], perVertex: boolean, at: number, position: number) => {
-    const place = perVertex ? at : runs.length - 1;
-    return index.length > 0 ? (index[place] ?? -1) : perVertex ? position : place;
+    const attributeIndex = perVertex ? at : runs.length - 1;
+    return index.length > 0 ? (index[attributeIndex] ?? -1) : perVertex ? position : attributeIndex;
   };
   coordIndex.forEach((position, at) => {
     if (position < 0) {

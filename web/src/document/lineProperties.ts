@@ -1,5 +1,5 @@
-// LineProperties -> how lines are drawn (ISO/IEC 19775-1, 12.4.3). X3D names its
-// kinds of lines by the numbers of ISO/IEC 9973, which leaves their measures open.
+// Reads LineProperties (ISO/IEC 19775-1, 12.4.3). X3D numbers its line types after ISO/IEC 9973, which does not define
+// dash lengths.
 
 import type { LineDescription, Warning } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -7,7 +7,7 @@ import { nodeFields, readFields } from "./nodes.ts";
 
 const solid = 1;
 
-/** By their number: lengths that are drawn and left out in turn, in widths. */
+/** By line type: alternating lengths of dashes and gaps, in line widths. */
 const dashesOf: ReadonlyMap<number, readonly number[]> = new Map([
   [solid, []],
   [2, [6, 4]], // dashed
@@ -20,13 +20,13 @@ const dashesOf: ReadonlyMap<number, readonly number[]> = new Map([
   [13, [14, 3, 4, 3, 4, 3]], // phantom line
 ]);
 
-/** The most lengths of any kind. */
+/** The largest number of lengths of a line type. */
 export const maxDashLengths = 6;
 
-/** In CSS pixels. The least is that of dashes, the most that of points. */
-const [leastWidth, mostWidth] = [1, 1024];
+/** In CSS pixels. Points have the same maximum. */
+const [minWidth, maxWidth] = [1, 1024];
 
-/** Undefined for lines that are drawn as if nothing were said of them. */
+/** Undefined for thin solid lines, the default. */
 export function readLines(element: SceneElement, warnings: Warning[]): LineDescription | undefined {
   const { applied, linetype, linewidthScaleFactor } = readFields(element, nodeFields.LineProperties, warnings);
   if (!applied) return undefined;
@@ -34,6 +34,6 @@ export function readLines(element: SceneElement, warnings: Warning[]): LineDescr
   if (known === undefined)
     warnings.push({ element, message: `lines of linetype ${linetype} are not drawn so; they are solid` });
   const dashes = known ?? [];
-  const width = Math.min(Math.max(linewidthScaleFactor, leastWidth), mostWidth);
-  return width === leastWidth && dashes.length === 0 ? undefined : { width, dashes };
+  const width = Math.min(Math.max(linewidthScaleFactor, minWidth), maxWidth);
+  return width === minWidth && dashes.length === 0 ? undefined : { width, dashes };
 }

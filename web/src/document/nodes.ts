@@ -26,14 +26,14 @@ import {
 import { ColorMap } from "./colorMaps.ts";
 import { noPixels } from "./pixelImage.ts";
 
-/** True: becomes the one that counts (set_bind is X3D's event, bind X3DOM's field). */
+/** True: the node is bound (set_bind is X3D's event, bind X3DOM's field). */
 const bindable = { set_bind: SFBool(false), bind: SFBool(false) };
 
-/** Whether it is seen: X3D 4's name, and X3DOM's older one. Both must say so. */
-const seenObject = { visible: SFBool(true), render: SFBool(true) };
+/** X3D 4's `visible` and X3DOM's older `render`: a node is visible where both are true. */
+const visibleObject = { visible: SFBool(true), render: SFBool(true) };
 
-/** What is fetched sooner; multiplied down the tree. */
-const ranked = { priority: Priority(1) };
+/** Download priority, multiplied down the tree. */
+const prioritized = { priority: Priority(1) };
 
 const boundedObject = {
   bboxCenter: SFVec3f([0, 0, 0]),
@@ -54,7 +54,7 @@ const patchFields = {
 };
 
 const geometryFields = {
-  ...ranked,
+  ...prioritized,
   ...patchFields,
   solid: SFBool(true),
   position: SFVec3f([0, 0, 0]),
@@ -74,24 +74,24 @@ const lightFields = {
   ambientIntensity: SFFloat(0),
 };
 
-const placedLightFields = {
+const positionedLightFields = {
   location: SFVec3f([0, 0, 0]),
   attenuation: SFVec3f([1, 0, 0]),
   radius: SFFloat(100),
-  /** False: it shines on what stands in its group alone. */
+  /** False: it lights only its group's descendants. */
   global: SFBool(true),
 };
 
 export const nodeFields = {
   X3D: {
-    /** Weights of what files hold, for the order of requests. */
+    /** Weights of file contents, for the order of requests. */
     chunkPriority: SFString(""),
   },
   NavigationInfo: {
     ...bindable,
     type: MFString(["EXAMINE", "ANY"]),
     headlight: SFBool(true),
-    /** Absent: as fits the size of the scene. */
+    /** Default: depends on the size of the scene. */
     speed: optional(SFFloat(1)),
     avatarSize: MFFloat([0.25, 1.6, 0.75]),
     transitionType: MFString(["LINEAR"]),
@@ -120,31 +120,31 @@ export const nodeFields = {
     centerOfRotation: SFVec3f([0, 0, 0]),
   },
   DirectionalLight: { ...lightFields, global: SFBool(false), direction: SFVec3f([0, 0, -1]) },
-  PointLight: { ...lightFields, ...placedLightFields },
+  PointLight: { ...lightFields, ...positionedLightFields },
   SpotLight: {
     ...lightFields,
-    ...placedLightFields,
+    ...positionedLightFields,
     direction: SFVec3f([0, 0, -1]),
     beamWidth: SFFloat(0.7854),
     cutOffAngle: SFFloat(1.5708),
   },
-  Group: { ...ranked, ...boundedObject, ...seenObject },
+  Group: { ...prioritized, ...boundedObject, ...visibleObject },
   Anchor: {
-    ...ranked,
+    ...prioritized,
     ...boundedObject,
-    ...seenObject,
+    ...visibleObject,
     url: MFString([]),
     description: SFString(""),
     parameter: MFString([]),
   },
-  Billboard: { ...ranked, ...boundedObject, ...seenObject, axisOfRotation: SFVec3f([0, 1, 0]) },
-  LOD: { ...ranked, ...boundedObject, ...seenObject, center: SFVec3f([0, 0, 0]), range: MFFloat([]) },
-  Inline: { ...ranked, ...boundedObject, ...seenObject, load: SFBool(true), url: MFString([]) },
-  Switch: { ...ranked, ...boundedObject, ...seenObject, whichChoice: SFInt32(-1) },
+  Billboard: { ...prioritized, ...boundedObject, ...visibleObject, axisOfRotation: SFVec3f([0, 1, 0]) },
+  LOD: { ...prioritized, ...boundedObject, ...visibleObject, center: SFVec3f([0, 0, 0]), range: MFFloat([]) },
+  Inline: { ...prioritized, ...boundedObject, ...visibleObject, load: SFBool(true), url: MFString([]) },
+  Switch: { ...prioritized, ...boundedObject, ...visibleObject, whichChoice: SFInt32(-1) },
   Transform: {
-    ...ranked,
+    ...prioritized,
     ...boundedObject,
-    ...seenObject,
+    ...visibleObject,
     translation: SFVec3f([0, 0, 0]),
     rotation: SFRotation([0, 0, 1, 0]),
     scale: SFVec3f([1, 1, 1]),
@@ -152,14 +152,14 @@ export const nodeFields = {
     scaleOrientation: SFRotation([0, 0, 1, 0]),
   },
   Shape: {
-    ...ranked,
+    ...prioritized,
     ...boundedObject,
-    ...seenObject,
+    ...visibleObject,
     isPickable: SFBool(true),
-    /** The attribute of the geometry whose values colour it. */
+    /** The name of the vertex attribute whose values color the shape. */
     colorBy: SFString(""),
     colorMap: ColorMap("viridis"),
-    /** Absent: what the attribute's numbers lie in. */
+    /** Default: the range of the attribute's values. */
     colorRange: optional(SFVec2f([0, 1])),
   },
   FloatVertexAttribute: {
@@ -209,7 +209,7 @@ export const nodeFields = {
   LineProperties: { applied: SFBool(true), linetype: SFInt32(1), linewidthScaleFactor: SFFloat(0) },
   PointProperties: {
     pointSizeScaleFactor: SFFloat(1),
-    /** Absent: no bound. X3D's defaults, 1 and 1, would let no factor have an effect. */
+    /** Default: no bound. With X3D's defaults, 1 and 1, the scale factor would have no effect. */
     pointSizeMinValue: optional(SFFloat(1)),
     pointSizeMaxValue: optional(SFFloat(1)),
     attenuation: SFVec3f([1, 0, 0]),
@@ -235,7 +235,7 @@ export const nodeFields = {
   Sphere: { radius: SFFloat(1) },
   Cylinder: { radius: SFFloat(1), height: SFFloat(2), side: SFBool(true), top: SFBool(true), bottom: SFBool(true) },
   Cone: { bottomRadius: SFFloat(1), height: SFFloat(2), side: SFBool(true), bottom: SFBool(true) },
-  /** Of all geometries whose vertices stand in the document; each has some of them. */
+  /** The fields of all geometry nodes whose vertices are in the document; each node has some of them. */
   InlineGeometry: {
     solid: SFBool(true),
     ccw: SFBool(true),
@@ -273,7 +273,7 @@ export const nodeFields = {
   FontStyle: {
     family: MFString(["SERIF"]),
     style: SFString("PLAIN"),
-    /** The same, where a page's content policy does not let elements have HTML's `style`. */
+    /** An alternative to `style`, which a page's content security policy may forbid. */
     "data-style": SFString(""),
     size: SFFloat(1),
     spacing: SFFloat(1),
@@ -302,13 +302,13 @@ export type Values<Fields> = {
   readonly [Name in keyof Fields]: Fields[Name] extends Field<infer Value> ? Value : never;
 };
 
-/** Something in the document that could not be taken as written; the default stood in. */
+/** A problem in the document; a default is used instead of what is written. */
 export interface Warning {
   readonly element: SceneElement;
   readonly message: string;
 }
 
-/** The node's values: what the element says, the default where it is silent or says something malformed. */
+/** The node's values: the element's attributes, or the default where one is missing or malformed. */
 export function readFields<Fields extends Record<string, Field<unknown>>>(
   element: SceneElement,
   fields: Fields,

@@ -1,27 +1,24 @@
-// X3D's SFImage (ISO/IEC 19776-1, 5.9): a picture whose pixels stand as numbers in
-// the document. It becomes a PNG, so that it goes the way of every other picture.
+// X3D's SFImage (ISO/IEC 19776-1, 5.9), an image whose pixels are numbers in the document. It becomes a PNG, so that it
+// is decoded like other textures.
 
-/** Rows from the lowest up, as X3D has them; a pixel's components are its bytes, the first the highest. */
+/** Rows are bottom-up, as in X3D. A pixel's components are its bytes, most significant first. */
 export interface PixelImage {
   readonly width: number;
   readonly height: number;
-  /** Intensity; intensity and alpha; red, green, blue; the same and alpha. */
+  /** Intensity; intensity and alpha; RGB; RGBA. */
   readonly components: 1 | 2 | 3 | 4;
   readonly pixels: readonly number[];
 }
 
 export const noPixels: PixelImage = { width: 0, height: 0, components: 1, pixels: [] };
 
-/** Edges beyond it are no textures anywhere. */
-const largestEdge = 16384;
+/** No GPU has larger textures. */
+const maxEdge = 16384;
 
-/**
- * Of the numbers of an SFImage; undefined where they are none: another number of pixels, or pixels that are larger than
- * their components.
- */
+/** Parses the numbers of an SFImage; undefined where the number of pixels is wrong or a pixel exceeds its components. */
 export function pixelImageOf([width, height, count, ...pixels]: readonly number[]): PixelImage | undefined {
   if (width === undefined || height === undefined) return undefined;
-  const isEdge = (edge: number) => Number.isInteger(edge) && edge >= 0 && edge <= largestEdge;
+  const isEdge = (edge: number) => Number.isInteger(edge) && edge >= 0 && edge <= maxEdge;
   if (!isEdge(width) || !isEdge(height) || width * height !== pixels.length) return undefined;
   if (width * height === 0) return noPixels; // "0 0 0": none
   const components = ([1, 2, 3, 4] as const).find((possible) => possible === count);
@@ -33,7 +30,7 @@ export function pixelImageOf([width, height, count, ...pixels]: readonly number[
 const pngColorTypes = { 1: 0, 2: 4, 3: 2, 4: 6 } as const;
 const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 
-/** Uncompressed: it is read once, and nobody sends it. */
+/** Encodes an uncompressed PNG, which is decoded once on the same machine. */
 export function pngOfPixels({ width, height, components, pixels }: PixelImage): Uint8Array {
   const header = new Uint8Array(13);
   const numbers = new DataView(header.buffer);
@@ -72,11 +69,11 @@ function chunk(type: string, data: Uint8Array): Uint8Array {
 
 /** RFC 1950 around RFC 1951's stored blocks. */
 function storedZlib(data: Uint8Array): Uint8Array {
-  const largestBlock = 65535;
+  const maxBlockLength = 65535;
   const parts: Uint8Array[] = [Uint8Array.of(0x78, 0x01)];
-  for (let at = 0; at < data.length; at += largestBlock) {
-    const block = data.subarray(at, at + largestBlock);
-    const isLast = at + largestBlock >= data.length;
+  for (let at = 0; at < data.length; at += maxBlockLength) {
+    const block = data.subarray(at, at + maxBlockLength);
+    const isLast = at + maxBlockLength >= data.length;
     const { length } = block;
     parts.push(Uint8Array.of(Number(isLast), length & 255, length >> 8, ~length & 255, (~length >> 8) & 255), block);
   }

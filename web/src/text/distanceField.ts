@@ -1,23 +1,26 @@
-// From how much of each texel a shape covers to how far its edge is: seen large, an
-// edge between two texels is then where it was (Green 2007, "Improved Alpha-Tested
-// Magnification"). Where a texel is covered in part, its share and the slope of the
-// shares around it tell the nearest point of the edge (Gustavson and Strand 2011,
-// "Anti-aliased Euclidean distance transform"); the others find theirs along columns,
-// then along rows, no farther than distances count.
+// Converts a coverage image to a signed distance field, which keeps edges sharp under magnification (Green 2007,
+// "Improved Alpha-Tested Magnification"). In a partly covered texel, the coverage and its gradient give the nearest
+// point of the edge (Gustavson and Strand 2011, "Anti-aliased Euclidean distance transform"). Other texels search for
+// theirs along columns, then along rows, within the range of the field.
 
-/** Where the edge runs in each of some texels: a point of it, in texels from the first one's centre, and its normal, inwards. */
+/**
+ * The edge in texels that it crosses: a point on it, in texels from the first texel's center, and the inward normal.
+ */
 interface Edges {
   readonly x: Float32Array;
   readonly y: Float32Array;
   readonly normalX: Float32Array;
   readonly normalY: Float32Array;
-  /** By texel itself, or none. */
+  /** By texel: its own index, or `none`. */
   readonly texels: Int32Array;
 }
 
 const none = -1;
 
-/** By texel of `coverage`, 0 … 255: 128 on the edge, more inside, less outside; `spread` texels away it is all or nothing. */
+/**
+ * The field of `coverage` (0 … 255): 128 on the edge, up to 255 inside and down to 0 outside at `spread` texels from
+ * the edge.
+ */
 export function distanceField(
   coverage: Uint8Array,
   width: number,
@@ -39,7 +42,7 @@ export function distanceField(
   return field;
 }
 
-/** The edge is taken to be straight half a texel to both sides of its point. */
+/** The distance to an edge that is assumed to be straight within half a texel of its point. */
 function distanceTo({ x, y, normalX, normalY }: Edges, edge: number, column: number, row: number): number {
   if (edge === none) return Infinity;
   const dx = column - (x[edge] ?? 0),
@@ -49,7 +52,7 @@ function distanceTo({ x, y, normalX, normalY }: Edges, edge: number, column: num
   return Math.hypot(dx * nx + dy * ny, Math.max(Math.abs(dx * ny - dy * nx) - 0.5, 0));
 }
 
-/** Of texels that the edge runs through, or along. */
+/** Finds the edge in the texels that it crosses or touches. */
 function edgesOf(coverage: Uint8Array, width: number, height: number): Edges {
   const numbers = () => new Float32Array(width * height);
   const edges: Edges = {
@@ -59,30 +62,30 @@ function edgesOf(coverage: Uint8Array, width: number, height: number): Edges {
     normalY: numbers(),
     texels: new Int32Array(width * height).fill(none),
   };
-  const clamped = (place: number, length: number) => (place < 0 ? 0 : place < length ? place : length - 1);
+  const clamped = (index: number, length: number) => (index < 0 ? 0 : index < length ? index : length - 1);
   const at = (column: number, row: number) => coverage[clamped(row, height) * width + clamped(column, width)] ?? 0;
   for (let row = 0; row < height; ++row) {
     for (let column = 0; column < width; ++column) {
       const texel = row * width + column;
-      const share = coverage[texel] ?? 0;
-      if (share === 0) continue;
+      const covered = coverage[texel] ?? 0;
+      if (covered === 0) continue;
       const [left, right, up, down] = [
         at(column - 1, row),
         at(column + 1, row),
         at(column, row - 1),
         at(column, row + 1),
       ];
-      if (share === 255 && left > 0 && right > 0 && up > 0 && down > 0) continue;
-      // Sobel's slopes, with weights that suit edges of any direction.
+      if (covered === 255 && left > 0 && right > 0 && up > 0 && down > 0) continue;
+      // Sobel gradients, with weights for edges of any direction.
       const rising = at(column + 1, row + 1) - at(column - 1, row - 1),
         falling = at(column + 1, row - 1) - at(column - 1, row + 1);
       const slopeX = rising + falling + Math.SQRT2 * (right - left),
         slopeY = rising - falling + Math.SQRT2 * (down - up);
       const length = Math.hypot(slopeX, slopeY);
-      if (length === 0) continue; // a hair, thinner than its texel
+      if (length === 0) continue; // a line thinner than its texel
       const nx = slopeX / length,
         ny = slopeY / length;
-      const inwards = distanceToEdge(share / 255, Math.abs(nx), Math.abs(ny));
+      const inwards = distanceToEdge(covered / 255, Math.abs(nx), Math.abs(ny));
       edges.texels[texel] = texel;
       [edges.normalX[texel], edges.normalY[texel]] = [nx, ny];
       [edges.x[texel], edges.y[texel]] = [column + inwards * nx, row + inwards * ny];
@@ -91,17 +94,20 @@ function edgesOf(coverage: Uint8Array, width: number, height: number): Edges {
   return edges;
 }
 
-/** From the centre of a square to a straight edge that leaves `share` of it covered, by the edge's normal; less than 0: the centre is covered. */
+/**
+ * The signed distance from the center of a square to a straight edge with this normal that leaves `share` of the square
+ * covered; negative where the center is covered.
+ */
 function distanceToEdge(share: number, normalX: number, normalY: number): number {
   const [long, short] = [Math.max(normalX, normalY), Math.min(normalX, normalY)];
   const lesser = Math.min(share, 1 - share);
-  // Either a triangle at a corner is covered, or what is between two parallel sides.
+  // The covered area is a triangle at a corner, or a trapezoid.
   const distance =
     2 * long * lesser < short ? (long + short) / 2 - Math.sqrt(2 * long * short * lesser) : (0.5 - lesser) * long;
   return share > 0.5 ? -distance : distance;
 }
 
-/** By texel the nearest of the edges that it and the texels of its line know, `stride` apart. */
+/** By texel: the nearest of the edges known to the texels of its row or column, which are `stride` apart. */
 function nearestAlong(
   { x, y }: Edges,
   known: Int32Array,
@@ -116,16 +122,16 @@ function nearestAlong(
       const texel = row * width + column;
       const before = Math.min(stride === 1 ? column : row, spread),
         after = Math.min(stride === 1 ? width - 1 - column : height - 1 - row, spread);
-      let least = Infinity;
+      let minSquare = Infinity;
       const consider = (edge: number) => {
         const dx = (x[edge] ?? 0) - column,
           dy = (y[edge] ?? 0) - row;
-        if (dx * dx + dy * dy >= least) return;
-        least = dx * dx + dy * dy;
+        if (dx * dx + dy * dy >= minSquare) return;
+        minSquare = dx * dx + dy * dy;
         nearest[texel] = edge;
       };
-      // A point is less than a texel from the centre of its own.
-      for (let away = 0; away <= spread && (away < 2 || (away - 1) * (away - 1) < least); ++away) {
+      // An edge point is less than a texel from the center of its texel.
+      for (let away = 0; away <= spread && (away < 2 || (away - 1) * (away - 1) < minSquare); ++away) {
         const left = away <= before ? (known[texel - away * stride] ?? none) : none,
           right = away <= after ? (known[texel + away * stride] ?? none) : none;
         if (left !== none) consider(left);

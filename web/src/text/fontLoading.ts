@@ -1,9 +1,9 @@
-// Fonts that the page brings, and that come after a text has been drawn in others.
+// Requests the page's fonts and reports when they load, because texts may have been drawn with fallback fonts before.
 
-/** What of a page's FontFaceSet is needed. */
+/** The subset of FontFaceSet that is needed. */
 export interface FontSource {
-  check(font: string, letters: string): boolean;
-  load(font: string, letters: string): Promise<unknown>;
+  check(font: string, text: string): boolean;
+  load(font: string, text: string): Promise<unknown>;
   addEventListener(
     type: "loadingdone",
     listener: (event: { readonly fontfaces: readonly { readonly family: string }[] }) => void,
@@ -13,36 +13,36 @@ export interface FontSource {
 
 export class FontLoading {
   readonly #fonts: FontSource;
-  readonly #comings = new Map<string, number>();
+  readonly #loadCounts = new Map<string, number>();
 
-  /** `onCome` is called until `signal` aborts, when fonts that were asked for, by whomever, have come. */
-  constructor(fonts: FontSource, onCome: () => void, signal: AbortSignal) {
+  /** Calls `onLoad` when fonts of the page have loaded, however they were requested, until `signal` aborts. */
+  constructor(fonts: FontSource, onLoad: () => void, signal: AbortSignal) {
     this.#fonts = fonts;
     fonts.addEventListener(
       "loadingdone",
       ({ fontfaces }) => {
-        const families = new Set(fontfaces.map(({ family }) => nameOf(family)));
-        for (const family of families) this.#comings.set(family, (this.#comings.get(family) ?? 0) + 1);
-        if (families.size > 0) onCome();
+        const families = new Set(fontfaces.map(({ family }) => normalizedName(family)));
+        for (const family of families) this.#loadCounts.set(family, (this.#loadCounts.get(family) ?? 0) + 1);
+        if (families.size > 0) onLoad();
       },
       { signal },
     );
   }
 
-  /** Asks for a font, in CSS's words but for its size, as far as letters need it; how often any of its families has come. */
+  /** Requests a font as far as the text needs it, and returns how many times fonts of its families have loaded. */
   editionOf(
     { family, isBold, isItalic }: { family: string; isBold: boolean; isItalic: boolean },
-    letters: string,
+    text: string,
   ): number {
     const font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}1px ${family}`;
-    // Who asks for nothing that the page has is answered as well. What fails the browser reports.
-    if (!this.#fonts.check(font, letters)) this.#fonts.load(font, letters).catch(() => undefined);
-    return family.split(",").reduce((sum, each) => sum + (this.#comings.get(nameOf(each)) ?? 0), 0);
+    // Loading succeeds for families that the page lacks too. The browser reports failures.
+    if (!this.#fonts.check(font, text)) this.#fonts.load(font, text).catch(() => undefined);
+    return family.split(",").reduce((sum, each) => sum + (this.#loadCounts.get(normalizedName(each)) ?? 0), 0);
   }
 }
 
-/** Families are told apart without their quotes and regardless of case. */
-function nameOf(family: string): string {
+/** Family names are compared case-insensitively and without quotes. */
+function normalizedName(family: string): string {
   return family
     .trim()
     .replace(/^(["'])(.*)\1$/, "$2")

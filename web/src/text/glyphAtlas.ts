@@ -1,20 +1,23 @@
-// The letters of a text in one picture, which decode/letters.ts draws: runs of text in
-// rows, each with room around it for the field of distances from its edges.
+// The glyph atlas of a text: runs of text in rows of one image, each with a margin for the distance field. A data: URL
+// describes the atlas; glyphRendering.ts draws it.
 
 import { dataUrl } from "../document/dataUrl.ts";
 import type { Font, PositionedRun } from "./textLayout.ts";
 
-/** Texels over which the field falls from an edge to nothing. */
+/** The range of the distance field, in texels to each side of an edge. */
 export const fieldSpread = 8;
 
-/** Texels of an em, from the best on: what fits is taken. With less than the last letters are not to be read. */
+/** Texels per em, best first: the first that fits is taken. With fewer than the last, text is illegible. */
 const resolutions = [96, 64, 48, 32, 24, 16, 12];
-/** Every GPU has textures of this edge. */
+/** Every GPU supports textures of this size. */
 const maxEdge = 2048;
-/** Of which the field is made within some 50 ms. */
+/** Computing the distance field of so many texels takes some 50 ms. */
 const maxTexels = 2 ** 18;
 
-/** In texels, from the upper left corner of the sheet; the pen is where the run begins on its baseline. */
+/**
+ * The rectangle of a run in the atlas, in texels from the upper left corner; the pen is at the start of the run's
+ * baseline.
+ */
 export interface GlyphCell {
   readonly left: number;
   readonly top: number;
@@ -31,12 +34,12 @@ export interface GlyphAtlas {
   readonly cells: ReadonlyMap<string, GlyphCell>;
 }
 
-/** A cell for each text that has ink, once however often it stands there; undefined where they are too many. */
+/** Packs a cell for each distinct text with ink; undefined where they do not fit. */
 export function glyphAtlasOf(runs: readonly PositionedRun[]): GlyphAtlas | undefined {
   const inked = new Map(runs.filter(hasInk).map((run) => [run.text, run]));
   for (const texelsPerEm of resolutions) {
-    const sheet = packed(Array.from(inked.values()), texelsPerEm);
-    if (sheet.width <= maxEdge && sheet.height <= maxEdge && sheet.width * sheet.height <= maxTexels) return sheet;
+    const atlas = packed(Array.from(inked.values()), texelsPerEm);
+    if (atlas.width <= maxEdge && atlas.height <= maxEdge && atlas.width * atlas.height <= maxTexels) return atlas;
   }
   return undefined;
 }
@@ -45,7 +48,7 @@ export function hasInk({ metrics: { ink } }: PositionedRun): boolean {
   return ink.left + ink.right > 0 && ink.up + ink.down > 0;
 }
 
-/** One row after the other, of about the width that makes a square. */
+/** Packs runs into rows of about the width of a square atlas. */
 function packed(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas {
   const sizes = runs.map(({ text, metrics: { ink } }) => ({
     text,
@@ -55,11 +58,11 @@ function packed(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas
     height: Math.ceil(ink.up * texelsPerEm) + Math.ceil(ink.down * texelsPerEm) + 2 * fieldSpread,
   }));
   const area = sizes.reduce((sum, { width, height }) => sum + width * height, 0);
-  const most = Math.max(...sizes.map((size) => size.width), Math.min(Math.ceil(Math.sqrt(area)), maxEdge), 1);
+  const maxWidth = Math.max(...sizes.map((size) => size.width), Math.min(Math.ceil(Math.sqrt(area)), maxEdge), 1);
   const cells = new Map<string, GlyphCell>();
   let [left, top, rowHeight, width] = [0, 0, 0, 1];
   for (const { text, penX, penY, ...size } of sizes) {
-    if (left + size.width > most) [left, top, rowHeight] = [0, top + rowHeight, 0];
+    if (left + size.width > maxWidth) [left, top, rowHeight] = [0, top + rowHeight, 0];
     cells.set(text, { left, top, ...size, penX: left + penX, penY: top + penY });
     left += size.width;
     width = Math.max(width, left);
@@ -68,7 +71,7 @@ function packed(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas
   return { width, height: Math.max(top + rowHeight, 1), texelsPerEm, cells };
 }
 
-/** What decode/letters.ts reads; the edition of the font only makes it another url. */
+/** The data: URL that `drawGlyphAtlas` reads. `edition` only makes the URL another one when a font has loaded. */
 export function glyphAtlasUrl(
   { width, height, texelsPerEm, cells }: GlyphAtlas,
   { family, isBold, isItalic }: Font,

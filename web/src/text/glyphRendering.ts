@@ -1,15 +1,16 @@
-// Letters of a text, drawn by the browser in the fonts that it has and the page
-// brings, and measured there too.
+// Measures and draws glyphs on a canvas, with the browser's fonts and those of the page.
 
 import { distanceField } from "./distanceField.ts";
 
 const maxEdge = 2048;
 
-/** What document/letterSheet.ts writes: runs whose pen begins at x, y from the upper left, in a font with its size. */
-interface Letters {
+/**
+ * The content of a glyph atlas URL: runs with their pen positions from the upper left, and a CSS font with its size.
+ */
+interface AtlasDescription {
   readonly width: number;
   readonly height: number;
-  /** Texels over which the field falls from an edge to nothing. */
+  /** The range of the distance field, in texels to each side of an edge. */
   readonly spread: number;
   readonly font: string;
   readonly runs: readonly { readonly text: string; readonly x: number; readonly y: number }[];
@@ -27,10 +28,10 @@ export class GlyphAtlasError extends Error {
 
 let canvas: OffscreenCanvasRenderingContext2D | undefined;
 
-/** At this size a font's own numbers, which browsers round to whole pixels, are within a thousandth of an em. */
-const measuredSize = 512;
+/** The font size of measurements, in pixels: browsers round font metrics to whole pixels, which is 1/1000 em here. */
+const measuringSize = 512;
 
-/** In em, as document/textLayout.ts has it. */
+/** The metrics of a run in em (RunMetrics of textLayout.ts). */
 export function measureRun(
   { family, isBold, isItalic }: { family: string; isBold: boolean; isItalic: boolean },
   text: string,
@@ -41,7 +42,7 @@ export function measureRun(
   descent: number;
 } {
   canvas ??= contextOf(1, 1);
-  canvas.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuredSize}px ${family}`;
+  canvas.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuringSize}px ${family}`;
   const metrics = canvas.measureText(text);
   const {
     actualBoundingBoxLeft: left,
@@ -49,7 +50,7 @@ export function measureRun(
     actualBoundingBoxAscent: up,
     actualBoundingBoxDescent: down,
   } = metrics;
-  const inEm = (pixels: number) => pixels / measuredSize;
+  const inEm = (pixels: number) => pixels / measuringSize;
   return {
     advance: inEm(metrics.width),
     ink: { left: inEm(left), right: inEm(right), up: inEm(up), down: inEm(down) },
@@ -60,7 +61,7 @@ export function measureRun(
 
 /** Draws a white bitmap with the glyphs' distance field as alpha, bottom row first. Rejects with GlyphAtlasError. */
 export async function drawGlyphAtlas(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
-  const { width, height, spread, font, runs } = lettersIn(bytes);
+  const { width, height, spread, font, runs } = parseDescription(bytes);
   const context = contextOf(width, height);
   context.font = font;
   context.fillStyle = "white";
@@ -86,19 +87,19 @@ export async function drawGlyphAtlas(bytes: Uint8Array<ArrayBuffer>): Promise<Im
 function contextOf(width: number, height: number): OffscreenCanvasRenderingContext2D {
   const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
   if (context === null) throw new GlyphAtlasError("unsupported", "is a text, and this browser has no canvas for it");
-  context.textRendering = "geometricPrecision"; // outlines as they are, not moved to whole pixels
+  context.textRendering = "geometricPrecision"; // exact outlines, not hinted to whole pixels
   return context;
 }
 
-function lettersIn(bytes: Uint8Array): Letters {
-  const letters: unknown = JSON.parse(new TextDecoder().decode(bytes));
-  if (!isLetters(letters)) throw new GlyphAtlasError("malformed", "is no sheet of letters");
-  return letters;
+function parseDescription(bytes: Uint8Array): AtlasDescription {
+  const description: unknown = JSON.parse(new TextDecoder().decode(bytes));
+  if (!isDescription(description)) throw new GlyphAtlasError("malformed", "is no sheet of letters");
+  return description;
 }
 
-function isLetters(value: unknown): value is Letters {
+function isDescription(value: unknown): value is AtlasDescription {
   if (typeof value !== "object" || value === null) return false;
-  const { width, height, spread, font, runs } = value as Partial<Record<keyof Letters, unknown>>;
+  const { width, height, spread, font, runs } = value as Partial<Record<keyof AtlasDescription, unknown>>;
   const isEdge = (edge: unknown) => Number.isInteger(edge) && Number(edge) > 0 && Number(edge) <= maxEdge;
   return isEdge(width) && isEdge(height) && isEdge(spread) && typeof font === "string" && Array.isArray(runs);
 }

@@ -1,5 +1,4 @@
-// X3D's Text -> a rectangle for each run of its letters, and the picture that is laid
-// over them.
+// Reads X3D's Text: a rectangle for each run of glyphs, and the glyph atlas as its texture.
 
 import { geometryOfArrays } from "../document/arrayGeometry.ts";
 import type { AppearanceDescription, TextureDescription, Warning } from "../document/description.ts";
@@ -14,19 +13,16 @@ import type { Alignment, Font, MeasureRun, PositionedRun, TextStyle } from "./te
 import { alignments, layOut } from "./textLayout.ts";
 
 /**
- * For who can measure, and draw, letters. `editionOf` says how often faces of a font have
- * come that were not here at first: a text's picture is another one then.
+ * `measure` measures runs of text. `editionOf` tells how many times faces of a font have loaded: another edition makes
+ * another glyph atlas URL.
  */
-export function textReader(
-  measure: MeasureRun,
-  editionOf: (font: Font, letters: string) => number = () => 0,
-): TextReader {
+export function textReader(measure: MeasureRun, editionOf: (font: Font, text: string) => number = () => 0): TextReader {
   const geometryOf: TextReader["geometryOf"] = (element, resolve, warnings) => {
     const { string, length, maxExtent, solid } = readFields(element, nodeFields.Text, warnings);
     const fontStyle = childrenOf(element)
       .flatMap((child) => resolve(child) ?? [])
       .find((child) => lowerNameOf(child) === "fontstyle");
-    const fields = readFields(fontStyle ?? nothing, nodeFields.FontStyle, warnings);
+    const fields = readFields(fontStyle ?? emptyElement, nodeFields.FontStyle, warnings);
     if (fields.size <= 0) {
       warnings.push({
         element,
@@ -42,20 +38,25 @@ export function textReader(
       style,
       measure,
     );
-    const sheet = glyphAtlasOf(runs);
-    if (sheet === undefined) {
+    const atlas = glyphAtlasOf(runs);
+    if (atlas === undefined) {
       warnings.push({ element, message: "has more letters than one picture holds; nothing is drawn" });
       return undefined;
     }
-    const geometry = geometryOfArrays(rectanglesOf(runs, sheet, fields.size), solid);
+    const geometry = geometryOfArrays(rectanglesOf(runs, atlas, fields.size), solid);
     return (
-      geometry && { ...geometry, glyphAtlas: glyphAtlasUrl(sheet, style.font, editionOf(style.font, string.join(""))) }
+      geometry && { ...geometry, glyphAtlas: glyphAtlasUrl(atlas, style.font, editionOf(style.font, string.join(""))) }
     );
   };
-  return { geometryOf, appearanceOf: lettered };
+  return { geometryOf, appearanceOf: withGlyphAtlas };
 }
 
-const nothing: SceneElement = { localName: "", children: [], getAttribute: () => null, getAttributeNames: () => [] };
+const emptyElement: SceneElement = {
+  localName: "",
+  children: [],
+  getAttribute: () => null,
+  getAttributeNames: () => [],
+};
 
 function styleOf(fields: Values<typeof nodeFields.FontStyle>): TextStyle {
   const { family, justify, spacing, horizontal, leftToRight, topToBottom } = fields;
@@ -73,7 +74,7 @@ function styleOf(fields: Values<typeof nodeFields.FontStyle>): TextStyle {
   };
 }
 
-/** X3D's three families of fonts are three of CSS's. */
+/** X3D's generic font families in CSS. */
 const families: Readonly<Record<string, string>> = { SERIF: "serif", SANS: "sans-serif", TYPEWRITER: "monospace" };
 
 function fontOf(family: readonly string[], style: string): Font {
@@ -82,7 +83,7 @@ function fontOf(family: readonly string[], style: string): Font {
   const named = (generic < 0 ? family : family.slice(0, generic))
     .map((name) => name.trim())
     .filter((name) => /^[\w -]+$/.test(name));
-  // Behind a generic family there is nothing to fall back on, and Chromium then takes the last one.
+  // Families after a generic one are dropped: Chromium would take the last of them.
   const last = families[family[generic]?.trim().toUpperCase() ?? ""] ?? "serif";
   return {
     family: [...named.map((name) => `"${name}"`), last].join(", "),
@@ -91,7 +92,7 @@ function fontOf(family: readonly string[], style: string): Font {
   };
 }
 
-/** Two triangles for each run, around its cell of the sheet; they face +z. */
+/** Two triangles for each run, which cover its cell of the atlas and face +z. */
 function rectanglesOf(
   runs: readonly PositionedRun[],
   { cells, width, height, texelsPerEm }: GlyphAtlas,
@@ -129,17 +130,17 @@ function rectanglesOf(
   };
 }
 
-/** Letters are cut out of the shape's colour; pictures of its own it has no room for. */
-function lettered(
+/** The shape's appearance with the glyph atlas as its color texture, which replaces other textures. */
+function withGlyphAtlas(
   appearance: AppearanceDescription,
-  letters: string,
+  glyphAtlas: string,
   element: SceneElement,
   warnings: Warning[],
 ): AppearanceDescription {
   if (appearance.textures.length > 0) warnings.push({ element, message: "is a text: its textures are not shown" });
   const texture: TextureDescription = {
     role: "color",
-    url: letters,
+    url: glyphAtlas,
     preview: "",
     transform: [1, 0, 0, 0, 1, 0, 0, 0, 1],
     sampling: {
