@@ -130,7 +130,7 @@ void printTable(const std::string& path) {
       patches.push_back(asTriangles(patch));
     fmt::print("\n{}: {} vertices, {} patches\n\n", std::filesystem::path(path).filename().string(), mesh.wedgeCount(),
                patches.size());
-    fmt::print("| normals | bytes | bits/vertex | of rgb | mean error, degrees | maximum | bound |\n"
+    fmt::print("| normals | bytes | bits/vertex | of rgb | mean error, degrees | largest | bound |\n"
                "|---|--:|--:|--:|--:|--:|--:|\n");
     std::size_t rgbBytes = 0;
     for (const Row& row : rows) {
