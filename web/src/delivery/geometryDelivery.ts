@@ -8,7 +8,7 @@ import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import type { PatchFile } from "./patchFiles.ts";
-import { bytesPerTexel } from "./patchFiles.ts";
+import { bytesPerTexel, fileRoles } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
 import type { Content, ResourceHandle, ResourcePool } from "./resourcePool.ts";
 import { deliveryOf } from "./encodings/encodings.ts";
@@ -46,7 +46,7 @@ export interface Delivery {
   cancel(): void;
 }
 
-/** A file that a patch files, and how far it is. */
+/** A file that a patch needs, and its state. */
 interface TrackedFile {
   readonly file: PatchFile;
   /** Defined while the file is requested; of an image, also while it is ready. */
@@ -276,9 +276,7 @@ function trackedFilesOf(geometry: GeometryDescription, patch: PatchDescription, 
 
 /** A file is useful only together with those of smaller ranks. */
 function usageRank({ role, plane }: PatchFile): number {
-  return plane > 0
-    ? 6 + plane
-    : ["base", "patch", "coord", "index", "normal", "texCoord", "color", "value"].indexOf(role);
+  return plane > 0 ? fileRoles.indexOf("value") + plane - 1 : fileRoles.indexOf(role);
 }
 
 function budgetRequestsOf({ index, builder, files }: Patch, priorityOf: FilePriority): PatchBudgetRequest[] {

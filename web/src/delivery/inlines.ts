@@ -15,7 +15,7 @@ const documentWeight = 2 ** 24;
 const expectedBytes = 30_000;
 
 export interface InlinesListener {
-  /** It is asked for. Not called again for the same Inline before `onLeave`. */
+  /** Its document is requested. Not called again for the same Inline before `onRemove`. */
   onBegin?(inline: SceneElement): void;
   /** Its document is ready, or all its urls have failed: the Inline is to be read again. */
   onEnd(inline: SceneElement, error: DeliveryError | undefined): void;

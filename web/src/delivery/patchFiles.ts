@@ -4,9 +4,13 @@ import type { PatchDescription, Reference } from "../document/description.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 import type { ContentTarget } from "./resourcePool.ts";
 
-/** What a file holds of a patch: all of it, a base mesh that stands in for it, or one attribute. */
-export type FileRole = "patch" | "base" | AttributeRole;
-export type AttributeRole = "index" | "coord" | "normal" | "texCoord" | "color" | "value";
+/** The arrays of a patch, in the order in which they become useful. PatchDescription and stages have a member of each name. */
+export const attributeRoles = ["coord", "index", "normal", "texCoord", "color", "value"] as const;
+export type AttributeRole = (typeof attributeRoles)[number];
+
+/** What a file holds of a patch: a base mesh that stands in for it, all of it, or one attribute. */
+export const fileRoles = ["base", "patch", ...attributeRoles] as const;
+export type FileRole = (typeof fileRoles)[number];
 
 export interface PatchFile {
   readonly role: FileRole;
@@ -53,12 +57,5 @@ export function attributeFilesOf(
             ...sizesOf(role, reference, role === "index" ? cornerCount : patch.vertexCount),
           },
     );
-  return [
-    ...filesOf("coord", patch.coord),
-    ...filesOf("index", [patch.index]),
-    ...filesOf("normal", [patch.normal]),
-    ...filesOf("texCoord", [patch.texCoord]),
-    ...filesOf("color", [patch.color]),
-    ...filesOf("value", patch.value),
-  ];
+  return attributeRoles.flatMap((role) => filesOf(role, [patch[role]].flat()));
 }

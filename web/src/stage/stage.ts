@@ -1,24 +1,22 @@
-// A stage: what one patch can show now. Every container ends here, and the
-// renderer knows nothing of how a stage came about; it only ever replaces a
-// patch's stage by a newer one.
+// A stage: what one patch can draw now. Builders of every encoding make stages (delivery), and the renderer draws them
+// without knowing the encoding: it replaces the previous stage of a patch by the next.
 
 import type { Bounds, VertexArray } from "./vertexArray.ts";
 import type { ElementType } from "./elementType.ts";
 import type { DecodedImage } from "./decodedImage.ts";
 
-/** Running numbers first .. first + count - 1 drawn as one kind of primitive. */
+/** Elements first .. first + count - 1 (indices, or vertices where there is no index) drawn as one kind of primitive. */
 export interface DrawRange {
   readonly primitive: "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
   readonly first: number;
   readonly count: number;
-  /** Lines that are drawn as surfaces of a width on the screen. */
+  /** Lines that are drawn as surfaces, with a width in pixels. */
   readonly isWide?: boolean;
 }
 
 /**
- * How far a patch is, as events name it: vertices alone, a coarse shape that stands
- * in for it, a surface shaded by its own slope, one shaded by its normals, and all
- * there is.
+ * The stages of a patch, as events name them: vertices only; a base mesh that stands in for the patch; a surface shaded
+ * by its slope; one shaded by its normals; and the complete patch.
  */
 export type StageName = "points" | "base" | "surface" | "shaded" | "full";
 export const stageNames: readonly StageName[] = ["points", "base", "surface", "shaded", "full"];
@@ -28,19 +26,19 @@ interface StageHead {
   readonly draws: readonly DrawRange[];
 }
 
-/** Texels of an image from the number `first` on, row by row. */
+/** Texels of an image from `firstTexel` on, row by row. */
 export interface TexelRange {
   readonly image: DecodedImage;
   readonly firstTexel: number;
 }
 
-/** Two numbers for a normal, octahedral x and y or spherical phi and theta, of so many bits. */
+/** A normal as two numbers of `bits` bits: octahedral x and y, or spherical phi and theta. */
 export interface PairCode {
   readonly kind: "octahedral" | "spherical";
   readonly bits: 8 | 16;
 }
 
-/** What a stored normal is: a vector; one whose components are bytes, 0 … 255 for -1 … 1; or two numbers. */
+/** How normals are stored: as vectors, as vectors of bytes 0 … 255 for -1 … 1, or as two numbers. */
 export type NormalCode = { readonly kind: "vector" | "byteVector" } | PairCode;
 
 export function isPairCode(code: NormalCode): code is PairCode {
@@ -48,70 +46,70 @@ export function isPairCode(code: NormalCode): code is PairCode {
 }
 
 /**
- * A surface over a grid of texels, without an index: heights over a plane, points
- * of a sheet, or points of a sheet whose last column is joined to its first.
+ * A surface over a grid of texels, without an index: heights over a plane; points of a sheet; or points of a sheet whose
+ * last column is joined to its first.
  */
 export interface Grid {
   readonly kind: "heightMap" | "geometryImage" | "sculpt";
-  /** Of vertices, each 2 or more. */
+  /** Number of vertices along each side, 2 or more. */
   readonly columns: number;
   readonly rows: number;
 }
 
-/** Vertices that the shader fetches from images (classic SIG). */
+/** A stage whose vertices the shader fetches from images (SIG classic). */
 export interface TextureStage extends StageHead {
   readonly kind: "textures";
-  /** Absent: running numbers are record numbers. */
+  /** Undefined: element n is record n. */
   readonly index: TexelRange | undefined;
-  /** Index texels hold the record's number; otherwise its column and row. */
+  /** Index texels hold the record's number; otherwise its column and row in the image. */
   readonly isIndexWide: boolean;
-  /** Its two triangles a cell are what is drawn, and without normals it is shaded by those of its slope. */
+  /** Draws two triangles for each cell; without normals it is shaded by its slope. */
   readonly grid: Grid | undefined;
-  /** Running number n is texel (n mod implicitWidth, n div implicitWidth). */
+  /** Element n is texel (n mod implicitWidth, n div implicitWidth). */
   readonly implicitWidth: number;
-  /** The byte planes that are here, most significant first. */
+  /** The available byte planes, most significant first. */
   readonly coord: readonly TexelRange[];
-  /** The byte planes that there will be. */
+  /** Number of byte planes of the complete patch. */
   readonly coordPlaneCount: number;
-  /** Added to every coordinate in place of the bytes that are not here. */
+  /** Added to every coordinate in place of the missing bytes. */
   readonly missingBytesMidpoint: number;
   readonly normal: TexelRange | undefined;
   readonly normalCode: NormalCode;
   readonly color: TexelRange | undefined;
   readonly colorComponents: 3 | 4;
   readonly texCoord: TexelRange | undefined;
-  /** Of the attribute that colours the geometry, its first byte planes; undefined until there are any. */
+  /** Values of the attribute that colours the geometry; undefined until its first byte plane is available. */
   readonly value: ValuePlanes | undefined;
 }
 
 /** Numbers in byte planes, most significant first. */
 export interface ValuePlanes {
-  /** Those that are here. */
+  /** The available planes. */
   readonly planes: readonly TexelRange[];
   readonly planeCount: number;
-  /** Added to every stored number in place of the bytes that are not here. */
+  /** Added to every stored number in place of the missing bytes. */
   readonly missingBytesMidpoint: number;
 }
 
-/** Bytes of typed arrays that are where draws read them, and not here any more. */
+/** A typed array on the GPU; JavaScript keeps no copy. */
 export interface StoredBytes {
   readonly byteLength: number;
-  /** Gives their memory back. */
+  /** Frees the memory. */
   close(): void;
 }
 
-/** WebGL wants to know before: a buffer that has held the one never holds the other. */
+/** WebGL must know the use beforehand: a buffer holds either vertices or indices. */
 export type ArrayUse = "vertices" | "index";
 
-/** A VertexArray that is stored. */
+/** A VertexArray on the GPU. */
 export interface StoredVertices extends Omit<VertexArray, "array"> {
   readonly bytes: StoredBytes;
   readonly type: ElementType;
 }
 
-/** Of the attribute that colours a geometry. */
+/** Values of the attribute that colours a geometry. */
 export interface StoredValues extends StoredVertices {
-  /** The stored integer that stands for the far side of the attribute's box, as 0 for its near side; undefined: numbers as they are. */
+  /** The stored integer for the upper end of the attribute's range, as 0 for the lower end; undefined: numbers are stored as they are. */
   readonly maxStored: number | undefined;
 }
 
@@ -120,16 +118,16 @@ export interface StoredIndex {
   readonly type: ElementType;
 }
 
-/** Vertices in buffers (BG). Coordinates are integers as stored, the rest is spread over its range. */
+/** A stage whose vertices are in buffers. Coordinates are stored integers (or floats), other attributes are normalized to their range. */
 export interface BufferStage extends StageHead {
   readonly kind: "buffers";
   /** Records of the patch in `coord`, whose file may hold more; 0: unknown. */
   readonly vertexCount: number;
   readonly index: StoredIndex | undefined;
   readonly coord: StoredVertices;
-  /** Around the coordinates, where the document does not tell. */
+  /** Bounds of the coordinates, where the document states none. */
   readonly bounds?: Bounds | undefined;
-  /** Of two numbers of 8 bits also one 16-bit word, the first number its low byte. */
+  /** Two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normal: StoredVertices | undefined;
   readonly normalCode: NormalCode;
   readonly color: StoredVertices | undefined;

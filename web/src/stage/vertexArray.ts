@@ -1,4 +1,4 @@
-// Typed arrays of vertex data, as decoders make them.
+// Typed arrays of vertex data, as decoders produce them.
 
 export type ElementArray =
   | Int8Array<ArrayBuffer>
@@ -9,11 +9,11 @@ export type ElementArray =
   | Uint32Array<ArrayBuffer>
   | Float32Array<ArrayBuffer>;
 
-/** One group of `stride` elements a vertex, of which `components` from `offset` on count. */
+/** `stride` elements for each vertex, of which `components` from `offset` on are used. */
 export interface VertexArray {
   readonly array: ElementArray;
   readonly components: 1 | 2 | 3 | 4;
-  /** In elements, as `offset`. */
+  /** Both in elements. */
   readonly stride: number;
   readonly offset: number;
 }

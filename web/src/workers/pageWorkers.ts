@@ -1,4 +1,4 @@
-// The worker pool of a page. The worker's file stands beside the runtime's.
+// The worker pool of a page. The file of the worker is next to that of the runtime.
 
 import { DecodeError } from "../decode/decodeError.ts";
 import { WorkerPool } from "./workerPool.ts";
@@ -9,30 +9,29 @@ interface WorkerModule {
 
 const idleMs = 10_000;
 
-// `imgeo convert` puts the name that the file has in the site in the place of this
-// one; bundlers that know this form bring the file along.
-const besideThis = (): URL => new URL("./imgeo-worker.js", import.meta.url);
+// `imgeo convert` replaces this name by the file's name in the site; bundlers that know this pattern copy the file.
+const workerUrl = (): URL => new URL("./imgeo-worker.js", import.meta.url);
 
-export function pageWorkers(url: string | URL = besideThis()): WorkerPool {
+export function pageWorkers(url: string | URL = workerUrl()): WorkerPool {
   let module: Promise<WorkerModule> | undefined;
   const load = () =>
     (module ??= importedFrom(new URL(url, document.baseURI).href).catch((error: unknown) => {
-      module = undefined; // who asks next tries again
+      module = undefined; // the next call tries again
       throw error;
     }));
   return new WorkerPool({
-    // One core is the page's; but while it waits, two workers share what there is.
+    // One core is left to the page; but at least two workers run, since the page often waits for them.
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
     runOnMainThread: async (message) => (await load()).runJob(message),
     prepareMainThread: () => {
       load().catch(() => undefined);
-    }, // whoever runs a job is told
+    }, // `runOnMainThread` reports the error
   });
 }
 
-/** Rejects with DecodeError, in words for those who look for the file. */
+/** Rejects with a DecodeError that says where the file was looked for. */
 async function importedFrom(url: string): Promise<WorkerModule> {
   try {
     return (await import(/* webpackIgnore: true */ /* @vite-ignore */ url)) as WorkerModule;

@@ -1,4 +1,4 @@
-// What pages and workers say to each other.
+// The messages between pages and workers.
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { JobName } from "../decode/jobs.ts";
@@ -12,7 +12,7 @@ export type AnswerMessage =
   | { readonly output: unknown }
   | { readonly error: { readonly kind: DecodeError["kind"] | undefined; readonly message: string } };
 
-/** Errors lose their class on the way. */
+/** Errors lose their class in a message: it carries the kind of a DecodeError. */
 export function asAnswer(error: unknown): AnswerMessage {
   const message = error instanceof Error ? error.message : String(error);
   return { error: { kind: error instanceof DecodeError ? error.kind : undefined, message } };
@@ -22,7 +22,7 @@ export function asError({ error: { kind, message } }: Extract<AnswerMessage, { e
   return kind === undefined ? new Error(message) : new DecodeError(kind, message);
 }
 
-/** The memory of all arrays in some plain data, to be handed over instead of copied. */
+/** The buffers of all arrays in plain data, to be transferred instead of copied. */
 export function buffersIn(value: unknown, found = new Set<ArrayBuffer>()): ArrayBuffer[] {
   if (ArrayBuffer.isView(value)) {
     if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);

@@ -1,13 +1,12 @@
-// A few workers that do jobs, one at a time each. They are started when there is
-// work and ended when there has been none for a while. Where workers cannot be
-// started (a runtime from another origin, a policy against them) the jobs are
-// done in the page.
+// A pool of workers that run one job each at a time. Workers are started when there are jobs, and ended when they have been
+// idle for a while. Where none can be started (a runtime from another origin, a content security policy) jobs run on the
+// main thread.
 
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
 import type { AnswerMessage, JobMessage } from "./protocol.ts";
 import { asError } from "./protocol.ts";
 
-/** The part of a Worker that is used. */
+/** The members of Worker that the pool uses. */
 export interface JobWorker {
   onmessage: ((event: MessageEvent<AnswerMessage>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
@@ -20,9 +19,9 @@ export interface WorkerPoolOptions {
   /** May throw. */
   readonly start: () => JobWorker;
   readonly runOnMainThread: (message: JobMessage) => Promise<unknown>;
-  /** Fetches what `runHere` needs, ahead of whatever else is asked for. */
+  /** Loads what `runOnMainThread` needs, before it is called. */
   readonly prepareMainThread: () => void;
-  /** A worker without work ends after so long. */
+  /** An idle worker ends after this time. */
   readonly idleMs: number;
 }
 
@@ -51,12 +50,12 @@ export class WorkerPool {
     this.#options = options;
   }
 
-  /** Workers that are alive. */
+  /** Number of workers. */
   get workerCount(): number {
     return this.#workers.size;
   }
 
-  /** See RunJob. */
+  /** Runs a job in a worker; see RunJob. */
   run<Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal): Promise<OutputOf<Name>> {
     return new Promise<unknown>((resolve, reject) => {
       if (signal.aborted) {
@@ -68,7 +67,7 @@ export class WorkerPool {
         "abort",
         () => {
           this.#waiting = this.#waiting.filter((other) => other !== job);
-          reject(signal.reason as Error); // one that runs is finished, and its result dropped
+          reject(signal.reason as Error); // a running job finishes, and its result is ignored
         },
         { once: true },
       );
@@ -77,7 +76,7 @@ export class WorkerPool {
     }) as Promise<OutputOf<Name>>;
   }
 
-  /** Starts workers for as many jobs as are to come, while their input is still on its way. */
+  /** Starts workers for this number of expected jobs, while their input is still loading. */
   prepare(jobCount: number): void {
     while (this.#workers.size < Math.min(jobCount, this.#options.size) && this.#canStart && !this.#isDisposed) {
       const idle = this.#tryStart();
@@ -90,7 +89,7 @@ export class WorkerPool {
     this.#options.prepareMainThread();
   }
 
-  /** The same at once, and here, with what a worker would do it with. */
+  /** Runs a job at once on the main thread, with the code that workers run. */
   async runOnMainThread<Name extends JobName>(
     name: Name,
     input: InputOf<Name>,
@@ -102,7 +101,7 @@ export class WorkerPool {
     return output as OutputOf<Name>;
   }
 
-  /** Ends the workers; jobs that are not done never are. */
+  /** Ends the workers; the promises of unfinished jobs never settle. */
   dispose(): void {
     this.#isDisposed = true;
     this.#waiting = [];
@@ -116,7 +115,7 @@ export class WorkerPool {
       const job = this.#waiting.shift();
       if (job === undefined) return;
       if (idle === "never") {
-        this.#doHere(job);
+        this.#runJobOnMainThread(job);
         continue;
       }
       clearTimeout(idle.idleTimer);
@@ -125,7 +124,7 @@ export class WorkerPool {
     }
   }
 
-  /** A worker without a job; "none" while all are at work, "never" where none can be started. */
+  /** An idle worker; "none" while all are busy, "never" where none can be started. */
   #idle(): PoolWorker | "none" | "never" {
     const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
     if (idle !== undefined) return idle;
@@ -143,7 +142,7 @@ export class WorkerPool {
     }
   }
 
-  /** Until there is a job, or for good. */
+  /** Ends the worker after `idleMs`, unless it gets a job before. */
   #rest(busy: PoolWorker): void {
     busy.idleTimer = setTimeout(() => {
       this.#end(busy);
@@ -157,7 +156,7 @@ export class WorkerPool {
       this.#take(busy, data);
     };
     worker.onerror = (event) => {
-      // Its module did not load: jobs catch their own errors.
+      // The worker's module did not load: jobs catch their own errors.
       event.preventDefault();
       this.#canStart = false;
       const { job } = busy;
@@ -183,8 +182,8 @@ export class WorkerPool {
     this.#workers.delete(busy);
   }
 
-  /** One after the other, with room for the page in between. */
-  #doHere({ message, signal, resolve, reject }: Job): void {
+  /** Runs one job after the other on the main thread, and yields to the page between them. */
+  #runJobOnMainThread({ message, signal, resolve, reject }: Job): void {
     this.#here = this.#here.then(async () => {
       await new Promise((next) => {
         setTimeout(next);

@@ -1,4 +1,4 @@
-// BG: typed arrays of index, coordinates, normals and colours.
+// Stages of BG: typed arrays of index, coordinates, normals, texture coordinates, colours and values.
 
 import type { Bounds } from "../../../stage/vertexArray.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
@@ -15,7 +15,7 @@ import { cornerCountOf } from "../../patchFiles.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
-interface Here {
+interface AvailableArrays {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
   coord?: StoredVertices;
   bounds?: Bounds | undefined;
@@ -30,40 +30,40 @@ export function bgStageBuilder(
   patch: PatchDescription,
   { storeBytes }: BuilderTools,
 ): StageBuilder {
-  const holdings = new ArrayUploads(storeBytes);
-  let here: Here = {};
+  const uploads = new ArrayUploads(storeBytes);
+  let available: AvailableArrays = {};
   const normalCode = normalCodeOf(geometry);
   const unindexed = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
 
   return {
     isDivisible: false,
 
-    async accept(part, content, signal) {
-      if (content.kind !== "bytes" || part.role === "patch" || part.role === "base")
+    async accept(file, content, signal) {
+      if (content.kind !== "bytes" || file.role === "patch" || file.role === "base")
         throw new DecodeError("malformed", "is no typed array");
-      const range = rangeOf(geometry, patch, part.role, part.reference);
-      const present = here;
-      if (part.role === "index") {
-        // A document that does not tell the number of vertices leaves this to WebGL's own bounds.
+      const range = rangeOf(geometry, patch, file.role, file.reference);
+      const present = available;
+      if (file.role === "index") {
+        // Where the document states no number of vertices, only WebGL checks the bounds.
         const whole = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
         const { index, draws } = withoutStrips(whole, drawRangesFor(patch, whole.length));
-        present.index = { stored: await holdings.storeIndex(index, signal), draws };
+        present.index = { stored: await uploads.storeIndex(index, signal), draws };
         return;
       }
       const vertices = vertexArrayOf(content.bytes, range);
-      const stored = await holdings.storeVertices(vertices, signal);
-      present[part.role] = stored;
-      if (part.role !== "coord") return;
+      const stored = await uploads.storeVertices(vertices, signal);
+      present[file.role] = stored;
+      if (file.role !== "coord") return;
       if (isUnbounded(geometry, patch)) present.bounds = boundsOf(vertices);
       if (hasNormalsInCoords(geometry, patch)) present.normal = fourthElementOf(stored);
       if (patch.index !== undefined) return;
-      // Strips without an index get one, since buffers are drawn as separate triangles.
+      // Strips without an index get one: buffers are drawn as separate triangles.
       const { index, draws } = unindexed(patch.vertexCount || countThatFits(content.bytes.byteLength, range));
-      present.index = { stored: index && (await holdings.storeIndex(index, signal)), draws };
+      present.index = { stored: index && (await uploads.storeIndex(index, signal)), draws };
     },
 
     stage(): BufferStage | undefined {
-      const { coord, bounds, normal, texCoord, color, value, index } = here;
+      const { coord, bounds, normal, texCoord, color, value, index } = available;
       if (coord === undefined) return undefined;
       const name = attainedStageName(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
@@ -85,22 +85,29 @@ export function bgStageBuilder(
     },
 
     get storedBytes() {
-      return holdings.byteLength;
+      return uploads.byteLength;
     },
     drop: () => undefined,
     clear() {
-      // Normals in coordinates are those of the coordinates.
-      const normal = hasNormalsInCoords(geometry, patch) ? undefined : here.normal;
-      holdings.retire(here.index?.stored, here.coord, normal, here.texCoord, here.color, here.value);
-      here = {};
+      // Normals in coordinate records share the array of the coordinates.
+      const normal = hasNormalsInCoords(geometry, patch) ? undefined : available.normal;
+      uploads.retire(
+        available.index?.stored,
+        available.coord,
+        normal,
+        available.texCoord,
+        available.color,
+        available.value,
+      );
+      available = {};
     },
     sweep: () => {
-      holdings.sweep();
+      uploads.sweep();
     },
   };
 }
 
-/** Of 16-bit coordinates, where it holds the normal as a word of two bytes. */
+/** The fourth element of 16-bit coordinate records, which holds the normal as two bytes. */
 function fourthElementOf({ bytes, type, stride, offset }: StoredVertices): StoredVertices {
   if (offset + 3 >= stride) throw new DecodeError("malformed", "has no fourth element in its records");
   return { bytes, type, components: 1, stride, offset: offset + 3 };
@@ -110,13 +117,13 @@ function countOf({ bytes, type, stride }: StoredVertices): number {
   return Math.floor(bytes.byteLength / byteSizeOf(type) / stride);
 }
 
-/** X3DOM's rule: a vertexCount of 0 means all there are. */
+/** As in X3DOM, a vertexCount of 0 means all available vertices. */
 function drawRangesFor(patch: PatchDescription, available: number): readonly DrawRange[] {
   const draws = drawRangesOf(patch);
-  const only = draws.length === 1 ? draws[0] : undefined;
-  if (only?.count === 0) return [{ ...only, count: available }];
-  const wanted = draws.reduce((sum, draw) => sum + draw.count, 0);
-  if (wanted > available) throw new DecodeError("truncated", `holds ${available} of ${wanted} indices`);
+  const single = draws.length === 1 ? draws[0] : undefined;
+  if (single?.count === 0) return [{ ...single, count: available }];
+  const required = draws.reduce((sum, draw) => sum + draw.count, 0);
+  if (required > available) throw new DecodeError("truncated", `holds ${available} of ${required} indices`);
   return draws;
 }
 
@@ -136,7 +143,7 @@ function rangeOf(
   };
 }
 
-/** 0: tightly packed. */
+/** Bytes from one element to the next; 0: tightly packed. */
 export function byteStrideOf(reference: Reference): number {
   return "byteStride" in reference ? reference.byteStride : 0;
 }

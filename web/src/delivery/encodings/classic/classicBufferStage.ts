@@ -1,5 +1,5 @@
-// Classic SIG on the CPU: files become arrays in workers, one job for each that
-// comes. The stages are those of buffers.
+// Stages of SIG classic without the GPU's texture units: workers decode each image to an array, and the stages read
+// buffers.
 
 import type { IndexArray } from "../../../stage/vertexArray.ts";
 import type { ImageFile, RecordLayout } from "../../../decode/classic/classicArrays.ts";
@@ -26,12 +26,12 @@ interface Drawn {
   readonly draws: readonly DrawRange[];
 }
 
-/** Only grids have the others. */
+/** `index` and `normal` only for grids. */
 type CoordArrays = Pick<GridArrays, "coord"> & Partial<GridArrays>;
 
-/** What has come of a patch. */
-class Parts {
-  /** Packed, until all are here. */
+/** The decoded arrays of a patch, and images that wait for others. */
+class AvailableArrays {
+  /** Undecoded images, until all byte planes are available. */
   planes: (ImageFile | undefined)[] = [];
   waitingIndex: ImageFile | undefined;
   coordHeader: PngHeader | undefined;
@@ -39,11 +39,11 @@ class Parts {
   coordPlanes = 0;
   drawn: Drawn | undefined;
   normal: StoredVertices | undefined;
-  /** Of a grid that has no other normals. */
+  /** Normals of the slope of a grid that has no others. */
   slope: StoredVertices | undefined;
   texCoord: StoredVertices | undefined;
   color: StoredVertices | undefined;
-  /** Packed, until all are here. */
+  /** Undecoded images, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
   value: StoredVertices | undefined;
 }
@@ -61,30 +61,30 @@ class BufferStageBuilder implements StageBuilder {
   readonly #geometry: GeometryDescription;
   readonly #patch: PatchDescription;
   readonly #run: BuilderTools["runJob"];
-  readonly #holdings: ArrayUploads;
-  #here = new Parts();
+  readonly #uploads: ArrayUploads;
+  #available = new AvailableArrays();
 
   constructor(geometry: GeometryDescription, patch: PatchDescription, { runJob, storeBytes }: BuilderTools) {
     this.#geometry = geometry;
     this.#patch = patch;
     this.#run = runJob;
-    this.#holdings = new ArrayUploads(storeBytes);
+    this.#uploads = new ArrayUploads(storeBytes);
   }
 
   async accept(part: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
-    const here = this.#here;
+    const available = this.#available;
     const file = { png: content.bytes, firstTexel: firstTexelOf(part.reference) };
     const header = checkPng(file.png);
     switch (part.role) {
       case "coord":
-        here.planes[part.plane] = file;
-        if (part.plane === 0) here.coordHeader = header;
-        await Promise.all([this.#decodeCoords(here, signal), this.#decodeIndex(here, signal)]);
+        available.planes[part.plane] = file;
+        if (part.plane === 0) available.coordHeader = header;
+        await Promise.all([this.#decodeCoords(available, signal), this.#decodeIndex(available, signal)]);
         return;
       case "index":
-        here.waitingIndex = file;
-        await this.#decodeIndex(here, signal);
+        available.waitingIndex = file;
+        await this.#decodeIndex(available, signal);
         return;
       case "normal": {
         const normals = await this.#run(
@@ -92,12 +92,12 @@ class BufferStageBuilder implements StageBuilder {
           { file, code: normalCodeOf(this.#geometry), ...this.#layout(header) },
           signal,
         );
-        here.normal = await this.#holdings.storeVertices(normals, signal);
+        available.normal = await this.#uploads.storeVertices(normals, signal);
         return;
       }
       case "texCoord": {
         const texCoords = await this.#run("classicTexCoords", { file, ...this.#layout(header) }, signal);
-        here.texCoord = await this.#holdings.storeVertices(texCoords, signal);
+        available.texCoord = await this.#uploads.storeVertices(texCoords, signal);
         return;
       }
       case "color": {
@@ -106,49 +106,49 @@ class BufferStageBuilder implements StageBuilder {
           { file, components: this.#geometry.colorComponents, ...this.#layout(header) },
           signal,
         );
-        here.color = await this.#holdings.storeVertices(colors, signal);
+        available.color = await this.#uploads.storeVertices(colors, signal);
         return;
       }
       case "value":
-        here.valuePlanes[part.plane] = file;
-        await this.#decodeValues(here, header, signal);
+        available.valuePlanes[part.plane] = file;
+        await this.#decodeValues(available, header, signal);
     }
   }
 
   get storedBytes(): number {
-    return this.#holdings.byteLength;
+    return this.#uploads.byteLength;
   }
 
   drop(): void {
-    // What is decoded of several planes together cannot be given up one by one.
+    // Arrays that are decoded from several planes cannot be dropped plane by plane.
   }
 
   clear(): void {
-    const { drawn, coord, normal, slope, texCoord, color, value } = this.#here;
-    this.#holdings.retire(drawn?.index, coord, normal, slope, texCoord, color, value);
-    this.#here = new Parts();
+    const { drawn, coord, normal, slope, texCoord, color, value } = this.#available;
+    this.#uploads.retire(drawn?.index, coord, normal, slope, texCoord, color, value);
+    this.#available = new AvailableArrays();
   }
 
   sweep(): void {
-    this.#holdings.sweep();
+    this.#uploads.sweep();
   }
 
   stage(): BufferStage | undefined {
-    const here = this.#here;
-    const { coord, texCoord, color, value } = here;
+    const available = this.#available;
+    const { coord, texCoord, color, value } = available;
     if (coord === undefined) return undefined;
-    const normal = here.normal ?? here.slope;
-    const normalCode = here.normal ? normalCodeOf(this.#geometry) : ({ kind: "vector" } as const);
+    const normal = available.normal ?? available.slope;
+    const normalCode = available.normal ? normalCodeOf(this.#geometry) : ({ kind: "vector" } as const);
     const name = attainedStageName(this.#patch, {
-      index: here.drawn,
-      normal: here.normal,
+      index: available.drawn,
+      normal: available.normal,
       color,
-      coord: Array.from({ length: here.coordPlanes }),
+      coord: Array.from({ length: available.coordPlanes }),
       value: value ? this.#patch.value : [],
     });
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
-    const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
+    const { index, draws } = (name === "points" ? undefined : available.drawn) ?? points;
     return {
       kind: "buffers",
       vertexCount: count,
@@ -164,14 +164,14 @@ class BufferStageBuilder implements StageBuilder {
     };
   }
 
-  /** A plane is of use only when all above it are here. */
-  async #decodeCoords(here: Parts, signal: AbortSignal): Promise<void> {
-    const header = here.coordHeader;
-    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => here.planes[plane]).indexOf(
+  /** Decodes the byte planes from the most significant on, as far as they are available. */
+  async #decodeCoords(available: AvailableArrays, signal: AbortSignal): Promise<void> {
+    const header = available.coordHeader;
+    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => available.planes[plane]).indexOf(
       undefined,
     );
-    const planes = here.planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
-    if (header === undefined || planes.length <= here.coordPlanes) return;
+    const planes = available.planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
+    if (header === undefined || planes.length <= available.coordPlanes) return;
     const planeCount = this.#patch.coord.length;
     const job = {
       planes,
@@ -193,58 +193,58 @@ class BufferStageBuilder implements StageBuilder {
             },
             signal,
           );
-    const drawn = await this.#drawnWithoutFile(here, arrays.index, signal);
-    const slope = arrays.normal && (await this.#holdings.storeVertices(arrays.normal, signal));
-    const coord = await this.#holdings.storeVertices(arrays.coord, signal);
-    // Jobs of fewer and of more planes may end in any order. What was stored
-    // meanwhile is taken all at once, so that slopes are those of the positions.
-    if (here.drawn === undefined) here.drawn = drawn;
-    else this.#holdings.retire(drawn?.index);
-    if (planes.length <= here.coordPlanes) {
-      this.#holdings.retire(coord, slope);
+    const drawn = await this.#drawsWithoutFile(available, arrays.index, signal);
+    const slope = arrays.normal && (await this.#uploads.storeVertices(arrays.normal, signal));
+    const coord = await this.#uploads.storeVertices(arrays.coord, signal);
+    // Jobs of fewer and of more planes may end in any order. Coordinates and slopes are replaced together, so that
+    // slopes are those of the positions.
+    if (available.drawn === undefined) available.drawn = drawn;
+    else this.#uploads.retire(drawn?.index);
+    if (planes.length <= available.coordPlanes) {
+      this.#uploads.retire(coord, slope);
       return;
     }
-    this.#holdings.retire(here.coord, here.slope);
-    here.coord = coord;
-    here.slope = slope;
-    here.coordPlanes = planes.length;
-    if (planes.length === planeCount) here.planes = [];
+    this.#uploads.retire(available.coord, available.slope);
+    available.coord = coord;
+    available.slope = slope;
+    available.coordPlanes = planes.length;
+    if (planes.length === planeCount) available.planes = [];
   }
 
-  /** When all planes are here. */
-  async #decodeValues(here: Parts, header: PngHeader, signal: AbortSignal): Promise<void> {
+  /** Decodes the values once all their planes are available. */
+  async #decodeValues(available: AvailableArrays, header: PngHeader, signal: AbortSignal): Promise<void> {
     const { value: attribute } = this.#geometry;
-    const planes = here.valuePlanes.filter((plane) => plane !== undefined);
+    const planes = available.valuePlanes.filter((plane) => plane !== undefined);
     if (attribute === undefined || planes.length < this.#patch.value.length) return;
-    here.valuePlanes = [];
+    available.valuePlanes = [];
     const { components, min, size } = attribute;
     const values = await this.#run(
       "classicValues",
       { planes, components, min, size, ...this.#layout(header, planes[0]) },
       signal,
     );
-    here.value = await this.#holdings.storeVertices(values, signal);
+    available.value = await this.#uploads.storeVertices(values, signal);
   }
 
-  /** What is drawn where no file says it: a grid, or records in their order. Undefined where one does, or it is known. */
-  async #drawnWithoutFile(
-    here: Parts,
+  /** The draws of a patch without an index file: a grid, or records in their order. Undefined where there is a file, or they are known. */
+  async #drawsWithoutFile(
+    available: AvailableArrays,
     gridIndex: IndexArray | undefined,
     signal: AbortSignal,
   ): Promise<Drawn | undefined> {
-    if (here.drawn !== undefined || this.#patch.index !== undefined) return undefined;
+    if (available.drawn !== undefined || this.#patch.index !== undefined) return undefined;
     const { index, draws } = gridIndex
       ? { index: gridIndex, draws: drawRangesOf(this.#patch) }
       : withoutStrips(undefined, drawRangesOf(this.#patch));
-    return { index: index && (await this.#holdings.storeIndex(index, signal)), draws };
+    return { index: index && (await this.#uploads.storeIndex(index, signal)), draws };
   }
 
-  /** The size of a coordinate image says what the index's columns and rows are. */
-  async #decodeIndex(here: Parts, signal: AbortSignal): Promise<void> {
-    const file = here.waitingIndex;
-    const header = here.coordHeader;
+  /** Waits for the first coordinate image: the index names columns and rows of it. */
+  async #decodeIndex(available: AvailableArrays, signal: AbortSignal): Promise<void> {
+    const file = available.waitingIndex;
+    const header = available.coordHeader;
     if (file === undefined || header === undefined) return;
-    here.waitingIndex = undefined;
+    available.waitingIndex = undefined;
     const { index } = this.#patch;
     try {
       const drawn = await this.#run(
@@ -260,13 +260,13 @@ class BufferStageBuilder implements StageBuilder {
         },
         signal,
       );
-      here.drawn = { index: await this.#holdings.storeIndex(drawn.index, signal), draws: drawn.draws };
+      available.drawn = { index: await this.#uploads.storeIndex(drawn.index, signal), draws: drawn.draws };
     } catch (error) {
       if (signal.aborted) {
-        here.waitingIndex = file; // the coordinates were given up, not the index
+        available.waitingIndex = file; // the coordinates were aborted, not the index
         throw error;
       }
-      // It may be the coordinates' coming that has led here.
+      // The file that arrived last may be the coordinates; the error is the index's.
       throw index ? asDeliveryError(error, index.url) : error;
     }
   }

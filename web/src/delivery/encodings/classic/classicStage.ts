@@ -1,6 +1,5 @@
-// Classic SIG: images of index, coordinate bytes, normals and colours. As textures
-// they are handed on as they are, and the shader fetches vertices from them; what
-// comes as files is decoded on the CPU.
+// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Images on the GPU become stages that the
+// shader reads; images that stay files are decoded by workers (classicBufferStage.ts).
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";
@@ -15,7 +14,7 @@ import { bufferStageBuilder } from "./classicBufferStage.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
-/** Which of the two is known when the first file is here. */
+/** Chooses the builder when the first file arrives, by its kind. */
 export function classicStageBuilder(
   geometry: GeometryDescription,
   patch: PatchDescription,
@@ -23,10 +22,10 @@ export function classicStageBuilder(
 ): StageBuilder {
   let builder: StageBuilder | undefined;
   return {
-    accept(part, content, signal) {
+    accept(file, content, signal) {
       builder ??=
         content.kind === "image" ? textureStageBuilder(geometry, patch) : bufferStageBuilder(geometry, patch, tools);
-      return builder.accept(part, content, signal);
+      return builder.accept(file, content, signal);
     },
     stage: () => builder?.stage(),
     get isDivisible() {
@@ -35,8 +34,8 @@ export function classicStageBuilder(
     get storedBytes() {
       return builder?.storedBytes ?? 0;
     },
-    drop(part) {
-      builder?.drop(part);
+    drop(file) {
+      builder?.drop(file);
     },
     clear() {
       builder?.clear();
@@ -50,9 +49,9 @@ export function classicStageBuilder(
 function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   let planes: (TexelRange | undefined)[] = [];
   let values: (TexelRange | undefined)[] = [];
-  let here: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};
+  let available: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};
   const normalCode = normalCodeOf(geometry);
-  const corners = cornerCountOf(patch);
+  const cornerCount = cornerCountOf(patch);
 
   function channelsOf(role: PatchFile["role"]): number {
     switch (role) {
@@ -79,44 +78,44 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
     drop({ role, plane }) {
       if (role === "coord") planes[plane] = undefined;
       else if (role === "value") values[plane] = undefined;
-      else if (role !== "patch" && role !== "base") here[role] = undefined;
+      else if (role !== "patch" && role !== "base") available[role] = undefined;
     },
 
     clear() {
       planes = [];
       values = [];
-      here = {};
+      available = {};
     },
 
-    accept(part, content) {
+    accept(file, content) {
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
-      const range = { image, firstTexel: firstTexelOf(part.reference) };
-      const isPairs = part.role === "normal" && isPairCode(normalCode);
-      const needed = channelsOf(part.role);
+      const range = { image, firstTexel: firstTexelOf(file.reference) };
+      const isPairs = file.role === "normal" && isPairCode(normalCode);
+      const needed = channelsOf(file.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
-      if (part.role === "index") {
-        checkHolds(range, corners, patch.implicitWidth);
-        here.index = range;
+      if (file.role === "index") {
+        checkHolds(range, cornerCount, patch.implicitWidth);
+        available.index = range;
         return;
       }
-      const records = patch.index === undefined && patch.grid === undefined ? corners : patch.vertexCount;
+      const records = patch.index === undefined && patch.grid === undefined ? cornerCount : patch.vertexCount;
       if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
-      if (part.role === "coord") planes[part.plane] = range;
-      else if (part.role === "value") values[part.plane] = range;
-      else if (part.role !== "patch" && part.role !== "base") here[part.role] = range;
+      if (file.role === "coord") planes[file.plane] = range;
+      else if (file.role === "value") values[file.plane] = range;
+      else if (file.role !== "patch" && file.role !== "base") available[file.role] = range;
     },
 
     stage(): TextureStage | undefined {
-      const coord = firstOf(planes);
-      const value = firstOf(values);
+      const coord = leadingPlanes(planes);
+      const value = leadingPlanes(values);
       const first = coord[0];
       if (first === undefined) return undefined;
       const name = attainedStageName(patch, {
-        index: here.index,
-        normal: here.normal,
-        color: here.color,
+        index: available.index,
+        normal: available.normal,
+        color: available.color,
         coord,
         value,
       });
@@ -130,17 +129,17 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
         name,
         draws: name === "points" ? [points] : drawRangesOf(patch),
         grid: patch.grid,
-        index: here.index,
+        index: available.index,
         isIndexWide: geometry.indexType === "Uint32",
         implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,
         coord,
         coordPlaneCount: patch.coord.length,
         missingBytesMidpoint: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
-        normal: here.normal,
+        normal: available.normal,
         normalCode,
-        color: here.color,
+        color: available.color,
         colorComponents: geometry.colorComponents,
-        texCoord: here.texCoord,
+        texCoord: available.texCoord,
         value:
           value.length === 0
             ? undefined
@@ -154,8 +153,8 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
   };
 }
 
-/** A plane is of use only when all above it are here. */
-function firstOf(planes: readonly (TexelRange | undefined)[]): TexelRange[] {
+/** The available planes before the first missing one: a plane is useful only together with all above it. */
+function leadingPlanes(planes: readonly (TexelRange | undefined)[]): TexelRange[] {
   const whole = Array.from(planes); // without holes
   const missing = whole.indexOf(undefined);
   return whole.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
@@ -165,7 +164,7 @@ function texelsOf(image: DecodedImage): number {
   return image.width * image.height;
 }
 
-/** Running numbers 0 .. count - 1, in rows of `implicitWidth`, must be texels of the image. */
+/** Throws unless elements 0 .. count - 1, in rows of `implicitWidth`, are texels of the image. */
 function checkHolds({ image, firstTexel: first }: TexelRange, count: number, implicitWidth: number): void {
   if (count === 0) return;
   const last = count - 1;

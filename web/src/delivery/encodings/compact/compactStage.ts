@@ -1,6 +1,5 @@
-// SIG compact: one file holds all of a patch, and of others, which a worker decodes
-// together, and another coarse shapes of all patches, whose parts stand in for them
-// until they are here.
+// Stages of SIG compact. One file holds patches of one or more geometries, which a worker decodes together; another holds
+// base meshes, whose segments stand in for the patches until they are there.
 
 import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
 import type { VertexArray } from "../../../stage/vertexArray.ts";
@@ -14,16 +13,17 @@ import type {
 } from "../../../document/description.ts";
 import { latticeBitsOf } from "../../../document/encodings.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
+import { attributeRoles } from "../../patchFiles.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { drawRangesOf } from "../../stageBuilder.ts";
 
 export function compactStageBuilder(
   geometry: GeometryDescription,
   patch: PatchDescription,
-  place: number,
+  patchIndex: number,
   { storeBytes }: Pick<BuilderTools, "storeBytes">,
 ): StageBuilder {
-  const holdings = new ArrayUploads(storeBytes);
+  const uploads = new ArrayUploads(storeBytes);
   let standIn: BufferStage | undefined;
   let full: BufferStage | undefined;
   const store = async (
@@ -34,14 +34,14 @@ export function compactStageBuilder(
   ): Promise<BufferStage> => {
     const { index, coord, normal, color, texCoord } = buffers;
     const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
-    const some = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
+    const storeIfPresent = (array: VertexArray | undefined) => array && uploads.storeVertices(array, signal);
     const [ownIndex, ownCoord, ownNormal, ownColor, ownTexCoord, ownValue] = await Promise.all([
-      index && holdings.storeIndex(index, signal),
-      holdings.storeVertices(coord, signal),
-      some(normal),
-      some(color),
-      some(texCoord),
-      some(value?.vertices),
+      index && uploads.storeIndex(index, signal),
+      uploads.storeVertices(coord, signal),
+      storeIfPresent(normal),
+      storeIfPresent(color),
+      storeIfPresent(texCoord),
+      storeIfPresent(value?.vertices),
     ]);
     return {
       kind: "buffers",
@@ -58,7 +58,7 @@ export function compactStageBuilder(
     };
   };
   const retire = (stage: BufferStage | undefined) => {
-    holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color, stage?.texCoord, stage?.value);
+    uploads.retire(...attributeRoles.map((role) => stage?.[role]));
   };
   const drop = (role: string) => {
     retire(role === "base" ? standIn : full);
@@ -67,14 +67,14 @@ export function compactStageBuilder(
   };
   return {
     isDivisible: true,
-    async accept(part, content, signal) {
-      const { reference } = part;
+    async accept(file, content, signal) {
+      const { reference } = file;
       if (content.kind === "bases") {
-        const parts = patchAt(content.bases, reference);
-        if (parts.length !== geometry.patches.length) {
-          throw new DecodeError("malformed", `holds ${parts.length} parts for ${geometry.patches.length} patches`);
+        const segments = patchAt(content.bases, reference);
+        if (segments.length !== geometry.patches.length) {
+          throw new DecodeError("malformed", `holds ${segments.length} parts for ${geometry.patches.length} patches`);
         }
-        const buffers = parts[place];
+        const buffers = segments[patchIndex];
         if (buffers) checkBits(buffers, geometry);
         const draws: DrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
         standIn = buffers && (await store("base", buffers, draws, signal));
@@ -88,17 +88,17 @@ export function compactStageBuilder(
     },
     stage: () => full ?? standIn,
     get storedBytes() {
-      return holdings.byteLength;
+      return uploads.byteLength;
     },
-    drop: (part) => {
-      drop(part.role);
+    drop: (file) => {
+      drop(file.role);
     },
     clear() {
       drop("base");
       drop("patch");
     },
     sweep: () => {
-      holdings.sweep();
+      uploads.sweep();
     },
   };
 }
@@ -112,7 +112,7 @@ function patchAt<Decoded>(decoded: readonly Decoded[], reference: Reference): De
   return patch;
 }
 
-/** Those of the attribute that colours the geometry; undefined in a base that is without. */
+/** The values of the attribute that colours the geometry; undefined in a base mesh without them. */
 function valuesOf(
   { others }: PatchBuffers,
   { attributes }: GeometryDescription,
@@ -128,7 +128,7 @@ function valuesOf(
   return values;
 }
 
-/** What the document says of a patch must be what its file holds: drawing goes by it. */
+/** The file of a patch must hold what the document states of it: draws rely on that. */
 function check(buffers: PatchBuffers, geometry: GeometryDescription, { vertexCount, draws }: PatchDescription): void {
   checkBits(buffers, geometry);
   if (geometry.value && valuesOf(buffers, geometry, geometry.value)?.bits !== geometry.value.bits) {
