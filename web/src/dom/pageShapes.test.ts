@@ -8,30 +8,30 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { sceneDeliveriesOf } from "../viewer/viewerCore.ts";
 import { PageShapes } from "./pageShapes.ts";
 
-/** A scene of as many shapes, each of a file set of its own, and what a renderer is asked for while they load. */
-function loadsOf(count: number) {
+/** The shapes of a scene, each with files of its own, and the frames that they request of the renderer while they load. */
+function loadingShapes(count: number) {
   const markup = Array.from(
     { length: count },
     (_, n) => `<Shape><ImageGeometry>${sigPatch(n)}</ImageGeometry></Shape>`,
   );
-  const shapes = shapesOf(readScene(elementsOf(`<X3D>${markup.join("")}</X3D>`)).root);
-  const heard: string[] = [];
-  for (const { element } of shapes) {
+  const described = shapesOf(readScene(elementsOf(`<X3D>${markup.join("")}</X3D>`)).root);
+  const loadEvents: string[] = [];
+  for (const { element } of described) {
     Object.assign(element, {
       dispatchEvent: ({ type }: Event) => {
-        if (type === "load") heard.push(type);
+        if (type === "load") loadEvents.push(type);
         return true;
       },
     });
   }
-  const frames = { asked: 0, atPace: 0 };
+  const frames = { requested: 0, atPace: 0 };
   const renderer = {
     isContextLost: false,
     setStage: () => {
       frames.atPace += 1;
     },
     requestFrame: () => {
-      frames.asked += 1;
+      frames.requested += 1;
     },
     requestFrameAtPace: () => {
       frames.atPace += 1;
@@ -39,7 +39,7 @@ function loadsOf(count: number) {
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));
   const deliveries = sceneDeliveriesOf(pool);
-  const loads = new PageShapes(
+  const shapes = new PageShapes(
     renderer,
     deliveries,
     {
@@ -51,21 +51,25 @@ function loadsOf(count: number) {
     },
     [],
   );
-  loads.follow({ shapes: new Map(shapes.map((shape) => [shape.element, shape])), removed: [], instances: new Map() });
+  shapes.follow({
+    shapes: new Map(described.map((shape) => [shape.element, shape])),
+    removed: [],
+    instances: new Map(),
+  });
   deliveries.geometries.request(() => everything);
-  return { loads, frames, heard };
+  return { shapes, frames, loadEvents };
 }
 
-test("shapes that come, and those that are complete, ask for frames at the GPU's own pace, the last one at once", async () => {
-  const { loads, frames, heard } = loadsOf(20);
-  while (loads.isLoading)
+test("shapes request frames at the GPU's pace for stages and completion, and the last one a frame at once", async () => {
+  const { shapes, frames, loadEvents } = loadingShapes(20);
+  while (shapes.isLoading)
     await new Promise((resolve) => {
       setTimeout(resolve, 1);
     });
-  assert.deepEqual(heard, []); // events wait for the frame
-  assert.equal(frames.asked, 1);
+  assert.deepEqual(loadEvents, []); // events wait for the frame
+  assert.equal(frames.requested, 1);
   assert.ok(frames.atPace > 20 * 4); // a stage for each file, and the end
-  loads.onFrame();
-  assert.equal(heard.length, 20);
-  assert.ok(loads.isQuiet);
+  shapes.onFrame();
+  assert.equal(loadEvents.length, 20);
+  assert.ok(shapes.isQuiet);
 });

@@ -1,5 +1,5 @@
-// Loads a scene into somebody's own three.js app, after the conventions of
-// three's loaders: `scene.x3d` or `index.html` in, an Object3D out.
+// The loader of imgeo scenes for three.js apps, with the conventions of three.js'
+// loaders: it takes the URL of a `scene.x3d` or `index.html` and gives an Object3D.
 
 import { Loader } from "three";
 import type { Progress } from "../delivery/progress.ts";
@@ -14,7 +14,7 @@ import { reportToManager } from "./managerProgress.ts";
 import { readDocument } from "./readDocument.ts";
 
 export interface LoadOptions {
-  /** Ends the loading, as `abort` does for all that a loader loads. */
+  /** Aborts this scene's loading; the loader's `abort` ends all. */
   readonly signal?: AbortSignal;
 }
 
@@ -26,22 +26,22 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
   #workers: WorkerPool | undefined;
   #aborter = new AbortController();
 
-  /** Shapes get what this makes of their X3D material, instead of a MeshStandardMaterial. */
+  /** Sets the function that makes a shape's material from its X3D material, instead of a MeshStandardMaterial. */
   setMaterial(makeMaterial: MaterialMaker): this {
     this.#makeMaterial = makeMaterial;
     return this;
   }
 
   /**
-   * Decodes images into vertex buffers in workers, instead of letting shaders read
-   * them: more memory, but three's Raycaster, which needs vertices, finds everything.
+   * Has workers decode images to vertex buffers, instead of shaders reading them. This
+   * takes more memory, but three.js' Raycaster, which needs vertices, finds everything.
    */
   setKeepVertices(keepsVertices: boolean): this {
     this.#keepsVertices = keepsVertices;
     return this;
   }
 
-  /** Where the package's `imgeo-worker.js` is, if not beside the bundle. */
+  /** Sets the URL of the package's `imgeo-worker.js`, where it is not beside the bundle. */
   setWorkerUrl(url: string | URL): this {
     this.#workerUrl = url;
     this.#workers?.dispose();
@@ -50,9 +50,9 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
   }
 
   /**
-   * `onLoad` gets the scene when all of it shows something; it goes on to refine
-   * itself, until its promise `complete` resolves. `onProgress` is called until
-   * then. `onError` is called where there is no scene, or nothing to show of it.
+   * Calls `onLoad` with the scene when all of it displays something. The scene refines
+   * itself until its promise `complete` resolves; `onProgress` is called until then.
+   * `onError` is called where there is no scene, or where none of it can be displayed.
    */
   override load(
     url: string,
@@ -85,20 +85,20 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     });
   }
 
-  /** Reads a document's text; relative URLs in it start at `path`. The scene is there at once, and empty until its files come. */
+  /** Parses a document, whose relative URLs are resolved against `path`. The scene is returned at once, and is empty until its files come. */
   parse(text: string, path = this.resourcePath || this.path): ImgeoScene {
     const url = new URL(path, document.baseURI).href;
     return this.#sceneOf(text, "the document", url);
   }
 
-  /** Ends all that this loader is loading. Scenes that are there stay as they are. */
+  /** Aborts all loading of this loader. Scenes keep what they display. */
   override abort(): this {
     this.#aborter.abort();
     this.#aborter = new AbortController();
     return this;
   }
 
-  /** Ends the workers, and what is being loaded. Scenes that are there stay as they are. */
+  /** Aborts all loading and ends the workers. Scenes keep what they display. */
   dispose(): void {
     this.abort();
     this.#workers?.dispose();
@@ -140,7 +140,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
 
   #sceneOf(text: string, name: string, documentUrl: string): ImgeoScene {
     const base = this.resourcePath === "" ? documentUrl : new URL(this.resourcePath, document.baseURI).href;
-    // What is no URL is left for the request to fail on, or for the manager to know.
+    // What is no URL is passed on: the manager may know it, or the request fails and says why.
     const urlOf = (named: string) => (URL.canParse(named, base) ? new URL(named, base).href : named);
     const resolve = (url: string) => this.manager.resolveURL(url);
     const scene = new ImgeoScene({

@@ -2,8 +2,8 @@ import type { Camera } from "three";
 import { Object3D } from "three";
 
 /**
- * Hears of each camera before a renderer looks at what stands after it in the scene.
- * three.js asks LODs so, and nothing else that has nothing to draw.
+ * Is called with each camera before a renderer visits the objects after it in the scene.
+ * It passes for a LOD: three.js updates nothing else that draws nothing.
  */
 export class CameraObserver extends Object3D {
   readonly autoUpdate = true;

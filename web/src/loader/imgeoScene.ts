@@ -1,4 +1,4 @@
-// A scene as an Object3D that fills and refines itself while its files come.
+// A scene as an Object3D, to which objects are added and refined while files come.
 
 import type { Box3, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
 import { Group, Sphere, Vector2, Vector4 } from "three";
@@ -26,32 +26,32 @@ import type { SceneHit } from "./scenePicking.ts";
 import { ScenePicker } from "./scenePicking.ts";
 
 export interface ImgeoSceneEventMap extends Object3DEventMap {
-  /** It looks different now: draw again, if you draw only when something has changed. */
+  /** The scene looks different: apps that draw on demand draw again. */
   change: object;
-  /** `abort` or `dispose` has been called: no file follows. */
+  /** `abort` or `dispose` has been called: no more files come. */
   abort: object;
   /** Bytes have come. */
   progress: { readonly progress: Progress };
-  /** A file is of no use; the rest of the scene lives. */
+  /** A file has failed; the rest of the scene goes on loading. */
   error: { readonly url: string; readonly error: Error };
 }
 
-/** Where its files come from, and what its shapes are made of. */
+/** Where a scene's files come from, and how its shapes are drawn. */
 export interface SceneSources {
-  /** Its document's <X3D>, and where that is. */
+  /** The document's <X3D>, and its absolute URL. */
   readonly x3d: SceneElement;
   readonly url: string;
-  /** The absolute URL of one that the document writes. */
+  /** Makes a URL of the document absolute. */
   readonly urlOf: (url: string) => string;
-  /** The URL to ask for instead of an absolute one. */
+  /** Gives the URL to request instead of an absolute one. */
   readonly resolve: (url: string) => string;
   readonly fetch: typeof fetch;
-  /** Orders the downloads, of other scenes too. */
+  /** Orders downloads; shared with other scenes. */
   readonly scheduler: Scheduler;
-  /** Images become vertex buffers, not textures. */
+  /** Whether images are decoded to vertex buffers instead of textures. */
   readonly keepsVertices: boolean;
   readonly makeMaterial: MaterialMaker;
-  /** Does what would hold up the page. */
+  /** Runs a job in a worker. */
   readonly runJob: RunJob;
 }
 
@@ -69,7 +69,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
 
   constructor({ x3d, url, urlOf, resolve, fetch, scheduler, keepsVertices, makeMaterial, runJob }: SceneSources) {
     super();
-    for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // nobody has to listen
+    for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // a rejection may go unhandled
     const admission = new UploadThrottle();
     const textures = new BitmapTextures(admission);
     const buffers = new ArrayBuffers();
@@ -124,35 +124,35 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#advance();
   }
 
-  /** What the documents say that are here, lights and viewpoints included, which are the app's business. */
+  /** The documents that have come, with their lights and viewpoints, which the app may use. */
   get description(): SceneDescription {
     return this.#contents.description;
   }
 
-  /** Of all shapes that are seen, in any level, as the documents tell it that are here, in this object's coordinates. */
+  /** Bounds of all visible shapes in all levels, by the documents that have come, in this object's coordinates. */
   get box(): Box3 {
     return this.#contents.box;
   }
 
-  /** Resolves when every patch that is seen shows something; rejects with the first error where none ever will. */
+  /** Resolves when every visible patch displays something; rejects with the first error where none will. */
   get firstImage(): Promise<undefined> {
     return this.#firstImage.promise;
   }
 
-  /** Resolves when every file has come or failed. Both reject with an AbortError after `abort` and `dispose`, where they have not resolved before. */
+  /** Resolves when every file has come or failed. `abort` and `dispose` reject both promises with an AbortError, unless they have resolved. */
   get complete(): Promise<undefined> {
     return this.#complete.promise;
   }
 
-  /** Its files, as far as they are. */
+  /** The state of all requested files. */
   get transfers(): readonly Readonly<Transfer>[] {
     return this.#contents.transfers;
   }
 
   /**
-   * What of it an app's picture shows at a place, in CSS pixels from the top left
-   * of the canvas; objects of the app are looked through. Waits for the GPU. The
-   * camera is the one that the picture was drawn with, over the whole canvas.
+   * Picks what an app displays of this scene at a position, in CSS pixels from the top
+   * left of the canvas. Objects of the app do not hide it. `camera` must be the one that
+   * the canvas was drawn with, over its whole area. Waits for the GPU.
    */
   pick(renderer: WebGLRenderer, camera: PerspectiveCamera, x: number, y: number): SceneHit | undefined {
     const { shapes } = this.#contents;
@@ -165,7 +165,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     );
   }
 
-  /** Ends its requests; what it shows stays. */
+  /** Ends all requests. What is displayed stays. */
   abort(): void {
     this.#contents.stop();
     const reason = new DOMException("the loading of the scene was aborted", "AbortError");
@@ -175,7 +175,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.dispatchEvent({ type: "abort" });
   }
 
-  /** Ends its requests, frees what it holds on the GPU, and takes it out of the app's scene. */
+  /** Ends all requests, frees GPU memory, and removes the scene from its parent. */
   override dispose(): void {
     this.abort();
     this.#contents.dispose();
@@ -185,7 +185,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     super.dispose();
   }
 
-  /** Not possible: what a scene shows changes while it loads. Load it again; its files are in the browser's cache. */
+  /** Throws: a scene's objects change while it loads. Load it again; its files are in the browser's cache. */
   override clone(): this {
     throw new Error("an ImgeoScene cannot be cloned; load it again");
   }
@@ -195,7 +195,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.dispatchEvent({ type: "error", url: error.url, error });
   }
 
-  /** Keeps the promises that can be kept. */
+  /** Settles the promises that can be settled. */
   #advance(): void {
     if (!this.#contents.isDisplayed) return;
     if (this.#error !== undefined && !this.#contents.shapes.hasPicture) this.#firstImage.reject(this.#error);
@@ -220,7 +220,7 @@ function surroundingsOf(scene: ImgeoScene): SceneShadowOptions {
   };
 }
 
-/** What an app says of the scene holds for all that is in it, now and later: objects come and go with each stage. */
+/** Passes `castShadow` and `receiveShadow` of a scene on to all objects in it, now and later: each stage has new objects. */
 function passOnShadows(scene: ImgeoScene): void {
   for (const name of ["castShadow", "receiveShadow"] as const) {
     let flag = false;

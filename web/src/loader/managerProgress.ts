@@ -3,7 +3,7 @@ import type { Transfer } from "../delivery/progress.ts";
 import { isSettled } from "../delivery/progress.ts";
 import type { ImgeoScene } from "./imgeoScene.ts";
 
-/** Each file of a scene, but not what its documents hold themselves, is an item of the manager, from when it is asked for until it is here, has failed or is given up. */
+/** Makes each file of a scene an item of the manager, from its request until it has come, has failed or is given up. data: URLs are no items. */
 export function reportToManager(scene: ImgeoScene, manager: LoadingManager, resolve: (url: string) => string): void {
   const open = new Set<Readonly<Transfer>>();
   const known = new WeakSet<Readonly<Transfer>>();

@@ -105,8 +105,8 @@ function drawnIn(object: Object3D, camera: PerspectiveCamera): string[] {
   ];
 }
 
-describe("what is in a scene of an app", () => {
-  test("is asked for where it is to be seen, in any of its places", async () => {
+describe("the contents of a scene in a three.js app", () => {
+  test("are requested where any instance of them is visible", async () => {
     const files = { "a.bin": triangle(), "b.bin": triangle() };
     const { contents, asked, look, settled } = appOf(
       `<X3D><Group visible="false"><Transform DEF="t">${shape("a")}</Transform>${shape("b")}</Group>
@@ -118,7 +118,7 @@ describe("what is in a scene of an app", () => {
     assert.deepEqual([asked, await look(0, 0, 5), contents.isDisplayed], [["a.bin"], ["a"], true]);
   });
 
-  test("of a LOD is the level that the nearest camera sees, and the one before until that has come", async () => {
+  test("display of a LOD the level for the nearest camera, and the level before until that has come", async () => {
     const near = held(triangle());
     const { contents, asked, aborted, look, settled } = appOf(
       `<X3D><LOD DEF="lod" range="10">${shape("near")}${shape("far")}</LOD>
@@ -143,7 +143,7 @@ describe("what is in a scene of an app", () => {
     assert.deepEqual(asked, ["far.bin", "near.bin", "near.bin"]);
   });
 
-  test("turns to the camera where it is a billboard, and hears of none where there are none", async () => {
+  test("turn billboards to the camera, and observe no camera where there are none", async () => {
     const plain = appOf(`<X3D>${shape("a")}</X3D>`, { "a.bin": triangle() });
     assert.equal(plain.contents.root.getObjectByProperty("isLOD", true), undefined);
     const { contents, look, settled } = appOf(
@@ -166,7 +166,7 @@ describe("what is in a scene of an app", () => {
     );
   });
 
-  test("that is stopped asks for nothing more, and goes on to show what there is", async () => {
+  test("request nothing more once stopped, and remain displayed", async () => {
     const { contents, asked, look, settled } = appOf(
       `<X3D><LOD range="10">${shape("near")}${shape("far")}</LOD></X3D>`,
       { "near.bin": triangle(), "far.bin": triangle() },

@@ -40,8 +40,8 @@ function shownOf({ children }: LOD): number[] {
   return children.flatMap(({ visible }, place) => (visible ? [place] : []));
 }
 
-describe("a LOD of a scene in an app", () => {
-  test("is three's own, and shows its last level until somebody has looked", () => {
+describe("a LOD in a three.js app", () => {
+  test("is a three.js LOD, and displays its last level until a camera has updated it", () => {
     const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
     assert.ok(levels instanceof LOD && levels.autoUpdate);
     assert.deepEqual(
@@ -52,7 +52,7 @@ describe("a LOD of a scene in an app", () => {
     assert.equal(levels.takeDistance(), Infinity);
   });
 
-  test("shows each camera its level, by the distance from its centre in its own lengths", () => {
+  test("displays the level for each camera, by the distance from its centre in its own units", () => {
     const { levels, looks } = levelsOf([10, 20], new Set([0, 1, 2]));
     const around = new Group();
     around.scale.setScalar(2);
@@ -73,7 +73,7 @@ describe("a LOD of a scene in an app", () => {
     assert.equal(levels.takeDistance(), Infinity);
   });
 
-  test("keeps what stands there until all of another level shows something", () => {
+  test("keeps its level until all of another displays something", () => {
     const here = new Set([2]);
     const { levels } = levelsOf([10, 20], here);
     const near = cameraAt(1, 5);
@@ -90,20 +90,20 @@ describe("a LOD of a scene in an app", () => {
     assert.deepEqual(shownOf(levels), [0]);
   });
 
-  test("shows what is wanted while it comes where nothing could stand in for it", () => {
+  test("displays the required level while it loads where no other can stand in", () => {
     const { levels } = levelsOf([10], new Set([1]), 1);
     assert.deepEqual(shownOf(levels), [1]);
     levels.update(cameraAt(1, 5));
     assert.deepEqual(shownOf(levels), [0]);
   });
 
-  test("keeps what stands there for a level of which nothing has come", () => {
+  test("keeps its level where nothing of another has come", () => {
     const { levels } = levelsOf([10, 20], new Set([2]), undefined, "failed");
     levels.update(cameraAt(1, 5));
     assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[2], 2]);
   });
 
-  test("is met by rays where it is seen alone", () => {
+  test("is intersected by rays in its displayed level only", () => {
     const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
     const scene = new Group().add(levels);
     levels.update(cameraAt(1, 15));
@@ -115,7 +115,7 @@ describe("a LOD of a scene in an app", () => {
     ); // in and out of one box
   });
 
-  test("that has no extent is infinitely far", () => {
+  test("without extent is infinitely far", () => {
     const { levels } = levelsOf([10], new Set([0, 1]));
     levels.scale.setScalar(0);
     levels.updateMatrixWorld(true);

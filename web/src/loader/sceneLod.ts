@@ -1,6 +1,6 @@
-// A LOD of the document as a LOD of three.js: whoever draws it shows the level for
-// his camera, in the same frame. Where three measures from the object's middle in
-// the world's lengths, X3D measures from `center` in the LOD's own.
+// A LOD node as a three.js LOD: a renderer that draws it updates its level for its own
+// camera in the same frame. three.js measures distances from the object's origin in
+// world units; X3D measures them from `center` in the LOD's own units.
 
 import type { Camera, Intersection, Object3D, Raycaster } from "three";
 import { LOD, Matrix4, Vector3 } from "three";
@@ -8,116 +8,116 @@ import type { LodDescription } from "../document/description.ts";
 import { lodLevelAt } from "../scene/lodLevel.ts";
 
 /**
- * How much of something is there: it is still coming; all of it shows something, as far
- * as it ever will; nothing of it has come, or will; or there is nothing in it to see.
- * The first of these that holds for a part holds for the whole.
+ * The state of an object's shapes: some still load; all display something; nothing of
+ * them has come, or will; or there are none. The state of a group is the first of these
+ * that any of its children has.
  */
 export const loadStates = ["loading", "displayed", "failed", "empty"] as const;
 export type LoadState = (typeof loadStates)[number];
 
-/** Who brings what levels show. */
+/** Loads what levels display. */
 export interface SceneLodOwner {
   loadStateOf(level: Object3D): LoadState;
-  /** A camera has looked at it: `takeDistance` says from where. */
+  /** A camera has updated a LOD: `takeDistance` gives its distance. */
   onCamera(): void;
 }
 
-// Of a scene of thousands, each is asked in each frame.
+// Reused: a scene may have thousands of LODs, which are updated in every frame.
 const eye = new Vector3(),
   center = new Vector3();
-const levelsFromWorld = new Matrix4();
+const lodFromWorld = new Matrix4();
 
 export class SceneLod extends LOD {
   readonly description: LodDescription;
-  readonly #keeper: SceneLodOwner;
-  /** What the last camera is to see. Before any has looked, what asks for least. */
-  #wanted: number;
-  #shown: number | undefined;
-  readonly #ready = new Set<number>();
-  #nearest = Infinity;
+  readonly #owner: SceneLodOwner;
+  /** The level for the last camera; before the first, the last level, which needs the fewest files. */
+  #level: number;
+  #displayedLevel: number | undefined;
+  readonly #readyLevels = new Set<number>();
+  #minDistance = Infinity;
 
   constructor(description: LodDescription, keeper: SceneLodOwner) {
     super();
     this.description = description;
-    this.#keeper = keeper;
-    this.#wanted = description.levelCount - 1;
+    this.#owner = keeper;
+    this.#level = description.levelCount - 1;
   }
 
-  /** Its children have come: they are its levels, in their order. */
+  /** Makes the children the levels, in their order. Call it after children have been added. */
   fill(): void {
     const { range } = this.description;
     this.levels.splice(
       0,
       Infinity,
-      ...this.children.map((object, place) => ({
+      ...this.children.map((object, index) => ({
         object,
-        distance: place === 0 ? 0 : (range[place - 1] ?? Infinity),
+        distance: index === 0 ? 0 : (range[index - 1] ?? Infinity),
         hysteresis: 0,
       })),
     );
-    this.#show();
+    this.#updateVisibility();
   }
 
-  /** The least distance from which it has been looked at since this was last called, in its own lengths; Infinity: it has not. */
+  /** The distance of the nearest camera since the last call, in the LOD's own units; Infinity where there was none. */
   takeDistance(): number {
-    const distance = this.#nearest;
-    this.#nearest = Infinity;
+    const distance = this.#minDistance;
+    this.#minDistance = Infinity;
     return distance;
   }
 
-  /** Of those that there are, the level that is seen. */
+  /** The displayed level. */
   override getCurrentLevel(): number {
-    return this.#shown ?? this.#wanted;
+    return this.#displayedLevel ?? this.#level;
   }
 
-  /** As the renderer calls it before it draws, unless `autoUpdate` is false. */
+  /** Called by the renderer before it draws, unless `autoUpdate` is false. */
   override update(camera: Camera): void {
-    const { range, levelCount: count } = this.description;
+    const { range, levelCount } = this.description;
     const distance = this.#distanceFrom(camera);
-    this.#nearest = Math.min(this.#nearest, distance);
-    this.#wanted = lodLevelAt(distance, range, count, this.#wanted);
-    this.#show();
-    this.#keeper.onCamera();
+    this.#minDistance = Math.min(this.#minDistance, distance);
+    this.#level = lodLevelAt(distance, range, levelCount, this.#level);
+    this.#updateVisibility();
+    this.#owner.onCamera();
   }
 
-  /** Rays meet what is seen. */
+  /** Intersects the displayed level only. */
   override raycast(raycaster: Raycaster, intersects: Intersection[]): boolean {
     const level = this.levels[this.getCurrentLevel()]?.object;
     if (level !== undefined) raycaster.intersectObject(level, true, intersects);
-    return false; // the others are not met
+    return false; // three.js does not continue with the children
   }
 
-  #show(): void {
-    this.#shown = this.#isReady(this.#wanted) ? this.#wanted : (this.#standIn() ?? this.#wanted);
-    this.levels.forEach(({ object }, place) => {
-      object.visible = place === this.#shown;
+  #updateVisibility(): void {
+    this.#displayedLevel = this.#isReady(this.#level) ? this.#level : (this.#substituteLevel() ?? this.#level);
+    this.levels.forEach(({ object }, index) => {
+      object.visible = index === this.#displayedLevel;
     });
   }
 
-  #isReady(place: number): boolean {
-    const level = this.levels[place];
-    if (level === undefined || this.#ready.has(place)) return true;
-    const presence = this.#keeper.loadStateOf(level.object);
-    const isReady = presence === "displayed" || presence === "empty";
-    if (isReady) this.#ready.add(place); // and is from then on
+  #isReady(index: number): boolean {
+    const level = this.levels[index];
+    if (level === undefined || this.#readyLevels.has(index)) return true;
+    const state = this.#owner.loadStateOf(level.object);
+    const isReady = state === "displayed" || state === "empty";
+    if (isReady) this.#readyLevels.add(index); // for good: what has been displayed stays
     return isReady;
   }
 
-  /** Until what is wanted has come: what stands there already, or else is nearest to it. */
-  #standIn(): number | undefined {
+  /** The level to display until the required one is ready: the one displayed now, or else the nearest that is displayed. */
+  #substituteLevel(): number | undefined {
     const { levels } = this;
-    const rank = (place: number) => (place === this.#shown ? -1 : Math.abs(place - this.#wanted));
-    const others = Array.from(levels.keys()).filter((place) => {
-      const level = levels[place];
-      return level !== undefined && place !== this.#wanted && this.#keeper.loadStateOf(level.object) === "displayed";
+    const rank = (index: number) => (index === this.#displayedLevel ? -1 : Math.abs(index - this.#level));
+    const others = Array.from(levels.keys()).filter((index) => {
+      const level = levels[index];
+      return level !== undefined && index !== this.#level && this.#owner.loadStateOf(level.object) === "displayed";
     });
     return others.sort((a, b) => rank(a) - rank(b))[0];
   }
 
-  /** Infinite in one without extent. */
+  /** Infinity where the LOD is scaled to nothing. */
   #distanceFrom(camera: Camera): number {
     if (this.matrixWorld.determinant() === 0) return Infinity;
-    eye.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(levelsFromWorld.copy(this.matrixWorld).invert());
+    eye.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(lodFromWorld.copy(this.matrixWorld).invert());
     return eye.distanceTo(center.set(...this.description.center));
   }
 }

@@ -1,38 +1,37 @@
-// What lies under a pixel of somebody's own app: the GPU is asked, as no vertices
-// are kept that a ray could be held against. The app's renderer is lent, and given
-// back as it was.
+// Picking in an app's own three.js scene: the GPU draws the pixel, since no vertices are
+// kept for a Raycaster. The app's renderer is used for it, and its state restored.
 
 import type { Object3D, PerspectiveCamera, WebGLRenderer } from "three";
 import { Color, Vector2, type Vector3 } from "three";
 import type { PickCandidate } from "../render/picking/picker.ts";
 import { Picker } from "../render/picking/picker.ts";
 
-/** The names are those of three's Intersection, where it has them. */
+/** Named as in three.js' Intersection where that has the same. */
 export interface SceneHit {
   /** The shape's group, named by its DEF. */
   readonly object: Object3D;
-  /** In the app's world, as `normal`. */
+  /** In world coordinates, as `normal`. */
   readonly point: Vector3;
-  /** Of length 1, as it is shaded; undefined for points and lines without normals. */
+  /** The unit normal as shaded; undefined for points and lines without normals. */
   readonly normal: Vector3 | undefined;
   readonly distance: number;
-  /** Of the geometry's patches. */
+  /** Index of the geometry's patch. */
   readonly patch: number;
-  /** Of the patch's triangles; undefined for points and lines. */
+  /** Index of the patch's triangle; undefined for points and lines. */
   readonly triangle: number | undefined;
-  /** Of the patch's vertices, the one of the triangle that is nearest. */
+  /** Index of the patch's vertex that is nearest to the hit. */
   readonly vertex: number;
 }
 
 export class ScenePicker {
   #lent: { readonly renderer: WebGLRenderer; readonly picker: Picker } | undefined;
 
-  /** At CSS pixels from the top left of the renderer's canvas; points and lines are at most `largestWidth` of them wide. Waits for the GPU. */
+  /** Picks at CSS pixels from the top left of the renderer's canvas; points and lines are at most `maxWidth` CSS pixels wide. Waits for the GPU. */
   pick(
     renderer: WebGLRenderer,
     camera: PerspectiveCamera,
     { x, y }: { readonly x: number; readonly y: number },
-    largestWidth: number,
+    maxWidth: number,
     candidates: Iterable<PickCandidate>,
   ): SceneHit | undefined {
     if (this.#lent?.renderer !== renderer) {
@@ -42,10 +41,10 @@ export class ScenePicker {
     const { picker } = this.#lent;
     const ratio = renderer.getPixelRatio();
     const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
-    const place = { x: Math.floor(x * ratio), y: Math.floor(y * ratio), width, height };
-    if (place.x < 0 || place.y < 0 || place.x >= width || place.y >= height) return undefined;
-    const slack = 1 + Math.ceil((largestWidth * ratio) / 2);
-    const hit = lend(renderer, () => picker.pick(camera, place, slack, candidates));
+    const pixel = { x: Math.floor(x * ratio), y: Math.floor(y * ratio), width, height };
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width || pixel.y >= height) return undefined;
+    const slack = 1 + Math.ceil((maxWidth * ratio) / 2);
+    const hit = lend(renderer, () => picker.pick(camera, pixel, slack, candidates));
     if (hit === undefined) return undefined;
     const { group, position, normal, patch, triangle, vertex } = hit;
     return {
@@ -65,7 +64,7 @@ export class ScenePicker {
   }
 }
 
-/** An app's renderer may clear to any colour, or not at all, and draw elsewhere than on the screen. */
+/** Sets the clear and target state that picking needs, and restores the app's. */
 function lend<Result>(renderer: WebGLRenderer, use: () => Result): Result {
   const target = renderer.getRenderTarget();
   const [face, level] = [renderer.getActiveCubeFace(), renderer.getActiveMipmapLevel()];

@@ -4,7 +4,7 @@
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
 
-/** As the element takes (dom/arrival.ts); what is larger comes alone. */
+/** The same limit as of the element (viewer/uploadPipeline.ts). A larger array or image is passed on alone. */
 const bytesPerFrame = 4 * 2 ** 20;
 
 export class UploadThrottle {

@@ -85,7 +85,7 @@ export class DeliveryControl {
     requestWithinBudget(
       deliveries,
       (geometry) => filePriorityFor(this.#instances.ofGeometry(geometry), viewState),
-      (key, chunk) => texturePriorityFor(this.#instances.ofPicture(key), chunk, viewState),
+      (key, chunk) => texturePriorityFor(this.#instances.ofTexture(key), chunk, viewState),
       this.#maxBytes,
     );
     this.#storedBytes = storedBytesOf(deliveries);

@@ -34,7 +34,7 @@ class FakeRenderer {
   }
 }
 
-describe("what arrives", () => {
+describe("the upload pipeline", () => {
   let frames: (() => void)[] = [];
   const page = {
     requestAnimationFrame: (callback: () => void) => frames.push(callback),
@@ -64,7 +64,7 @@ describe("what arrives", () => {
       signal,
     );
 
-  test("goes to the GPU a few megabytes before each frame, and all of it in the end", async () => {
+  test("uploads a few megabytes before each frame, and everything in the end", async () => {
     const renderer = new FakeRenderer();
     const stored = store(renderer, 11);
     const most = 4 * megabyte;
@@ -84,7 +84,7 @@ describe("what arrives", () => {
     assert.equal(renderer.closed, 0);
   });
 
-  test("waits for no frame while there is no picture to hold up", async () => {
+  test("waits for no frame while there is no picture", async () => {
     const renderer = new FakeRenderer();
     renderer.isEmpty = true;
     const stored = store(renderer, 1);
@@ -93,7 +93,7 @@ describe("what arrives", () => {
     await stored;
   });
 
-  test("and is not wanted any more leaves nothing behind", async () => {
+  test("leaves nothing behind of an aborted upload", async () => {
     const renderer = new FakeRenderer();
     const aborter = new AbortController();
     const stored = store(renderer, 11, aborter.signal);

@@ -1,6 +1,5 @@
-// The way of images and arrays to the GPU: images are decoded by the browser
-// beside the main thread; both are uploaded in pieces before frames, and kept
-// nowhere else.
+// Uploads images and arrays to the GPU. The browser decodes images outside of the main
+// thread; both are uploaded in pieces before frames, and kept nowhere else.
 
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DataImage } from "../decode/image.ts";
@@ -15,7 +14,7 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { Steps } from "../scheduler/frameTaskQueue.ts";
 import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
 
-/** 240 MB in a second of 60 frames; the time leaves most of a frame to drawing. */
+/** Limits of one frame: 240 MB a second at 60 frames, and time that leaves most of a frame to drawing. */
 const bytesPerFrame = 4 * 2 ** 20;
 const millisecondsPerFrame = 4;
 
@@ -25,7 +24,7 @@ export class UploadPipeline {
     bytesPerFrame,
     millisecondsPerFrame,
     now: () => performance.now(),
-    // Where there is no picture yet there is none to hold up.
+    // Without a picture there are no frames that uploads could delay.
     requestFrame: (callback) => {
       if (this.#renderer.isEmpty) setTimeout(callback);
       else beforeNextFrame(callback);
@@ -36,7 +35,7 @@ export class UploadPipeline {
     this.#renderer = renderer;
   }
 
-  /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
+  /** Decodes and uploads an image of vertex data. Rejects with DecodeError, or with the signal's reason; nothing is then left on the GPU. */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.largestTexture);
     try {
@@ -47,7 +46,7 @@ export class UploadPipeline {
     }
   }
 
-  /** The same of a picture, in any format that the browser knows; its first row is the lowest, as texture coordinates count. */
+  /** Decodes and uploads a texture in any format that the browser knows. Its first row is the lowest, as in texture coordinates. */
   async makePicture(
     bytes: Uint8Array<ArrayBuffer>,
     sampling: SamplingDescription,
@@ -62,7 +61,7 @@ export class UploadPipeline {
     }
   }
 
-  /** Rejects with the signal's reason; nothing is then left behind. */
+  /** Uploads an array. Rejects with the signal's reason; nothing is then left on the GPU. */
   async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
     const { bytes, steps } = this.#renderer.beginStoring(array, use);
     await this.#finish(steps, bytes, signal);

@@ -1,4 +1,5 @@
-// Where geometries and pictures are seen in a scene, kept true to what changes in it.
+// The visible instances of each geometry and of each texture in a scene, updated with
+// the scene's changes.
 
 import type { GeometryInstance } from "../delivery/filePriority.ts";
 import { geometryInstance } from "../delivery/filePriority.ts";
@@ -7,34 +8,34 @@ import type { GeometryDescription } from "../document/description.ts";
 import type { ShapeInstance } from "../scene/instances.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 
-/** By the places where they are. */
-type Seen = Map<object, GeometryInstance>;
+/** Keyed by the instance of the shape's node. */
+type Instances = Map<object, GeometryInstance>;
 
-const nowhere: Seen = new Map();
+const none: Instances = new Map();
 
 export class VisibleInstances {
-  readonly #geometries = new Map<GeometryDescription, Seen>();
-  /** By their keys. */
-  readonly #pictures = new Map<string, Seen>();
-  readonly #shown = new Map<object, ShapeInstance>();
+  readonly #geometries = new Map<GeometryDescription, Instances>();
+  /** By texture key (pictureKeyOf). */
+  readonly #textures = new Map<string, Instances>();
+  readonly #visible = new Map<object, ShapeInstance>();
 
-  follow(places: SceneChanges["instances"]): void {
-    for (const [place, placed] of places) {
-      const before = this.#shown.get(place);
-      if (before !== undefined) this.#forget(place, before);
-      if (placed?.shape.visible === true) this.#note(place, placed);
+  follow(instances: SceneChanges["instances"]): void {
+    for (const [node, instance] of instances) {
+      const before = this.#visible.get(node);
+      if (before !== undefined) this.#remove(node, before);
+      if (instance?.shape.visible === true) this.#add(node, instance);
     }
   }
 
   ofGeometry(geometry: GeometryDescription): Iterable<GeometryInstance> {
-    return (this.#geometries.get(geometry) ?? nowhere).values();
+    return (this.#geometries.get(geometry) ?? none).values();
   }
 
-  ofPicture(key: string): Iterable<GeometryInstance> {
-    return (this.#pictures.get(key) ?? nowhere).values();
+  ofTexture(key: string): Iterable<GeometryInstance> {
+    return (this.#textures.get(key) ?? none).values();
   }
 
-  #note(place: object, placed: ShapeInstance): void {
+  #add(node: object, instance: ShapeInstance): void {
     const {
       shape: {
         geometry,
@@ -42,16 +43,16 @@ export class VisibleInstances {
         appearance: { textures },
       },
       sceneFromShape,
-    } = placed;
+    } = instance;
     if (geometry === undefined) return;
-    const seen = geometryInstance(geometry, sceneFromShape.elements, priority, textures.length > 0);
-    add(this.#geometries, geometry, place, seen);
-    for (const texture of textures) add(this.#pictures, pictureKeyOf(texture), place, seen);
-    this.#shown.set(place, placed);
+    const added = geometryInstance(geometry, sceneFromShape.elements, priority, textures.length > 0);
+    add(this.#geometries, geometry, node, added);
+    for (const texture of textures) add(this.#textures, pictureKeyOf(texture), node, added);
+    this.#visible.set(node, instance);
   }
 
-  #forget(
-    place: object,
+  #remove(
+    node: object,
     {
       shape: {
         geometry,
@@ -59,20 +60,20 @@ export class VisibleInstances {
       },
     }: ShapeInstance,
   ): void {
-    this.#shown.delete(place);
-    if (geometry) remove(this.#geometries, geometry, place);
-    for (const texture of textures) remove(this.#pictures, pictureKeyOf(texture), place);
+    this.#visible.delete(node);
+    if (geometry) remove(this.#geometries, geometry, node);
+    for (const texture of textures) remove(this.#textures, pictureKeyOf(texture), node);
   }
 }
 
-function add<Key>(all: Map<Key, Seen>, key: Key, place: object, placed: GeometryInstance): void {
-  const seen = all.get(key);
-  if (seen === undefined) all.set(key, new Map([[place, placed]]));
-  else seen.set(place, placed);
+function add<Key>(all: Map<Key, Instances>, key: Key, node: object, instance: GeometryInstance): void {
+  const instances = all.get(key);
+  if (instances === undefined) all.set(key, new Map([[node, instance]]));
+  else instances.set(node, instance);
 }
 
-function remove<Key>(all: Map<Key, Seen>, key: Key, place: object): void {
-  const seen = all.get(key);
-  seen?.delete(place);
-  if (seen?.size === 0) all.delete(key);
+function remove<Key>(all: Map<Key, Instances>, key: Key, node: object): void {
+  const instances = all.get(key);
+  instances?.delete(node);
+  if (instances?.size === 0) all.delete(key);
 }
