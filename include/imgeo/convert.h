@@ -61,7 +61,7 @@ struct ConvertOptions {
   std::optional<MaxError> maxError{};     ///< SIG: chooses the position bits of each mesh instead of positionBits
   std::optional<ElementType> coordType{}; ///< BG: type of coordinates; default: smallest unsigned type
   Layout layout = Layout::separate;       ///< BG: order of attributes
-  NormalEncoding normals = NormalEncoding::rgb; ///< compact takes rgb for octahedral
+  NormalEncoding normals = NormalEncoding::rgb; ///< how normals are stored; compact replaces rgb by octahedral
   std::uint32_t normalBits = 0;                 ///< bits of a stored component; 0: as many as cost no file size
   std::uint32_t texCoordBits = 0;               ///< compact: 1..16; 0: 12 in compact, 16 elsewhere
   std::uint32_t colorBits = 0;                  ///< compact: 1..8; 0: 8

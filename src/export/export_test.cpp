@@ -59,7 +59,7 @@ void expectEqual(const std::vector<Corner>& read, const std::vector<Corner>& wri
   }
 }
 
-/// Gives a scene's first shape a look.
+/// Gives the first shape of a scene an appearance.
 void setLook(Scene& scene, const AnyMaterial& material) {
   std::get<Shape>(scene.graph.nodes.at(0).content).appearance = scene.graph.appearances.size();
   scene.graph.appearances.push_back({"", material, {}, AlphaMode::automatic, 0.5f});
@@ -315,9 +315,9 @@ TEST(Glb, MergesAShapeAndItsTransformIntoOneNodeUnlessBothHaveNames) {
   scene.graph.roots.clear();
   const std::size_t seat = addNode(scene.graph, {"seat", Shape{0, {}, true}, {}, ""});
   const auto placed = [&](const char* name, double x) {
-    Transform place;
-    place.translation = {x, 0, 0};
-    addRoot(scene.graph, {name, place, {seat}, ""});
+    Transform transform;
+    transform.translation = {x, 0, 0};
+    addRoot(scene.graph, {name, transform, {seat}, ""});
   };
   placed("", 1);
   placed("", 2);
@@ -333,7 +333,7 @@ TEST(Glb, MergesAShapeAndItsTransformIntoOneNodeUnlessBothHaveNames) {
   EXPECT_EQ(places, (std::vector<double>{1, 2, 3}));
   const Node& inRow = read.nodes[read.nodes[read.roots[2]].children.at(0)];
   EXPECT_EQ(inRow.name, "seat-3");
-  EXPECT_EQ(inRow.children, read.nodes[read.roots[0]].children) << "one shape stands in all places";
+  EXPECT_EQ(inRow.children, read.nodes[read.roots[0]].children) << "all instances use one shape";
 }
 
 TEST(Glb, KeepsTheLightsThatGltfCanExpress) {

@@ -1,6 +1,7 @@
 // convert(): the order of the steps from an input file to a published site.
 
 #include "imgeo/convert.h"
+
 #include "base/error.h"
 #include "base/file.h"
 #include "documents/page_sanitizer.h"

@@ -51,9 +51,9 @@ TEST_F(DamagedSource, MalformedFieldsCountAsAbsent) {
   expectWarning("<DirectionalLight direction='down'/>", "direction holds");
   expectWarning("<Background skyColor='blue'/>", "skyColor holds");
   expectWarning("<NavigationInfo headlight='yes'/>", "headlight is neither");
-  for (const char* look : {"<Material diffuseColor='red'/>", "<Material diffuseColor='1 0'/>",
-                           "<TextureTransform scale='two'/>", "<Material USE='nobody'/>"})
-    expectWarning(std::string("<Shape><Appearance>") + look + "</Appearance>" + strip() + "</Shape>", "");
+  for (const char* appearance : {"<Material diffuseColor='red'/>", "<Material diffuseColor='1 0'/>",
+                                 "<TextureTransform scale='two'/>", "<Material USE='nobody'/>"})
+    expectWarning(std::string("<Shape><Appearance>") + appearance + "</Appearance>" + strip() + "</Shape>", "");
   expectWarning("<Group bboxSize='a b c'><Shape>" + strip() + "</Shape></Group>", "bboxSize holds");
 }
 

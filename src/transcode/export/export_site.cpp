@@ -1,10 +1,11 @@
 // A site -> a mesh file: read back, welded, written.
 
 #include "transcode/export/export_site.h"
+
 #include "base/error.h"
 #include "base/file.h"
 #include "export/export.h"
-#include "scene/shape_instances.h"
+#include "transcode/export/write_scene.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/site_document.h"
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The images that are in the site; those of other hosts stay away.
+/// Reads the texture images of the site, without those of other hosts.
 void readImages(const SiteDocument& document, SceneGraph& graph) {
   const std::vector<std::string> urls = textureFilesOf(document.scene);
   for (ImageFile& image : graph.images)
@@ -32,22 +33,12 @@ ExportReport exportSite(const fs::path& site, const fs::path& output) {
     throw Error(ErrorKind::usage, output.string(), "ends in none of .ply, .obj and .glb, which say what to write");
   const SiteDocument document = openDocument(site);
   Scene scene = readMeshes(document);
-  if (*format == MeshFormat::glb) // the others have no place for images
+  if (*format == MeshFormat::glb) // PLY and OBJ do not contain images
     readImages(document, scene.graph);
 
-  ExportReport report;
+  ExportReport report = writeScene(scene, *format, output);
   if (*format == MeshFormat::glb)
     report.lightsLeftOut = lightsLeftOut(scene.graph);
-  report.format = nameOf(*format);
-  for (const ShapeInstance& placed : shapeInstances(scene.graph)) {
-    const Mesh& mesh = scene.meshes[shapeOf(scene.graph, placed.node).mesh];
-    ++report.shapes;
-    report.vertices += mesh.wedgeCount();
-    report.elements.of(mesh.topology) += mesh.elementCount();
-  }
-  const Bytes bytes = exportScene(scene, *format);
-  report.bytes = bytes.size();
-  writeFile(output, bytes);
   return report;
 }
 

@@ -36,7 +36,7 @@ Mesh columnMesh(double height) {
   return std::move(column.mesh);
 }
 
-/// Across the hall: three chords and what braces them.
+/// A truss across the hall: three chords and their braces.
 Mesh trussMesh() {
   SurfaceBuilder truss;
   truss.mesh.name = "truss";
@@ -69,7 +69,7 @@ Mesh stairsMesh(std::uint32_t rows) {
 }
 
 struct Size {
-  double back, height, backFloor; ///< where the rows end, the roof is, and the last row stands
+  double back, height, backFloor; ///< end of the rows, height of the roof, floor of the last row
 };
 
 /// Walls around, with a doorway at the back and a landing before it, and a stage.
@@ -102,8 +102,8 @@ Mesh signMesh() {
   return std::move(sign.mesh);
 }
 
-/// An arrow on a ground of one colour.
-Bytes signImage(Rgba8 ground) {
+/// An arrow on a plain background.
+Bytes signImage(Rgba8 background) {
   Image image{128, 64, 3};
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x) {
@@ -111,7 +111,7 @@ Bytes signImage(Rgba8 ground) {
       const bool isShaft = x >= 20 && x < 80 && fromMiddle < 7;
       const bool isHead = alongHead >= 0 && alongHead < 34 && fromMiddle < 24 - alongHead * 24 / 34;
       const bool isBorder = x < 3 || y < 3 || x >= image.width - 3 || y >= image.height - 3;
-      const Rgba8 color = isShaft || isHead || isBorder ? Rgba8{250, 250, 245, 255} : ground;
+      const Rgba8 color = isShaft || isHead || isBorder ? Rgba8{250, 250, 245, 255} : background;
       image.pixels.insert(image.pixels.end(), {color.r, color.g, color.b});
     }
   return encodePng(image, 9);
@@ -143,16 +143,16 @@ private:
   SceneGraph& graph() { return scene_.graph; }
 
   Shape shapeOf(Mesh mesh, Vec3f baseColor, float metallic) {
-    Appearance look;
-    look.name = mesh.name + "Look";
-    look.material =
+    Appearance appearance;
+    appearance.name = mesh.name + "Look";
+    appearance.material =
         PhysicalMaterial{.baseColor = baseColor, .metallic = metallic, .roughness = metallic > 0 ? 0.4f : 0.8f};
-    graph().appearances.push_back(std::move(look));
+    graph().appearances.push_back(std::move(appearance));
     scene_.meshes.push_back(std::move(mesh));
     return {scene_.meshes.size() - 1, graph().appearances.size() - 1, true};
   }
 
-  std::size_t placed(Vec3d at, std::size_t child, const std::string& name = "") {
+  std::size_t instanceAt(Vec3d at, std::size_t child, const std::string& name = "") {
     Transform transform;
     transform.translation = at;
     return addNode(graph(), {name, transform, {child}, ""});
@@ -167,7 +167,7 @@ private:
     addRoot(graph(), {"", viewpoint, {}, ""});
   }
 
-  /// The ceiling's, and what floor and walls throw back: nothing is black that no lamp shines on.
+  /// Light from the ceiling, and light that floor and walls reflect, so that no surface is black.
   void addLights() {
     const auto add = [&](const char* name, Vec3d direction, Vec3f color, float intensity) {
       addRoot(graph(), {name, DirectionalLight{direction, color, intensity, true}, {}, ""});
@@ -182,49 +182,49 @@ private:
     const std::size_t seat = addNode(graph(), {"seat", shapeOf(seatMesh(), {0.3f, 0.03f, 0.035f}, 0), {}, ""});
     for (std::uint32_t first = 0; first < seats; first += seatsPerRow) {
       const std::uint32_t row = first / seatsPerRow;
-      Transform place;
-      place.translation = {0, row * rowRise, firstRow + row * rowDepth};
-      Node node{fmt::format("row{}", row + 1), place, {}, ""};
+      Transform transform;
+      transform.translation = {0, row * rowRise, firstRow + row * rowDepth};
+      Node node{fmt::format("row{}", row + 1), transform, {}, ""};
       for (std::uint32_t i = 0; i < std::min(seatsPerRow, seats - first); ++i) {
         const double side = i % 2 == 0 ? 1 : -1; // from the aisle outwards
         const double x = side * (aisleWidth / 2 + (i / 2 + 0.5) * seatWidth);
-        node.children.push_back(placed({x, 0, 0}, seat));
+        node.children.push_back(instanceAt({x, 0, 0}, seat));
       }
       addRoot(graph(), std::move(node));
     }
   }
 
-  /// The same thing at every bay, at each x.
+  /// Adds instances of a shape at every bay and each x.
   void addAlong(const char* name, const Shape& shape, double back, std::initializer_list<double> xs, double y) {
     const std::size_t one = addNode(graph(), {"", shape, {}, ""});
     Node group{name, Group{}, {}, ""};
     for (double z = -2; z < back; z += bayLength)
       for (const double x : xs)
-        group.children.push_back(placed({x, y, z}, one));
+        group.children.push_back(instanceAt({x, y, z}, one));
     addRoot(graph(), std::move(group));
   }
 
-  /// On every fourth row, beside the aisle, in turn in two colours.
+  /// Adds signs at every fourth row, beside the aisle, alternating between two colours.
   void addSigns(std::uint32_t rows) {
     scene_.meshes.push_back(signMesh());
     std::vector<std::size_t> signs;
-    for (const Rgba8 ground : {Rgba8{20, 90, 60, 255}, Rgba8{30, 60, 120, 255}}) {
-      graph().images.push_back({"sign.png", signImage(ground)});
+    for (const Rgba8 background : {Rgba8{20, 90, 60, 255}, Rgba8{30, 60, 120, 255}}) {
+      graph().images.push_back({"sign.png", signImage(background)});
       Texture texture;
       texture.image = graph().images.size() - 1;
       texture.boundaryS = texture.boundaryT = Boundary::clamp;
       graph().textures.push_back(texture);
-      Appearance look;
-      look.name = fmt::format("sign{}", signs.size() + 1);
-      look.material = PhysicalMaterial{.metallic = 0, .roughness = 0.9f};
-      look.textures = {{TextureRole::color, graph().textures.size() - 1, {}}};
-      graph().appearances.push_back(std::move(look));
+      Appearance appearance;
+      appearance.name = fmt::format("sign{}", signs.size() + 1);
+      appearance.material = PhysicalMaterial{.metallic = 0, .roughness = 0.9f};
+      appearance.textures = {{TextureRole::color, graph().textures.size() - 1, {}}};
+      graph().appearances.push_back(std::move(appearance));
       signs.push_back(
           addNode(graph(), {"", Shape{scene_.meshes.size() - 1, graph().appearances.size() - 1, false}, {}, ""}));
     }
     Node group{"signs", Group{}, {}, ""};
     for (std::uint32_t row = 0; row < rows; row += 4)
-      group.children.push_back(placed({0, row * rowRise + 2.6, firstRow + row * rowDepth}, signs[row / 4 % 2]));
+      group.children.push_back(instanceAt({0, row * rowRise + 2.6, firstRow + row * rowDepth}, signs[row / 4 % 2]));
     addRoot(graph(), std::move(group));
   }
 

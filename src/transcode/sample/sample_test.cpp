@@ -21,7 +21,7 @@ TEST(SampleHall, HasOneMeshForAllItsSeats) {
     EXPECT_TRUE(isConsistent(mesh)) << mesh.name;
     for (const Vec3f& normal : mesh.normals)
       ASSERT_NEAR(length(Vec3d(normal)), 1, 1e-5) << mesh.name;
-    // Faces look to where their normals point.
+    // Front sides of faces are where their normals point.
     for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
       const Vec3d a(mesh.cornerPosition(i)), b(mesh.cornerPosition(i + 1)), c(mesh.cornerPosition(i + 2));
       const Vec3d normal = cross(b - a, c - a);

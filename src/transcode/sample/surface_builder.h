@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces by formulas -> Mesh, for generated scenes.
+// Parametric surfaces -> Mesh, for generated scenes.
 
 #include "scene/mesh.h"
 
@@ -16,8 +16,8 @@ public:
     Vec3d position, normal;
   };
 
-  /// A grid of rows x columns quads; `at(u, v)` for u, v in 0..1. Faces look to where
-  /// the cross product of the steps along u and along v points.
+  /// Adds a grid of columns x rows quads of the surface `at(u, v)`, u and v in 0..1. The front side is that of the
+  /// cross product of the derivatives by u and by v.
   template <typename At> void addGrid(std::uint32_t columns, std::uint32_t rows, const At& at) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (std::uint32_t row = 0; row <= rows; ++row)
@@ -49,7 +49,7 @@ public:
       }
   }
 
-  /// A round bar without ends; `flutes` of them run along it where there are any.
+  /// Adds a cylinder without caps. `flutes`: number of grooves along it.
   void addBar(Vec3d from, Vec3d to, double radius, std::uint32_t segments, std::uint32_t rings = 1, int flutes = 0) {
     const Vec3d along = (to - from) * (1 / length(to - from));
     const Vec3d aside = cross(along, std::abs(along.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0});
@@ -62,18 +62,18 @@ public:
     });
   }
 
-  /// A cushion: a superellipsoid (Barr 1981) of the exponent 1/4.
+  /// Adds a cushion: a superellipsoid (Barr 1981) with the exponent 1/4.
   void addCushion(Vec3d center, Vec3d half, std::uint32_t segments) {
     const auto power = [](double value, double exponent) {
       return std::copysign(std::pow(std::abs(value), exponent), value);
     };
     addGrid(segments, segments / 2, [&](double u, double v) {
       const double phi = 2 * std::numbers::pi * u, theta = std::numbers::pi * (v - 0.5);
-      const auto place = [&](double e) {
+      const auto pointAt = [&](double e) {
         return Vec3d{power(std::cos(theta), e) * power(std::cos(phi), e), power(std::sin(theta), e),
                      -power(std::cos(theta), e) * power(std::sin(phi), e)};
       };
-      const Vec3d unit = place(0.25), normal = place(1.75);
+      const Vec3d unit = pointAt(0.25), normal = pointAt(1.75);
       return Point{center + Vec3d{unit.x * half.x, unit.y * half.y, unit.z * half.z},
                    {normal.x / half.x, normal.y / half.y, normal.z / half.z}};
     });

@@ -1,4 +1,5 @@
 #include "transcode/site/staged_site.h"
+
 #include "transcode/site/site_files.h"
 
 #include "base/error.h"

@@ -270,7 +270,7 @@ TEST(RoundTrip, MeshesWithoutExtentAreConverted) {
     options.encoding = encoding;
     expectRoundTrip(flat, options, "flat");
     expectRoundTrip(point, options, "one point");
-    expectRoundTrip(collapsed, options, "all in one place");
+    expectRoundTrip(collapsed, options, "all at one position");
   }
 }
 

@@ -284,7 +284,7 @@ TEST(Verify, SeesAnotherMaterialAndAnotherTextureTransform) {
     writeFile(site / sceneName, asBytes(writeX3d(scene)));
     return verify(site, input).findings;
   };
-  const auto isTextured = [](const Appearance& look) { return !look.textures.empty(); };
+  const auto isTextured = [](const Appearance& appearance) { return !appearance.textures.empty(); };
   SceneDocument red = opened.scene, moved = opened.scene;
   const auto plain = std::ranges::find_if_not(red.graph.appearances, isTextured);
   std::get<PhysicalMaterial>(plain->material).baseColor = {1, 0, 0};

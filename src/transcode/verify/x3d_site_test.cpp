@@ -134,7 +134,7 @@ TEST_F(X3dSite, EqualsItsSourceAndCanBeExported) {
   const VerifyReport verified = verify(directory_ / "site", directory_ / "hall.x3d");
   EXPECT_TRUE(verified.equal) << verified.findings.at(0);
   const ExportReport exported = exportSite(directory_ / "site", directory_ / "hall.ply");
-  EXPECT_EQ(exported.elements.triangles, 6u); // in three places
+  EXPECT_EQ(exported.elements.triangles, 6u); // three instances
 }
 
 } // namespace
