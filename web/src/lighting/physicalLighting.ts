@@ -31,7 +31,8 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
   float alpha2 = alpha * alpha;
   float spread = (NH * alpha2 - NH) * NH + 1.0;
   float distribution = alpha2 / (spread * spread);
-  float visibility = 0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
+  float visibility =
+    0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
   vec3 fresnel = mix(normalReflectance(material), vec3(1.0), pow(1.0 - VH, 5.0));
   reflected.directDiffuse += light.color * NL * (1.0 - fresnel) * (1.0 - material.metallic) * material.diffuseColor;
   reflected.directSpecular += light.color * NL * fresnel * distribution * visibility;
@@ -50,7 +51,8 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
   reflected.indirectDiffuse += light * (1.0 - material.metallic) * material.diffuseColor;
   float NV = clamp(dot(normal, viewDirection), 0.0, 1.0);
-  reflected.indirectSpecular += (light + environmentRadiance * material.metallic) * environmentReflectance(material, NV);
+  vec3 radiance = light + environmentRadiance * material.metallic;
+  reflected.indirectSpecular += radiance * environmentReflectance(material, NV);
 }
 `;
 

@@ -31,7 +31,8 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
   if (facing <= 0.0) return;
   vec3 halfway = normalize(light.direction + viewDirection);
   reflected.directDiffuse += light.color * material.diffuseColor * facing;
-  reflected.directSpecular += light.color * material.specularColor * pow(max(dot(normal, halfway), 1e-6), material.shininess);
+  float highlight = pow(max(dot(normal, halfway), 1e-6), material.shininess);
+  reflected.directSpecular += light.color * material.specularColor * highlight;
 }
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,

@@ -459,7 +459,7 @@ describe("wide lines", () => {
   });
 });
 
-test("the meaning of stored values is in the instance record, so that shapes of different ranges share a draw call", () => {
+test("instance records hold what stored values mean, so that shapes of different ranges share a draw call", () => {
   const scene = new Scene();
   const members = [10, 20].map((start) => scene.add(drawOf(stageOf(start), true), 0));
   assert.equal(scene.frame().length, 1);

@@ -7,7 +7,8 @@ import { readScene } from "../../document/readScene.ts";
 import { BatchingPlan, minInstances, maxMergedVertices } from "./batchingPlan.ts";
 
 function geometry(name: string, vertices: number, profile = "compact"): string {
-  return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/></ImageGeometry>`;
+  const patch = `<GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/>`;
+  return `<ImageGeometry DEF="${name}" profile="${profile}">${patch}</ImageGeometry>`;
 }
 
 function planOf(instances: readonly ShapeDescription[]): BatchingPlan {

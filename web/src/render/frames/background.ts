@@ -13,7 +13,8 @@ const vertexShader = /* glsl */ `
 varying vec3 direction;
 void main() {
   gl_Position = vec4(position.xy, 1.0, 1.0);
-  vec2 slope = (position.xy + vec2(projectionMatrix[2][0], projectionMatrix[2][1])) / vec2(projectionMatrix[0][0], projectionMatrix[1][1]);
+  vec2 center = vec2(projectionMatrix[2][0], projectionMatrix[2][1]);
+  vec2 slope = (position.xy + center) / vec2(projectionMatrix[0][0], projectionMatrix[1][1]);
   direction = transpose(mat3(viewMatrix)) * vec3(slope, -1.0);
 }
 `;
@@ -27,17 +28,23 @@ uniform int skyCount;
 uniform int groundCount;
 varying vec3 direction;
 
+float shareBetween(float begin, float end, float angle) {
+  return clamp((angle - begin) / max(end - begin, 1e-6), 0.0, 1.0);
+}
+
 void main() {
   float fromZenith = acos(clamp(normalize(direction).y, -1.0, 1.0));
   float fromNadir = PI - fromZenith;
   vec3 color = skyColors[0];
   for (int i = 1; i < RINGS; ++i) {
-    if (i < skyCount && fromZenith > skyAngles[i - 1]) color = mix(skyColors[i - 1], skyColors[i], clamp((fromZenith - skyAngles[i - 1]) / max(skyAngles[i] - skyAngles[i - 1], 1e-6), 0.0, 1.0));
+    if (i < skyCount && fromZenith > skyAngles[i - 1])
+      color = mix(skyColors[i - 1], skyColors[i], shareBetween(skyAngles[i - 1], skyAngles[i], fromZenith));
   }
   if (groundCount > 0 && fromNadir <= groundAngles[groundCount - 1]) {
     color = groundColors[0];
     for (int i = 1; i < RINGS; ++i) {
-      if (i < groundCount && fromNadir > groundAngles[i - 1]) color = mix(groundColors[i - 1], groundColors[i], clamp((fromNadir - groundAngles[i - 1]) / max(groundAngles[i] - groundAngles[i - 1], 1e-6), 0.0, 1.0));
+      if (i < groundCount && fromNadir > groundAngles[i - 1])
+        color = mix(groundColors[i - 1], groundColors[i], shareBetween(groundAngles[i - 1], groundAngles[i], fromNadir));
     }
   }
   gl_FragColor = vec4(color, 1.0);

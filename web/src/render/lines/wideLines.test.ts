@@ -62,7 +62,7 @@ function endsOf(
 }
 
 describe("wide lines in buffers", () => {
-  test("have one instance per pair of indices, starting at the draw's first index, whatever the records' stride", () => {
+  test("have one instance per pair of indices from the draw's first index on, whatever the records' stride", () => {
     assert.deepEqual(
       endsOf({ primitive: "lines", first: 2, count: 4, isWide: true }, Uint16Array.from([0, 1, 5, 3, 3, 6])),
       { count: 2, begins: [50, 30], ends: [30, 60], colors: [3, 6] },

@@ -22,7 +22,8 @@ const glyphsChunk = /* glsl */ `
     if (share == 0.0) discard;
     diffuseColor.a *= share / field; // the map has already multiplied it by the field
   #else
-    if (diffuseColor.a >= 0.0) discard; // always true; a plain discard lets compilers drop the whole shader, and WebGL then draws nothing
+    // Always true; a plain discard lets compilers drop the whole shader, and WebGL then draws nothing.
+    if (diffuseColor.a >= 0.0) discard;
   #endif
 #endif
 `;

@@ -7,8 +7,7 @@ import type { AppearanceDescription } from "../../document/description.ts";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { SceneLightUniforms } from "../lights/sceneLights.ts";
-import type { VertexFormat } from "../shaders/vertexFormat.ts";
-import type { VertexUniforms } from "../shaders/vertexFormat.ts";
+import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 
 export interface MaterialFactory {

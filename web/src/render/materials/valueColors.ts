@@ -10,8 +10,7 @@ import type { AttributeDescription, ColorMapDescription } from "../../document/d
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instanceFields, instancesDefine } from "../shaders/instanceRecord.ts";
 import { readVertexStatement } from "../shaders/vertexChunk.ts";
-import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
-import { imageVerticesDefine } from "../shaders/vertexFormat.ts";
+import { imageVerticesDefine, srgbColorsDefine } from "../shaders/vertexFormat.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { wideLinesDefine } from "../shaders/wideLineChunk.ts";
 

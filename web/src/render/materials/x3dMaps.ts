@@ -57,9 +57,11 @@ export const x3dMaterialChunk = /* glsl */ `
   totalEmissiveRadiance = diffuseColor.rgb;
   X3dMaterial material = X3dMaterial(vec3(0.0), vec3(0.0), 1.0, vec3(0.0), 0.0, 1.0);
 #elif defined(${instancesDefine})
-  X3dMaterial material = X3dMaterial(diffuseColor.rgb, instanceSpecular.rgb, instanceSpecular.a, vec3(instanceEmissive.a), instanceSpecular.r, instanceSpecular.g);
+  X3dMaterial material = X3dMaterial(
+    diffuseColor.rgb, instanceSpecular.rgb, instanceSpecular.a, vec3(instanceEmissive.a), instanceSpecular.r, instanceSpecular.g);
 #else
-  X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess, vec3(ambientIntensity), metallic, roughness);
+  X3dMaterial material = X3dMaterial(
+    diffuseColor.rgb, specular, shininess, vec3(ambientIntensity), metallic, roughness);
 #endif
 #ifdef USE_SPECULARMAP
   material.specularColor *= texture2D(specularMap, vSpecularMapUv).rgb;

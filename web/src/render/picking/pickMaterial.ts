@@ -1,10 +1,9 @@
-// What the picking pass draws: instead of a colour, each pixel gets the draw it
-// shows, the primitive and vertex of it, and the point and normal there. Vertices
-// come from the same chunk as in every other pass, so that what is hit is what is
-// seen.
+// The material of the picking pass. Instead of a colour, each pixel gets the id of its draw, the
+// primitive and the nearest vertex, and the position and normals there. Vertices come from the same
+// chunk as in every other pass, so that hits agree with the picture.
 //
-// Four targets of 32-bit unsigned integers, which every WebGL 2 can draw into;
-// floats pass through as their bits.
+// Four attachments of 32-bit unsigned integers, which every WebGL 2 can draw into; floats are
+// stored as their bits.
 
 import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
@@ -12,17 +11,15 @@ import type { DrawRange } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "../shaders/texCoords.ts";
-import type { VertexFormat } from "../shaders/vertexFormat.ts";
-import type { VertexUniforms } from "../shaders/vertexFormat.ts";
+import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
-import { vertexDefinesOf } from "../shaders/vertexFormat.ts";
-import { imageVerticesDefine } from "../shaders/vertexFormat.ts";
+import { imageVerticesDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
 import { followViewport, wideLinesDefine } from "../shaders/wideLineChunk.ts";
 import { isLine } from "../primitives/primitives.ts";
 
 /**
- * Where in a pixel's words each field begins. Normals are zero where there is
- * none; the three words of a vertex of the face stand in what the others leave.
+ * Offset of each field in the 32-bit words of a pixel. Normals are zero where there are none. The three words of
+ * `facePoint`, a vertex of the face, fill words that other fields leave free.
  */
 export const pickedWordOffsets = {
   pickId: 0,
@@ -36,7 +33,7 @@ export const pickedWordOffsets = {
 } as const;
 export const pickTargetCount = 4;
 
-/** Where alpha is too little, nothing is hit. */
+/** Defined where fragments with too little alpha are not hit. */
 const alphaCutoffDefine = "HAS_ALPHA_CUTOFF";
 
 const vertexShader = /* glsl */ `
@@ -65,9 +62,10 @@ void main() {
     vertexAlpha = vertex.color.a;
   #endif
   vPosition = transformed;
-  vNormal = hasNormals ? objectNormal / max(length(objectNormal), 1e-30) : vec3(0.0); // as materials do before they interpolate
-  // Of vertices behind an index buffer, WebGL tells the shader no more than the
-  // number of the primitive's last one; picking.ts finds the rest.
+  // Normalized before interpolation, as in materials.
+  vNormal = hasNormals ? objectNormal / max(length(objectNormal), 1e-30) : vec3(0.0);
+  // For vertices behind an index buffer, the shader gets only the index of the primitive's last
+  // vertex; picker.ts finds the rest.
   element = gl_VertexID;
   cornerVertices = ivec3(gl_VertexID);
   cornerWeights = vec3(1.0, 0.0, 0.0);
@@ -81,8 +79,8 @@ void main() {
     #if defined(${wideLinesDefine})
       cornerVertices.xy = ivec2(recordIndex(drawVertexIndex(0)), recordIndex(drawVertexIndex(1)));
     #elif defined(IS_LINE_STRIP)
-      // A vertex ends one line and begins the next, so even numbers are one corner
-      // and odd ones the other; of flat values the line's last vertex counts.
+      // A vertex ends one line and begins the next, so even indices are one corner and odd ones the
+      // other; flat varyings have the value of the line's last vertex.
       element = gl_VertexID - 1;
       int other = recordIndex(max(element, 0));
       bool isEven = (gl_VertexID & 1) == 0;
@@ -155,18 +153,18 @@ export interface PickMaterialRequest extends VertexFormat {
   readonly side: Side;
   readonly hasNormals: boolean;
   readonly alphaMask: AlphaMask | undefined;
-  /** Shared with the material that draws the colours. */
+  /** Shared with the material of the picture. */
   readonly uniforms: VertexUniforms;
 }
 
 export type PickMaterial = ShaderMaterial & { uniforms: { pickId: { value: number } } };
 
-/** Where what is drawn has holes: alpha below the cutoff. */
+/** Where a surface has holes: fragments with alpha below the cutoff. */
 export interface AlphaMask {
   readonly texture: Texture | undefined;
-  /** Whether the vertices' colours have alpha. */
+  /** Whether vertex colours have alpha. */
   readonly isOfVertices: boolean;
-  /** Multiplies the others. */
+  /** Multiplies the other alphas. */
   readonly factor: number;
   readonly cutoff: number;
 }

@@ -62,7 +62,8 @@ vec3 unitOf(vec2 pair) {
 
 #ifdef ${imageVerticesDefine}
 
-uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3, normalImage, colorImage, texCoordImage;
+uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3;
+uniform sampler2D normalImage, colorImage, texCoordImage;
 uniform ivec4 firstTexels;
 uniform ivec4 coordFirstTexels;
 uniform int coordPlanes;
@@ -165,7 +166,8 @@ vec3 slopeAt(ivec2 at) {
   int left = isGridClosed ? (at.x + last.x) % gridSize.x : max(at.x - 1, 0);
   int right = isGridClosed ? (at.x + 1) % gridSize.x : min(at.x + 1, last.x);
   vec3 along = storedPosition(at.y * gridSize.x + right) - storedPosition(at.y * gridSize.x + left);
-  vec3 down = storedPosition(min(at.y + 1, last.y) * gridSize.x + at.x) - storedPosition(max(at.y - 1, 0) * gridSize.x + at.x);
+  int above = max(at.y - 1, 0), below = min(at.y + 1, last.y);
+  vec3 down = storedPosition(below * gridSize.x + at.x) - storedPosition(above * gridSize.x + at.x);
   return cross(down, along) / latticeStep;
 }
 

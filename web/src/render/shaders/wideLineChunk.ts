@@ -60,7 +60,8 @@ vec2 sharesSeen(vec4 begin, vec4 end) {
 
 void layLine(vec3 from, vec3 to) {
   mat4 clipFromObject = projectionMatrix * modelViewMatrix;
-  vec4 begin = clipFromObject * vec4(instancePosition(from), 1.0), end = clipFromObject * vec4(instancePosition(to), 1.0);
+  vec4 begin = clipFromObject * vec4(instancePosition(from), 1.0);
+  vec4 end = clipFromObject * vec4(instancePosition(to), 1.0);
   vec2 shares = sharesSeen(begin, end);
   vec2 way = onScreen(mix(begin, end, shares.y)) - onScreen(mix(begin, end, shares.x));
   vec2 along = dot(way, way) > 1e-12 ? normalize(way) : vec2(1.0, 0.0);

@@ -15,9 +15,7 @@ import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
 import type { PatchContext } from "./patchContext.ts";
 import { setAppearance, uniformsOf } from "./stageUniforms.ts";
-import { colorsOf } from "./materialRequests.ts";
-import { pickRequestOf } from "./materialRequests.ts";
-import { materialRequestOf } from "./materialRequests.ts";
+import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.ts";
 import { boundsOf } from "./stageBounds.ts";
 
 /**
