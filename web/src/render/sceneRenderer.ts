@@ -379,18 +379,18 @@ export class SceneRenderer {
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
-    void this.#lookAround();
+    void this.#sampleSurroundings();
     if (this.#cameraController.isMoving) this.requestFrame();
   }
 
   /** Samples the surroundings for the camera controller, when the GPU has drawn them. */
-  async #lookAround(): Promise<void> {
-    const lookout = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
-    if (lookout === undefined) return;
-    const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(lookout.eye);
-    const surroundings = await this.#depthProbe.probe(lookout, depth, this.#shapes.candidatesIgnoringCulling());
-    if (surroundings === undefined) return;
-    this.#cameraController.addGroundSamples(lookout, surroundings);
+  async #sampleSurroundings(): Promise<void> {
+    const depthCamera = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
+    if (depthCamera === undefined) return;
+    const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(depthCamera.eye);
+    const samples = await this.#depthProbe.probe(depthCamera, depth, this.#shapes.candidatesIgnoringCulling());
+    if (samples === undefined) return;
+    this.#cameraController.addGroundSamples(depthCamera, samples);
     this.requestFrame();
   }
 }

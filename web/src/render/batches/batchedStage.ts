@@ -76,7 +76,7 @@ export class BatchedStage implements PatchDraws {
     this.#context = { ...this.#context, appearance, surfaceTextures };
     for (const pick of this.picks) pick.releaseResources();
     const isSame = this.#draws.every(
-      ({ ranges: [range], materialKey: materialKey }) =>
+      ({ ranges: [range], materialKey }) =>
         range && materialKey === materialKeyOf(this.#stage, range, appearance, surfaceTextures, this.#batch.batching),
     );
     if (isSame) {

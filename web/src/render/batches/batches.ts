@@ -233,11 +233,11 @@ export class Batches {
   }
 
   /** A key that is equal for members that one batch can draw. */
-  #keyOf({ draw: { stage, ranges, isMerged, request, materialKey: lookKey }, isMirrored }: Member): string {
+  #keyOf({ draw: { stage, ranges, isMerged, request, materialKey }, isMirrored }: Member): string {
     const mesh = isMerged
       ? layoutOf(stage as BufferStage)
       : `${this.#numberOf(stage)} ${ranges.map((range) => stage.draws.indexOf(range)).join()}`;
-    return JSON.stringify([mesh, request, lookKey, isMirrored], (name, value: unknown) =>
+    return JSON.stringify([mesh, request, materialKey, isMirrored], (name, value: unknown) =>
       name === "uniforms" || name === "shared" ? undefined : value,
     );
   }

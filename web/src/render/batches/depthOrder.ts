@@ -11,8 +11,8 @@ export function runsOf(members: Iterable<Member>, frustum: Frustum, viewFromRoot
   const [, , xz, , , , yz, , , , zz] = viewFromRoot.elements;
   const seen: { readonly member: Member; readonly batch: Batch; readonly height: number }[] = [];
   for (const member of members) {
-    const { batch, isVisible: isShown, sphere } = member;
-    if (batch === undefined || !isShown || !frustum.intersectsSphere(sphere)) continue;
+    const { batch, isVisible, sphere } = member;
+    if (batch === undefined || !isVisible || !frustum.intersectsSphere(sphere)) continue;
     const { x, y, z } = sphere.center;
     seen.push({ member, batch, height: xz * x + yz * y + zz * z }); // the camera looks along its -z
   }

@@ -53,7 +53,7 @@ export class InstancedBatch implements Batch {
 
   update(frustum: Frustum): void {
     const members = Array.from(this.#members).filter(
-      ({ isVisible: isShown, sphere }) => isShown && frustum.intersectsSphere(sphere),
+      ({ isVisible, sphere }) => isVisible && frustum.intersectsSphere(sphere),
     );
     this.drawRuns(members.length > 0 ? [{ members, order: 0 }] : []);
   }

@@ -81,6 +81,6 @@ export class MergedBatch implements Batch {
   #measure(): void {
     this.#isTouched = false;
     this.#sphere.makeEmpty();
-    for (const { isVisible: isShown, sphere } of this.#mesh.members) if (isShown) this.#sphere.union(sphere);
+    for (const { isVisible, sphere } of this.#mesh.members) if (isVisible) this.#sphere.union(sphere);
   }
 }

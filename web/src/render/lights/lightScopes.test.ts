@@ -27,7 +27,7 @@ test("programs of scenes with only global lights contain no light scopes", () =>
 });
 
 test("each light's scope range stands in the order in which three.js counts lights", () => {
-  const { lightScopeRanges: lightScopeRanges, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
+  const { lightScopeRanges, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
     <Group><DirectionalLight color="1 0.5 0" ambientIntensity="0.5"/><Group><SpotLight global="false"/></Group></Group>
     <Group><PointLight global="false"/></Group>`);
   const point = [3, 3],

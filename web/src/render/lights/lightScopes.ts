@@ -15,7 +15,7 @@ export interface ShapeGroup extends Group {
   lightScope?: LightScope;
 }
 
-export function hasLightScopes({ lightScopeRanges: lightScopeRanges }: SceneLightUniforms): boolean {
+export function hasLightScopes({ lightScopeRanges }: SceneLightUniforms): boolean {
   return lightScopeRanges.value.length > 0;
 }
 

@@ -74,7 +74,7 @@ function ambientOf({ color, ambientIntensity }: LightDescription): Color {
  * light.
  */
 function setScopeRanges(
-  { lightScopeRanges: lightScopeRanges, scopedAmbients }: SceneLightUniforms,
+  { lightScopeRanges, scopedAmbients }: SceneLightUniforms,
   lights: readonly LightInstance[],
 ): void {
   for (const kind of ["point", "spot", "directional"] as const) {

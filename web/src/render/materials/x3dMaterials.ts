@@ -93,7 +93,7 @@ function makeMaterial(
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    const { depthRange, attenuations, lightScopeRanges: lightScopeRanges, scopedAmbients } = shared;
+    const { depthRange, attenuations, lightScopeRanges, scopedAmbients } = shared;
     Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightScopeRanges, scopedAmbients, ...lit });
     addVertexReading(shader);
     addRoundPoints(shader);

@@ -46,16 +46,16 @@ export class DepthProbe {
 
   /** `depth`: the distance below the eye that is searched for ground. Undefined where the context is lost meanwhile. */
   async probe(
-    lookout: DepthCamera,
+    depthCamera: DepthCamera,
     depth: number,
     candidates: readonly PickCandidate[],
   ): Promise<GroundSamples | undefined> {
     this.#isBusy = true;
     try {
-      const nearest = lookout.range * 1e-3;
-      const farthest = lookout.range * 2;
-      const down = downwards(lookout, depth);
-      const around = Array.from({ length: directions }, (_, turn) => sideways(lookout, turn, nearest, farthest));
+      const nearest = depthCamera.range * 1e-3;
+      const farthest = depthCamera.range * 2;
+      const down = downwards(depthCamera, depth);
+      const around = Array.from({ length: directions }, (_, turn) => sideways(depthCamera, turn, nearest, farthest));
       const surfaces = candidates.filter(({ pick }) => cornersOf(pick.range) === 3);
       for (const shot of [down, ...around]) this.#take(shot, surfaces);
       const gl = this.#renderer.getContext() as WebGL2RenderingContext;

@@ -38,7 +38,7 @@ class Watched {
   /** Everything that a renderer can see. */
   get seen(): unknown {
     this.graph.turnBillboards(viewer);
-    const { box, boundedGroups: bounded, viewpoints, levels, lightUniforms, root } = this.graph;
+    const { box, boundedGroups, viewpoints, levels, lightUniforms, root } = this.graph;
     const groups = (of: Object3D): string =>
       of.children
         .map((group) => [group.type, group.visible, group.matrixWorld.elements, groups(group)].join(" "))
@@ -49,7 +49,7 @@ class Watched {
     );
     return {
       box,
-      bounded: bounded.map((each) => each.box),
+      bounded: boundedGroups.map((each) => each.box),
       viewpoints,
       levels,
       lightUniforms,
@@ -196,7 +196,7 @@ test("a group's bounding box field stands for the boxes of its children, and let
   );
   const {
     box: { min, max },
-    boundedGroups: bounded,
+    boundedGroups,
   } = buildGraph(scene);
   assert.deepEqual(
     [min.toArray(), max.toArray()],
@@ -206,7 +206,7 @@ test("a group's bounding box field stands for the boxes of its children, and let
     ],
   );
   assert.deepEqual(
-    bounded.map(({ box }) => [box.min.x, box.max.x]),
+    boundedGroups.map(({ box }) => [box.min.x, box.max.x]),
     [
       [8, 16],
       [9, 11],

@@ -120,8 +120,8 @@ export class SceneShapes {
     this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
     if (areRenumbered) this.#batches.followAll();
-    const { box, boundedGroups: bounded, viewpoints, levels, anchors } = this.#graph;
-    this.#boundedGroups = bounded;
+    const { box, boundedGroups, viewpoints, levels, anchors } = this.#graph;
+    this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
       this.#documentBox = box.clone();
       this.#box = box.clone();
