@@ -14,10 +14,10 @@ namespace imgeo::testing {
 namespace {
 
 int maxDifference(const Raster& a, const Raster& b) {
-  int most = a.width == b.width && a.height == b.height ? 0 : 256;
+  int maximum = a.width == b.width && a.height == b.height ? 0 : 256;
   for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
-    most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
-  return most;
+    maximum = std::max(maximum, std::abs(a.pixels[i] - b.pixels[i]));
+  return maximum;
 }
 
 /// A gradient that a lossy encoder keeps.
@@ -120,8 +120,8 @@ TEST(Downscaled, WeighsPixelsByTheirCoveredArea) {
 }
 
 TEST(SizeWithin, KeepsProportionsAndEnlargesNothing) {
-  const auto fitted = [](std::uint32_t width, std::uint32_t height, std::uint32_t longest) {
-    const RasterSize size = sizeWithin({width, height}, longest);
+  const auto fitted = [](std::uint32_t width, std::uint32_t height, std::uint32_t maxEdge) {
+    const RasterSize size = sizeWithin({width, height}, maxEdge);
     return std::pair(size.width, size.height);
   };
   EXPECT_EQ(fitted(4000, 1000, 512), std::pair(512u, 128u));

@@ -44,13 +44,13 @@ Bytes brotli(ByteSpan bytes) {
 /// Removes the text up to the first `separator` from `rest` and returns it without surrounding blanks.
 std::string_view takeUntil(std::string_view& rest, char separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
-  std::string_view part = rest.substr(0, end);
+  std::string_view token = rest.substr(0, end);
   rest.remove_prefix(std::min(end + 1, rest.size()));
-  while (!part.empty() && (part.front() == ' ' || part.front() == '\t'))
-    part.remove_prefix(1);
-  while (!part.empty() && (part.back() == ' ' || part.back() == '\t'))
-    part.remove_suffix(1);
-  return part;
+  while (!token.empty() && (token.front() == ' ' || token.front() == '\t'))
+    token.remove_prefix(1);
+  while (!token.empty() && (token.back() == ' ' || token.back() == '\t'))
+    token.remove_suffix(1);
+  return token;
 }
 
 /// "q=0.5" in thousandths, 0..1000; nothing if malformed.

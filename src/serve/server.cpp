@@ -33,7 +33,7 @@ namespace {
 constexpr std::size_t codingCacheBytes = std::size_t{128} << 20;
 constexpr auto retryDelay = std::chrono::milliseconds(100);
 
-/// Every connection needs a file descriptor, and the usual soft limit is 1024.
+/// Every connection needs a file descriptor, and the default soft limit is often 1024.
 void raiseOpenFileLimit() {
   struct rlimit limit {};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0)

@@ -64,13 +64,13 @@ public:
 
 private:
   /// Empty at the end of the connection, or after ten seconds without bytes.
-  std::optional<std::string> receiveSome(std::size_t most = 1 << 16) const {
-    std::string part(most, '\0');
-    const ssize_t got = ::recv(socket_, part.data(), part.size(), 0);
+  std::optional<std::string> receiveSome(std::size_t maxBytes = 1 << 16) const {
+    std::string received(maxBytes, '\0');
+    const ssize_t got = ::recv(socket_, received.data(), received.size(), 0);
     if (got <= 0)
       return std::nullopt;
-    part.resize(static_cast<std::size_t>(got));
-    return part;
+    received.resize(static_cast<std::size_t>(got));
+    return received;
   }
 
   int socket_;

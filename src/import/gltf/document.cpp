@@ -213,7 +213,7 @@ Accessor Document::accessor(std::size_t index) {
 
 void Document::applySparse(const Value& value, Accessor& accessor) {
   const std::uint64_t count = value["count"].whole();
-  const auto part = [&](const char* name, std::uint64_t size) {
+  const auto arrayOf = [&](const char* name, std::uint64_t size) {
     const Value list = value[name];
     const std::optional<std::size_t> index = list.index("bufferView", root_["bufferViews"]);
     if (!index)
@@ -223,7 +223,7 @@ void Document::applySparse(const Value& value, Accessor& accessor) {
     return within(list, view(*index), list["byteOffset"].whole(0), count * size);
   };
   const std::uint32_t indexSize = sizeOfComponent(value["indices"]["componentType"]);
-  const ByteSpan indices = part("indices", indexSize), values = part("values", accessor.stride_);
+  const ByteSpan indices = arrayOf("indices", indexSize), values = arrayOf("values", accessor.stride_);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* at = indices.data() + i * indexSize;
     const std::uint32_t element = indexSize == 1   ? *at

@@ -66,8 +66,8 @@ void set(pugi::xml_node element, std::string_view attribute, std::string_view va
 
 void setContainerField(pugi::xml_node element, std::string_view field) {
   const std::string_view name = element.name();
-  const std::string_view usual = name == "ProtoInstance" ? "children" : defaultContainerField(name);
-  if (!field.empty() && field != usual)
+  const std::string_view defaultField = name == "ProtoInstance" ? "children" : defaultContainerField(name);
+  if (!field.empty() && field != defaultField)
     set(element, "containerField", field);
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "import/x3d/elements.h"
-#include "import/x3d/mf_values.h"
+#include "import/x3d/field_values.h"
 
 #include <map>
 #include <string>

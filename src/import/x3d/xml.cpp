@@ -39,7 +39,7 @@ Elements parseXml(std::string_view text, const std::string& name) {
   elements.format = "X3D";
   const pugi::xml_parse_result result = elements.document.load_buffer(
       text.data(), text.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
-  if (!result) // pugixml ends its copy of the text with a zero, and may fail behind it
+  if (!result) // the offset may be one past the end of the text, which locationOf allows
     throw Error(ErrorKind::malformed, locationOf(text, name, static_cast<std::size_t>(result.offset)),
                 std::string("not well-formed: ") + result.description());
   if (std::string_view(elements.root().name()) != "X3D")

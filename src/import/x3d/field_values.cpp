@@ -1,4 +1,4 @@
-#include "import/x3d/mf_values.h"
+#include "import/x3d/field_values.h"
 
 #include <charconv>
 
