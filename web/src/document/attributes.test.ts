@@ -19,7 +19,7 @@ function read(fields: string, node = geometry) {
 }
 
 describe("a shape's colorBy", () => {
-  test("brings the files of the attribute that it names, and the range of its numbers", () => {
+  test("selects the files of the named attribute, and the range of its values", () => {
     const heat = read(`colorBy="heat"`);
     assert.equal(heat.geometry.value?.name, "heat");
     assert.deepEqual(heat.geometry.patches[0]?.value, [
@@ -35,7 +35,7 @@ describe("a shape's colorBy", () => {
     assert.deepEqual(flow.shape.appearance.colorMap?.range, [0, 5]); // of the length of (-3 … -2, 0 … 4)
   });
 
-  test("of typed arrays brings one file", () => {
+  test("selects one file in BG", () => {
     const { geometry } = read(
       `colorBy="flow"`,
       `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
@@ -44,7 +44,7 @@ describe("a shape's colorBy", () => {
     assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", byteOffset: 4, byteStride: 16 }]);
   });
 
-  test("of compact brings none but its patches', which say of how many bits they must be", () => {
+  test("selects no files in compact, whose patches have the values and their bits", () => {
     const {
       geometry: {
         value,
@@ -62,7 +62,7 @@ describe("a shape's colorBy", () => {
     );
   });
 
-  test("that is absent, or names nothing that there is, colours nothing", () => {
+  test("that is absent or names an unknown attribute colors nothing", () => {
     assert.deepEqual(read("").geometry.patches[0]?.value, []);
     assert.deepEqual(read("").messages, []);
     const unknown = read(`colorBy="cold"`);
@@ -83,7 +83,7 @@ describe("a shape's colorBy", () => {
     assert.equal(shapesOf(reader.read().root)[0]?.geometry, first?.geometry);
   });
 
-  test("takes its colours from a map by name or from a list", () => {
+  test("takes its colors from a named map or from a list", () => {
     const colors = (text: string) => read(`colorBy="heat" colorMap="${text}"`);
     assert.deepEqual(colors("gray").shape.appearance.colorMap?.colors, [
       [0, 0, 0],
@@ -104,7 +104,7 @@ describe("a shape's colorBy", () => {
 });
 
 describe("a FloatVertexAttribute", () => {
-  test("of numbers that are not read is told of", () => {
+  test("with unsupported numbers raises a warning", () => {
     assert.equal(read("", geometry.replace(`valueBits="16"`, `valueBits="12"`)).messages.length, 1);
     assert.equal(read("", geometry.replace(`numComponents="2"`, `numComponents="5"`)).messages.length, 1);
   });

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deepEqual } from "./deepEqual.ts";
 
-test("descriptions are alike where every value is", () => {
+test("descriptions are equal where every value is", () => {
   const description = () => ({
     kind: "phong",
     color: [1, 0.5, 0],

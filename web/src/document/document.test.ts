@@ -51,7 +51,7 @@ const patches = `
   </ImageGeometry>`;
 
 describe("a field", () => {
-  test("is found without regard to case, as HTML and XML write it", () => {
+  test("is found case-insensitively, as HTML and XML write it", () => {
     for (const markup of [
       '<Viewpoint fieldOfView="0.5"/>',
       '<viewpoint fieldofview="0.5"/>',
@@ -125,7 +125,7 @@ describe("a scene", () => {
     );
   });
 
-  test("follows USE for shapes, materials and geometries, and tells shapes apart by who uses them", () => {
+  test("follows USE for shapes, materials and geometries, and tells shapes apart by the elements that USE them", () => {
     const scene = sceneOf(`
       <Shape DEF="s"><Appearance DEF="a"><Material diffuseColor="1 0 0"/></Appearance>${patches}</Shape>
       <Shape USE="s"/><Shape><Appearance USE="a"/></Shape>`);
@@ -169,7 +169,7 @@ describe("a scene", () => {
     );
   });
 
-  test("knows the three kinds of material, and lights with and without a place", () => {
+  test("knows the three kinds of material, and lights with and without a position", () => {
     const materialIn = (markup: string) =>
       shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.material;
     assert.deepEqual(materialIn(""), { kind: "unlit", emissiveColor: [1, 1, 1], transparency: 0 });
@@ -200,7 +200,7 @@ describe("a scene", () => {
     assert.deepEqual([point.light.location, point.light.attenuation, point.light.radius], [[1, 2, 3], [1, 0, 0], 100]);
   });
 
-  test("has lines as wide and as broken as LineProperties say, and thin solid ones where they say nothing else", () => {
+  test("has lines with the width and dashes of LineProperties, and thin solid lines by default", () => {
     const linesOf = (fields: string) =>
       onlyShape(`<Shape><Appearance><LineProperties ${fields}/></Appearance></Shape>`).appearance.lines;
     assert.deepEqual(linesOf('linewidthScaleFactor="2.5"'), { width: 2.5, dashes: [] });
@@ -224,7 +224,7 @@ describe("a scene", () => {
     );
   });
 
-  test("has a shape once for each place where a group around it is USEd", () => {
+  test("has a shape once for each instance of a USEd group around it", () => {
     const shapes = shapesOf(
       sceneOf(`<Group DEF="g"><Shape>${patches}</Shape></Group><Transform><Group USE="g"/></Transform>`).root,
     );
@@ -232,7 +232,7 @@ describe("a scene", () => {
     assert.equal(shapes[0]?.element, shapes[1]?.element);
   });
 
-  test("is seen where `visible` and X3DOM's `render` both say so, and a Switch shows one child or none", () => {
+  test("is visible where `visible` and X3DOM's `render` are both true, and a Switch shows one child or none", () => {
     const seen = (markup: string) =>
       visibleShapes(sceneOf(markup).root).map((shape) => shape.element.getAttribute("DEF"));
     assert.deepEqual(seen('<Shape DEF="a"/><Shape DEF="b" visible="false"/><Shape DEF="c" render="false"/>'), ["a"]);
@@ -256,7 +256,7 @@ describe("a scene", () => {
     assert.deepEqual(seen('<Switch><Shape DEF="a"/></Switch>'), []);
   });
 
-  test("ends where USE leads in a circle or nowhere, with a warning", () => {
+  test("warns of USE in a circle and of unknown names", () => {
     const scene = sceneOf(
       '<Group DEF="g"><Group USE="h"/></Group><Group DEF="h"><Group USE="g"/></Group><Shape USE="none"/>',
     );
@@ -266,7 +266,7 @@ describe("a scene", () => {
   });
 });
 
-describe("what the author prefers", () => {
+describe("the author's priority", () => {
   const shapesIn = (markup: string) => shapesOf(sceneOf(markup).root);
 
   test("is multiplied down the tree, from groups to geometries", () => {
@@ -280,7 +280,7 @@ describe("what the author prefers", () => {
     );
   });
 
-  test("is no part of the geometry: another priority is not another geometry", () => {
+  test("does not change the identity of a geometry", () => {
     const [one, other] = shapesIn('<Shape><ImageGeometry priority="7"/></Shape><Shape><ImageGeometry/></Shape>');
     assert.deepEqual(one?.geometry, other?.geometry);
   });
@@ -293,7 +293,7 @@ describe("what the author prefers", () => {
     });
   }
 
-  test("by what files hold stands on the scene", () => {
+  test("for file contents is a field of the scene", () => {
     assert.equal(readScene(elementsOf('<x3d chunkpriority="normal: 2"/>')).chunkPriority, "normal: 2");
   });
 
@@ -431,7 +431,7 @@ describe("a geometry", () => {
   });
 });
 
-describe("what is read again", () => {
+describe("a second reading", () => {
   const x3d = elementsOf(`<X3D><Shape>${patches}</Shape></X3D>`);
   const element = x3d.children[0]?.children[0];
   assert.ok(element);
@@ -439,14 +439,14 @@ describe("what is read again", () => {
   const read = () => shapesOf(reader.read().root)[0]?.geometry;
   const first = read();
 
-  test("is the same object where nothing has changed, even if it might have", () => {
+  test("gives the same object where nothing has changed, even if it was touched", () => {
     assert.ok(first);
     assert.equal(read(), first);
     reader.touch(element);
     assert.equal(read(), first);
   });
 
-  test("is another one where something has", () => {
+  test("gives another object where something has changed", () => {
     element.attributes.set("solid", "true");
     reader.touch(element);
     assert.equal(read()?.solid, true);
@@ -455,7 +455,7 @@ describe("what is read again", () => {
   });
 });
 
-test("geometries that name the same files in the same way are one, however often they are written, and as long as they do", () => {
+test("geometries with the same files and fields are one object, for as long as they are equal", () => {
   const copy = '<ImageGeometry coord="a.png" index="i.png" vertexCount="3"/>';
   const shapes = [
     copy,
@@ -518,7 +518,7 @@ describe("stored integers", () => {
     assert.ok(patch && dequantizationOf(flat, patch).step.every((step) => step > 0));
   });
 
-  test("whose low bytes have not come stand in the middle of what these may hold", () => {
+  test("whose low bytes are missing are at the midpoint of the possible values", () => {
     for (const [planes, bits] of [
       [2, 16],
       [2, 12],

@@ -11,7 +11,7 @@ function groupIn(markup: string): GroupDescription {
   return group;
 }
 
-test("an Anchor tells where it leads, what that is called, and in which window", () => {
+test("an Anchor has its URLs, description and target", () => {
   const { anchor, children } = groupIn(
     `<Anchor url='"a.html" "#there"' description="A" parameter='"x=y" "target=_blank"'><Shape/></Anchor>`,
   );
@@ -23,7 +23,7 @@ test("an Anchor tells where it leads, what that is called, and in which window",
   assert.equal(groupIn('<Anchor url="a.html"/>').anchor?.target, "");
 });
 
-test("a Collision's proxy is not seen", () => {
+test("a Collision's proxy is not drawn", () => {
   const shapes = shapesOf(groupIn('<Collision><Shape id="a"/><Shape id="b" containerField="proxy"/></Collision>'));
   assert.deepEqual(
     shapes.map(({ element }) => element.getAttribute("id")),
@@ -31,7 +31,7 @@ test("a Collision's proxy is not seen", () => {
   );
 });
 
-test("a Billboard turns about the y axis, or about the one that it names", () => {
+test("a Billboard rotates about the y axis, or about its axisOfRotation", () => {
   assert.deepEqual(groupIn("<Billboard/>").billboardAxis, [0, 1, 0]);
   assert.deepEqual(groupIn('<Billboard axisOfRotation="0 0 0"/>').billboardAxis, [0, 0, 0]);
 });

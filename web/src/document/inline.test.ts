@@ -22,7 +22,7 @@ function reader(documents: Readonly<Record<string, string>>): (inline: SceneElem
 const shape = (id: string, more = "") => `<Shape id="${id}" ${more}><Box/></Shape>`;
 
 describe("Inline", () => {
-  test("shows a document where it stands, with names of its own", () => {
+  test("shows a document with DEF names of its own", () => {
     const page =
       elementsOf(`<X3D><Scene>${shape("own", 'DEF="S"')}<Transform translation="1 0 0"><Inline id="in" url='"a.x3d"'/></Transform>
       <Inline url="lost.x3d"/><Switch whichChoice="-1"><Inline url='"b.x3d"'/></Switch><Inline load="false" url='"c.x3d"'/></Scene></X3D>`);
@@ -50,7 +50,7 @@ describe("Inline", () => {
     assert.deepEqual(scene.warnings, []);
   });
 
-  test("ends where documents inline one another in a circle, or too deeply", () => {
+  test("warns of documents that inline one another in a circle, or too deeply", () => {
     const circle = reader({
       "a.x3d": `<X3D><Inline url="b.x3d"/>${shape("a")}</X3D>`,
       "b.x3d": `<X3D><Inline url="a.x3d"/>${shape("b")}</X3D>`,
@@ -71,7 +71,7 @@ describe("Inline", () => {
     assert.match(deep.warnings[0]?.message ?? "", /more than 16 documents deep/);
   });
 
-  test("is read with the urls of its own folder", () => {
+  test("resolves URLs against the document's own folder", () => {
     const x3d =
       elementsOf(`<X3D><ImageTexture url='"a.png" "../b.png" "https://c.org/d.png"'/><ImageGeometry base="g/b.png#12">
       <GeometryPatch index="g/i.png#7" coord='"g/x.png#1" "g/y.png"' bboxCenter="1 2 3"/></ImageGeometry>

@@ -77,7 +77,7 @@ describe("geometry in the document", () => {
     });
   }
 
-  test("has the same triangles from every node that states them", () => {
+  test("has the same triangles in every node that can state them", () => {
     const two = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0];
     for (const markup of [
       `<IndexedFaceSet coordIndex="0 1 2 3 -1">${square}</IndexedFaceSet>`,
@@ -121,7 +121,7 @@ describe("geometry in the document", () => {
     assert.ok(Math.abs(volumeOf(positions) - 5) < 1e-6, `${volumeOf(positions)}`);
   });
 
-  test("carries a cross-section around a closed spine, smoothly", () => {
+  test("sweeps a cross-section around a closed spine, smoothly", () => {
     const points = Array.from({ length: 33 }, (_, i) => [
       3 * Math.cos((i * Math.PI) / 16),
       0,
@@ -147,7 +147,7 @@ describe("geometry in the document", () => {
     assert.equal(atStart.size, 1, [...atStart].join(" | "));
   });
 
-  test("raises a grid of heights, with an attribute for each vertex", () => {
+  test("reads a grid of heights with vertex attributes", () => {
     const grid = '<ElevationGrid xDimension="3" zDimension="2" xSpacing="2" height="0 1 0 0 1 0"';
     const { geometry, positions, normals } = trianglesOf(`${grid}/>`);
     assert.equal(positions.length, 4 * 9);
@@ -170,7 +170,7 @@ describe("geometry in the document", () => {
     );
   });
 
-  test("has edges where faces turn by more than creaseAngle", () => {
+  test("has hard edges where faces meet at more than creaseAngle", () => {
     const roof = (angle: number) =>
       trianglesOf(`<IndexedFaceSet creaseAngle="${angle}" coordIndex="0 3 2 1 -1 1 2 5 4">
       <Coordinate point="0 0 0 1 0 0 1 0 1 0 0 1 1 -1 0 1 -1 1"/></IndexedFaceSet>`).normals;
@@ -196,7 +196,7 @@ describe("geometry in the document", () => {
     );
   });
 
-  test("finds parts that it USEs, and says where there are none", () => {
+  test("resolves the nodes that it USEs, and warns of missing ones", () => {
     const scene = readScene(
       elementsOf(`<X3D><Scene><Shape><PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet></Shape>
       <Shape><PointSet><Coordinate USE="C"/></PointSet></Shape></Scene></X3D>`),

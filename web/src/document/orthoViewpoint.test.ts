@@ -5,7 +5,7 @@ import { elementsOf } from "./elements.testing.ts";
 import { readScene } from "./readScene.ts";
 import { cross, dot, minus, rotated } from "../tessellate/vectors.ts";
 
-test("an OrthoViewpoint shows what it says, of the same size near and far", () => {
+test("an OrthoViewpoint shows its field of view, near and far in the same size", () => {
   const scene = readScene(
     elementsOf(`<X3D><OrthoViewpoint description="plan" position="1 10 2" orientation="1 0 0 -1.5707963"
     fieldOfView="-4 -3 8 5" centerOfRotation="1 0 2"/></X3D>`),

@@ -41,8 +41,8 @@ function texturesIn(markup: string): { urls: string[]; warnings: string[] } {
   };
 }
 
-describe("pictures written as numbers", () => {
-  test("are PNGs of as many channels, their last row the first", () => {
+describe("pixel images", () => {
+  test("become PNGs with the same channels and flipped rows", () => {
     assert.deepEqual(pngOf(1, 2, 1, 7, 0xfe), { width: 1, height: 2, colorType: 0, rows: [[0xfe], [7]] });
     assert.deepEqual(pngOf(2, 1, 2, 0x12f0, 3), { width: 2, height: 1, colorType: 4, rows: [[0x12, 0xf0, 0, 3]] });
     assert.deepEqual(pngOf(1, 2, 3, 0xff8040, 1), {
@@ -68,7 +68,7 @@ describe("pictures written as numbers", () => {
     assert.deepEqual(rows.toReversed().flat(), pixels);
   });
 
-  test("are none where numbers are missing, too many, too large, or of a size that cannot be", () => {
+  test("are refused for missing, surplus or too large numbers and for impossible sizes", () => {
     for (const numbers of [
       [],
       [1, 1],
@@ -88,7 +88,7 @@ describe("pictures written as numbers", () => {
     assert.deepEqual(pixelImageOf([0, 0, 0])?.pixels, []);
   });
 
-  test("are textures like others; one that is none is a warning, and no texture", () => {
+  test("are textures; a malformed one is a warning and no texture", () => {
     const pixel = '<PixelTexture image="1 1 3 0xff0000"/>';
     const {
       urls: [plain],

@@ -24,7 +24,7 @@ function textOf(scene: SceneDescription, numbers: Map<SceneElement, number>): st
 }
 
 describe("a document that changes", () => {
-  test("reads as if it had been written so from the start", () => {
+  test("reads as a fresh reader reads it", () => {
     let shapes = 0;
     for (let seed = 1; seed <= 40; ++seed) {
       const dice = new Dice(seed);
@@ -56,7 +56,7 @@ describe("a document that changes", () => {
     return reader.read().root.children.map((node, place) => node !== before[place]);
   };
 
-  test("is the same object where nothing has, and the same objects but for what has", () => {
+  test("keeps the objects of everything unchanged", () => {
     const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
     assert.equal(reader.read(), reader.read());
     assert.deepEqual(
@@ -92,7 +92,7 @@ describe("a document that changes", () => {
   });
 });
 
-test("groups that USE one another without measure are shown as far as there may be places", () => {
+test("groups that USE one another exponentially are cut off at the limit of instances", () => {
   const bomb = Array.from(
     { length: 40 },
     (_, i) => `<Group DEF="g${i + 1}"><Group USE="g${i}"/><Group USE="g${i}"/></Group>`,

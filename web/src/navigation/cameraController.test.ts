@@ -44,7 +44,7 @@ describe("the binding stack", () => {
     return stack;
   };
 
-  test("has the first node on it, or the last of those that want to be bound", () => {
+  test("binds the first node, or the last of those that ask to be bound", () => {
     assert.equal(stackOf([]).bound, undefined);
     assert.equal(stackOf(["a", "b", "c"]).bound, "a");
     assert.equal(stackOf(["a", "b", "c"], ["c", "b"]).bound, "c");
@@ -72,7 +72,7 @@ describe("the binding stack", () => {
     assert.equal(only.bound, "a");
   });
 
-  test("takes in a new node that wants to be bound, but an old one only when it is told", () => {
+  test("binds a new node that asks to be bound, but an old one only by bind", () => {
     const stack = stackOf(["a", "b"]);
     stack.setNodes(["a", "b"], () => true);
     assert.equal(stack.bound, "a");
@@ -99,10 +99,10 @@ describe("the types of navigation", () => {
   }
 });
 
-describe("a journey", () => {
+describe("a camera transition", () => {
   const from = poseFraming(sphere);
 
-  test("begins and ends exactly where it should", () => {
+  test("begins and ends exactly at the two poses", () => {
     const to = orbited(from, 2, 0.3);
     assert.equal(interpolatePose(from, to, 0), from);
     assert.equal(interpolatePose(from, to, 1), to);
@@ -110,7 +110,7 @@ describe("a journey", () => {
     samePose(interpolatePose(from, to, 1 - 1e-9), to, 1e-6);
   });
 
-  test("to the other side goes around the scene, never nearer", () => {
+  test("to the other side goes around the scene and keeps its distance", () => {
     const to = orbited(from, Math.PI * 0.95, 0);
     const distance = from.position.distanceTo(from.center);
     for (let share = 0; share <= 1; share += 0.05) {
@@ -120,7 +120,7 @@ describe("a journey", () => {
     }
   });
 
-  test("from or to a centre that is the eye itself stays finite", () => {
+  test("stays finite where the eye is at the center", () => {
     const inside: Pose = { ...from, center: from.position.clone() };
     for (const [a, b] of [
       [from, inside],
@@ -142,19 +142,19 @@ describe("walking and flying", () => {
     fieldOfView: 0.8,
   };
 
-  test("who walks stays on his level wherever he looks, who flies goes where he looks", () => {
+  test("walking stays on its level wherever the camera looks, flying follows the view direction", () => {
     const lookingDown = lookedAround(upright, 0, -0.8);
     near(moved(lookingDown, 2, 0, 0, true).position, [0, 1.6, -2]);
     near(moved(lookingDown, 2, 0, 0, false).position, [0, 1.6 - 2 * Math.sin(0.8), -2 * Math.cos(0.8)]);
     near(moved(lookingDown, 0, 3, 1, true).position, [3, 2.6, 0]);
   });
 
-  test("who looks straight down still walks ahead", () => {
+  test("a camera that looks straight down still walks ahead", () => {
     const { position } = moved(lookedAround(upright, 0, -10), 2, 0, 0, true);
     near(position, [0, 1.6, -2], 1e-6);
   });
 
-  test("turning to the right looks to the right, in place, and never past the zenith", () => {
+  test("turning rotates the camera in place, at most up to the zenith", () => {
     const pose = lookedAround(upright, Math.PI / 2, 0);
     near(forwardOf(pose), [1, 0, 0]);
     near(pose.position, upright.position);
@@ -163,7 +163,7 @@ describe("walking and flying", () => {
     assert.ok(forwardOf(lookedAround(upright, 0, 9)).y > 0.99);
   });
 
-  test("covers speed times time, however it is cut into frames", () => {
+  test("covers speed times time, however many frames it takes", () => {
     const motion = { ...noMovement, forward: 1 };
     let pose = upright;
     for (let frame = 0; frame < 60; ++frame) pose = movedFor(pose, motion, 1 / 60, 2.5, true);
@@ -171,7 +171,7 @@ describe("walking and flying", () => {
   });
 });
 
-describe("the navigator", () => {
+describe("the controller", () => {
   const [front, side] = [
     viewpoint("front"),
     viewpoint("side", { position: [10, 0, 0], orientation: [0, 1, 0, Math.PI / 2] }),
@@ -180,160 +180,160 @@ describe("the navigator", () => {
 
   function navigating(changes: Partial<typeof navigationInfo> = {}, viewpoints = [front, side]) {
     let calls = 0;
-    const navigator = new CameraController(
+    const controller = new CameraController(
       () => {
         calls += 1;
       },
       () => undefined,
     );
-    navigator.setScene({ sphere, viewpoints, navigation: { ...navigationInfo, ...changes } });
-    return { navigator, calls: () => calls };
+    controller.setScene({ sphere, viewpoints, navigation: { ...navigationInfo, ...changes } });
+    return { controller, calls: () => calls };
   }
 
-  test("starts at the first viewpoint, without a journey", () => {
-    const { navigator } = navigating();
-    assert.equal(navigator.bound, front.element);
-    assert.equal(navigator.isMoving, false);
-    samePose(navigator.advance(0), frontPose);
+  test("starts at the first viewpoint, without a transition", () => {
+    const { controller } = navigating();
+    assert.equal(controller.bound, front.element);
+    assert.equal(controller.isMoving, false);
+    samePose(controller.advance(0), frontPose);
   });
 
-  test("travels to the viewpoint that is bound, in the document's time", () => {
-    const { navigator } = navigating({ transitionTime: 2 });
-    navigator.bind(side.element);
-    samePose(navigator.advance(500), frontPose);
-    assert.ok(navigator.isMoving);
-    const { position } = navigator.advance(1500);
+  test("moves to a bound viewpoint within the document's transition time", () => {
+    const { controller } = navigating({ transitionTime: 2 });
+    controller.bind(side.element);
+    samePose(controller.advance(500), frontPose);
+    assert.ok(controller.isMoving);
+    const { position } = controller.advance(1500);
     assert.ok(position.distanceTo(frontPose.position) > 1 && position.distanceTo(sidePose.position) > 1);
-    samePose(navigator.advance(2501), sidePose);
-    assert.equal(navigator.isMoving, false);
+    samePose(controller.advance(2501), sidePose);
+    assert.equal(controller.isMoving, false);
   });
 
-  test("goes there at once where the document or people want no motion", () => {
-    const { navigator: teleporting } = navigating({ transitionType: ["TELEPORT"] });
-    const { navigator: reduced } = navigating();
+  test("moves there at once where the document or the user asks for no motion", () => {
+    const { controller: teleporting } = navigating({ transitionType: ["TELEPORT"] });
+    const { controller: reduced } = navigating();
     reduced.isInstant = true;
-    for (const navigator of [teleporting, reduced]) {
-      navigator.bind(side.element);
-      samePose(navigator.advance(0), sidePose);
-      assert.equal(navigator.isMoving, false);
+    for (const controller of [teleporting, reduced]) {
+      controller.bind(side.element);
+      samePose(controller.advance(0), sidePose);
+      assert.equal(controller.isMoving, false);
     }
   });
 
   test("returns to a viewpoint when it is bound once more, and to the one before when it is unbound", () => {
-    const { navigator } = navigating({ transitionTime: 0 });
-    navigator.bind(side.element);
-    navigator.turn(0.4, 0.1);
-    navigator.bind(side.element);
-    samePose(navigator.advance(0), sidePose);
-    navigator.bind(side.element, false);
-    samePose(navigator.advance(0), frontPose);
+    const { controller } = navigating({ transitionTime: 0 });
+    controller.bind(side.element);
+    controller.turn(0.4, 0.1);
+    controller.bind(side.element);
+    samePose(controller.advance(0), sidePose);
+    controller.bind(side.element, false);
+    samePose(controller.advance(0), frontPose);
   });
 
-  test("follows a bound viewpoint that changes, and leaves people where they are when another does", () => {
-    const { navigator } = navigating();
-    navigator.turn(0.3, 0);
-    const { pose } = navigator;
+  test("follows the bound viewpoint when it changes, but no other one", () => {
+    const { controller } = navigating();
+    controller.turn(0.3, 0);
+    const { pose } = controller;
     const moved = viewpoint("side", { position: [0, 20, 0] });
-    navigator.setScene({
+    controller.setScene({
       sphere,
       viewpoints: [front, { ...moved, element: side.element }],
       navigation: navigationInfo,
     });
-    samePose(navigator.pose, pose);
-    navigator.setScene({ sphere, viewpoints: [{ ...moved, element: front.element }], navigation: navigationInfo });
-    near(navigator.pose.position, [0, 20, 0]);
+    samePose(controller.pose, pose);
+    controller.setScene({ sphere, viewpoints: [{ ...moved, element: front.element }], navigation: navigationInfo });
+    near(controller.pose.position, [0, 20, 0]);
   });
 
-  test("without a viewpoint keeps framing what comes, until somebody moves", () => {
-    const { navigator } = navigating({}, []);
+  test("frames a growing scene without viewpoint until the user moves the camera", () => {
+    const { controller } = navigating({}, []);
     const larger = new Sphere(new Vector3(1, 0, 0), 9);
-    navigator.setScene({ sphere: larger, viewpoints: [], navigation: navigationInfo });
-    samePose(navigator.pose, poseFraming(larger));
-    navigator.zoom(0.5);
-    const { pose } = navigator;
-    navigator.setScene({ sphere, viewpoints: [], navigation: navigationInfo });
-    samePose(navigator.pose, pose);
-    navigator.isInstant = true;
-    navigator.reset();
-    samePose(navigator.pose, poseFraming(sphere));
+    controller.setScene({ sphere: larger, viewpoints: [], navigation: navigationInfo });
+    samePose(controller.pose, poseFraming(larger));
+    controller.zoom(0.5);
+    const { pose } = controller;
+    controller.setScene({ sphere, viewpoints: [], navigation: navigationInfo });
+    samePose(controller.pose, pose);
+    controller.isInstant = true;
+    controller.reset();
+    samePose(controller.pose, poseFraming(sphere));
   });
 
-  test("does not move at all where the type is NONE, but still binds", () => {
-    const { navigator } = navigating({ type: ["NONE"], transitionTime: 0 });
+  test("does not move in NONE, but still binds viewpoints", () => {
+    const { controller } = navigating({ type: ["NONE"], transitionTime: 0 });
     for (const act of [
       () => {
-        navigator.turn(1, 1);
+        controller.turn(1, 1);
       },
       () => {
-        navigator.zoom(2);
+        controller.zoom(2);
       },
       () => {
-        navigator.pan(1, 1);
+        controller.pan(1, 1);
       },
       () => {
-        navigator.showAll();
+        controller.showAll();
       },
       () => {
-        navigator.reset();
+        controller.reset();
       },
       () => {
-        navigator.type = "fly";
+        controller.type = "fly";
       },
       () => {
-        navigator.move({ ...noMovement, forward: 1 });
+        controller.move({ ...noMovement, forward: 1 });
       },
     ]) {
       act();
-      samePose(navigator.advance(0), frontPose);
+      samePose(controller.advance(0), frontPose);
     }
-    navigator.bind(side.element);
-    samePose(navigator.advance(0), sidePose);
+    controller.bind(side.element);
+    samePose(controller.advance(0), sidePose);
   });
 
   /** A frame, after which it is told what it asks for. */
-  function advance(navigator: CameraController, ms: number, boxes: readonly WorldBox[]): void {
-    navigator.advance(ms);
-    const { depthCamera: lookout } = navigator;
-    if (lookout) navigator.addGroundSamples(lookout, sampleGround(lookout, boxes));
+  function advance(controller: CameraController, ms: number, boxes: readonly WorldBox[]): void {
+    controller.advance(ms);
+    const { depthCamera } = controller;
+    if (depthCamera) controller.addGroundSamples(depthCamera, sampleGround(depthCamera, boxes));
   }
 
-  test("walks on a floor by wheel and by two fingers too, and not on from where it is led elsewhere", () => {
+  test("walks by wheel and by two fingers too, and stops when a viewpoint is bound", () => {
     const floor = { min: [-20, -4, -20], max: [20, -3, 20] } as const;
-    const { navigator } = navigating({ type: ["WALK"], speed: 2, transitionTime: 0 });
-    navigator.zoom(Math.exp(-0.1));
-    navigator.pan(0.1, -0.05);
-    for (let ms = 0; ms < 2000; ms += 20) advance(navigator, ms, [floor]);
-    near(navigator.pose.position, [-0.2, -1.4, 9.7], 1e-3);
-    assert.equal(navigator.isMoving, false);
-    assert.equal(navigator.depthCamera, undefined);
-    navigator.zoom(Math.exp(-0.2));
-    navigator.bind(side.element);
-    for (let ms = 2000; ms < 2200; ms += 20) advance(navigator, ms, [floor]);
-    samePose(navigator.pose, sidePose);
+    const { controller } = navigating({ type: ["WALK"], speed: 2, transitionTime: 0 });
+    controller.zoom(Math.exp(-0.1));
+    controller.pan(0.1, -0.05);
+    for (let ms = 0; ms < 2000; ms += 20) advance(controller, ms, [floor]);
+    near(controller.pose.position, [-0.2, -1.4, 9.7], 1e-3);
+    assert.equal(controller.isMoving, false);
+    assert.equal(controller.depthCamera, undefined);
+    controller.zoom(Math.exp(-0.2));
+    controller.bind(side.element);
+    for (let ms = 2000; ms < 2200; ms += 20) advance(controller, ms, [floor]);
+    samePose(controller.pose, sidePose);
   });
 
-  test("walks while a key is held, as fast as the document says, and stands still after", () => {
-    const { navigator } = navigating({ type: ["WALK"], speed: 2 });
-    navigator.advance(0);
-    navigator.move({ ...noMovement, forward: 1 });
-    navigator.advance(1000); // the first frame only starts the clock
-    for (let ms = 1050; ms <= 2000; ms += 50) advance(navigator, ms, []);
-    near(navigator.pose.position, [0, 0, 8], 1e-6);
-    navigator.move(noMovement);
-    assert.equal(navigator.isMoving, false);
-    navigator.advance(9000);
-    near(navigator.pose.position, [0, 0, 8], 1e-6);
+  test("walks while a key is held, at the document's speed", () => {
+    const { controller } = navigating({ type: ["WALK"], speed: 2 });
+    controller.advance(0);
+    controller.move({ ...noMovement, forward: 1 });
+    controller.advance(1000); // the first frame only starts the clock
+    for (let ms = 1050; ms <= 2000; ms += 50) advance(controller, ms, []);
+    near(controller.pose.position, [0, 0, 8], 1e-6);
+    controller.move(noMovement);
+    assert.equal(controller.isMoving, false);
+    controller.advance(9000);
+    near(controller.pose.position, [0, 0, 8], 1e-6);
   });
 
   test("asks for frames only when something has changed", () => {
-    const { navigator, calls } = navigating();
+    const { controller, calls } = navigating();
     const before = calls();
-    navigator.type = "examine";
-    navigator.move({ ...noMovement, forward: 1 }); // nobody walks
-    navigator.bind(viewpoint("stranger").element);
+    controller.type = "examine";
+    controller.move({ ...noMovement, forward: 1 }); // nobody walks
+    controller.bind(viewpoint("stranger").element);
     assert.equal(calls(), before);
-    navigator.turn(0.1, 0);
+    controller.turn(0.1, 0);
     assert.equal(calls(), before + 1);
-    assert.equal(navigator.source, "user-interaction");
+    assert.equal(controller.source, "user-interaction");
   });
 });

@@ -46,7 +46,7 @@ describe("a pose that frames the scene", () => {
     });
   }
 
-  test("looks at its centre, and so does one that shows all after moving about", () => {
+  test("looks at its center, and so does the pose that shows all after movement", () => {
     for (const pose of [start, poseShowingAll(panned(orbited(zoomed(start, 0.1, sphere), 1, 0.3), 3, 1), sphere)]) {
       near(forward(pose).angleTo(sphere.center.clone().sub(pose.position)), 0, 1e-7);
     }
@@ -66,7 +66,7 @@ describe("a viewpoint", () => {
   const poseOf = (changes: Partial<ViewpointDescription>, sceneFromViewpoint = new Matrix4()) =>
     poseOfViewpoint({ viewpoint: { ...fields, ...changes }, sceneFromViewpoint });
 
-  test("shows all of a field of its own proportion in a view of any", () => {
+  test("shows all of a field with its own aspect ratio in a view of any shape", () => {
     for (const [aspect, width, height] of [
       [1.5, 1.5, 1],
       [4 / 3, 1.5, 1.125],
@@ -119,19 +119,19 @@ describe("a viewpoint", () => {
 });
 
 describe("turning", () => {
-  test("keeps the distance to the centre and the centre's place in the view", () => {
+  test("keeps the distance to the centre and the center's position in the view", () => {
     const pose = orbited(panned(start, 0.2, 0.1), 0.7, -0.3);
     near(pose.position.distanceTo(pose.center), start.position.distanceTo(start.center));
     near(seen(pose, 1, pose.center).x, 0, 1e-6);
   });
 
-  test("to the right moves what is in front to the right, over the top down", () => {
+  test("to the right moves near things to the right, over the top moves them down", () => {
     const front = start.position.clone().lerp(start.center, 0.5);
     assert.ok(seen(orbited(start, 0.1, 0), 1, front).x > 0);
     assert.ok(seen(orbited(start, 0, 0.1), 1, front).y < 0);
   });
 
-  test("never passes a pole nor tilts the horizon, however far one goes", () => {
+  test("does not pass a pole or tilt the horizon, however far it goes", () => {
     let pose = start;
     let random = 1;
     for (let step = 0; step < 2000; ++step) {
@@ -143,7 +143,7 @@ describe("turning", () => {
     }
   });
 
-  test("goes both ways from anywhere", () => {
+  test("works in both directions from every pose", () => {
     for (const over of [-4, 4]) {
       const atPole = orbited(start, 0, over);
       assert.ok(orbited(atPole, 0, -over / 8).position.distanceTo(atPole.position) > 0.1);
@@ -153,7 +153,7 @@ describe("turning", () => {
 });
 
 describe("zooming and panning", () => {
-  test("multiplies the distance, within bounds from which one comes back", () => {
+  test("multiplies the distance within bounds that zooming can leave again", () => {
     near(zoomed(start, 0.5, sphere).position.distanceTo(start.center), 0.5 * start.position.distanceTo(start.center));
     let pose = start;
     for (let step = 0; step < 1000; ++step) pose = zoomed(pose, 0.5, sphere);
@@ -163,7 +163,7 @@ describe("zooming and panning", () => {
     near(forward(pose).angleTo(pose.center.clone().sub(pose.position)), 0, 1e-6);
   });
 
-  test("moves the centre by the share of the view that was asked for", () => {
+  test("moves the center by the requested fraction of the view", () => {
     const pose = panned(start, 0.25, -0.125);
     const { x, y } = seen(pose, 1, start.center);
     near(x, 0.5, 1e-6);
@@ -171,7 +171,7 @@ describe("zooming and panning", () => {
   });
 });
 
-test("depth is spent on the scene alone, and from inside on what is farther than the author's clearance", () => {
+test("the depth range covers the scene only, and inside it what is farther than the author's clearance", () => {
   const camera = new PerspectiveCamera();
   const nearOf = (pose: Pose, clearance?: number) => {
     applyPose(camera, pose, 1, sphere, clearance);
@@ -185,7 +185,7 @@ test("depth is spent on the scene alone, and from inside on what is farther than
   near(nearOf(inside, 100), sphere.radius * 1.01 * 1e-2);
 });
 
-test("a scene without extent is still looked at", () => {
+test("a scene without extent has a valid camera", () => {
   const camera = new PerspectiveCamera();
   const point = new Box3(new Vector3(1, 1, 1), new Vector3(1, 1, 1)).getBoundingSphere(new Sphere());
   applyPose(camera, poseFraming(point), 1, point);

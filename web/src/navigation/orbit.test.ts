@@ -62,13 +62,13 @@ describe("an orbit", () => {
     });
   });
 
-  test("of an eye in the centre itself is finite", () => {
+  test("is finite for an eye at the center", () => {
     assert.ok(Object.values(orbitOf({ ...start, position: start.center.clone() })).every(Number.isFinite));
   });
 });
 
-describe("what the author says of the camera", () => {
-  test("changes only what it says", () => {
+describe("the author's camera attributes", () => {
+  test("change only what they set", () => {
     assert.equal(poseWith(start, unsetCamera, sphere).position, start.position);
     const orbit = { theta: undefined, phi: degrees(90), radius: undefined };
     const { theta, radius } = orbitOf(start);
@@ -78,20 +78,20 @@ describe("what the author says of the camera", () => {
     near(wide.position.distanceTo(start.position), 0);
   });
 
-  test("may give the radius as a length, or as a share of the distance that frames the scene", () => {
+  test("may set the radius as a length, or as a multiple of the framing distance", () => {
     const radiusOf = (radius: { length: number } | { share: number }) =>
       orbitOf(poseWith(start, { ...unsetCamera, fieldOfView: 1, orbit: { theta: 0, phi: 1, radius } }, sphere)).radius;
     near(radiusOf({ length: 7 }), 7);
     near(radiusOf({ share: 1.5 }), 1.5 * framingDistance(sphere, 1));
   });
 
-  test("moves the centre, and looks at it", () => {
+  test("may set the center, which the camera looks at", () => {
     const pose = poseWith(start, { ...unsetCamera, target: [5, 5, 5] }, sphere);
     near(pose.center.distanceTo(new Vector3(5, 5, 5)), 0);
     near(forwardOf(pose).angleTo(pose.center.clone().sub(pose.position)), 0);
   });
 
-  test("bounds where hands can lead", () => {
+  test("bound user input", () => {
     const least = { theta: degrees(-30), phi: degrees(60), radius: { length: 3 } };
     const most = { theta: degrees(30), phi: degrees(90), radius: { length: 6 } };
     const bounds = { ...unsetCamera, minOrbit: least, maxOrbit: most };
@@ -104,7 +104,7 @@ describe("what the author says of the camera", () => {
     assert.equal(poseWithin(free, unsetCamera, sphere), free);
   });
 
-  test("bounds an arc that crosses the back", () => {
+  test("bound an arc that crosses the back", () => {
     const arc = (theta: number) => ({ theta: degrees(theta), phi: undefined, radius: undefined });
     const bounds = { ...unsetCamera, minOrbit: arc(150), maxOrbit: arc(210) };
     const thetaOf = (theta: number) =>
@@ -115,28 +115,28 @@ describe("what the author says of the camera", () => {
   });
 });
 
-test("a turntable rests after the start and after each touch, and stops for good when it is told", (context) => {
+test("auto-rotation pauses after the start and after user input, and stops when it is told to", (context) => {
   context.mock.timers.enable({ apis: ["setTimeout"] });
   let begun = 0;
-  const turntable = new AutoRotation(() => {
+  const autoRotation = new AutoRotation(() => {
     begun += 1;
   });
-  turntable.delayMs = 1000;
-  turntable.pause();
-  assert.ok(turntable.isStopped);
-  turntable.start(true);
+  autoRotation.delayMs = 1000;
+  autoRotation.pause();
+  assert.ok(autoRotation.isStopped);
+  autoRotation.start(true);
   context.mock.timers.tick(999);
-  assert.equal(turntable.isRotating, false);
-  turntable.pause();
+  assert.equal(autoRotation.isRotating, false);
+  autoRotation.pause();
   context.mock.timers.tick(999);
   assert.equal(begun, 0);
   context.mock.timers.tick(1);
-  assert.ok(turntable.isRotating);
+  assert.ok(autoRotation.isRotating);
   assert.equal(begun, 1);
-  turntable.stop();
-  turntable.pause();
+  autoRotation.stop();
+  autoRotation.pause();
   context.mock.timers.tick(5000);
-  assert.ok(turntable.isStopped);
-  turntable.start(false);
-  assert.ok(turntable.isRotating);
+  assert.ok(autoRotation.isStopped);
+  autoRotation.start(false);
+  assert.ok(autoRotation.isRotating);
 });

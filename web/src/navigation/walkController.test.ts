@@ -28,22 +28,22 @@ function standing(x: number, y: number, z: number): Pose {
 }
 
 /** One frame: walks on what is known, then looks around if that is asked for. */
-function step(walker: WalkController, pose: Pose, boxes: readonly WorldBox[], way?: Vector3): Pose {
-  if (way) walker.push(way.clone().multiplyScalar(speed * frame), speed);
-  const next = walker.walk(pose, frame);
-  const lookout = walker.depthCameraFor(next, avatar, speed);
-  if (lookout) walker.addGroundSamples(lookout, sampleGround(lookout, boxes));
+function step(controller: WalkController, pose: Pose, boxes: readonly WorldBox[], way?: Vector3): Pose {
+  if (way) controller.push(way.clone().multiplyScalar(speed * frame), speed);
+  const next = controller.walk(pose, frame);
+  const camera = controller.depthCameraFor(next, avatar, speed);
+  if (camera) controller.addGroundSamples(camera, sampleGround(camera, boxes));
   return next;
 }
 
 /** So many seconds towards `way`, then until nothing moves; the eye of every frame. */
 function walk(start: Pose, way: Vector3, seconds: number, boxes: readonly WorldBox[]): Vector3[] {
-  const walker = new WalkController();
+  const controller = new WalkController();
   const eyes: Vector3[] = [];
   let pose = start;
-  for (let at = 0; at < seconds || walker.isMoving; at += frame) {
+  for (let at = 0; at < seconds || controller.isMoving; at += frame) {
     assert.ok(at < seconds + 20, "it never comes to rest");
-    pose = step(walker, pose, boxes, at < seconds ? way : undefined);
+    pose = step(controller, pose, boxes, at < seconds ? way : undefined);
     eyes.push(pose.position);
   }
   return eyes;
@@ -57,8 +57,8 @@ function near(actual: number, expected: number, tolerance = 0.02): void {
 
 const [ahead, right] = [new Vector3(0, 0, -1), new Vector3(1, 0, 0)];
 
-describe("who walks", () => {
-  test("covers his way at his height above the floor", () => {
+describe("a walking avatar", () => {
+  test("covers its distance at its height above the floor", () => {
     const { x, y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [ground]));
     near(x, 0);
     near(y, 1.6);
@@ -86,7 +86,7 @@ describe("who walks", () => {
     near(z, -2 + avatar.radius, 0.1);
   });
 
-  test("is stopped by a wall, and slides along it when he comes at an angle", () => {
+  test("is stopped by a wall, and slides along it when it comes at an angle", () => {
     const wall = box([-15, 0, -9], [15, 4, -2]);
     near(last(walk(standing(0, 1.6, 0), ahead, 3, [ground, wall])).z, -2 + avatar.radius);
     const aside = last(walk(standing(0, 1.6, 0), new Vector3(1, 0, -1).normalize(), 4, [ground, wall]));
@@ -94,7 +94,7 @@ describe("who walks", () => {
     assert.ok(aside.x > 4, `slid only to ${aside.x}`);
   });
 
-  test("goes through a doorway under its lintel, but not where the lintel is at his eyes", () => {
+  test("goes through a doorway under its lintel, but not where the lintel is at eye level", () => {
     const doorway = (lintel: number) => [
       ground,
       box([-9, 0, -2.2], [-0.45, 4, -2]),
@@ -105,7 +105,7 @@ describe("who walks", () => {
     near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(1.5))).z, -2 + avatar.radius);
   });
 
-  test("falls from a ledge, ever faster, onto what is below", () => {
+  test("falls from a ledge, with acceleration, onto what is below", () => {
     const eyes = walk(standing(0, 4.6, 0), ahead, 2, [ground, box([-5, 0, -1], [5, 3, 5])]);
     near(last(eyes).y, 1.6);
     const falls = eyes
@@ -119,13 +119,13 @@ describe("who walks", () => {
     });
   });
 
-  test("does not leave the floor for where there is none", () => {
+  test("does not leave the floor", () => {
     const { y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [box([-5, -1, -2], [5, 0, 5])]));
     near(y, 1.6);
     near(z, -2 - avatar.radius, 0.15);
   });
 
-  test("hovers where there has never been a floor, and comes down when he gets to one", () => {
+  test("hovers where there has never been a floor, and comes down when it reaches one", () => {
     const platform = box([-5, -1, -9], [5, 0, -2]);
     const eyes = walk(standing(0, 2, 4), ahead, 4, [platform]);
     assert.ok(
@@ -136,30 +136,30 @@ describe("who walks", () => {
     near(last(eyes).z, -4, 0.1);
   });
 
-  test("is not held by what stands at his start, but gets out of it", () => {
+  test("can leave an obstacle that it starts in", () => {
     const pillar = box([-0.2, 0, -0.2], [0.1, 4, 0.2]);
     near(last(walk(standing(0.2, 1.6, 0), right, 1, [ground, pillar])).x, 2.2, 0.1);
   });
 
-  test("has any direction for up", () => {
+  test("walks with any up direction", () => {
     const up = new Vector3(1, 2, -0.5).normalize();
     const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), up);
     const back = turn.clone().invert();
-    const walker = new WalkController();
+    const controller = new WalkController();
     let pose: Pose = { ...standing(0, 2.5, 0), position: new Vector3(0, 2.5, 0).applyQuaternion(turn), up };
     for (let count = 0; count < 120; ++count) {
-      walker.push(
+      controller.push(
         ahead
           .clone()
           .multiplyScalar(speed * frame)
           .applyQuaternion(turn),
         speed,
       );
-      pose = walker.walk(pose, frame);
-      const lookout = walker.depthCameraFor(pose, avatar, speed);
-      if (lookout === undefined) continue;
-      const eye = lookout.eye.clone().applyQuaternion(back);
-      walker.addGroundSamples(lookout, sampleGround({ ...lookout, eye, orientation: new Quaternion() }, [ground]));
+      pose = controller.walk(pose, frame);
+      const camera = controller.depthCameraFor(pose, avatar, speed);
+      if (camera === undefined) continue;
+      const eye = camera.eye.clone().applyQuaternion(back);
+      controller.addGroundSamples(camera, sampleGround({ ...camera, eye, orientation: new Quaternion() }, [ground]));
     }
     const { x, y, z } = pose.position.clone().applyQuaternion(back);
     near(x, 0);
@@ -168,50 +168,50 @@ describe("who walks", () => {
   });
 });
 
-describe("what is known", () => {
-  test("is asked for only while something moves, once for each look", () => {
-    const walker = new WalkController();
+describe("ground samples", () => {
+  test("are requested only while the avatar moves, and once each", () => {
+    const controller = new WalkController();
     const pose = standing(0, 1.6, 0);
-    assert.equal(walker.depthCameraFor(pose, avatar, speed), undefined);
-    walker.push(ahead, speed);
-    const lookout = walker.depthCameraFor(pose, avatar, speed);
-    assert.ok(lookout);
-    assert.equal(walker.depthCameraFor(pose, avatar, speed), lookout);
-    walker.stop();
-    assert.equal(walker.depthCameraFor(pose, avatar, speed), undefined);
-    walker.addGroundSamples(lookout, sampleGround(lookout, [ground])); // too late
-    walker.push(ahead, speed);
-    assert.equal(walker.walk(pose, frame), pose);
+    assert.equal(controller.depthCameraFor(pose, avatar, speed), undefined);
+    controller.push(ahead, speed);
+    const camera = controller.depthCameraFor(pose, avatar, speed);
+    assert.ok(camera);
+    assert.equal(controller.depthCameraFor(pose, avatar, speed), camera);
+    controller.stop();
+    assert.equal(controller.depthCameraFor(pose, avatar, speed), undefined);
+    controller.addGroundSamples(camera, sampleGround(camera, [ground])); // too late
+    controller.push(ahead, speed);
+    assert.equal(controller.walk(pose, frame), pose);
   });
 
-  test("is waited for, and what was asked for in the meantime is gone after", () => {
-    const walker = new WalkController();
+  test("are waited for; movement requested meanwhile is carried out afterwards", () => {
+    const controller = new WalkController();
     let pose = standing(0, 1.6, 0);
     for (let count = 0; count < 6; ++count) {
-      walker.push(ahead.clone().multiplyScalar(speed * frame), speed);
-      pose = walker.walk(pose, frame);
+      controller.push(ahead.clone().multiplyScalar(speed * frame), speed);
+      pose = controller.walk(pose, frame);
     }
     near(pose.position.z, 0, 0);
-    while (walker.isMoving) pose = step(walker, pose, [ground]);
+    while (controller.isMoving) pose = step(controller, pose, [ground]);
     near(pose.position.z, -6 * speed * frame, 1e-6);
   });
 
-  test("is never left behind, however late the next look comes", () => {
-    const walker = new WalkController();
+  test("bound the movement, however late the next samples come", () => {
+    const controller = new WalkController();
     let pose = standing(0, 1.6, 0);
-    walker.push(ahead, speed);
-    const lookout = walker.depthCameraFor(pose, avatar, speed);
-    assert.ok(lookout);
-    walker.addGroundSamples(lookout, sampleGround(lookout, [ground]));
+    controller.push(ahead, speed);
+    const camera = controller.depthCameraFor(pose, avatar, speed);
+    assert.ok(camera);
+    controller.addGroundSamples(camera, sampleGround(camera, [ground]));
     for (let count = 0; count < 600; ++count) {
-      walker.push(ahead.clone().multiplyScalar(speed * frame), speed);
-      pose = walker.walk(pose, frame);
+      controller.push(ahead.clone().multiplyScalar(speed * frame), speed);
+      pose = controller.walk(pose, frame);
     }
-    assert.ok(pose.position.z < -0.5 && pose.position.z >= -(lookout.range - avatar.radius), `${pose.position.z}`);
+    assert.ok(pose.position.z < -0.5 && pose.position.z >= -(camera.range - avatar.radius), `${pose.position.z}`);
   });
 });
 
-test("a long walk at random among walls, stairs and holes never ends in one of them", () => {
+test("a long walk at random among walls, stairs and holes does not end in one of them", () => {
   let seed = 7;
   const random = (): number => {
     seed = (seed * 48271) % 2147483647;
@@ -223,14 +223,14 @@ test("a long walk at random among walls, stairs and holes never ends in one of t
     return box([x, 0, z], [x + 0.2 + random(), [0.2, 0.35, 0.9, 3][Math.floor(4 * random())] ?? 1, z + 0.2 + random()]);
   });
   const boxes = [...plates, ...things];
-  const walker = new WalkController();
+  const controller = new WalkController();
   let pose = standing(0, 2, 0);
   let way = ahead;
   let gone = 0;
   for (let count = 0; count < 4000; ++count) {
     if (count % 40 === 0) way = new Vector3(Math.sin(count * 1.7), 0, Math.cos(count * 1.7));
     const before = pose.position;
-    pose = step(walker, pose, boxes, way);
+    pose = step(controller, pose, boxes, way);
     const { x, y, z } = pose.position;
     gone += before.distanceTo(pose.position);
     const inside = boxes.find(({ min, max }) =>

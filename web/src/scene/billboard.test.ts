@@ -28,13 +28,13 @@ test("a billboard faces the viewer as far as its axis lets it", () => {
   }
 });
 
-test("without an axis it faces the viewer as the picture does", () => {
+test("a billboard without an axis is parallel to the screen", () => {
   const [x, y, z] = axes(billboardRotation([0, 0, 0], new Vector3(3, 4, 12), up));
   assert.ok(z.distanceTo(new Vector3(3 / 13, 4 / 13, 12 / 13)) < 1e-12);
   assert.ok(Math.abs(x.y) < 1e-12 && y.y > 0, "it stands upright in the picture");
 });
 
-test("where there is no telling where to turn it stays", () => {
+test("a billboard whose rotation is undefined stays unrotated", () => {
   for (const [axis, eye] of [
     [
       [0, 1, 0],

@@ -22,7 +22,7 @@ function litBy({ lights, shapes }: SceneInstances): string[] {
   );
 }
 
-test("a light shines on what stands in its group, at any depth; a point or a spot on everything unless it says otherwise", () => {
+test("a directional light lights its group's descendants; a point or spot light lights everything by default", () => {
   const lights = (attributes: string) =>
     `<DirectionalLight ${attributes}/><PointLight ${attributes}/><SpotLight ${attributes}/>`;
   const around = (attributes: string) =>
@@ -32,12 +32,12 @@ test("a light shines on what stands in its group, at any depth; a point or a spo
   assert.deepEqual(litBy(placed(around('global="true"'))), ["abcd", "abcd", "abcd"]);
 });
 
-test("a light of the scene itself shines on everything", () => {
+test("a light at the root lights everything", () => {
   assert.deepEqual(litBy(placed('<Shape id="a"/><DirectionalLight/><Group><Shape id="b"/></Group>')), ["ab"]);
   assert.equal(placed("<DirectionalLight/>").lights[0]?.scope, sceneScope);
 });
 
-test("a light that is USEd shines in each of its groups, and a group that is USEd is lit where it stands", () => {
+test("a USEd light lights each of its groups, and a USEd group is lit by each instance's surroundings", () => {
   const twice =
     '<Group><DirectionalLight DEF="sun"/><Shape id="a"/></Group><Transform><DirectionalLight USE="sun"/><Shape id="b"/></Transform>';
   assert.deepEqual(litBy(placed(twice)), ["a", "b"]);
@@ -49,7 +49,7 @@ test("a light that is USEd shines in each of its groups, and a group that is USE
   );
 });
 
-test("a choice of a Switch and a level of a LOD light themselves alone", () => {
+test("a light in a Switch choice or a LOD level lights that child only", () => {
   assert.deepEqual(
     litBy(
       placed(
@@ -66,13 +66,13 @@ test("a choice of a Switch and a level of a LOD light themselves alone", () => {
   );
 });
 
-test("a document that is inlined is a group of its own", () => {
+test("an inlined document is a scope of its own", () => {
   const x3d = elementsOf('<X3D><Scene><DirectionalLight/><Shape id="a"/></Scene></X3D>');
   const page = elementsOf('<X3D><Scene><Inline url="a.x3d"/><Shape id="b"/></Scene></X3D>');
   assert.deepEqual(litBy(instancesOf(readScene(page, { inlined: () => ({ url: "a.x3d", x3d }) }))), ["a"]);
 });
 
-test("numbers of scopes tell what lies in what, in documents of any form", () => {
+test("scope numbers tell which scope contains which, in random documents", () => {
   let nested = 0;
   for (let seed = 1; seed <= 20; ++seed) {
     const edited = new EditedDocument(new Dice(seed));

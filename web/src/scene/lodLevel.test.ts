@@ -13,7 +13,7 @@ describe("levels of detail", () => {
     assert.equal(lodLevelAt(5, [], 3, undefined), 0);
   });
 
-  test("do not change to and fro on a bound", () => {
+  test("do not flicker at a bound", () => {
     let level = 0,
       changes = 0;
     for (const distance of [9.8, 10.2, 9.8, 10.2, 9.8, 10.6, 10.2, 9.8, 10.2, 9.4, 9.8]) {
@@ -25,7 +25,7 @@ describe("levels of detail", () => {
     assert.equal(lodLevelAt(1000, [10, 20, 30], 4, 0), 3);
   });
 
-  test("are read as a choice, of which nothing but the chosen is seen", () => {
+  test("are read as a choice with one visible child", () => {
     const x3d =
       elementsOf(`<X3D><Scene><LOD range="5 50" center="1 2 3"><Shape id="a"><Box/></Shape><Group><Shape id="b"><Box/></Shape></Group>
       <Shape id="c"><Box/></Shape></LOD></Scene></X3D>`);

@@ -15,8 +15,8 @@ function disk(size: number, centre: number, radius: number): Uint8Array {
   });
 }
 
-describe("a field of distances", () => {
-  test("tells where a curved edge is to a tenth of a texel, and how far it is to a fifth", () => {
+describe("a distance field", () => {
+  test("locates a curved edge within a tenth of a texel, and distances within a fifth", () => {
     const [size, centre, radius, spread] = [48, 23.3, 14.6, 8];
     const field = distanceField(disk(size, centre, radius), size, size, spread);
     let [worst, worstOnEdge] = [0, 0];
@@ -30,7 +30,7 @@ describe("a field of distances", () => {
     assert.ok(worst < 0.2 && worstOnEdge < 0.1, `${worst} ${worstOnEdge}`);
   });
 
-  test("is a plane's along rows and along columns, with half-covered texels on the edge itself", () => {
+  test("is linear for horizontal and vertical edges, and 128 in half-covered texels", () => {
     const [width, height] = [12, 5];
     for (const across of [true, false]) {
       const size = across ? { width, height } : { width: height, height: width };
@@ -46,7 +46,7 @@ describe("a field of distances", () => {
     }
   });
 
-  test("of nothing is nothing, and of everything all", () => {
+  test("is 0 for an empty image and 255 for a full one", () => {
     assert.ok(distanceField(new Uint8Array(20), 5, 4, 8).every((value) => value === 0));
     assert.ok(distanceField(new Uint8Array(20).fill(255), 5, 4, 8).every((value) => value === 255));
   });

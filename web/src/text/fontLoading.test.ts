@@ -34,8 +34,8 @@ function fakeFonts(isHere: (font: string) => boolean): {
   };
 }
 
-describe("fonts that come late", () => {
-  test("are asked for with the letters that are shown, unless they are here; what fails is nobody's error", () => {
+describe("fonts of the page", () => {
+  test("are requested for the text shown, unless they are loaded; a failure is no error", () => {
     const { fonts, asked } = fakeFonts((font) => font.endsWith("px serif"));
     const late = new FontLoading(fonts, () => undefined, new AbortController().signal);
     late.editionOf(plain, "ab");
@@ -44,7 +44,7 @@ describe("fonts that come late", () => {
     assert.deepEqual(asked, ['1px "My Font", serif: ab', 'italic bold 1px "My Font", serif: c']);
   });
 
-  test("count for the texts that name them, in whatever case and quotes, and are heard of until nobody listens", () => {
+  test("change the edition of texts that name them, in any case and quotes, and are reported until the signal aborts", () => {
     const { fonts, come } = fakeFonts(() => true);
     const listening = new AbortController();
     let heard = 0;

@@ -80,7 +80,7 @@ describe("the layout of a text", () => {
     ]);
   });
 
-  test("can run to the left, and upwards", () => {
+  test("can run right to left, and bottom to top", () => {
     assert.deepEqual(places(["abc"], { leftToRight: false }), [["cba", -1.5, 0]]);
     assert.deepEqual(places(["abc"], { leftToRight: false, major: "END" }), [["cba", 0, 0]]);
     const yOf = (minor: TextStyle["minor"]) => places(["a", "b"], { topToBottom: false, minor }).map(([, , y]) => y);
@@ -92,7 +92,7 @@ describe("the layout of a text", () => {
     ]);
   });
 
-  test("stacks letters where it is not horizontal, what is read as one letter in one piece", () => {
+  test("stacks grapheme clusters in vertical text", () => {
     assert.deepEqual(places(["ab", "c"], { horizontal: false }), [
       ["a", 0.25, -0.75],
       ["b", 0.25, -1.75],
@@ -121,7 +121,7 @@ describe("the layout of a text", () => {
     );
   });
 
-  test("stretches strings to their length, and all of them by as much as the longest is too long", () => {
+  test("stretches strings to their length, and shrinks all by the factor that the longest needs", () => {
     assert.deepEqual(
       placed(["ab", "ab"], {}, [3]).map(({ stretchX }) => stretchX),
       [3, 1],
@@ -149,8 +149,8 @@ describe("the layout of a text", () => {
   });
 });
 
-describe("the sheet of a text's letters", () => {
-  test("has a cell for each run with ink, none over another, with room for the field around the ink", () => {
+describe("the glyph atlas of a text", () => {
+  test("has a cell for each run with ink, disjoint, with a margin for the distance field", () => {
     const runs = layOut(["jab", "long string", " ", "jab", "x"], [], 0, plain, measure);
     const sheet = glyphAtlasOf(runs);
     assert.ok(sheet);
@@ -180,7 +180,7 @@ describe("the sheet of a text's letters", () => {
     assert.deepEqual(runs.map(hasInk), [true, true, false, true, true]);
   });
 
-  test("is finer the fewer they are, of a size that every GPU has, and none for a book", () => {
+  test("has more texels per em for fewer glyphs, fits every GPU, and is undefined for a book", () => {
     const texelsFor = (lines: number, letters: number) => {
       const sheet = glyphAtlasOf(
         layOut(
@@ -205,7 +205,7 @@ describe("a shape of text", () => {
   const hello = `<Shape><Appearance><Material diffuseColor="1 0 0"/><ImageTexture url="a.png"/></Appearance>
     <Text string='"Hi" "you"' solid="true"><FontStyle DEF="F" size="2" family='"My Font" "SANS" "SERIF"' style="BOLDITALIC"/></Text></Shape>`;
 
-  test("is two triangles a line, with the letters laid over them and a box in front of which nothing lies", () => {
+  test("has two triangles a line, the glyph atlas as texture, and a tight box", () => {
     const { shape, warnings } = readText(hello);
     assert.ok(shape?.geometry?.glyphAtlas !== undefined);
     const { geometry, box, appearance } = shape;
@@ -241,13 +241,13 @@ describe("a shape of text", () => {
     );
   });
 
-  test("takes a string without quotes as one, and one in quotes with what they escape", () => {
+  test("reads text without quotes as one string, and quoted strings with escapes", () => {
     const linesOf = (string: string) =>
       (readText(`<Shape><Text string=${string}/></Shape>`).shape?.geometry?.patches[0]?.draws[0]?.count ?? 0) / 6;
     assert.deepEqual(["'two words'", `'"a" "" "b c"'`, `'"&quot;" "\\\\"'`, "''", "' '"].map(linesOf), [1, 2, 2, 0, 0]);
   });
 
-  test("is nothing, with a sentence, of letters without size or without end", () => {
+  test("draws nothing and warns for size 0 and for too long text", () => {
     assert.match(
       readText(`<Shape><Text string='"a"'><FontStyle size="0"/></Text></Shape>`).warnings[0] ?? "",
       /no size of letters/,
@@ -257,7 +257,7 @@ describe("a shape of text", () => {
     assert.match(book.warnings[0] ?? "", /more letters than one picture holds/);
   });
 
-  test("keeps its geometry until its words or its style change, also one that is USEd", () => {
+  test("keeps its geometry until its string or style changes, also where it is USEd", () => {
     const x3d = elementsOf(
       `<X3D><Scene><Shape><Text DEF="T" string='"a"'><FontStyle DEF="F"/></Text></Shape><Shape><Text string='"b"'><FontStyle USE="F"/></Text></Shape></Scene></X3D>`,
     );
@@ -282,7 +282,7 @@ describe("a shape of text", () => {
     );
   });
 
-  test("is another picture where another edition of its font has come, also in a document that is inlined", () => {
+  test("has another atlas URL when its font has loaded, also in an inlined document", () => {
     const inlined = {
       url: "http://a/room.x3d",
       x3d: elementsOf(`<X3D><Scene><Shape><Text string='"b"'><FontStyle family="F"/></Text></Shape></Scene></X3D>`),
@@ -311,7 +311,7 @@ describe("a shape of text", () => {
     );
   });
 
-  test("is not seen where nobody can draw letters", () => {
+  test("is not drawn without a text reader", () => {
     const { root, warnings } = readScene(elementsOf(`<X3D><Scene>${hello}</Scene></X3D>`));
     assert.deepEqual([shapesOf(root)[0]?.geometry, warnings], [undefined, []]);
   });
