@@ -3,17 +3,17 @@ import { DecodeError } from "./decodeError.ts";
 import type { PngHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
 
-/** An image and how many numbers its file has a texel: browsers make four of any. */
+/** An image, and the number of channels in its file: browsers decode any to four. */
 export interface DataImage<Image extends DecodedImage = DecodedImage> {
   readonly image: Image;
   readonly channels: PngHeader["channels"];
 }
 
-/** Decodes a PNG to exactly its stored bytes; rejects where that fails. */
+/** Decodes a PNG to exactly its stored bytes; rejects where it cannot. */
 export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuffer>) => Promise<Image>;
 
 /**
- * Checks and decodes. What comes back has the size that the header claims.
+ * Checks and decodes a PNG. The image has the size that the header states.
  * Rejects with DecodeError; the image is then closed.
  */
 export async function decodeImage<Image extends DecodedImage>(
@@ -36,7 +36,7 @@ export async function decodeImage<Image extends DecodedImage>(
   );
 }
 
-/** The browser's decoder, told to leave every byte alone. */
+/** The browser's decoder, without premultiplication and colour conversion. */
 export async function decodeWithBrowser(png: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   return createImageBitmap(new Blob([png], { type: "image/png" }), {
     premultiplyAlpha: "none",

@@ -1,5 +1,4 @@
-// What can be computed away from the main thread: pure functions from plain data
-// and bytes to plain data and arrays, by name.
+// The jobs that workers run, by name: pure functions from plain data and bytes to plain data and arrays.
 
 import {
   classicColors,

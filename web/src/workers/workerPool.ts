@@ -84,7 +84,7 @@ export class WorkerPool {
     }
   }
 
-  /** There will be jobs for `runHere`. */
+  /** Call where jobs for `runOnMainThread` are expected. */
   prepareMainThread(): void {
     this.#options.prepareMainThread();
   }

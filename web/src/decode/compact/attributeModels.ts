@@ -1,5 +1,4 @@
-// The models that every attribute's stream begins with: docs/formats/compact.md,
-// the end of "Attributes".
+// Indices of the models that the stream of every attribute begins with: docs/formats/compact.md, end of "Attributes".
 
 import { numberModelCount } from "./rangeDecoder.ts";
 

@@ -1,5 +1,5 @@
-// A decoded base as what a GPU takes: whole for the first look, each part for itself
-// for those after it, since a part goes when its patch comes.
+// Converts a decoded base mesh to arrays for the GPU: whole for the preview, and by segment for the runtime, which replaces
+// each segment when its patch arrives.
 
 import type { ElementArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
@@ -7,18 +7,18 @@ import type { CompactPatch } from "./patch.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
 import { indexOf, verticesOf } from "./patchBuffers.ts";
 
-/** Of each part, in order; undefined where one has no triangles. */
+/** The buffers of each segment, in order; undefined for a segment without triangles. */
 export type BaseBuffers = (PatchBuffers | undefined)[];
 
 export class Base {
   readonly segmentCount: number;
-  /** All parts in one. */
+  /** All segments in one. */
   readonly whole: PatchBuffers;
   readonly #part: Int32Array;
   readonly #wedge: Int32Array;
   #parts: BaseBuffers | undefined;
 
-  /** Throws DecodeError for what is no base. */
+  /** Throws DecodeError for a patch that is no base mesh. */
   constructor(patch: CompactPatch) {
     const {
       header,
@@ -32,14 +32,14 @@ export class Base {
     this.#wedge = wedge;
   }
 
-  /** Its parts, made when they are first asked for. */
+  /** The buffers of each segment, computed on first use. */
   get segments(): BaseBuffers {
-    return (this.#parts ??= partsOf(this.whole, this.#wedge, this.#part, this.segmentCount));
+    return (this.#parts ??= segmentsOf(this.whole, this.#wedge, this.#part, this.segmentCount));
   }
 }
 
-function partsOf(whole: PatchBuffers, wedge: Int32Array, part: Int32Array, partCount: number): BaseBuffers {
-  const { firsts, triangles } = trianglesByPart(part, partCount);
+function segmentsOf(whole: PatchBuffers, wedge: Int32Array, part: Int32Array, partCount: number): BaseBuffers {
+  const { firsts, triangles } = trianglesBySegment(part, partCount);
   const numbers = new Int32Array(whole.vertexCount).fill(-1);
   return Array.from({ length: partCount }, (_, p) => {
     const corners = new Int32Array(3 * (firsts[p + 1]! - firsts[p]!));
@@ -65,8 +65,8 @@ function partsOf(whole: PatchBuffers, wedge: Int32Array, part: Int32Array, partC
   });
 }
 
-/** Triangle numbers, those of part p from firsts[p] up to firsts[p + 1]. */
-function trianglesByPart(part: Int32Array, partCount: number): { firsts: Int32Array; triangles: Int32Array } {
+/** Triangle indices by segment: those of segment s from firsts[s] up to firsts[s + 1]. */
+function trianglesBySegment(part: Int32Array, partCount: number): { firsts: Int32Array; triangles: Int32Array } {
   const firsts = new Int32Array(partCount + 1);
   for (const p of part) firsts[p + 1] = firsts[p + 1]! + 1;
   for (let p = 0; p < partCount; ++p) firsts[p + 1] = firsts[p + 1]! + firsts[p]!;
@@ -80,7 +80,7 @@ function trianglesByPart(part: Int32Array, partCount: number): { firsts: Int32Ar
   return { firsts, triangles };
 }
 
-/** The records with these numbers. */
+/** The records with these indices. */
 function gather(all: VertexArray, numbers: readonly number[]): VertexArray {
   const { array, stride } = all;
   const some = new (array.constructor as new (length: number) => ElementArray)(numbers.length * stride);

@@ -1,6 +1,5 @@
-// The order in which a patch's triangles (or lines) and vertices come, and what
-// the passes after it want to know of that order. Corner i of triangle t is
-// 3 t + i; -1 stands for what there is not.
+// The triangles (or lines) of a patch in the order of decoding, and the neighbourhoods that later passes predict from.
+// Corner i of triangle t is 3 t + i; -1 means none.
 
 export interface Connectivity {
   /** Per corner. */
@@ -25,7 +24,7 @@ export interface Connectivity {
 
 const nothing = new Int32Array();
 
-/** What points have. */
+/** The connectivity of points. */
 export const unconnected: Connectivity = {
   vertex: nothing,
   across: nothing,

@@ -1,4 +1,4 @@
-// What stands before the streams of a file: docs/formats/compact.md, "File".
+// Reads the header of a file, which precedes its streams: docs/formats/compact.md, "File".
 
 import { DecodeError } from "../decodeError.ts";
 
@@ -18,12 +18,12 @@ export interface AttributeType {
   readonly isDerived: boolean;
 }
 
-/** What patches of a file may have in common. */
+/** What several patches of a file have in common. */
 export interface PatchType {
   readonly topology: Topology;
   readonly positionBits: number;
   readonly isBase: boolean;
-  /** Places in the file's attributes. */
+  /** Indices into the file's attributes. */
   readonly attributes: readonly number[];
 }
 
@@ -44,7 +44,7 @@ export interface FileStreams {
   readonly attributes: readonly Uint8Array[];
 }
 
-/** Of all patches of a file: vertices, wedges and elements each. */
+/** Maximum sum over all patches of a file, for vertices, wedges and elements each. */
 export const maxCount = 2 ** 20;
 const maxPatchCount = 65536;
 const maxTypeCount = 256;
@@ -77,9 +77,9 @@ export function readFileHeader(payload: Uint8Array): { header: FileHeader; strea
   return { header: { attributes, types, patchCount }, streams: readStreams(reader, attributes.length) };
 }
 
-function readCount(reader: FieldReader, what: string, most: number): number {
+function readCount(reader: FieldReader, what: string, max: number): number {
   const count = reader.number();
-  if (count > most) throw new DecodeError("limit", `holds ${count} ${what}; ${most} are allowed`);
+  if (count > max) throw new DecodeError("limit", `holds ${count} ${what}; ${max} are allowed`);
   return count;
 }
 
@@ -100,8 +100,10 @@ function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
 
 function readAttributeType(reader: FieldReader): AttributeType {
   const kind = attributeKinds[within("kind of an attribute", reader.byte(), 0, 3)] ?? "other";
-  const [fewest, most] = ({ normal: [3, 3], texCoord: [2, 2], color: [3, 4], other: [1, 4] } as const)[kind];
-  const components = within("number of components", reader.byte(), fewest, most);
+  const [minComponents, maxComponents] = ({ normal: [3, 3], texCoord: [2, 2], color: [3, 4], other: [1, 4] } as const)[
+    kind
+  ];
+  const components = within("number of components", reader.byte(), minComponents, maxComponents);
   const bits = within("bits of an attribute", reader.byte(), kind === "normal" ? 4 : 1, kind === "other" ? 24 : 16);
   const mode = within("mode of an attribute", reader.byte(), 0, kind === "normal" ? 3 : 0);
   return { kind, components, bits, isUniform: (mode & 1) !== 0, isDerived: (mode & 2) !== 0 };
@@ -115,13 +117,13 @@ function readStreams(reader: FieldReader, attributeCount: number): FileStreams {
   return { sizes, connectivity, segments: parts, positions, wedges, attributes };
 }
 
-/** The value, which is refused outside of its range. */
-export function within(what: string, value: number, least: number, most: number): number {
-  if (value >= least && value <= most) return value;
-  throw new DecodeError("malformed", `has ${value} as ${what}; ${least} to ${most} are allowed`);
+/** Returns the value. Throws DecodeError where it is outside min .. max. */
+export function within(what: string, value: number, min: number, max: number): number {
+  if (value >= min && value <= max) return value;
+  throw new DecodeError("malformed", `has ${value} as ${what}; ${min} to ${max} are allowed`);
 }
 
-/** Takes fields off a payload. */
+/** Reads fields of a payload in order. */
 class FieldReader {
   readonly #payload: Uint8Array;
   #at = 0;
@@ -140,7 +142,7 @@ class FieldReader {
     return this.bytes(1)[0]!;
   }
 
-  /** Seven bits a byte, the least first; below 2^28. */
+  /** A number below 2^28 in groups of seven bits, least significant first. */
   number(): number {
     let value = 0;
     for (let shift = 0; shift < 28; shift += 7) {

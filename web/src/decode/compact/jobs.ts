@@ -1,4 +1,4 @@
-// What workers do for SIG compact: a file whole, patches or bases.
+// The jobs of SIG compact: decode a whole file of patches, or of base meshes.
 
 import { DecodeError } from "../decodeError.ts";
 import { decodePixels } from "../pngPixels.ts";
@@ -8,7 +8,7 @@ import { decodePatches } from "./patch.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
 import { buffersOf } from "./patchBuffers.ts";
 
-/** All patches of a file. Rejects with DecodeError. Safe for untrusted bytes. */
+/** Decodes all patches of a file. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactPatches(png: Uint8Array<ArrayBuffer>): Promise<PatchBuffers[]> {
   return decodePatches(await payloadOf(png), (patch) => {
     if (patch.segments) throw new DecodeError("malformed", "holds a base where a patch should be");
@@ -16,12 +16,12 @@ export async function compactPatches(png: Uint8Array<ArrayBuffer>): Promise<Patc
   });
 }
 
-/** The parts of all bases of a file. Rejects with DecodeError. Safe for untrusted bytes. */
+/** Decodes the segments of all base meshes of a file. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactBases(png: Uint8Array<ArrayBuffer>): Promise<BaseBuffers[]> {
   return (await decodeBases(png)).map((base) => base.segments);
 }
 
-/** All bases of a file, for who shows them whole first. Rejects with DecodeError. Safe for untrusted bytes. */
+/** Decodes all base meshes of a file, whole. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function decodeBases(png: Uint8Array<ArrayBuffer>): Promise<Base[]> {
   return decodePatches(await payloadOf(png), (patch) => new Base(patch));
 }

@@ -1,4 +1,4 @@
-// What an attribute's values are predicted from: docs/formats/compact.md, "Attributes".
+// The neighbouring wedges that attribute values are predicted from: docs/formats/compact.md, "Attributes".
 
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
@@ -8,7 +8,7 @@ import type { RangeDecoder } from "./rangeDecoder.ts";
 import type { PatchHeader } from "./sizes.ts";
 import type { Wedges } from "./wedges.ts";
 
-/** What is known of a patch when its attributes come. */
+/** What is decoded of a patch before its attributes. */
 export interface DecodedShape extends Positions {
   readonly header: PatchHeader;
   readonly connectivity: Connectivity;

@@ -1,4 +1,4 @@
-// The patches of a file in integers, exactly what it holds: docs/formats/compact.md.
+// Decodes the patches of a file to integers: docs/formats/compact.md.
 
 import type { Connectivity } from "./connectivity.ts";
 import { unconnected } from "./connectivity.ts";
@@ -19,15 +19,15 @@ import type { Wedges } from "./wedges.ts";
 import { decodeWedges } from "./wedges.ts";
 
 export interface CompactPatch extends DecodedShape {
-  /** In the order of the header's attributes: its components of each wedge. */
+  /** For each attribute of the header, the components of each wedge. */
   readonly attributes: readonly Int32Array[];
-  /** Of a base. */
+  /** Base meshes only. */
   readonly segments: Segments | undefined;
 }
 
 /**
- * What `take` makes of each patch of a payload, decoded in time linear in counts that are
- * limited. Safe for untrusted bytes. Throws DecodeError.
+ * Decodes the patches of a payload and returns what `take` makes of each. Takes time linear in counts that are limited.
+ * Safe for untrusted bytes. Throws DecodeError.
  */
 export function decodePatches<Taken>(payload: Uint8Array, take: (patch: CompactPatch) => Taken): Taken[] {
   const { header, streams } = readFileHeader(payload);
@@ -49,7 +49,7 @@ function decodePatch({ header, type }: SizedPatch, streams: StreamDecoders): Com
   const shape: DecodedShape = { header, connectivity, wedges, ...positions };
   return {
     ...shape,
-    attributes: type.attributes.map((place, i) => decodeAttribute(place, i, shape, streams)),
+    attributes: type.attributes.map((fileIndex, i) => decodeAttribute(fileIndex, i, shape, streams)),
     segments: parts,
   };
 }
@@ -60,11 +60,11 @@ function connectivityOf({ topology, elementCount, vertexCount }: PatchHeader, st
   return decode(streams.connectivity, elementCount, vertexCount);
 }
 
-/** The patch's attribute number i, which is that at a place of the file's. */
-function decodeAttribute(place: number, i: number, shape: DecodedShape, streams: StreamDecoders): Int32Array {
+/** Decodes attribute i of the patch, which is the attribute `fileIndex` of the file. */
+function decodeAttribute(fileIndex: number, i: number, shape: DecodedShape, streams: StreamDecoders): Int32Array {
   const type = shape.header.attributes[i]!;
   if (type.isDerived) return deriveNormals(type, shape);
-  const decoder = streams.attribute(place);
+  const decoder = streams.attribute(fileIndex);
   if (type.kind === "normal") return decodeNormals(decoder, type, shape);
   return type.kind === "texCoord" ? decodeTexCoords(decoder, type, shape) : decodeValues(decoder, type, shape);
 }

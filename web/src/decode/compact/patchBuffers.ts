@@ -1,5 +1,5 @@
-// A decoded patch as what a GPU takes: wedges are its vertices. Everything stays
-// as many bits as it needs; positions stay lattice numbers.
+// Converts a decoded patch to arrays for the GPU: its wedges are the vertices. Attributes keep the smallest type that
+// holds their bits; positions stay lattice integers.
 
 import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { AttributeType, Topology } from "./header.ts";
@@ -10,13 +10,13 @@ export interface PatchBuffers {
   readonly topology: Topology;
   readonly positionBits: number;
   readonly vertexCount: number;
-  /** Corners of elements; undefined in points, which are drawn in order. */
+  /** Corners of triangles or lines; undefined for points, which are drawn in order. */
   readonly index: IndexArray | undefined;
-  /** Lattice numbers; as floats where they have more than 16 bits. */
+  /** Lattice integers; floats where they have more than 16 bits. */
   readonly coord: VertexArray;
-  /** Directions of any length, as signed shares of a type's largest value. */
+  /** Directions of any length, in a signed integer type. */
   readonly normal: VertexArray | undefined;
-  /** Shares of a type's largest value, as texture coordinates. */
+  /** Normalized unsigned integers, as texture coordinates. */
   readonly color: VertexArray | undefined;
   readonly texCoord: VertexArray | undefined;
   /** Further attributes, in the order of the file. */
@@ -29,15 +29,15 @@ export interface OtherValues {
   readonly vertices: VertexArray;
 }
 
-/** An index of 65,535 restarts primitives where it is the largest of its type. */
+/** Index 65,535 of type Uint16 is the primitive restart index. */
 const maxUint16VertexCount = 65535;
 
-/** Of normals, colours and texture coordinates the first are shown. */
+/** Uses the first normals, colours and texture coordinates of the patch. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
   return { ...verticesOf(patch), index: patch.header.topology === "points" ? undefined : orderedIndexOf(patch) };
 }
 
-/** All but the index. */
+/** All arrays except the index. */
 export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
   const { header } = patch;
   const attribute = <Array>(kind: AttributeType["kind"], make: (values: Int32Array, type: AttributeType) => Array) => {
@@ -95,7 +95,7 @@ function coordOf({ header, coordinates, connectivity, wedges: { seams } }: Compa
   return { array, components: 3, stride, offset: 0 };
 }
 
-/** Numbers of some bits, spread over the whole range of bytes or of words. */
+/** Scales numbers of `bits` bits to the whole range of bytes or 16-bit words. */
 function sharesOf(values: Int32Array, { components, bits }: AttributeType): VertexArray {
   const count = values.length / components;
   const stride = components === 2 ? 2 : 4; // multiples of four bytes are what GPUs read at once

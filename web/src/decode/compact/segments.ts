@@ -1,4 +1,5 @@
-// Which part of a base each triangle belongs to: docs/formats/compact.md, "Parts".
+// Decodes the segment of a base mesh that each triangle belongs to, that is, the patch for which it stands in:
+// docs/formats/compact.md.
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
@@ -12,9 +13,9 @@ const segmentModels = otherModels + 4;
 export const segmentModelCount = segmentModels + numberModelCount;
 
 export interface Segments {
-  /** Per triangle. */
+  /** Per triangle: its segment. */
   readonly segment: Int32Array;
-  /** Per vertex: 1 where several parts have it. */
+  /** Per vertex: 1 where triangles of several segments use it. */
   readonly isShared: Uint8Array;
 }
 

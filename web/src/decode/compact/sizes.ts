@@ -1,5 +1,5 @@
-// What the first stream of a file says of each patch: docs/formats/compact.md,
-// "Sizes". All counts are checked here, before anything is allocated for them.
+// Decodes the sizes of each patch from the first stream of a file: docs/formats/compact.md, "Sizes". All counts are checked
+// here, before anything is allocated for them.
 
 import { DecodeError } from "../decodeError.ts";
 import type { AttributeType, FileHeader, PatchType, Topology } from "./header.ts";
@@ -31,9 +31,9 @@ export interface PatchHeader {
   readonly wedgeCount: number;
   readonly elementCount: number;
   readonly attributes: readonly AttributeType[];
-  /** Of a base: how many patches it stands in for; 0: it is a patch. */
+  /** Number of patches that a base mesh stands in for; 0: a patch. */
   readonly segmentCount: number;
-  /** Of a base: positions that one part alone has come in residuals of 2^residualShift. */
+  /** Base meshes: residuals of positions that only one segment uses are multiples of 2^residualShift. */
   readonly residualShift: number;
 }
 
@@ -42,7 +42,7 @@ export interface SizedPatch {
   readonly header: PatchHeader;
 }
 
-/** Of each patch of a file. Safe for untrusted bytes. Throws DecodeError. */
+/** The header of each patch of a file. Safe for untrusted bytes. Throws DecodeError. */
 export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount }: FileHeader): SizedPatch[] {
   const decoder = new RangeDecoder(stream, modelCount);
   const patches = Array.from({ length: patchCount }, (): SizedPatch => {

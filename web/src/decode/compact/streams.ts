@@ -1,5 +1,4 @@
-// The streams of a file: the decoder of each serves all patches, one after the
-// other, and is made when the first of them calls for it.
+// The decoders of a file's streams. One decoder serves all patches in turn; it is created on first use.
 
 import { DecodeError } from "../decodeError.ts";
 import { attributeModelCount } from "./attributeModels.ts";
@@ -30,7 +29,7 @@ class Stream {
   }
 }
 
-/** Of all that patches have but their sizes. */
+/** The decoders of all streams except that of the sizes. */
 export class StreamDecoders {
   readonly #connectivity: Stream;
   readonly #parts: Stream;
@@ -59,12 +58,12 @@ export class StreamDecoders {
     return this.#wedges.decoder;
   }
 
-  /** Of the attribute at this place of the header's. */
-  attribute(place: number): RangeDecoder {
-    return this.#attributes[place]!.decoder;
+  /** The decoder of the header's attribute with this index. */
+  attribute(index: number): RangeDecoder {
+    return this.#attributes[index]!.decoder;
   }
 
-  /** To be called when all patches are decoded. Throws DecodeError where a stream is longer than what is in it. */
+  /** To be called when all patches are decoded. Throws DecodeError where a stream holds unread bytes. */
   finish(): void {
     for (const stream of [this.#connectivity, this.#parts, this.#positions, this.#wedges, ...this.#attributes])
       stream.finish();
