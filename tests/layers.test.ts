@@ -1,7 +1,6 @@
-// Who may use whom: docs/layers.txt against every #include of src/ and every
-// import of web/src/. Unit tests keep to the same rules as the code beside them;
-// only node's own modules, the shared test data of tests/ and what a row
-// "tests of FOLDER" lists are theirs alone.
+// Checks every #include of src/ and every import of web/src/ against docs/layers.txt, and finds cycles between files. Unit
+// tests keep to the rules of the code beside them; besides, they may use node's modules, the shared test data of tests/
+// and what a row "tests of FOLDER" lists.
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -19,6 +19,7 @@ struct Extrusion {
 /// Appends the vertices, with texture coordinates, and the faces of an extrusion. The ends of closed curves share their
 /// positions; caps have vertices of their own. Appends nothing where the spine or the cross-section has fewer than two
 /// points.
+/// web/src/tessellate/extrusion.ts gives the same: vectors/tessellation/extrusion.json holds both to that.
 void extrude(const Extrusion& extrusion, VertexData& data, Faces& faces);
 
 } // namespace imgeo::x3d
