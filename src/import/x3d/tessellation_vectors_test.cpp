@@ -89,7 +89,7 @@ TEST(TessellationVectors, ComputeCreaseNormals) {
         faces.corners.push_back({position, none, none, none});
       faces.ends.push_back(faces.corners.size());
     }
-    addCreasedNormals(data, faces, vector["creaseAngle"]);
+    addCreaseNormals(data, faces, vector["creaseAngle"]);
     std::vector<Vec3f> normals;
     for (const Corner& corner : faces.corners)
       normals.push_back(data.normals.at(corner.normal));
