@@ -8,7 +8,7 @@ interface Format {
   readonly magic: string;
 }
 
-/** Formats that hosts and image optimisers put in the place of a PNG. */
+/** Formats that hosts and image optimisers put in place of a PNG. */
 const formats: readonly Format[] = [
   { name: "a JPEG image", offset: 0, magic: "\xff\xd8\xff" },
   { name: "a WebP image", offset: 8, magic: "WEBP" },
@@ -20,6 +20,6 @@ const formats: readonly Format[] = [
 /** Undefined for what is none of the formats that we know by name. */
 export function foreignFormatOf(bytes: Uint8Array): string | undefined {
   const begins = ({ offset, magic }: Format) =>
-    Array.from(magic).every((letter, place) => bytes[offset + place] === letter.charCodeAt(0));
+    Array.from(magic).every((letter, index) => bytes[offset + index] === letter.charCodeAt(0));
   return formats.find(begins)?.name;
 }

@@ -27,7 +27,7 @@ const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0
  * Safe for untrusted bytes. Throws DecodeError.
  */
 export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): PngHeader {
-  if (!signature.every((byte, place) => bytes[place] === byte)) {
+  if (!signature.every((byte, index) => bytes[index] === byte)) {
     const other = foreignFormatOf(bytes);
     if (other !== undefined)
       throw new DecodeError("unsupported", `is ${other}; vertex data must be PNG, which keeps every byte`);
@@ -49,7 +49,7 @@ function checkOrder(types: readonly string[]): void {
   if (types.slice(1).some((type) => isCritical(type) && !["PLTE", "IDAT", "IEND"].includes(type))) {
     throw new DecodeError("malformed", "has a chunk that no reader knows");
   }
-  const runs = types.filter((type, place) => type === "IDAT" && types[place - 1] !== "IDAT").length;
+  const runs = types.filter((type, index) => type === "IDAT" && types[index - 1] !== "IDAT").length;
   if (runs === 0) throw new DecodeError("malformed", "holds no image data");
   if (runs > 1 || types.indexOf("PLTE") !== types.lastIndexOf("PLTE"))
     throw new DecodeError("malformed", "has its chunks out of order");
@@ -58,8 +58,8 @@ function checkOrder(types: readonly string[]): void {
 function readHeader(view: DataView, offset: number, maxEdge: number): PngHeader {
   const width = view.getUint32(offset);
   const height = view.getUint32(offset + 4);
-  const [bitDepth, colorType, compression, filter, interlace] = [8, 9, 10, 11, 12].map((place) =>
-    view.getUint8(offset + place),
+  const [bitDepth, colorType, compression, filter, interlace] = [8, 9, 10, 11, 12].map((index) =>
+    view.getUint8(offset + index),
   );
   if (width < 1 || height < 1 || width > maxEdge || height > maxEdge) {
     throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${maxEdge} are allowed`);
@@ -85,7 +85,7 @@ function chunkTypes(view: DataView): string[] {
     if (view.byteLength - offset < chunkOverhead) throw new DecodeError("truncated", "ends before its last chunk");
     const length = view.getUint32(offset);
     if (length > view.byteLength - offset - chunkOverhead) throw new DecodeError("truncated", "ends inside a chunk");
-    types.push(String.fromCharCode(...[4, 5, 6, 7].map((place) => view.getUint8(offset + place))));
+    types.push(String.fromCharCode(...[4, 5, 6, 7].map((index) => view.getUint8(offset + index))));
     offset += length + chunkOverhead;
   }
   if (offset !== view.byteLength) throw new DecodeError("malformed", "goes on after its end");

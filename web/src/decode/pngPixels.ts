@@ -1,4 +1,4 @@
-// A PNG to its stored bytes by our own hands (PNG specification, W3C 2003,
+// Decodes a PNG to its stored bytes in JavaScript (PNG specification, W3C 2003,
 // sections 7 to 10): where a canvas would do it, browsers multiply by alpha, apply
 // colour profiles, and against fingerprinting add noise.
 
@@ -40,7 +40,7 @@ const colorTypePlace = 25;
 /** Deflate makes at most so many bytes of one. */
 const largestDeflateRatio = 1032;
 
-/** Of bytes that `checkPng` has accepted. */
+/** The chunks of a PNG that `checkPng` has accepted. */
 function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
   const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
   const chunks: { type: string; data: Uint8Array<ArrayBuffer> }[] = [];

@@ -32,7 +32,7 @@ interface PlanesJob extends RecordLayout {
 export interface CoordJob extends PlanesJob {
   /** The byte planes that there will be. */
   readonly planeCount: number;
-  /** Added to every coordinate in place of the bytes that are not here. */
+  /** Added to every coordinate for the missing bytes. */
   readonly missingBytesMidpoint: number;
 }
 
@@ -200,13 +200,13 @@ function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): V
 /** From numbers to texels of the image; throws where it has fewer. */
 function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: number) => number {
   const { width, firstTexel: first } = image;
-  const place =
+  const texelIndexOf =
     rowLength === 0 || rowLength === width
       ? (n: number) => first + n
       : (n: number) => first + Math.floor(n / rowLength) * width + (n % rowLength);
   if (rowLength > width) throw new DecodeError("malformed", `is ${width} texels wide, rows of ${rowLength} do not fit`);
-  if (count > 0) requireTexels(image, place(count - 1) - first + 1);
-  return place;
+  if (count > 0) requireTexels(image, texelIndexOf(count - 1) - first + 1);
+  return texelIndexOf;
 }
 
 function requireTexels({ width, height, firstTexel: first }: FirstPixels, count: number): void {

@@ -10,14 +10,14 @@ export interface GridJob extends CoordJob {
   readonly grid: Grid;
   /** The stored integer that stands for the far side of the box. */
   readonly maxStored: number;
-  /** Of the lattice, along each axis. */
+  /** Lattice step along each axis. */
   readonly step: readonly [number, number, number];
 }
 
 export interface GridArrays {
   readonly index: IndexArray;
   readonly coord: VertexArray;
-  /** Of the surface's slope. */
+  /** Normals of the surface slope. */
   readonly normal: VertexArray;
 }
 
@@ -31,14 +31,14 @@ export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): P
   const array = new Float32Array(columns * rows * 3);
   for (let record = 0; record < columns * rows; ++record) {
     const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.missingBytesMidpoint;
-    const place = isHeights
+    const point = isHeights
       ? [
           ((record % columns) * maxStored) / (columns - 1),
           stored(0),
           (Math.floor(record / columns) * maxStored) / (rows - 1),
         ]
       : [stored(0), stored(1), stored(2)];
-    array.set(place, 3 * record);
+    array.set(point, 3 * record);
   }
   return {
     index: gridIndex(grid),
@@ -65,13 +65,13 @@ export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
 }
 
 function slopeNormals(
-  places: Float32Array,
+  points: Float32Array,
   { kind, columns, rows }: Grid,
   step: readonly number[],
 ): Float32Array<ArrayBuffer> {
   const isClosed = kind === "sculpt";
-  const normals = new Float32Array(places.length);
-  const at = (row: number, column: number, axis: number) => places[3 * (row * columns + column) + axis] ?? 0;
+  const normals = new Float32Array(points.length);
+  const at = (row: number, column: number, axis: number) => points[3 * (row * columns + column) + axis] ?? 0;
   const slopeAt = (row: number, column: number): Vector => {
     const left = isClosed ? (column + columns - 1) % columns : Math.max(column - 1, 0);
     const right = isClosed ? (column + 1) % columns : Math.min(column + 1, columns - 1);

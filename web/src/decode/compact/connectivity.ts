@@ -14,8 +14,8 @@ export interface Connectivity {
   /** Per vertex: the corner opposite of the edge on its other side. */
   readonly second: Int32Array;
   /**
-   * Of triangles, per place on the boundary, in the order of their making: how many triangles and
-   * places there were when all around it were decoded. Between two of these come a place's own.
+   * Triangles only: for each node of the boundary, in the order of creation, the numbers of triangles and
+   * nodes when all triangles around it were decoded. Those between two entries are the later node's own.
    */
   readonly fans: Int32Array;
   /** Per vertex, lines: the other end of the line that brought it. */

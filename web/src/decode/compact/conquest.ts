@@ -20,7 +20,7 @@ const nodeModels = oldModels + 3;
 const vertexModels = nodeModels + numberModelCount;
 export const triangleModelCount = vertexModels + numberModelCount;
 
-// A node is a place on the boundary and stands for the edge from the node before
+// A node is a vertex on the boundary and stands for the edge from the node before
 // to it. A node's number is where its four fields begin.
 const nodeSize = 4;
 const previousField = 1; // field 0 is its vertex
@@ -68,18 +68,18 @@ class Conquest {
     const nodes = this.#nodes;
     const fans = new Int32Array(2 * 3 * this.#triangleCount);
     let pivot = 0;
-    let place = 0;
+    let fanOffset = 0;
     while (this.#triangle < this.#triangleCount) {
       this.#takeRoot();
       for (; pivot < this.#node; pivot += nodeSize) {
         while (this.#triangle < this.#triangleCount && nodes[pivot + previousField]! >= 0) this.#crossEdgeTo(pivot);
-        fans[place++] = this.#triangle;
-        fans[place++] = this.#node / nodeSize;
+        fans[fanOffset++] = this.#triangle;
+        fans[fanOffset++] = this.#node / nodeSize;
       }
     }
     if (this.#newVertex < this.#vertexCount)
       throw new DecodeError("malformed", "holds fewer vertices than its header states");
-    return { ...this.#out, fans: fans.subarray(0, place) };
+    return { ...this.#out, fans: fans.subarray(0, fanOffset) };
   }
 
   /** A triangle that shares no edge with the boundary. */

@@ -89,13 +89,13 @@ function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
   const isBase = within("flags", reader.byte(), 0, 1) === 1;
   if (isBase && topology !== "triangles") throw new DecodeError("malformed", `holds parts of ${topology}`);
   const count = within("number of attributes", reader.byte(), 0, maxPatchAttributeCount);
-  const places: number[] = [];
-  while (places.length < count) {
-    const place = within("attribute", reader.byte(), 0, attributeCount - 1);
-    if (places.includes(place)) throw new DecodeError("malformed", "holds an attribute of a patch twice");
-    places.push(place);
+  const indices: number[] = [];
+  while (indices.length < count) {
+    const index = within("attribute", reader.byte(), 0, attributeCount - 1);
+    if (indices.includes(index)) throw new DecodeError("malformed", "holds an attribute of a patch twice");
+    indices.push(index);
   }
-  return { topology, positionBits, isBase, attributes: places };
+  return { topology, positionBits, isBase, attributes: indices };
 }
 
 function readAttributeType(reader: FieldReader): AttributeType {

@@ -1,7 +1,7 @@
 // Sums of triangle normals, in 32 wrapping bits, for positions and normals to be
 // predicted from: docs/formats/compact.md, the end of "Positions".
 
-/** x, y, z of each of `count` places. */
+/** `count` sums: x, y, z of each. */
 export class NormalSums {
   readonly sums: Int32Array;
   readonly #coordinates: Int32Array;
@@ -15,7 +15,7 @@ export class NormalSums {
     this.#isUniform = isUniform;
   }
 
-  /** Adds the normal of a triangle of three vertices to the sums of three places. */
+  /** Adds the normal of a triangle of three vertices to three of the sums. */
   add(va: number, vb: number, vc: number, a: number, b: number, c: number): void {
     const coordinates = this.#coordinates;
     const shift = this.#shift;
@@ -43,11 +43,11 @@ export class NormalSums {
     this.#addTo(c, nx, ny, nz);
   }
 
-  #addTo(place: number, nx: number, ny: number, nz: number): void {
+  #addTo(index: number, nx: number, ny: number, nz: number): void {
     const sums = this.sums;
-    sums[3 * place] = sums[3 * place]! + nx;
-    sums[3 * place + 1] = sums[3 * place + 1]! + ny;
-    sums[3 * place + 2] = sums[3 * place + 2]! + nz;
+    sums[3 * index] = sums[3 * index]! + nx;
+    sums[3 * index + 1] = sums[3 * index + 1]! + ny;
+    sums[3 * index + 2] = sums[3 * index + 2]! + nz;
   }
 }
 

@@ -41,8 +41,8 @@ export function buffersOf(patch: CompactPatch): PatchBuffers {
 export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
   const { header } = patch;
   const attribute = <Array>(kind: AttributeType["kind"], make: (values: Int32Array, type: AttributeType) => Array) => {
-    const place = header.attributes.findIndex((type) => type.kind === kind);
-    return place < 0 ? undefined : make(patch.attributes[place]!, header.attributes[place]!);
+    const attributeIndex = header.attributes.findIndex((type) => type.kind === kind);
+    return attributeIndex < 0 ? undefined : make(patch.attributes[attributeIndex]!, header.attributes[attributeIndex]!);
   };
   return {
     topology: header.topology,
@@ -55,8 +55,8 @@ export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
     }),
     color: attribute("color", sharesOf),
     texCoord: attribute("texCoord", sharesOf),
-    others: header.attributes.flatMap((type, place) =>
-      type.kind === "other" ? [othersOf(patch.attributes[place]!, type)] : [],
+    others: header.attributes.flatMap((type, attributeIndex) =>
+      type.kind === "other" ? [othersOf(patch.attributes[attributeIndex]!, type)] : [],
     ),
   };
 }

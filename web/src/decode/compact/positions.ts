@@ -160,10 +160,10 @@ class PositionDecoder {
   #addCandidate(a: number, b: number, c: number, flag: number): void {
     const coordinates = this.#coordinates;
     const candidates = this.#candidates;
-    const place = 3 * this.#candidateCount++;
-    candidates[place] = coordinates[3 * a]! + coordinates[3 * b]! - coordinates[3 * c]!;
-    candidates[place + 1] = coordinates[3 * a + 1]! + coordinates[3 * b + 1]! - coordinates[3 * c + 1]!;
-    candidates[place + 2] = coordinates[3 * a + 2]! + coordinates[3 * b + 2]! - coordinates[3 * c + 2]!;
+    const first = 3 * this.#candidateCount++;
+    candidates[first] = coordinates[3 * a]! + coordinates[3 * b]! - coordinates[3 * c]!;
+    candidates[first + 1] = coordinates[3 * a + 1]! + coordinates[3 * b + 1]! - coordinates[3 * c + 1]!;
+    candidates[first + 2] = coordinates[3 * a + 2]! + coordinates[3 * b + 2]! - coordinates[3 * c + 2]!;
     this.#candidateSet += flag;
   }
 

@@ -128,7 +128,7 @@ export class RangeDecoder {
     if (this.#at !== this.#end) throw new DecodeError("malformed", "holds a stream that is longer than what is in it");
   }
 
-  /** Of a number, in bits. */
+  /** Reads the bit length of a number. */
   #length(models: number): number {
     const length = this.tree(models, 4);
     return length < 15 ? length : 15 + this.tree(models + 16, 4);
@@ -157,7 +157,7 @@ function crossed(): DecodeError {
   return new DecodeError("malformed", "holds a stream that is shorter than what is in it");
 }
 
-/** Of a magnitude, 0 … 2^32 - 1. */
+/** The bit length of a magnitude, 0 … 2^32 - 1. */
 export function bitLength(magnitude: number): number {
   return 32 - Math.clz32(magnitude);
 }

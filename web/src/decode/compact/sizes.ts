@@ -52,7 +52,7 @@ export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount 
       header: decodeHeader(
         decoder,
         type,
-        type.attributes.map((place) => attributes[place]!),
+        type.attributes.map((attributeIndex) => attributes[attributeIndex]!),
       ),
     };
   });
