@@ -1,8 +1,7 @@
-// Bundles the runtime into the ES modules of web/dist: what a page loads first,
-// imgeo.js, which draws what it can and brings the rest, with three.js in it,
-// imgeo-scene.js; what both need, imgeo-shared.js; and what workers run,
-// imgeo-worker.js. The `imgeo` tool carries them inside itself and copies them into
-// every site.
+// Bundles the runtime into the ES modules of web/dist: imgeo.js, which a page loads
+// first, and which draws previews and loads the rest; imgeo-scene.js, the rest with
+// three.js in it; imgeo-shared.js, which both import; and imgeo-worker.js for workers.
+// The `imgeo` executable contains them and copies them into every site.
 import { build, type BuildOptions } from "esbuild";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -24,16 +23,16 @@ function bundleOf(entry: string): BuildOptions & { write?: true } {
   };
 }
 
-/** All of it in one module. */
+/** The whole runtime in one module. */
 export const runtimeBundle = { ...bundleOf("dom/index.ts"), plugins: [leanThree] };
 export const workerBundle = bundleOf("workers/worker.ts");
 
-/** As sites have it, in as many modules as it takes to come in parts. */
+/** The runtime in the modules of a site. */
 export const siteBundle: BuildOptions & { write?: true } = {
   ...bundleOf("dom/page.ts"),
   entryPoints: { imgeo: join(sources, "dom/page.ts"), "imgeo-scene": join(sources, "dom/register.ts") },
   splitting: true,
-  chunkNames: "imgeo-shared", // there is one: two would be two files of this name, which is an error
+  chunkNames: "imgeo-shared", // a second chunk would have the same name, which is an error
   plugins: [leanThree],
 };
 

@@ -1,5 +1,4 @@
-// Puts the Stanford dragon into build/museum as a museum would show it, for any
-// server to serve.
+// Builds a museum's page of the Stanford dragon in build/museum, for any web server.
 //
 //   node examples/museum/build.ts [SITE [OUTPUT]]
 

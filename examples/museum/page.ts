@@ -1,8 +1,7 @@
-// A museum's page for one piece: it turns by itself until somebody takes it, the
-// key P shows the points that it was scanned as, and its notes are buttons that
-// stand where they speak of.
+// A museum's page for one object: it turns by itself until the user moves it, the key P
+// displays its points, and its notes are buttons at the points that they describe.
 
-/** A note, and the place of the piece that it is of. */
+/** A note, and the point of the object that it describes. */
 export interface Note {
   readonly name: string;
   readonly text: string;

@@ -1,5 +1,5 @@
-// A plain three.js app that shows a site of `imgeo convert` on a floor of its own,
-// under its own lights, with their shadows. Click on the model to mark a place.
+// A plain three.js app that displays a site of `imgeo convert` on a floor of its own,
+// under its own lights, with their shadows. A click on the model marks a point.
 
 import {
   CircleGeometry,
@@ -32,7 +32,7 @@ scene.background = new Color(0xdfe5ea);
 const camera = new PerspectiveCamera(40);
 const controls = new OrbitControls(camera, renderer.domElement);
 
-// Draws when something has changed: the view, the window, or what has come of the model.
+// Draws when something has changed: the camera, the window's size, or the model.
 let isDue = false;
 function draw(): void {
   if (isDue) return;

@@ -1,6 +1,5 @@
-// Puts the app and the site of a model together in build/three-app, for any server
-// to serve. Here `imgeo` is the sources of web/; in an app of yours it comes from
-// npm, and your bundler does the rest.
+// Builds the app with the site of a model in build/three-app, for any web server. Here
+// `imgeo` is resolved to the sources in web/; in your app it comes from npm.
 //
 //   node examples/three/build.ts [SITE [OUTPUT]]
 

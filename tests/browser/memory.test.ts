@@ -119,7 +119,7 @@ describe("vertex data", () => {
         });
         assert.ok(seen > 20_000, `${seen} bytes were seen`);
         if (isLarge) assert.ok(seen > 2 ** 19 && largest <= 2 ** 18, `${seen} bytes in pieces of up to ${largest}`);
-        // What first looks are rehearsed with is not of the scene: one vertex, and a triangle of it.
+        // The warm-up of previews uploads one vertex and one triangle that are not part of the scene.
         assert.ok(kept <= (isLarge ? 18 : 0), `${kept} bytes are kept`);
       });
     });

@@ -1,5 +1,5 @@
-// The picture before the runtime is here: it is the one that the runtime then draws
-// of the same base, it follows the document, and nobody sees the change.
+// The preview: it is the picture that the runtime then draws of the same base, it
+// follows the document, and the change to the runtime is not visible.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -12,35 +12,35 @@ import { pageOf, siteOfGenerated } from "./sites.ts";
 
 declare global {
   interface Window {
-    /** What the view's own canvas showed when the first look had gone. */
+    /** What the view's own canvas displayed when the preview had ended. */
     takenOver: string | undefined;
-    /** Of the look's draws of a base: by how many of its programs had something been drawn before, and by how many not. */
-    rehearsed: { ready: number; unready: number };
-    /** Ends what the page waits for bases. */
-    endPatience: (() => void) | undefined;
+    /** The programs with which the preview draws bases: how many had drawn something before, and how many had not. */
+    warmedUp: { ready: number; unready: number };
+    /** Ends the page's wait for bases. */
+    endWait: (() => void) | undefined;
   }
 }
 
 /** A closed surface of several patches, with a base. */
 const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
 
-/** Runs in the page: waits for the view, and then for the end of the look in it; and notes what that draws with. */
-function watchLook(): void {
+/** Runs in the page: records the programs with which the preview draws, and the view's canvas when the preview ends. */
+function watchPreview(): void {
   const later = window.setTimeout.bind(window);
   window.setTimeout = ((call: () => void, ms?: number, ...args: unknown[]) => {
     if (ms !== 3000) return later(call, ms, ...args);
-    window.endPatience = call; // on a busy machine it could end before what it waits for
+    window.endWait = call; // on a busy machine it could end before what it waits for
     return 0;
   }) as typeof setTimeout;
-  const [unseen, seen] = [new Set<unknown>(), new Set<unknown>()];
+  const [warmUpPrograms, basePrograms] = [new Set<unknown>(), new Set<unknown>()];
   const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (
     ...args: unknown[]
   ) => void;
   WebGL2RenderingContext.prototype.drawElements = function (...args) {
     if (this.canvas instanceof HTMLCanvasElement && this.canvas.classList.contains("preview")) {
-      (args[1] > 3 ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
-      const ready = Array.from(seen).filter((program) => unseen.has(program)).length;
-      window.rehearsed = { ready, unready: seen.size - ready };
+      (args[1] > 3 ? basePrograms : warmUpPrograms).add(this.getParameter(this.CURRENT_PROGRAM));
+      const ready = Array.from(basePrograms).filter((program) => warmUpPrograms.has(program)).length;
+      window.warmedUp = { ready, unready: basePrograms.size - ready };
     }
     drawElements.apply(this, args);
   };
@@ -53,8 +53,8 @@ function watchLook(): void {
     const root = attachShadow.call(this, init);
     // Called in the turn of the event loop in which it goes: what has been drawn in it can still be read.
     new MutationObserver((records) => {
-      const isLook = (node: Node): boolean => node instanceof Element && node.classList.contains("preview");
-      if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isLook)))
+      const isPreview = (node: Node): boolean => node instanceof Element && node.classList.contains("preview");
+      if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isPreview)))
         window.takenOver = root.querySelector("canvas")?.toDataURL();
     }).observe(root, { childList: true });
     return root;
@@ -63,11 +63,11 @@ function watchLook(): void {
 
 const firstImages = async (view: View): Promise<number> => (await view.events("first-image", "x3d")).length;
 
-/** Waits until the look has followed what has just been changed. */
+/** Waits until the preview has followed the last change. */
 async function pictureAfter(view: View, change: () => Promise<unknown>): Promise<Picture> {
   const { draws } = await view.observed();
   await change();
-  await until("the look has followed", async () => (await view.observed()).draws > draws);
+  await until("the preview has followed", async () => (await view.observed()).draws > draws);
   return screenshotOf(view.page);
 }
 
@@ -81,14 +81,14 @@ const runtimeFile = /imgeo-scene-/;
 
 async function baseIsWaitedFor({ page, server }: View, base: string): Promise<void> {
   await until(
-    "the look waits for its base",
+    "the preview waits for its base",
     async () =>
-      server.requestsOf(new RegExp(base)).length === 1 && (await page.evaluate(() => window.endPatience !== undefined)),
+      server.requestsOf(new RegExp(base)).length === 1 && (await page.evaluate(() => window.endWait !== undefined)),
   );
   assert.deepEqual(server.requestsOf(runtimeFile), [], "the runtime is not asked for before the base is here");
 }
 
-test("a base is on the screen before the runtime, which takes it over as it is", async () => {
+test("a preview displays the base before the runtime, which then displays the same", async () => {
   const tags = tagsOf(pageOf(site()));
   const base = tags.find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
   const patches = tags.flatMap(({ attributes: { data } }) => (data ? [data] : []));
@@ -96,7 +96,7 @@ test("a base is on the screen before the runtime, which takes it over as it is",
   const options = {
     size: { width: 400, height: 300 },
     deviceScaleFactor: 2,
-    before: watchLook,
+    before: watchPreview,
     server: (server: View["server"]): void => {
       server.when(new RegExp(base), { hold: bases.closed });
       server.when(runtimeFile, { hold: runtime.closed });
@@ -106,7 +106,7 @@ test("a base is on the screen before the runtime, which takes it over as it is",
   await withPage(site(), options, async (view) => {
     await baseIsWaitedFor(view, base);
     bases.open();
-    await until("the first look has drawn", async () => (await firstImages(view)) === 1);
+    await until("the preview has drawn", async () => (await firstImages(view)) === 1);
     assert.deepEqual(
       (await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]),
       [
@@ -116,14 +116,14 @@ test("a base is on the screen before the runtime, which takes it over as it is",
     );
     assert.equal(view.server.requestsOf(runtimeFile)[0]?.status, 0, "the runtime is not here");
     const first = await screenshotOf(view.page);
-    assert.deepEqual(await view.page.evaluate(() => window.rehearsed), { ready: 1, unready: 0 });
+    assert.deepEqual(await view.page.evaluate(() => window.warmedUp), { ready: 1, unready: 0 });
 
     const red = await pictureAfter(view, () =>
       view.page.evaluate(() => {
         document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1");
       }),
     );
-    assert.ok(difference(first, red).mean > 2, "another colour is seen");
+    assert.ok(difference(first, red).mean > 2, "another colour is displayed");
     const blank: Picture = { ...first, data: Uint8Array.from(first.data, (_, i) => first.data[i % first.channels]!) };
     assert.equal(silhouetteDifference(silhouette(first, blank), silhouette(red, blank)), 0);
     const lit = await pictureAfter(view, () =>
@@ -134,20 +134,23 @@ test("a base is on the screen before the runtime, which takes it over as it is",
         document.querySelector("scene")?.insertAdjacentHTML("beforeend", lights);
       }),
     );
-    assert.ok(difference(red, lit).mean > 1, "lights of other kinds are seen");
-    const seen = await pictureAfter(view, () => view.page.setViewportSize({ width: 300, height: 320 }));
-    assert.equal(seen.width, 600);
+    assert.ok(difference(red, lit).mean > 1, "lights of other kinds are displayed");
+    const displayed = await pictureAfter(view, () => view.page.setViewportSize({ width: 300, height: 320 }));
+    assert.equal(displayed.width, 600);
 
     runtime.open();
     const taken = await pictureOfTakeOver(view);
-    const empty: Picture = { ...seen, data: Uint8Array.from(seen.data, (_, i) => seen.data[i % seen.channels]!) };
+    const empty: Picture = {
+      ...displayed,
+      data: Uint8Array.from(displayed.data, (_, i) => displayed.data[i % displayed.channels]!),
+    };
     assert.ok(
-      silhouetteDifference(silhouette(seen, empty), silhouette(taken, empty)) < 1e-4,
+      silhouetteDifference(silhouette(displayed, empty), silhouette(taken, empty)) < 1e-4,
       "the outline is the same",
     );
     assert.ok(
-      difference(seen, taken).mean < 0.1,
-      `the runtime draws the same: ${JSON.stringify(difference(seen, taken))}`,
+      difference(displayed, taken).mean < 0.1,
+      `the runtime draws the same: ${JSON.stringify(difference(displayed, taken))}`,
     );
 
     files.open();
@@ -174,17 +177,17 @@ test("a base is on the screen before the runtime, which takes it over as it is",
   });
 });
 
-test("a base that does not come holds the runtime up for a while only", async () => {
+test("a base that does not come delays the runtime for a limited time", async () => {
   const base = tagsOf(pageOf(site())).find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
   const bases = gate();
   const options = {
-    before: watchLook,
+    before: watchPreview,
     server: (server: View["server"]): void => void server.when(new RegExp(base), { hold: bases.closed }),
   };
   await withPage(site(), options, async (view) => {
     await baseIsWaitedFor(view, base);
     await view.page.evaluate(() => {
-      window.endPatience?.();
+      window.endWait?.();
     });
     await view.promise("firstImage");
     assert.ok((await view.events("first-image", "x3d")).every(({ detail }) => detail.stage !== "base"));
