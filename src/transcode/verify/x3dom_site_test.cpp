@@ -2,8 +2,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "export/export.h"
-#include "imgeo/convert.h"
-#include "imgeo/verify.h"
+#include "imgeo/imgeo.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>
