@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "bench/models.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "prepare/primitives.h"
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "bench/models.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "containers/png/png.h"
 #include "export/export.h"
 

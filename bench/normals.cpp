@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "bench/models.h"
 #include "containers/classic/layout.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "containers/normal_palette.h"
 #include "containers/png/png.h"
 #include "containers/unit_vectors.h"

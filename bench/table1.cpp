@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "bench/models.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "containers/raw_size.h"
 #include "documents/element_writer.h"
 

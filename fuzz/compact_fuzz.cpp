@@ -26,9 +26,9 @@ void check(const imgeo::compact::CompactPatch& patch) {
     require(wedge < patch.wedgeCount());
   for (const Attribute& attribute : patch.attributes)
     require(attribute.values.size() == patch.wedgeCount());
-  require(patch.parts.size() == (patch.partCount > 0 ? patch.elementCount() : 0));
-  for (const std::uint32_t part : patch.parts)
-    require(part < patch.partCount);
+  require(patch.segments.size() == (patch.segmentCount > 0 ? patch.elementCount() : 0));
+  for (const std::uint32_t segment : patch.segments)
+    require(segment < patch.segmentCount);
 }
 
 void checkAll(const std::vector<imgeo::compact::CompactPatch>& patches) {
@@ -40,7 +40,7 @@ void checkAll(const std::vector<imgeo::compact::CompactPatch>& patches) {
   for (std::size_t i = 0; i < again.size(); ++i) {
     const CompactPatch &a = again[i], &b = patches[i];
     require(a.positions.size() == b.positions.size() && a.wedgeCount() == b.wedgeCount() &&
-            a.corners.size() == b.corners.size() && a.partCount == b.partCount);
+            a.corners.size() == b.corners.size() && a.segmentCount == b.segmentCount);
   }
 }
 

@@ -3,7 +3,7 @@
 // whatever a container reader makes of them. Anything else ends the process.
 
 #include "base/error.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,14 @@
 // The registry of encodings: what documents, reports and checks of options need to know of each one.
 
 #include "containers/geometry_description.h"
+#include "containers/patch_reader.h"
+#include "containers/shared_file.h"
 #include "imgeo/encoding.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -44,7 +47,6 @@ struct Capabilities {
   bool attributeBits = false;              ///< --attribute-bits chooses the bits of further attributes
   bool maxError = false;                   ///< --max-error chooses the position bits of each mesh
   bool base = false;                       ///< a base mesh stands in for patches that have not arrived
-  bool sharedFiles = false;                ///< small patches of several geometries share a file
 };
 
 /// One encoding.
@@ -61,6 +63,18 @@ struct EncodingRow {
   const char* x3domVersion = nullptr;  ///< newest release of X3DOM that reads it; nullptr: none does
   bool isAutomatic = false;            ///< convert may choose it where nothing names an encoding
   Capabilities capabilities;
+
+  /// Fills in the defaults that depend on the encoding. Throws Error{usage}, which names the option, for options that
+  /// the encoding cannot hold. A row leaves checks to its callers that follow from `capabilities`.
+  void (*resolveOptions)(ConvertOptions& options);
+  /// Sets the fields of a node that only this encoding has, or has otherwise than describe() set them. Throws
+  /// Error{unsupported} for attributes that the target cannot read.
+  void (*describe)(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options);
+  /// Writes vertices in a given order; nullptr: the encoding orders vertices itself, and writes by `sharing`.
+  EncodedPatch (*encodeIndexed)(const IndexedPatch& patch, const GeometryDescription& geometry,
+                                const EncodeOptions& options) = nullptr;
+  const FileSharing* sharing = nullptr; ///< nullptr: every patch has its own files
+  std::unique_ptr<PatchReader> (*makeReader)(const FetchFile& fetch);
 };
 
 /// The row of each encoding, in the order of the enumeration. Where convert chooses, it takes the first automatic

@@ -1,7 +1,7 @@
 #pragma once
-// What a document says of one geometry: its lattice, its patches, and where
-// each patch's data lies. Writers of containers produce it, documents carry it,
-// readers of containers consume it. docs/formats/nodes.md is its text form.
+// The description of one geometry in a document: its lattice, its patches and the
+// references to their files. Encoders produce it, documents store it, decoders use it.
+// docs/formats/nodes.md specifies its text form.
 
 #include "containers/reference.h"
 #include "imgeo/encoding.h"
@@ -15,13 +15,13 @@
 
 namespace imgeo {
 
-/// What a file holds; also its row in `info`.
+/// The contents of a file; `info` sums bytes by role.
 enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute, patch, base };
 
-/// "index", "coord", ...: the names the documents use.
+/// "index", "coord" ...: the names of fields in documents.
 const char* nameOf(Role role);
 
-/// "POINTS", "TRIANGLESTRIP", ...: as X3DOM's `primType` has them.
+/// "POINTS", "TRIANGLESTRIP" ...: values of X3DOM's `primType`.
 const char* nameOf(Primitive primitive);
 
 std::uint32_t byteSizeOf(ElementType type);
@@ -30,16 +30,16 @@ struct PatchDescription {
   Box3d box;                     ///< tight, for culling and priority
   std::uint32_t vertexCount = 0; ///< records in coord, normal, ...; 0: the largest index + 1
   std::vector<Draw> draws;
-  Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< SIG: columns and rows that indices fill
-  std::optional<Reference> index;                 ///< absent: records are drawn in order
-  std::vector<Reference> coord;                   ///< SIG: byte planes, most significant first. BG: one
+  Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< classic: columns and rows that indices fill
+  std::optional<Reference> index;                 ///< nothing: records are drawn in order
+  std::vector<Reference> coord;                   ///< classic: byte planes, most significant first. bg: one
   std::optional<Reference> normal, texCoord, color;
-  std::vector<std::vector<Reference>> attributes; ///< each of the geometry's: its byte planes (SIG) or one (BG)
-  std::optional<Reference> data;                  ///< compact: all of it
+  std::vector<std::vector<Reference>> attributes; ///< per attribute of the geometry: byte planes (classic) or one (bg)
+  std::optional<Reference> data;                  ///< compact: the whole patch
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
 };
 
-/// Calls visit(role, reference) for everything that a patch refers to.
+/// Calls visit(role, reference) for every reference of a patch.
 template <typename Patch, typename Visit> void visitReferences(Patch& patch, Visit visit) {
   if (patch.index)
     visit(Role::index, *patch.index);
@@ -58,13 +58,13 @@ template <typename Patch, typename Visit> void visitReferences(Patch& patch, Vis
     visit(Role::patch, *patch.data);
 }
 
-/// A further attribute of vertices: one FloatVertexAttribute.
+/// A further vertex attribute: one FloatVertexAttribute.
 struct AttributeDescription {
   std::string name;
   std::uint32_t components = 1; ///< 1..4
-  std::uint32_t bytes = 2;      ///< SIG: byte planes of each number, 1..3. BG has Float32
-  /// By component. SIG: the box over which stored integers 0 .. 256^bytes - 1 are spread. BG: what the
-  /// numbers lie in.
+  std::uint32_t bytes = 2;      ///< SIG: bytes of each number, 1..3. bg stores Float32
+  /// Per component. SIG: the range over which stored integers 0 .. 256^bytes - 1 are spread. bg: the range of the
+  /// numbers.
   std::vector<double> min, size;
   friend bool operator==(const AttributeDescription&, const AttributeDescription&) = default;
 };
@@ -78,11 +78,11 @@ struct GeometryDescription {
   std::uint32_t colorComponents = 3;
   ElementType indexType = ElementType::uint16, coordType = ElementType::uint16, normalType = ElementType::int8,
               texCoordType = ElementType::uint16,
-              colorType = ElementType::uint8; ///< BG only, but for indexType: SIG has uint16 and uint32
+              colorType = ElementType::uint8; ///< bg only, except indexType: classic has uint16 and uint32
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
-  std::optional<Reference> base; ///< compact: what stands in for the patches until they are there
+  std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
 

@@ -1,21 +1,21 @@
 #pragma once
-// What our readers refuse as too large. Beside these, no reader allocates more
-// than the bytes at hand can stand for.
+// Sizes that readers refuse. Otherwise no reader allocates more memory than its input
+// bytes can stand for.
 
 #include <cstdint>
 
 namespace imgeo {
 
-/// The edge of a texture that every WebGL2 device holds: our writers stay within it.
+/// The largest texture edge that every WebGL 2 device supports: encoders stay within it.
 inline constexpr std::uint32_t guaranteedImageEdge = 2048;
 
-/// What WebGL2 devices of the last ten years hold: our readers take no more.
+/// The largest image edge that readers accept: WebGL 2 devices of the last ten years support it.
 inline constexpr std::uint32_t maxImageEdge = 4096;
 
-/// Deflate's best: 258 bytes out of two bits (a length and a distance code of one bit each).
+/// Maximum compression ratio of deflate: 258 bytes for two bits (a length and a distance code of one bit each).
 inline constexpr std::uint64_t maxDeflateRatio = 1032;
 
-/// Records that 16-bit indices name; 65535 itself is WebGL2's primitive restart.
+/// Maximum number of vertices with 16-bit indices; index 65535 is WebGL 2's primitive restart.
 inline constexpr std::uint32_t maxShortIndexedVertices = 65535;
 
 } // namespace imgeo

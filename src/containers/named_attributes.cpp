@@ -27,22 +27,23 @@ struct Values {
   }
 };
 
-/// The bytes that hold every whole number from min to max, or `most` where that
-/// does not do or they are no whole numbers.
-std::uint32_t bytesFor(const Values& values, std::uint32_t most) {
+/// The smallest number of bytes that holds every whole number of the range; `maxBytes` if none does or the values are
+/// not whole.
+std::uint32_t bytesFor(const Values& values, std::uint32_t maxBytes) {
   if (values.max == values.min)
     return 1;
-  for (std::uint32_t bytes = 1; values.areWhole && bytes < most; ++bytes)
+  for (std::uint32_t bytes = 1; values.areWhole && bytes < maxBytes; ++bytes)
     if (values.max - values.min <= maximumOf(bytes))
       return bytes;
-  return most;
+  return maxBytes;
 }
 
-AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Encoding encoding, std::uint32_t bytes) {
-  const NamedAttribute& first = mesh.patches.front().namedAttributes[place];
+AttributeDescription describe(const PatchedMesh& mesh, std::size_t attributeIndex, Encoding encoding,
+                              std::uint32_t bytes) {
+  const NamedAttribute& first = mesh.patches.front().namedAttributes[attributeIndex];
   std::vector<Values> values(first.components);
   for (const Patch& patch : mesh.patches) {
-    const NamedAttribute& attribute = patch.namedAttributes.at(place);
+    const NamedAttribute& attribute = patch.namedAttributes.at(attributeIndex);
     for (std::size_t i = 0; i < attribute.values.size(); ++i)
       values[i % first.components].add(attribute.values[i]);
   }
@@ -65,8 +66,8 @@ std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, En
   std::vector<AttributeDescription> descriptions;
   if (mesh.patches.empty())
     return descriptions;
-  for (std::size_t place = 0; place < mesh.patches.front().namedAttributes.size(); ++place)
-    descriptions.push_back(describe(mesh, place, encoding, bytes));
+  for (std::size_t i = 0; i < mesh.patches.front().namedAttributes.size(); ++i)
+    descriptions.push_back(describe(mesh, i, encoding, bytes));
   return descriptions;
 }
 

@@ -1,7 +1,7 @@
 #include "containers/named_attributes.h"
 
 #include "base/error.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "containers/testing.h"
 
 #include <gtest/gtest.h>

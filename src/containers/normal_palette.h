@@ -1,7 +1,7 @@
 #pragma once
 // Normals through a palette of 256 directions, stored as the colour table of an
-// image: the option that the 2012 paper left unexplored (7.1). The browser
-// expands the table, so that a reader sees an ordinary RGB normal image.
+// image: an option that the 2012 paper left unexplored (7.1). The browser expands the
+// table, so that readers get an ordinary RGB normal image.
 
 #include "base/vec.h"
 
@@ -17,9 +17,8 @@ struct NormalPalette {
   std::vector<std::uint8_t> indices; ///< one per normal
 };
 
-/// The 256 directions that stand best for these unit normals: k-means on the
-/// sphere (Dhillon & Modha 2001) from evenly spread directions, the table sorted
-/// so that neighbouring directions have near indices. Deterministic.
+/// Chooses 256 directions for unit normals: k-means on the sphere (Dhillon & Modha 2001), starting from evenly spread
+/// directions. The table is sorted so that neighbouring directions have near indices. Deterministic.
 NormalPalette normalPalette(std::span<const Vec3f> normals);
 
 } // namespace imgeo

@@ -11,7 +11,7 @@ bool isPair(NormalEncoding encoding) {
   return encoding == NormalEncoding::octahedral || encoding == NormalEncoding::spherical;
 }
 
-// X3DOM's word 256 * theta + phi, in the order in which its bytes lie.
+// Spherical: X3DOM's 16-bit word 256 * theta + phi, little-endian.
 Vec2<std::uint32_t> storeNormal(Vec3f unit, NormalEncoding encoding, std::uint32_t bits) {
   assert(isPair(encoding));
   if (encoding == NormalEncoding::octahedral)
@@ -43,7 +43,7 @@ double normalErrorBound(const GeometryDescription& geometry) {
     break;
   }
   if (!isSig && geometry.normalType == ElementType::float32)
-    return 2e-7; // stored as they are; what is left is single precision
+    return 2e-7; // only the rounding of single precision
   return componentErrorBound(isSig ? 1 / 127.5 : 1 / maximumOf(geometry.normalType));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What was made of the urls that were asked for last.
+// A cache of the most recently used values by url.
 
 #include <algorithm>
 #include <list>
@@ -10,11 +10,11 @@
 
 namespace imgeo {
 
-/// Keeps a few values, for callers that ask for the same several times in a row. Safe to
-/// call from any thread: others wait for a value that is being made.
+/// Keeps the four most recently used values. Safe to call from any thread: several callers of one url wait for the
+/// first, which makes the value.
 template <typename Value> class Recent {
 public:
-  /// The value of a url, made by make(url) unless it is here. What `make` throws comes through.
+  /// The value of a url: the cached one, or else make(url). Passes on exceptions of `make`.
   template <typename Make> std::shared_ptr<const Value> get(const std::string& url, Make make) {
     const std::shared_ptr<Entry> entry = entryOf(url);
     const std::lock_guard lock(entry->mutex);
@@ -37,7 +37,7 @@ private:
       auto entry = std::make_shared<Entry>();
       entry->url = url;
       entries_.push_front(std::move(entry));
-      if (entries_.size() > mostEntries)
+      if (entries_.size() > maxEntries)
         entries_.pop_back();
     } else {
       entries_.splice(entries_.begin(), entries_, found);
@@ -45,9 +45,9 @@ private:
     return entries_.front();
   }
 
-  static constexpr std::size_t mostEntries = 4;
+  static constexpr std::size_t maxEntries = 4;
   std::mutex mutex_;
-  std::list<std::shared_ptr<Entry>> entries_; ///< the latest first
+  std::list<std::shared_ptr<Entry>> entries_; ///< most recently used first
 };
 
 } // namespace imgeo

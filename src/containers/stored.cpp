@@ -83,7 +83,7 @@ std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::
     return patch.vertexCount != 0 ? patch.vertexCount : static_cast<std::uint32_t>(drawn);
   }
   const std::uint32_t largest = *std::ranges::max_element(indices);
-  if (patch.vertexCount == 0 && largest == UINT32_MAX) // one more would be 0
+  if (patch.vertexCount == 0 && largest == UINT32_MAX) // largest + 1 would be 0
     throw Error(ErrorKind::limit, location, "the patch has too many vertices");
   if (patch.vertexCount == 0)
     return largest + 1;
@@ -99,7 +99,7 @@ void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription&
   if (box.empty())
     return;
   const Box3d decoded = boxOf(positions, geometry);
-  const double half = 0.51 * geometry.lattice.step; // a half, and what was rounded on the way
+  const double half = 0.51 * geometry.lattice.step; // half a step, and roundings
   for (int axis = 0; axis < 3; ++axis)
     if (decoded.min[axis] < box.min[axis] - half || decoded.max[axis] > box.max[axis] + half)
       throw Error(ErrorKind::malformed, location, "vertices lie outside of the box that their patch states");
@@ -137,7 +137,7 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
     patch.data = reference;
     break;
   case Role::base:
-    assert(false); // of a geometry, not of a patch
+    assert(false); // a geometry has it, not a patch
     break;
   }
 }
@@ -151,6 +151,20 @@ PatchDescription describeWithUrls(const EncodedPatch& encoded, std::span<const s
     addReference(description, reference.role, reference.attributeIndex,
                  {urls[static_cast<std::size_t>(reference.file)], reference.location});
   return description;
+}
+
+ElementType indexTypeFor(const PatchedMesh& mesh) {
+  const bool isShort = std::ranges::all_of(
+      mesh.patches, [](const Patch& patch) { return patch.wedgeCount() <= maxShortIndexedVertices; });
+  return isShort ? ElementType::uint16 : ElementType::uint32;
+}
+
+bool hasUnitTexCoords(const PatchedMesh& mesh) {
+  return std::ranges::all_of(mesh.patches, [](const Patch& patch) {
+    return std::ranges::all_of(patch.texCoords, [](const Vec2f& texCoord) {
+      return texCoord.x >= 0 && texCoord.y >= 0 && texCoord.x <= 1 && texCoord.y <= 1;
+    });
+  });
 }
 
 } // namespace imgeo

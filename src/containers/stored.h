@@ -1,50 +1,55 @@
 #pragma once
-// What both containers store of a vertex, and what both readers check:
+// Stored values that encodings share, and checks that their readers share:
 // docs/formats/nodes.md, "Stored values".
 
-#include "containers/container.h"
+#include "containers/patch_encoder.h"
 
 #include <span>
 #include <string>
 
 namespace imgeo {
 
-/// Where a texture coordinate is in the box that begins at `min`: 0 .. 1; 0 in a box
-/// without extent.
+/// A texture coordinate as a fraction, 0 .. 1, of the box that begins at `min`; 0 if the box has no extent.
 double texCoordShare(float value, float min, float size);
 
-/// The same in 16 bits, and back.
+/// That fraction in 16 bits, and back.
 std::uint16_t storeTexCoord(float value, float min, float size);
 float loadTexCoord(std::uint16_t stored, float min, float size);
 
-/// How far a texture coordinate may be from what is stored of it, in SIG in `bits` bits: half a
-/// step of its box, and what single precision adds.
+/// The maximum error of a stored texture coordinate: half a step of its box, and the rounding of single precision. SIG
+/// stores `bits` bits, bg the type of the description.
 Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits);
 
-/// The direction of a stored normal; (0, 0, 1) for one without length.
+/// The unit vector of a stored normal; (0, 0, 1) for a zero vector.
 Vec3f unitNormal(Vec3d stored);
 
-/// Indices or records that the draws take together.
+/// The number of indices or records that all draws use.
 std::uint64_t drawnCount(std::span<const Draw> draws);
 
-/// The tight box of vertices as they are stored.
+/// The tight box of stored vertices.
 Box3d boxOf(std::span<const Vec3u> positions, const GeometryDescription& geometry);
 
-/// The fields of a description that are the same in every container, and no references.
+/// The fields of a description that classic and bg share, without references.
 PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescription& geometry);
 
-/// How many records a patch has: as its description says, or by its largest
-/// index. Throws Error{malformed} with `location` for an index beyond them.
+/// The number of records of a patch: stated by the description, or the largest index + 1. Throws Error{malformed} with
+/// `location` for an index beyond them.
 std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::uint32_t> indices,
                             const std::string& location);
 
 /// Throws Error{malformed} with `location` where a point lies outside of the box
-/// that the description states (if it states one): planes in the wrong order
-/// and files of another patch show here.
+/// that the description states (if it states one). This detects byte planes in the wrong
+/// order and files of another patch.
 void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription& geometry, const Box3d& box,
                     const std::string& location);
 
 /// Appends a file to an encoded patch.
 FileIndex addFile(EncodedPatch& encoded, EncodedFile file);
+
+/// The smallest type that indexes the vertices (wedges) of every patch: Uint16 or Uint32.
+ElementType indexTypeFor(const PatchedMesh& mesh);
+
+/// Whether all texture coordinates lie within 0..1.
+bool hasUnitTexCoords(const PatchedMesh& mesh);
 
 } // namespace imgeo

@@ -13,7 +13,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr double floatRounding = 0x1p-24; ///< of a single's magnitude, at most
+constexpr double floatRounding = 0x1p-24; ///< maximum relative error of single precision
 
 double longestOf(Vec3d size) {
   return std::max({size.x, size.y, size.z});
@@ -76,7 +76,7 @@ Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& lo
   Vec3u nearest;
   for (int axis = 0; axis < 3; ++axis) {
     const double value = position[axis], steps = std::round((value - lattice.origin[axis]) / lattice.step);
-    // A point on the lattice's border may have been rounded to a single outside of it.
+    // Rounding to single precision may move a point on the border of the lattice outside.
     const double slack = 1 + std::abs(value) * (2 * floatRounding) / lattice.step;
     if (!std::isfinite(value) || steps < -slack || steps > lattice.maximum() + slack)
       throw Error(ErrorKind::malformed, location, "vertices lie far outside of the box that the node states");
@@ -118,11 +118,11 @@ Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType typ
 
 namespace {
 
-/// With all digits of a double these numbers would be a sixth of what brotli leaves of
-/// the document of thousands of shapes. More bits are for who wants each one exact.
+/// With all digits of a double these numbers would be a sixth of the compressed document of a scene with thousands of
+/// shapes. Lattices of more than 24 bits stay exact.
 Lattice inFewDigits(Lattice lattice, double edge) {
-  constexpr std::uint32_t mostBits = 24;
-  if (lattice.bits > mostBits || !(edge > 0))
+  constexpr std::uint32_t maxBits = 24;
+  if (lattice.bits > maxBits || !(edge > 0))
     return lattice;
   const double tolerance = lattice.step / 1024;
   for (int axis = 0; axis < 3; ++axis)

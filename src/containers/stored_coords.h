@@ -1,7 +1,6 @@
 #pragma once
-// Coordinates on the lattice <-> the numbers that containers store, and the
-// document's `position` and `size`, over which X3DOM spreads those numbers:
-// docs/formats/nodes.md, "Stored values".
+// Lattice coordinates <-> stored numbers, and the document's `position` and `size`, over
+// which X3DOM spreads stored numbers: docs/formats/nodes.md, "Stored values".
 
 #include "containers/geometry_description.h"
 
@@ -10,36 +9,34 @@
 
 namespace imgeo {
 
-/// Bytes a coordinate takes at least: 1, 2, 3 or 4 byte planes (SIG), 1, 2 or 4 bytes (BG).
+/// The smallest number of bytes of a coordinate: 1, 2, 3 or 4 (SIG), 1, 2 or 4 (bg).
 std::uint32_t coordBytes(Encoding encoding, std::uint32_t bits);
 
-/// The unsigned element type of so many bytes, 1, 2 or 4.
+/// The unsigned element type of 1, 2 or 4 bytes.
 ElementType unsignedTypeOf(std::uint32_t bytes);
 
-/// Bits of a lattice by which Float32 coordinates are the source's own numbers: the
-/// lattice is then only what our readers put them on.
+/// The lattice bits that stand for Float32 coordinates which are the source's own numbers; our readers round them to a
+/// lattice of so many bits.
 inline constexpr std::uint32_t sourceBits = 32;
 
-/// Bits of packed coordinates where a node states no positionBits.
+/// The bits of packed coordinates if a node states no positionBits.
 inline constexpr std::uint32_t packedPositionBits = 16;
 
-/// Whether BG coordinates of a type can stand for a lattice of so many bits: any up
-/// to the type's; of signed types all of them or one less, of which X3DOM makes use;
-/// of Float32 at most 24, or sourceBits.
+/// Whether a type can store coordinates of a lattice of so many bits, at least 8: integers up to their own bits,
+/// Float32 up to 24 bits, or sourceBits.
 bool holdsLattice(ElementType type, std::uint32_t bits);
 
-/// Integers for lattice coordinates q: (q << shift) + bias. Unsigned ones are shifted
-/// left to fill their bytes, so that the first byte always holds the eight most
-/// significant bits. Signed ones lie around zero; where they have a bit more than the
-/// lattice, within X3DOM's half of their range, and else in all of it.
+/// Stored integers of lattice coordinates q: (q << shift) + bias. Unsigned integers are shifted left to fill their
+/// bytes, so that the first byte always holds the eight most significant bits. Signed integers lie around zero: within
+/// the half of their range that X3DOM uses if they have more bits than the lattice, otherwise in the whole range.
 struct StoredCoords {
   std::uint32_t shift = 0;
   std::int64_t bias = 0;
-  double maximum = 1;        ///< the integer that X3DOM has at the far end of `size`
+  double maximum = 1;        ///< the integer that X3DOM puts at the far end of `size`
   std::uint32_t largest = 0; ///< q, 2^bits - 1
 };
 
-/// `type` is of BG, and no Float32.
+/// `type` is an integer type; encodings without element types ignore it.
 StoredCoords storedCoords(Encoding encoding, ElementType type, std::uint32_t bits);
 
 inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
@@ -49,30 +46,28 @@ inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
 std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& location);
 
 /// The lattice point nearest to a Float32 position. Throws Error{malformed} with
-/// `location` for one that lies outside by more than roundings. The lattice is a cube's.
+/// `location` for a position that lies outside by more than rounding. The lattice is that of a cube.
 Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location);
 
-/// The node's `position` and `size`.
+/// The `position` and `size` fields of a node.
 struct DecodeFields {
   Vec3d position, size;
 };
 DecodeFields decodeFields(const GeometryDescription& geometry);
 
-/// The lattice of a node read back; inverse of decodeFields but for roundings of the
-/// last bits. `size` has no negative edge and not only zeros; `type` holds `bits`. Of
-/// Float32 coordinates a cube, of sourceBits one twice as large, so that what others
-/// wrote for a box that is a little too small is found in it.
+/// The lattice of a node; inverse of decodeFields but for rounding of the last bits. `size` has no negative edge and a
+/// positive one; `type` can store `bits`. The lattice of Float32 coordinates is a cube, for sourceBits one twice as
+/// large, so that it contains vertices that other programs wrote slightly outside of the box.
 Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType type, std::uint32_t bits);
 
-/// The lattice on which a mesh is encoded: that of its box, moved and stretched by so
-/// little of a step (a 1024th) that documents say it in few digits.
+/// The lattice on which a mesh is encoded: that of its box, moved and stretched by at most 1/1024 of a step, so that
+/// documents need few digits.
 Lattice latticeFor(const Box3d& box, ElementType type, std::uint32_t bits);
 
-/// Where our readers find a vertex that was written from the point q of `written`:
-/// there, but for what Float32 cannot hold.
+/// The lattice point that our readers decode from the written point q: q itself, or for Float32 a point nearby.
 Vec3u pointReadBack(Vec3u q, const Lattice& written, const GeometryDescription& geometry);
 
-/// How far, along an axis, a vertex of the source may be from where it is drawn.
+/// The maximum error of a vertex along an axis.
 double positionErrorBound(const GeometryDescription& geometry);
 
 } // namespace imgeo

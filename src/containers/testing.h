@@ -2,7 +2,7 @@
 // Patches for tests of containers and documents. Header-only and for tests alone.
 
 #include "base/error.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "scene/testing.h"
 
 #include <cmath>

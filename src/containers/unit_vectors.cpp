@@ -18,7 +18,7 @@ Vec3d normalised(Vec3d v) {
   return norm > 0 ? v * (1 / norm) : Vec3d{0, 0, 1};
 }
 
-/// The octahedron's surface unfolded to the square [-1, 1]^2.
+/// Unfolds the surface of the octahedron to the square [-1, 1]^2.
 Vec2<double> unfold(Vec3d v) {
   const double sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
   const double x = v.x / sum, y = v.y / sum;

@@ -105,12 +105,12 @@ std::vector<Draw> drawsOf(const FieldReader& fields) {
 }
 
 /// An ImageTexture child: X3DOM's way to name an image.
-void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDescription& patch) {
+void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
   const FieldReader fields(source, node);
   const std::vector<std::string> urls = fields.strings("url");
   if (urls.empty())
     fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
-  const Reference reference = referenceOf(fields, urls[0], Encoding::classic);
+  const Reference reference = referenceOf(fields, urls[0], encoding);
   const std::string role = fields.text("containerField");
   if (equalIgnoringCase(role, "coord"))
     patch.coord.push_back(reference);
@@ -155,7 +155,7 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   if (storage == PatchStorage::bytePlanes)
     for (const pugi::xml_node& child : node.children())
       if (equalIgnoringCase(child.name(), "ImageTexture"))
-        readTexture(source, child, patch);
+        readTexture(source, child, encoding, patch);
   if (patch.coord.empty())
     fields.fail(ErrorKind::malformed, "there are no coordinates");
   if (storage == PatchStorage::arrays && patch.coord.size() != 1)

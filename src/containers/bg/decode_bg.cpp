@@ -29,10 +29,10 @@ public:
                       std::to_string(components) + " " + nameOf(type));
   }
 
-  /// To be called before records 0 .. count - 1 are read.
+  /// Throws Error{truncated} unless the file holds records 0 .. count - 1. Call it before reading them.
   void require(std::uint64_t count) const {
-    // Interleaved records begin before this attribute's part of them; all are
-    // whole. Nothing is multiplied that the document states: it might not fit.
+    // Interleaved records begin before this attribute, and all are whole. Products of numbers that the document
+    // states could overflow.
     const std::uint64_t begin = byteOffset_ - byteOffset_ % stride_;
     if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
       throw Error(ErrorKind::truncated, location_,
@@ -40,7 +40,7 @@ public:
                       std::to_string(stride_) + " bytes from byte " + std::to_string(byteOffset_));
   }
 
-  /// How many records follow one another to the end of the file.
+  /// The number of records up to the end of the file.
   std::uint64_t available() const {
     return byteOffset_ + recordBytes_ > bytes_.size() ? 0 : (bytes_.size() - byteOffset_ - recordBytes_) / stride_ + 1;
   }
@@ -71,7 +71,7 @@ public:
     }
   }
 
-  /// An element as shaders see it: integers as shares of their type's maximum.
+  /// An element as shaders read it: integers as fractions of their type's maximum.
   double realAt(std::uint64_t record, std::uint32_t component) const {
     if (type_ == ElementType::float32)
       return loadLittle<float>(at(record, component));
@@ -94,7 +94,7 @@ void requireType(bool supported, const std::string& location, const char* attrib
     throw Error(ErrorKind::unsupported, location, std::string(attribute) + " of type " + nameOf(type));
 }
 
-/// A count of 0 in the only draw stands for all indices of the file.
+/// A count of 0 in a single draw stands for all indices of the file.
 std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementType type, const FetchFile& fetch) {
   requireType(isUnsigned(type), patch.index->url, "indices", type);
   const Records records(*patch.index, fetch, type, 1);
@@ -113,7 +113,7 @@ std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, c
   std::vector<Vec3u> positions(count);
   for (std::uint32_t n = 0; n < count; ++n)
     for (int axis = 0; axis < 3; ++axis)
-      if (geometry.lattice.stretch[axis] > 0) // on a flat axis all numbers mean the same
+      if (geometry.lattice.stretch[axis] > 0) // on a flat axis all numbers mean the same coordinate
         positions[n][axis] = loadCoord(records.integerAt(n, static_cast<std::uint32_t>(axis)), stored, location);
   return positions;
 }

@@ -22,7 +22,7 @@ ElementType normalTypeOf(const EncodeOptions& options) {
                                     : ElementType::float32;
 }
 
-/// X3DOM binds everything in interleaved records as the coordinates' type.
+/// X3DOM reads all attributes of interleaved records as elements of the coordinates' type.
 void chooseOneType(GeometryDescription& geometry, const PatchedMesh& mesh) {
   const ElementType type = geometry.coordType;
   const auto has = [&](auto attribute) {

@@ -1,14 +1,13 @@
 #pragma once
-// Which element types the attributes of a BG node have.
+// Chooses the element types of the attributes of a BinaryGeometry.
 
-#include "containers/container.h"
+#include "containers/encodings.h"
 
 namespace imgeo {
 
-/// Sets the types of `geometry` (whose lattice, texture coordinates and encoding of
-/// normals are set) for the attributes that `mesh` has, and its box to what Float32
-/// leaves of it. Throws Error{unsupported} for attributes that X3DOM cannot read
-/// from records of one type.
+/// Sets the element types of `geometry` for the attributes of `mesh`, and rounds its box to Float32 if coordinates are
+/// Float32. Lattice, texture coordinate box and normal encoding are set already. Throws Error{unsupported} for
+/// attributes that X3DOM cannot read from records of one type.
 void chooseTypes(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options);
 
 } // namespace imgeo

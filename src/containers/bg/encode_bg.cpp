@@ -12,7 +12,7 @@ namespace imgeo {
 
 namespace {
 
-/// The low bytes of an integer, as many as the type has.
+/// Appends the low bytes of an integer, as many as the type has.
 void appendInteger(Bytes& out, ElementType type, std::int64_t value) {
   switch (byteSizeOf(type)) {
   case 1:
@@ -24,7 +24,7 @@ void appendInteger(Bytes& out, ElementType type, std::int64_t value) {
   }
 }
 
-/// A share of 1: of integers the nearest part of their type's maximum, of floats the share itself.
+/// Appends a fraction of 1: integers hold the nearest multiple of 1 / maximum of the type, floats the fraction itself.
 void appendShare(Bytes& out, ElementType type, double share) {
   if (type == ElementType::float32)
     return appendLittle(out, static_cast<float>(share));
@@ -32,14 +32,13 @@ void appendShare(Bytes& out, ElementType type, double share) {
   appendInteger(out, type, std::llround(clamped * maximumOf(type)));
 }
 
-/// An attribute's records one after the other, each a multiple of four bytes long:
-/// GPUs want them to begin at whole words.
+/// The records of an attribute, each a multiple of four bytes long: GPUs require aligned records.
 struct Column {
   Role role = Role::coord;
   Bytes bytes;
   std::uint32_t recordBytes = 0;
-  bool isPadded = false;     ///< records are longer than what they hold
-  std::size_t attribute = 0; ///< the geometry's, for Role::attribute
+  bool isPadded = false;     ///< records are longer than their components
+  std::size_t attribute = 0; ///< index in the geometry's attributes; Role::attribute only
 };
 
 Bytes indexArray(const IndexedPatch& patch, ElementType type) {
@@ -50,14 +49,12 @@ Bytes indexArray(const IndexedPatch& patch, ElementType type) {
   return out;
 }
 
-/// Two bytes of normal fit into what pads a record of 16-bit coordinates to whole
-/// words: X3DOM's place for spherical ones.
+/// Whether normals of two bytes lie in the padding of 16-bit coordinates, where X3DOM expects spherical normals.
 bool areNormalsInCoords(const IndexedPatch& patch, const GeometryDescription& geometry) {
   return !patch.normals.empty() && isPair(geometry.normalEncoding) && geometry.normalType == ElementType::uint8;
 }
 
-/// Coordinates of one or two bytes have a fourth element; X3DOM binds four where the
-/// stride allows it.
+/// Coordinates of one or two bytes have a fourth element: X3DOM binds four elements if the stride allows it.
 Column coordColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
   const ElementType type = geometry.coordType;
   const std::uint32_t size = byteSizeOf(type);
@@ -118,7 +115,7 @@ Column texCoordColumn(const IndexedPatch& patch, const GeometryDescription& geom
   return column;
 }
 
-/// Always of four elements, so that records of any type are whole words.
+/// Colours always have four elements, so that records of any type are aligned.
 Column colorColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
   const ElementType type = geometry.colorType;
   Column column{Role::color, {}, 4 * byteSizeOf(type), geometry.colorComponents == 3};
@@ -150,7 +147,7 @@ std::vector<Column> columnsOf(const IndexedPatch& patch, const GeometryDescripti
   return columns;
 }
 
-/// The columns as one, their records side by side.
+/// Interleaves the records of all columns.
 Bytes interleaved(const std::vector<Column>& columns, std::size_t count) {
   Bytes out;
   for (std::size_t n = 0; n < count; ++n)
@@ -189,7 +186,7 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
   } else {
     for (Column& column : columns) {
       const FileIndex file = addFile(encoded, {column.role, ".bin", std::move(column.bytes)});
-      // A stride is stated only where it is more than the components take.
+      // A stride is stated only if it is larger than the components.
       add(column, file, {.byteOffset = 0, .byteStride = column.isPadded ? column.recordBytes : 0});
     }
   }

@@ -1,13 +1,35 @@
 #include "containers/bg/bg.h"
+
+#include "containers/bg/element_types.h"
+#include "containers/stored.h"
 #include "prepare/patches.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
+#include <memory>
 
 namespace imgeo {
 
 namespace {
 
 constexpr std::array bgNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical};
+
+void describeBg(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
+  if (options.target == Target::x3dom && !hasUnitTexCoords(mesh)) // integers are 0..1 there
+    geometry.texCoordType = ElementType::float32;
+  geometry.indexType = indexTypeFor(mesh);
+  chooseTypes(geometry, mesh, options);
+}
+
+EncodedPatch encodeBgPatch(const IndexedPatch& patch, const GeometryDescription& geometry,
+                           const EncodeOptions& options) {
+  return encodeBg(patch, geometry, options.layout);
+}
+
+std::unique_ptr<PatchReader> makeBgReader(const FetchFile& fetch) {
+  return std::make_unique<SinglePatchReader>(fetch, decodeBg);
+}
 
 } // namespace
 
@@ -32,6 +54,10 @@ constinit const EncodingRow bgEncoding{
             .unindexed = true,
             .elementTypes = true,
         },
+    .resolveOptions = resolveBgOptions,
+    .describe = describeBg,
+    .encodeIndexed = encodeBgPatch,
+    .makeReader = makeBgReader,
 };
 
 } // namespace imgeo

@@ -3,26 +3,27 @@
 // "Using images and explicit binary container for efficient and incremental
 // delivery of declarative 3D scenes on the web", section 4; fields as X3DOM
 // 1.7.2 reads them). Coordinates are byte planes, most significant first, so
-// that the first image alone shows the shape. Byte by byte in
+// that the first image alone shows the shape. Specification:
 // docs/formats/sig-classic.md.
 
-#include "containers/container.h"
 #include "containers/encodings.h"
 
 namespace imgeo {
 
-/// The row of SIG classic in the registry.
+/// The row of classic in the registry.
 extern const EncodingRow classicEncoding;
 
-/// One image for the indices (where there are any), one for each byte of a
-/// coordinate, one each for normals, texture coordinates and colours.
-/// For X3DOM, which has one implicit mesh a page, all images are 256 wide. Throws
-/// Error{limit} for more indices, or records without an index, than an image of
-/// that width or of guaranteedImageEdge, and guaranteedImageEdge high, holds.
+/// See EncodingRow::resolveOptions.
+void resolveClassicOptions(ConvertOptions& options);
+
+/// Writes one image for the indices if there are any, one for each byte of a coordinate, one each for normals, texture
+/// coordinates and colours, and one for each byte of further attributes. For X3DOM, which has one implicit mesh for a
+/// page, all images are 256 wide. Throws Error{limit} for more indices, or records without an index, than an image
+/// holds that is guaranteedImageEdge high, and 256 (X3DOM) or guaranteedImageEdge wide.
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target);
 
-/// Reads what encodeClassic writes and X3DOM's ImageGeometry with record images of
-/// any size. Safe for untrusted bytes; see decodePatch.
+/// Reads the images of encodeClassic and X3DOM's ImageGeometry with record images of any size. Safe for untrusted
+/// bytes.
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
 
 } // namespace imgeo

@@ -13,26 +13,26 @@ namespace imgeo {
 
 namespace {
 
-/// The texels of an image, counted through its first `columns` columns (0: all
-/// of them) from the reference's first texel on.
+/// The texels of an image, counted through its first `columns` columns (0: all), starting at the first texel of the
+/// reference.
 class Texels {
 public:
-  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
+  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t minChannels)
       : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
         first_(std::get<TexelLocation>(reference.location).firstTexel), location_(reference.url) {
     if (columns > image_.width)
       throw Error(ErrorKind::malformed, location_,
                   "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +
                       std::to_string(columns) + " columns");
-    if (image_.channels < fewestChannels)
+    if (image_.channels < minChannels)
       throw Error(ErrorKind::malformed, location_,
                   "the image has " + std::to_string(image_.channels) + " channels where " +
-                      std::to_string(fewestChannels) + " are needed");
+                      std::to_string(minChannels) + " are needed");
   }
 
   const Image& image() const { return image_; }
 
-  /// To be called before texels 0 .. count - 1 are read.
+  /// Throws Error{malformed} unless the image holds texels 0 .. count - 1. Call it before reading them.
   void require(std::uint64_t count) const {
     if (first_ + count > columns_ * image_.height)
       throw Error(ErrorKind::malformed, location_,
@@ -53,8 +53,8 @@ private:
 
 constexpr std::uint32_t noTexel = UINT32_MAX;
 
-/// The column (or row) of `edge` that each byte of an index texel names: X3DOM
-/// counts in 1/256 of the image, so texel t is byte round(t * 256 / edge).
+/// The column or row of an image of `edge` texels that each byte of an index texel names: X3DOM counts in 1/256 of the
+/// image, so texel t is byte round(t * 256 / edge).
 std::vector<std::uint32_t> texelsByByte(std::uint32_t edge) {
   std::vector<std::uint32_t> texels(256, noTexel);
   for (std::uint32_t t = 0; t < edge; ++t)
@@ -97,7 +97,7 @@ void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
       stored[n][axis] = stored[n][axis] << 8 | texels[n][axis];
 }
 
-/// Normals in the two halves of an image, whose texels are counted through all its columns.
+/// Decodes normals from the two halves of an image, whose texels are counted through all columns.
 std::vector<Vec3f> decodePairs(const Texels& texels, std::uint32_t count, NormalEncoding encoding) {
   const std::uint64_t half = std::uint64_t{texels.image().width} * texels.image().height / 2;
   texels.require(half + count);
@@ -113,7 +113,7 @@ Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry)
           loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
-/// An attribute out of its byte planes, which are most significant first.
+/// Decodes an attribute from its byte planes, most significant first.
 NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t count,
                                const AttributeDescription& description) {
   NamedAttribute attribute{description.name, description.components, {}};
@@ -138,8 +138,8 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
                 std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Encoding::classic, bits)) +
                     " images and have " + std::to_string(patch.coord.size()));
 
-  // What an index means follows from the height of the record images, and how
-  // many records there are may only follow from the indices.
+  // The meaning of an index depends on the height of the record images, and the number of records may depend on the
+  // indices.
   const std::uint32_t columns = patch.index ? 0 : patch.implicitMeshSize.x;
   const std::string& location = patch.coord[0].url;
   const Texels first(patch.coord[0], fetch, columns, 3);
@@ -152,8 +152,8 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : location);
   first.require(count);
 
-  const auto fetchRecords = [&](const Reference& reference, std::uint32_t fewestChannels) {
-    Texels texels(reference, fetch, columns, fewestChannels);
+  const auto fetchRecords = [&](const Reference& reference, std::uint32_t minChannels) {
+    Texels texels(reference, fetch, columns, minChannels);
     texels.require(count);
     if (texels.image().width != first.image().width || texels.image().height != first.image().height)
       throw Error(ErrorKind::malformed, reference.url, "the images of a patch differ in size");

@@ -21,7 +21,7 @@ namespace {
 struct RoleImage {
   Role role;
   Image image;
-  std::size_t attribute = 0; ///< the geometry's, for Role::attribute
+  std::size_t attribute = 0; ///< index in the geometry's attributes; Role::attribute only
 };
 
 ImageSize recordImageSizeOf(const IndexedPatch& patch, Target target) {
@@ -30,8 +30,8 @@ ImageSize recordImageSizeOf(const IndexedPatch& patch, Target target) {
   return recordImageSize(patch.vertexCount());
 }
 
-/// The texels of a patch's running numbers: those of the index image, or the part
-/// of the record images in use.
+/// The size that implicitMeshSize states: that of the index image or, without an index, of the used rows of the record
+/// images.
 ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records, Target target) {
   const ImageSize size =
       patch.indices.empty()     ? ImageSize{records.columns, rowsFor(patch.vertexCount(), records.columns)}
@@ -44,7 +44,7 @@ ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records, Targe
   return size;
 }
 
-/// Numbers of three bytes: no image that is read has more texels.
+/// Indices of three bytes: no image that readers accept has more texels.
 Image wideIndexImage(const IndexedPatch& patch, ImageSize size) {
   return imageOf(size, 3, patch.indices.size(), [&](std::size_t n, std::uint8_t* out) {
     for (std::uint32_t byte = 0; byte < 3; ++byte)
@@ -62,7 +62,7 @@ Image indexImage(const IndexedPatch& patch, ImageSize size, ImageSize records) {
   });
 }
 
-/// Byte `plane` of every coordinate, counted from the least significant.
+/// The image of byte `plane` of every coordinate, counted from the least significant.
 Image coordImage(const IndexedPatch& patch, ImageSize size, const StoredCoords& stored, std::uint32_t plane) {
   return imageOf(size, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     for (int axis = 0; axis < 3; ++axis)
@@ -89,7 +89,7 @@ Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize 
   });
 }
 
-/// Byte `plane` of every number, counted from the least significant; a component a channel.
+/// The image of byte `plane` of every number, counted from the least significant; one channel for each component.
 Image attributeImage(const NamedAttribute& attribute, const AttributeDescription& description, ImageSize size,
                      std::size_t count, std::uint32_t plane) {
   return imageOf(size, channelsOf(description), count, [&](std::size_t n, std::uint8_t* out) {

@@ -1,7 +1,13 @@
 #include "containers/classic/classic.h"
+
+#include "base/error.h"
+#include "containers/stored.h"
 #include "prepare/patches.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
+#include <memory>
 
 namespace imgeo {
 
@@ -9,6 +15,27 @@ namespace {
 
 constexpr std::array classicNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
                                     NormalEncoding::palette};
+
+void describeClassic(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
+  geometry.indexType = indexTypeFor(mesh);
+  if (options.target != Target::x3dom)
+    return;
+  if (!hasUnitTexCoords(mesh))
+    throw Error(ErrorKind::unsupported, "",
+                "X3DOM's images hold texture coordinates of 0..1 alone and these go beyond; container bg holds them");
+  // X3DOM takes the number of colour components of a page's first ImageGeometry for all.
+  geometry.colorComponents = 4;
+  assert(geometry.indexType == ElementType::uint16);
+}
+
+EncodedPatch encodeClassicPatch(const IndexedPatch& patch, const GeometryDescription& geometry,
+                                const EncodeOptions& options) {
+  return encodeClassic(patch, geometry, options.effort, options.target);
+}
+
+std::unique_ptr<PatchReader> makeClassicReader(const FetchFile& fetch) {
+  return std::make_unique<SinglePatchReader>(fetch, decodeClassic);
+}
 
 } // namespace
 
@@ -35,6 +62,10 @@ constinit const EncodingRow classicEncoding{
             .attributeBits = true,
             .maxError = true,
         },
+    .resolveOptions = resolveClassicOptions,
+    .describe = describeClassic,
+    .encodeIndexed = encodeClassicPatch,
+    .makeReader = makeClassicReader,
 };
 
 } // namespace imgeo

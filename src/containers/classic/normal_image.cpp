@@ -22,8 +22,8 @@ Image rgbImage(const IndexedPatch& patch, ImageSize records) {
   });
 }
 
-/// Two gray halves and not two channels: deflate finds a third more to reuse in
-/// them (docs/decisions/normals.md), and no alpha comes near a browser.
+/// Two gray halves, not two channels: deflate finds a third more matches in them (docs/decisions/normals.md), and an
+/// image without alpha cannot be premultiplied by a browser.
 Image pairImage(const IndexedPatch& patch, NormalEncoding encoding, ImageSize records) {
   const ImageSize size = pairImageSize(records);
   if (size.columns > guaranteedImageEdge)
@@ -42,7 +42,7 @@ Image pairImage(const IndexedPatch& patch, NormalEncoding encoding, ImageSize re
   return image;
 }
 
-/// With as many entries as normals use.
+/// The palette has only the entries that normals use.
 Image paletteImage(const IndexedPatch& patch, ImageSize records) {
   const NormalPalette palette = normalPalette(patch.normals);
   std::array<std::uint8_t, 256> entryOf{};

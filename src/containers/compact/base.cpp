@@ -13,14 +13,13 @@ namespace imgeo {
 
 namespace {
 
-/// So many steps of a residual are an edge: what rounding moves a vertex by is less
-/// than what simplification did.
+/// Residual steps in a mean edge: rounding moves a vertex by less than simplification did.
 constexpr double stepsAnEdge = 16;
 
-/// So many steps are an edge in the texture, which simplification has laid no better.
+/// Texture coordinate steps in a mean edge of the texture: simplification places edges no more precisely.
 constexpr double stepsATextureEdge = 8;
 
-/// What an edge of a triangle measures; lengthOf takes two of its corners.
+/// The mean length of the edges of triangles; lengthOf(a, b) measures the edge between two corners.
 template <typename LengthOf> double meanEdge(const BaseMesh& base, LengthOf lengthOf) {
   double sum = 0;
   for (std::size_t corner = 0; corner < base.corners.size(); ++corner)
@@ -28,7 +27,7 @@ template <typename LengthOf> double meanEdge(const BaseMesh& base, LengthOf leng
   return sum / static_cast<double>(base.corners.size());
 }
 
-/// The largest shift of residuals for the edges between positions of one part.
+/// The residual shift with stepsAnEdge steps in a mean edge.
 std::uint32_t residualShiftFor(const BaseMesh& base, std::uint32_t positionBits) {
   const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
     return length(Vec3d(base.cornerPosition(b)) - Vec3d(base.cornerPosition(a)));
@@ -38,29 +37,29 @@ std::uint32_t residualShiftFor(const BaseMesh& base, std::uint32_t positionBits)
   return std::min(shift == 0 ? 0 : shift - 1, positionBits - 1);
 }
 
-/// The fewest bits with which steps are small enough.
-std::uint32_t texCoordBitsFor(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t most) {
+/// The smallest number of bits, at most `maxBits`, with stepsATextureEdge steps in a mean edge.
+std::uint32_t texCoordBitsFor(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t maxBits) {
   const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
     const Vec2f from = base.texCoords[base.corners[a]], to = base.texCoords[base.corners[b]];
     return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
   });
   const double steps = stepsATextureEdge * std::max(geometry.texCoordSize.x, geometry.texCoordSize.y) / edge;
   std::uint32_t bits = 1;
-  while (bits < most && std::ldexp(1.0, static_cast<int>(bits)) < steps)
+  while (bits < maxBits && std::ldexp(1.0, static_cast<int>(bits)) < steps)
     ++bits;
   return bits;
 }
 
-/// The fewest bits that tell 256 values apart where they lie in the attribute's box.
+/// The smallest number of bits that tells 256 values apart over the range that a base mesh uses.
 std::uint32_t bitsFor(const NamedAttribute& named, const AttributeDescription& description) {
   double share = 0;
   for (std::uint32_t c = 0; c < named.components && description.size[c] > 0; ++c) {
-    double least = named.values[c], largest = least;
+    double min = named.values[c], max = min;
     for (std::size_t i = c; i < named.values.size(); i += named.components) {
-      least = std::min(least, double{named.values[i]});
-      largest = std::max(largest, double{named.values[i]});
+      min = std::min(min, double{named.values[i]});
+      max = std::max(max, double{named.values[i]});
     }
-    share = std::max(share, (largest - least) / description.size[c]);
+    share = std::max(share, (max - min) / description.size[c]);
   }
   std::uint32_t bits = 8;
   while (bits < 8 * description.bytes && std::ldexp(share, static_cast<int>(bits)) < 256)
@@ -77,11 +76,12 @@ compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescrip
   patch.positions = base.positions;
   patch.wedgePositions = base.wedgePositions;
   patch.corners = base.corners;
-  patch.parts = base.segments;
-  patch.partCount = base.segmentCount;
+  patch.segments = base.segments;
+  patch.segmentCount = base.segmentCount;
   patch.residualShift = residualShiftFor(base, geometry.lattice.bits);
   compact::Attribute normals{{compact::AttributeKind::normal, 3, 8, compact::NormalMode::derivedArea}, {}};
-  normals.values.resize(base.wedgePositions.size()); // whatever they are, they come from the triangles
+  normals.values.resize(
+      base.wedgePositions.size()); // values are not stored: readers compute normals from the triangles
   patch.attributes.push_back(std::move(normals));
   if (!base.texCoords.empty())
     patch.attributes.push_back(
@@ -108,8 +108,8 @@ BaseMesh meshOfBase(const compact::CompactPatch& patch) {
   base.positions = patch.positions;
   base.wedgePositions = patch.wedgePositions;
   base.corners = patch.corners;
-  base.segments = patch.parts;
-  base.segmentCount = patch.partCount;
+  base.segments = patch.segments;
+  base.segmentCount = patch.segmentCount;
   return base;
 }
 

@@ -1,5 +1,7 @@
 #include "containers/compact/base.h"
 
+#include "containers/container_reader.h"
+
 #include "base/error.h"
 #include "prepare/base_mesh_testing.h"
 #include "prepare/weld.h"

@@ -1,5 +1,5 @@
 #pragma once
-// What the attributes of wedges have in common: docs/formats/compact.md, "Attributes".
+// What the coding of all attributes shares: docs/formats/compact.md, "Attributes".
 
 #include "containers/compact/compact_patch.h"
 #include "containers/compact/prediction.h"
@@ -13,20 +13,20 @@ inline constexpr std::size_t repeat = 0, choice = repeat + 1, exact = choice + 2
                              second = first + numberModels, count = second + 93 * numberModels;
 }
 
-/// What attributes are predicted from.
+/// The data from which attributes are predicted.
 struct Surface {
   Topology topology;
   const Connectivity& connectivity;
   const Wedges& wedges;
   const std::vector<Vec3u>& positions;
-  const NormalSums& normalSums; ///< per vertex; of triangles alone
+  const NormalSums& normalSums; ///< per vertex; triangles only
   std::uint32_t normalShift;
   bool isBase;
 
   bool hasSeams() const { return wedges.count() > positions.size(); }
 };
 
-/// Whether each wedge repeats the value of the one made before at its vertex.
+/// Codes for each wedge whether it repeats the value of the previous wedge of its vertex.
 template <typename Coder>
 std::vector<bool> codeRepeats(Coder& coder, const Surface& surface, const std::vector<Value>& values) {
   const Wedges& wedges = surface.wedges;

@@ -1,6 +1,6 @@
 #pragma once
-// Normals as residuals to the normal of the decoded surface, in integers, so that
-// every decoder gets the same: docs/formats/compact.md, "Normals".
+// Normals as residuals to the normal of the decoded surface, in integers, so that all
+// decoders return the same bits: docs/formats/compact.md, "Normals".
 
 #include "containers/compact/code_attributes.h"
 
@@ -10,15 +10,15 @@
 
 namespace imgeo::compact {
 
-/// A point of the octahedron |x| + |y| + |z| = radius, all but its dominant
-/// coordinate rounded; the dominant one takes what is left.
+/// A point of the octahedron |x| + |y| + |z| = radius: two coordinates are rounded, and the dominant one follows from
+/// them.
 struct OctahedronPoint {
   int axis = 2, u = 0, v = 1; ///< the dominant axis, the next, the one after
   std::int64_t atU = 0, atV = 0;
   bool isNegative = false; ///< on the dominant axis
 };
 
-/// In a direction; (0, 0, 1) for none.
+/// The point in a direction; (0, 0, 1) for a zero vector.
 inline OctahedronPoint octahedronPoint(const Place& direction, std::int64_t radius) {
   OctahedronPoint point;
   point.axis = dominantAxis(direction);
@@ -51,7 +51,7 @@ inline double octahedronErrorBound(std::uint32_t bits) {
   return std::sqrt(4.5) / ((1 << (bits - 1)) - 1) * 1.001 + 1e-6;
 }
 
-/// The sums of the normals around each of the first `limit` wedges and those that repeat it.
+/// The sums of the triangle normals around each of the first `limit` wedges, including wedges that repeat it.
 inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& repeats, bool isUniform,
                                std::uint32_t limit) {
   const Wedges& wedges = surface.wedges;
@@ -77,7 +77,7 @@ inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& 
   return sums;
 }
 
-/// A normal that is not where it is expected.
+/// Codes a normal that differs from its prediction.
 template <typename Coder>
 Value codeOtherNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, const Value& value) {
   const auto at = [&](int axis) { return value[static_cast<std::uint32_t>(axis)]; };
@@ -93,7 +93,7 @@ Value codeOtherNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, 
   return valueOf(point, radius);
 }
 
-/// Of all wedges, or of the first `limit` for an encoder that wants to know what they take.
+/// Codes the normals of all wedges, or of the first `limit` for an encoder that measures their cost.
 template <typename Coder>
 void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type, std::vector<Value>& values,
                  std::uint32_t limit = std::numeric_limits<std::uint32_t>::max()) {
@@ -102,7 +102,7 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
   std::vector<bool> repeats(wedges.count());
   if (surface.hasSeams() && !type.isDerived())
     repeats = codeRepeats(coder, surface, values);
-  else if (surface.isBase) // whose seams are the texture's alone
+  else if (surface.isBase) // seams of a base are seams of the texture only
     for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge)
       repeats[wedge] = wedges.previous[wedge] != none;
   const bool hasTriangles = surface.topology == Topology::triangles;
@@ -111,7 +111,7 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
       hasTriangles && !ofVertices ? sumsOfWedges(surface, repeats, type.isUniform(), limit) : NormalSums(0, 0);
   const NormalSums& sums = ofVertices ? surface.normalSums : ofWedges;
   const std::uint32_t end = std::min(static_cast<std::uint32_t>(wedges.count()), limit);
-  bool isExact = false; // as the one before was
+  bool isExact = false; // whether the previous normal equals its prediction
   for (std::uint32_t wedge = 0; wedge < end; ++wedge) {
     if (repeats[wedge]) {
       values[wedge] = values[wedges.previous[wedge]];

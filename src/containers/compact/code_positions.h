@@ -1,5 +1,5 @@
 #pragma once
-// One loop codes positions both ways: docs/formats/compact.md, "Positions".
+// Encodes and decodes positions by the same loop: docs/formats/compact.md, "Positions".
 
 #include "containers/compact/grid.h"
 #include "containers/compact/prediction.h"
@@ -20,15 +20,15 @@ inline constexpr std::size_t choice = 0, first = choice + std::size_t{8} * 16 * 
 /// Three coordinates in the order in which they are coded.
 using Coordinates = std::array<std::int64_t, 3>;
 
-/// What is known of a vertex before its coordinates.
+/// Prediction and contexts of a vertex.
 struct VertexContext {
   std::uint32_t agreement = 0;
-  std::uint32_t mask = 0;            ///< axes on the grid
+  std::uint32_t mask = 0;            ///< axes on the grid, as bits
   std::uint32_t shift = 0;           ///< of residuals
   std::array<int, 3> order{0, 1, 2}; ///< of the axes
   Coordinates normal{};              ///< of the surface
 
-  /// Axes on the grid come first, of the others the surface's dominant one last.
+  /// Axes on the grid come first; of the others the dominant axis of the surface normal comes last.
   void setOrder(const Slope& slope) {
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -45,7 +45,7 @@ struct VertexContext {
   }
 };
 
-/// Which residuals of a base are of steps coarser than the lattice's.
+/// Residuals of a base that have coarser steps than the lattice.
 struct CoarseResiduals {
   std::uint32_t shift = 0;
   const std::vector<bool>* isExact = nullptr; ///< per vertex, where there is a shift
@@ -55,15 +55,15 @@ struct CoarseResiduals {
 
 template <typename Coder> class PositionCoder {
 public:
-  /// `positions` are those of an encoder, which become what a decoder gets of them, or
-  /// room for a decoder's. All are kept by reference.
+  /// Encoders pass the positions and get those that decoders will get; decoders pass room for them. All arguments are
+  /// kept by reference.
   PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits, const std::optional<Grid>& grid,
                 std::uint32_t normalShift, CoarseResiduals residuals, std::vector<Vec3u>& positions)
       : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1), grid_(grid),
         residuals_(residuals), positions_(positions),
         sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift), masks_(grid ? positions.size() : 0) {}
 
-  /// Returns the sums of the triangle normals around each vertex; nothing for points and lines.
+  /// Codes all positions. Returns the sums of the triangle normals around each vertex; empty for points and lines.
   NormalSums run() {
     const std::vector<std::uint32_t>& vertex = connectivity_.vertex;
     for (std::uint32_t triangle = 0; triangle < connectivity_.across.size(); ++triangle) {
@@ -117,18 +117,18 @@ private:
     return mask;
   }
 
-  /// What the models would charge least for.
+  /// The candidate with the lowest cost.
   std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context,
                          const Coordinates& coordinates) const {
     std::uint32_t best = 0;
-    std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t minCost = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
-      CostMeter meter(coder_, least);
+      CostMeter meter(coder_, minCost);
       codeChoice(meter, candidates, context, i);
       Coordinates coded = coordinates;
       codeCoordinates(meter, context.inOrder(candidates.places[i]), context, coded);
-      if (meter.cost() < least)
-        least = meter.cost(), best = i;
+      if (meter.cost() < minCost)
+        minCost = meter.cost(), best = i;
     }
     return best;
   }
@@ -180,7 +180,7 @@ private:
     }
   }
 
-  /// From one coordinate to about another, without leaving the lattice.
+  /// Rounds a residual to coarser steps without leaving the lattice.
   std::int64_t stepsBetween(std::int64_t from, std::int64_t to, std::uint32_t shift) const {
     if (shift == 0)
       return to - from;
@@ -189,7 +189,7 @@ private:
     return steps + (from + (steps << shift) < 0);
   }
 
-  /// The last coordinate at which the plane of the surface passes through the other two.
+  /// The last coordinate of the point of the surface's plane that has the other two coordinates.
   std::int64_t onSlope(const Coordinates& guess, const Coordinates& normal, const Coordinates& at) const {
     std::int64_t expected = guess[2];
     if (normal[2] != 0)

@@ -1,6 +1,6 @@
 #pragma once
-// Texture coordinates, colours and other attributes of wedges, from their
-// neighbours': docs/formats/compact.md. Texture coordinates after Isenburg and
+// Texture coordinates, colours and other attributes, predicted from neighbouring
+// wedges: docs/formats/compact.md. Texture coordinates follow Isenburg and
 // Snoeyink, "Compressing texture coordinates with selective linear predictions",
 // 2003, and Váša and Brunnett, "Efficient encoding of texture coordinates guided
 // by mesh geometry", 2014.
@@ -27,8 +27,8 @@ inline std::int64_t integerSqrt(std::int64_t square) {
   return root;
 }
 
-/// A third corner's place relative to the edge a -> b: `along` and `beside` it, in
-/// units of the edge, times `unit`.
+/// The coordinates of a third corner relative to the edge a -> b: `along` and `beside` it, in units of the edge, times
+/// `unit`.
 struct EdgeFrame {
   std::int64_t along = 0, beside = 0, unit = 0;
 
@@ -47,7 +47,7 @@ struct EdgeFrame {
 
 template <typename Coder> class ValueCoder {
 public:
-  /// `values` are an encoder's, or room for a decoder's.
+  /// Encoders pass the values, decoders room for them.
   ValueCoder(Coder& coder, const Surface& surface, const AttributeType& type, std::vector<Value>& values)
       : coder_(coder), surface_(surface), type_(type), maximum_((1 << type.bits) - 1), values_(values) {}
 
@@ -78,14 +78,14 @@ private:
     std::uint32_t count = 0;
 
     void add(const Value& value) { values[count++] = value; }
-    /// 0: one; 1: the two that an edge gives; 2: the parallelogram too.
+    /// 0: one candidate; 1: two from an edge; 2: the parallelogram as well.
     std::uint32_t set() const { return count - 1; }
   };
 
   Guesses guessesFor(std::uint32_t wedge) const {
     const Wedges& wedges = surface_.wedges;
     const std::uint32_t corner = wedges.corner[wedge];
-    std::uint32_t a = none, b = none; // the neighbours that are known
+    std::uint32_t a = none, b = none; // the neighbours whose values are known
     if (surface_.topology == Topology::triangles) {
       a = knownAt(after(corner), wedge);
       b = knownAt(before(corner), wedge);
@@ -119,7 +119,7 @@ private:
     return value;
   }
 
-  /// The triangle in its own shape on either side of its edge in texture space.
+  /// Lays the triangle out in its own shape on both sides of its edge in texture space.
   void addSides(Guesses& guesses, std::uint32_t wedge, std::uint32_t a, std::uint32_t b) const {
     const auto place = [&](std::uint32_t w) { return surface_.positions[surface_.wedges.vertex[w]]; };
     const EdgeFrame frame(place(a), place(b), place(wedge));
@@ -138,7 +138,7 @@ private:
     }
   }
 
-  /// Where the attribute continues over the triangle's first edge.
+  /// The candidate of the parallelogram, if the attribute continues across the triangle's first edge.
   void addParallelogram(Guesses& guesses, std::uint32_t corner, std::uint32_t a, std::uint32_t b) const {
     if (corner % 3 != 2)
       return;
@@ -151,13 +151,13 @@ private:
 
   std::uint32_t cheapest(const Guesses& guesses, std::uint32_t latest, Value value) {
     std::uint32_t best = 0;
-    std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t minCost = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t i = 0; i < guesses.count && guesses.count > 1; ++i) {
-      CostMeter meter(coder_, least);
+      CostMeter meter(coder_, minCost);
       codeChoice(meter, guesses, latest, i);
       codeValue(meter, guesses.values[i], value);
-      if (meter.cost() < least)
-        least = meter.cost(), best = i;
+      if (meter.cost() < minCost)
+        minCost = meter.cost(), best = i;
     }
     return best;
   }

@@ -20,7 +20,8 @@ const Reference& dataOf(const PatchDescription& patch) {
   return *patch.data;
 }
 
-/// Every kind at most once, but for the geometry's further attributes, in their order.
+/// Whether a patch has normals, texture coordinates and colours at most once, and the further attributes of the
+/// geometry in their order.
 bool hasAttributes(const compact::CompactPatch& patch, const GeometryDescription& geometry) {
   std::size_t kinds[3] = {}, others = 0;
   for (const compact::Attribute& attribute : patch.attributes) {
@@ -39,7 +40,7 @@ bool hasAttributes(const compact::CompactPatch& patch, const GeometryDescription
   return others == geometry.attributes.size();
 }
 
-/// What a file must be by its document.
+/// Checks that a file fits its document.
 struct Requirement {
   const std::string& url;
   void operator()(bool condition, const char* message) const {
@@ -74,25 +75,25 @@ PatchDescription describe(const compact::CompactPatch& patch, const GeometryDesc
   return description;
 }
 
-EncodedCompact encodeCompact(std::span<const compact::CompactPatch> patches, int effort) {
+EncodedSharedFile encodeCompact(std::span<const compact::CompactPatch> patches, int effort) {
   compact::EncodedPatches encoded = compact::encodePatches(patches, effort);
   if (encoded.bytes.size() > compact::maxPayloadBytes)
     throw Error(ErrorKind::limit, "", "a patch does not fit into an image; use smaller patches");
   return {{Role::patch, ".png", compact::imageOfPayload(encoded.bytes)}, std::move(encoded.normalErrors)};
 }
 
-std::shared_ptr<const CompactFiles::Patches> CompactFiles::patchesOf(const std::string& file) {
+std::shared_ptr<const CompactReader::Patches> CompactReader::patchesOf(const std::string& file) {
   return patches_.get(file, [&](const std::string& url) {
     return compact::decodePatches(compact::payloadOfImage(fetch_(url), url), url);
   });
 }
 
-IndexedPatch CompactFiles::decode(const PatchDescription& patch, const GeometryDescription& geometry) {
+IndexedPatch CompactReader::decode(const PatchDescription& patch, const GeometryDescription& geometry) {
   const Reference& data = dataOf(patch);
   const auto patches = patchesOf(data.url);
   const compact::CompactPatch& decoded = valueAt(*patches, data);
   const Requirement require{data.url};
-  require(decoded.partCount == 0, "a base stands where a patch should");
+  require(decoded.segmentCount == 0, "a base stands where a patch should");
   require(decoded.positionBits == geometry.lattice.bits, "the positions have other bits than the node states");
   require(patch.vertexCount == 0 || patch.vertexCount == decoded.wedgeCount(),
           "the patch has other vertices than the document states");
@@ -103,19 +104,21 @@ IndexedPatch CompactFiles::decode(const PatchDescription& patch, const GeometryD
   return vertices;
 }
 
-BaseMesh CompactFiles::decodeBase(const GeometryDescription& geometry) {
+BaseMesh CompactReader::decodeBase(const GeometryDescription& geometry) {
   const Reference& reference = geometry.base.value();
   const auto bases = patchesOf(reference.url);
   const compact::CompactPatch& base = valueAt(*bases, reference);
   const Requirement require{reference.url};
-  require(base.partCount > 0, "a patch stands where a base should");
-  require(base.partCount == geometry.patches.size(), "the base has other parts than the node has patches");
+  require(base.segmentCount > 0, "a patch stands where a base should");
+  require(base.segmentCount == geometry.patches.size(), "the base has other segments than the node has patches");
   require(base.positionBits == geometry.lattice.bits, "the positions have other bits than the node states");
   return meshOfBase(base);
 }
 
-StoredPrecision CompactFiles::precisionOf(const PatchDescription& patch) {
-  const Reference& data = dataOf(patch);
+StoredPrecision CompactReader::precisionOf(const GeometryDescription& geometry) {
+  if (geometry.patches.empty())
+    return {};
+  const Reference& data = dataOf(geometry.patches[0]);
   const auto types = types_.get(data.url, [&](const std::string& url) {
     return compact::attributesOfPatches(compact::payloadOfImage(fetch_(url), url), url);
   });

@@ -1,9 +1,8 @@
 #pragma once
-// SIG compact: patches in images, predicted and packed, decoded from front to
-// back. Byte by byte: docs/formats/compact.md.
+// SIG compact: patches whose values are predicted and entropy-coded, as the pixels of
+// an image. Specification: docs/formats/compact.md.
 
 #include "containers/compact/compact_patch.h"
-#include "containers/container.h"
 #include "containers/encodings.h"
 #include "containers/recent.h"
 
@@ -11,41 +10,38 @@
 
 namespace imgeo {
 
-/// The row of SIG compact in the registry.
+/// The row of compact in the registry.
 extern const EncodingRow compactEncoding;
 
-/// A patch in integers, by the node's fields. Of points, each wedge is one.
+/// See EncodingRow::resolveOptions.
+void resolveCompactOptions(ConvertOptions& options);
+
+/// How patches and base meshes share files.
+extern const FileSharing compactSharing;
+
+/// Quantises a patch by the fields of its node. Every wedge of a point cloud is a point.
 compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry, const EncodeOptions& options);
 
-/// What documents say of such a patch, but for where its data lies.
+/// The description of a quantised patch, without its reference.
 PatchDescription describe(const compact::CompactPatch& patch, const GeometryDescription& geometry);
 
-struct EncodedCompact {
-  EncodedFile file;
-  std::vector<double> normalErrors; ///< per patch; see EncodedPatch
-};
+/// Encodes patches into one file, in this order: at most compact::maxFilePatches patches of compact::maxFileTypes
+/// types, which together have at most compact::maxPatchCount vertices, wedges and elements. Throws Error{limit} for
+/// more bytes than an image holds.
+EncodedSharedFile encodeCompact(std::span<const compact::CompactPatch> patches, int effort);
 
-/// Encodes the patches of one file, whose numbers in it are their places here. Together
-/// they have at most compact::maxPatchCount vertices, wedges and elements; they are
-/// compact::maxFilePatches and of compact::maxFileTypes types at most. Throws
-/// Error{limit} for bytes that fill more than an image.
-EncodedCompact encodeCompact(std::span<const compact::CompactPatch> patches, int effort);
-
-/// The files of compact that patches refer to, each read once for patches that are asked
-/// for one after the other. Safe to call from any thread, and for untrusted bytes.
-/// Throws Error naming the url.
-class CompactFiles {
+/// Reads patches and base meshes of compact. A file is decoded once if its patches are requested one after the other.
+class CompactReader final : public PatchReader {
 public:
-  explicit CompactFiles(FetchFile fetch) : fetch_(std::move(fetch)) {}
+  explicit CompactReader(FetchFile fetch) : fetch_(std::move(fetch)) {}
 
-  /// The patch, which is what the document says.
-  IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry);
+  /// Throws Error{malformed} also for a patch that the description does not fit.
+  IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) override;
 
-  /// The geometry's base, which it has.
-  BaseMesh decodeBase(const GeometryDescription& geometry);
+  BaseMesh decodeBase(const GeometryDescription& geometry) override;
 
-  /// What its file says of its attributes.
-  StoredPrecision precisionOf(const PatchDescription& patch);
+  /// The precision that the file of the first patch states.
+  StoredPrecision precisionOf(const GeometryDescription& geometry) override;
 
 private:
   using Patches = std::vector<compact::CompactPatch>;

@@ -1,6 +1,6 @@
 #pragma once
-// A patch in integers: exactly what a file of compact holds, and what comes back
-// of it, but for the order of its elements, corners, vertices and wedges.
+// A quantised patch. Coding is lossless but for the order of elements, corners,
+// vertices and wedges.
 
 #include "base/vec.h"
 #include "scene/mesh.h"
@@ -20,7 +20,7 @@ enum class NormalMode : std::uint8_t { area, uniform, derivedArea, derivedUnifor
 struct AttributeType {
   AttributeKind kind = AttributeKind::other;
   std::uint8_t components = 1, bits = 8;
-  NormalMode mode = NormalMode::area; ///< normals only; 0 elsewhere
+  NormalMode mode = NormalMode::area; ///< normals only
 
   bool isDerived() const { return mode == NormalMode::derivedArea || mode == NormalMode::derivedUniform; }
   bool isUniform() const { return mode == NormalMode::uniform || mode == NormalMode::derivedUniform; }
@@ -38,8 +38,8 @@ struct Value {
 
 struct Attribute {
   AttributeType type;
-  /// Per wedge. A normal is a point of the octahedron |x| + |y| + |z| = 2^(bits - 1) - 1,
-  /// everything else 0 .. 2^bits - 1 a component.
+  /// Per wedge. Normals are points of the octahedron |x| + |y| + |z| = 2^(bits - 1) - 1; components of other
+  /// attributes are 0 .. 2^bits - 1.
   std::vector<Value> values;
   friend bool operator==(const Attribute&, const Attribute&) = default;
 };
@@ -58,17 +58,17 @@ struct CompactPatch {
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> vertex
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) an element
   std::vector<Attribute> attributes;
-  /// Of a base, per triangle: the part that it belongs to, below `partCount`. Empty in a patch.
-  std::vector<std::uint32_t> parts;
-  std::uint32_t partCount = 0; ///< 0: no base
-  /// Of a base: positions that one part alone has come back in steps of about 2^residualShift.
+  /// Base only: the segment of each triangle, below `segmentCount`. Empty in a patch.
+  std::vector<std::uint32_t> segments;
+  std::uint32_t segmentCount = 0; ///< 0: a patch, not a base
+  /// Base only: positions that only one segment has are rounded to residual steps of 2^residualShift.
   std::uint32_t residualShift = 0;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
   std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }
 };
 
-/// What a patch may hold at most, of vertices, wedges and elements.
+/// Maximum number of vertices, of wedges and of elements of a patch, and of all patches of a file.
 inline constexpr std::uint32_t maxPatchCount = 1u << 20;
 inline constexpr std::uint32_t maxAttributes = 16;
 

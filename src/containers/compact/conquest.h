@@ -2,8 +2,8 @@
 // Triangles grow from a boundary: the cut-border machine of Gumhold and Straßer,
 // "Real time compression of triangle mesh connectivity", 1998, with vertices
 // processed in the order of their discovery, and the degrees of Touma and
-// Gotsman, "Triangle mesh compression", 1998, as contexts. One loop codes both
-// ways: docs/formats/compact.md, "Connectivity of triangles".
+// Gotsman, "Triangle mesh compression", 1998, as contexts. The same loop encodes and
+// decodes: docs/formats/compact.md, "Connectivity of triangles".
 
 #include "containers/compact/connectivity.h"
 #include "containers/compact/symbols.h"
@@ -13,7 +13,7 @@
 
 namespace imgeo::compact {
 
-/// What lies across an edge of the boundary.
+/// The triangle across an edge of the boundary.
 enum class Step : std::uint8_t { make, close, back, hole, join, reuse };
 
 namespace conquestModels {
@@ -23,23 +23,21 @@ inline constexpr std::size_t make = 0, close = make + degreeContexts, back = clo
                              vertex = node + numberModels, count = vertex + numberModels;
 } // namespace conquestModels
 
-/// A place on the boundary, which is loops and open chains of these. The edge that
-/// it stands for runs from the node before to it.
+/// A node of the boundary, which consists of loops and open chains. Its edge runs from the previous node to it.
 struct Node {
   std::uint32_t vertex = 0;
   std::uint32_t previous = none, next = none;
-  std::uint32_t apex = none; ///< the corner opposite of its edge, in the triangle behind
+  std::uint32_t apex = none; ///< the corner opposite its edge, in the triangle behind
 
   bool isAlive() const { return previous != none || next != none; }
 };
 
-/// The nodes around the edge p -> k that is to be crossed.
+/// The nodes around the edge p -> k that is crossed.
 struct Gate {
   std::uint32_t k, p, next, behind; ///< `next` after k, `behind` before p; `none` at a chain's end
 };
 
-/// `Guide` tells an encoder its way; see TriangleGuide for the functions that it has.
-/// Decoders never call theirs.
+/// `Guide` knows the triangles of an encoder: see TriangleGuide in encode_connectivity.cpp. Decoders do not use it.
 template <typename Coder, typename Guide> class Conquest {
 public:
   Conquest(Coder& coder, Guide& guide, std::uint32_t triangleCount, std::uint32_t vertexCount)
@@ -81,7 +79,7 @@ private:
     return out_.vertexCount++;
   }
 
-  /// A vertex that has come before; `vertex` is its number.
+  /// Codes a vertex that is known already; `vertex` is its number.
   std::uint32_t codeOld(std::uint32_t vertex) {
     const std::uint32_t distance = codeNumber(coder_, conquestModels::vertex, out_.vertexCount - 1 - vertex);
     coder_.require(distance < out_.vertexCount, "a vertex is named that has not come");

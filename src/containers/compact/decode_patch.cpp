@@ -23,7 +23,7 @@ public:
     return patches;
   }
 
-  /// Behind them every count is within its limit.
+  /// Afterwards every count is within its limit.
   std::vector<PatchSizes> decodeSizes() {
     std::vector<PatchSizes> all;
     SizeSums sums;
@@ -45,20 +45,20 @@ private:
     patch.topology = type.topology;
     patch.positionBits = type.positionBits;
     const Connectivity connectivity = decodeConnectivity(type.topology, sizes);
-    Parts parts;
+    Segments segments;
     if (type.isBase)
-      parts = codeParts(streams_[StreamName::parts], connectivity, sizes.partCount,
-                        std::vector<std::uint32_t>(sizes.elementCount));
+      segments = codeSegments(streams_[StreamName::segments], connectivity, sizes.segmentCount,
+                              std::vector<std::uint32_t>(sizes.elementCount));
     patch.positions.resize(sizes.vertexCount);
     const NormalSums sums = PositionCoder(streams_[StreamName::positions], connectivity, type.positionBits, sizes.grid,
-                                          sizes.normalShift, {sizes.residualShift, &parts.isShared}, patch.positions)
+                                          sizes.normalShift, {sizes.residualShift, &segments.isShared}, patch.positions)
                                 .run();
     Wedges wedges = decodeWedges(connectivity, sizes);
     const Surface surface{type.topology, connectivity, wedges, patch.positions, sums, sizes.normalShift, type.isBase};
     for (const std::uint32_t attribute : type.attributes)
       patch.attributes.push_back({header_.attributes[attribute], decodeValues(surface, attribute)});
-    patch.parts = std::move(parts.ofTriangle);
-    patch.partCount = sizes.partCount;
+    patch.segments = std::move(segments.ofTriangle);
+    patch.segmentCount = sizes.segmentCount;
     patch.residualShift = sizes.residualShift;
     patch.corners = std::move(wedges.ofCorner);
     patch.wedgePositions = std::move(wedges.vertex);

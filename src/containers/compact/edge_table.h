@@ -1,6 +1,6 @@
 #pragma once
-// The triangles at a directed edge that have not been taken yet: nearly at once where
-// vertices have a few, and in logarithmic time however many share a vertex or an edge.
+// Finds a triangle at a directed edge that has not been taken: in constant time if vertices
+// have few triangles, and in logarithmic time if many triangles share a vertex or an edge.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,18 +11,16 @@ namespace imgeo::compact {
 
 class EdgeTable {
 public:
-  /// From a vertex to another, along a triangle that has `third` besides.
+  /// A directed edge of a triangle whose third vertex is `third`.
   struct Edge {
     std::uint32_t to, third;
-    std::uint32_t corner; ///< of the triangle, at the edge's begin
+    std::uint32_t corner; ///< of the triangle, at the start of the edge
   };
 
-  /// `vertices`, below `vertexCount`, are corners of triangles. Triangles with two equal
-  /// corners have no edges here.
+  /// `vertices` are the corners of triangles, below `vertexCount`. Triangles with two equal corners are left out.
   EdgeTable(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)
       : begins_(vertexCount + 2), taken_(vertices.size() / 3) {
-    // Two places behind its vertex a sum of counts is where the next one's edges begin;
-    // filling moves it on to where they end.
+    // The sum of counts at index vertex + 2 is the begin of the next vertex's edges; filling moves it to their end.
     visitEdges(vertices, [&](std::uint32_t from, const Edge&) { ++begins_[from + 2]; });
     for (std::size_t vertex = 2; vertex < begins_.size(); ++vertex)
       begins_[vertex] += begins_[vertex - 1];
@@ -33,12 +31,12 @@ public:
         std::sort(edges_.begin() + begins_[from], edges_.begin() + begins_[from + 1], before);
   }
 
-  /// The first edge from -> to, in the source's order, whose triangle is not taken yet; or null.
+  /// The first edge from -> to, in the source's order, whose triangle is not taken; nullptr: none.
   const Edge* find(std::uint32_t from, std::uint32_t to) {
     const std::uint32_t begin = begins_[from], end = begins_[from + 1];
     if (end - begin > fewEdges)
       return findAmongMany(begin, end, to);
-    // All are looked at: which one it is nobody can predict, and a wrong guess costs more.
+    // The loop visits all: an early exit would be a mispredicted branch, which costs more.
     std::uint32_t found = end;
     for (std::uint32_t at = end; at-- > begin;)
       found = edges_[at].to == to ? at : found;
@@ -47,11 +45,11 @@ public:
     return found != end ? &edges_[found] : nullptr;
   }
 
-  /// Begins to fetch the edges of a vertex.
+  /// Prefetches the edges of a vertex.
   void prefetch(std::uint32_t from) const {
     const Edge* const row = edges_.data() + begins_[from];
     __builtin_prefetch(row);
-    __builtin_prefetch(row + 6); // where those of most vertices end
+    __builtin_prefetch(row + 6); // the edges of most vertices end there
   }
 
   bool isTaken(std::uint32_t triangle) const { return taken_[triangle]; }
@@ -71,11 +69,10 @@ private:
     }
   }
 
-  /// Those of one edge in the source's order.
+  /// The edges from -> to, in the source's order.
   static bool before(const Edge& a, const Edge& b) { return a.to != b.to ? a.to < b.to : a.corner < b.corner; }
 
-  /// In a sorted range. Of several triangles at one edge those found to be taken are
-  /// passed over once.
+  /// Searches a sorted range. Taken triangles of one edge are skipped only once.
   const Edge* findAmongMany(std::uint32_t begin, std::uint32_t end, std::uint32_t to) {
     if (passed_.empty())
       passed_.resize(edges_.size());
@@ -90,9 +87,9 @@ private:
     return at != end && edges_[at].to == to ? &edges_[at] : nullptr;
   }
 
-  std::vector<Edge> edges_;           ///< by the vertex that they begin at
-  std::vector<std::uint32_t> begins_; ///< by vertex: of its edges; and their end
-  std::vector<std::uint32_t> passed_; ///< by the first of equal edges: how many are taken for certain
+  std::vector<Edge> edges_;           ///< sorted by their first vertex
+  std::vector<std::uint32_t> begins_; ///< per vertex: the begin of its edges; one more for the end
+  std::vector<std::uint32_t> passed_; ///< per first of equal edges: number of leading edges known to be taken
   std::vector<bool> taken_;
 };
 

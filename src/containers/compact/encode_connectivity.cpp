@@ -6,7 +6,7 @@ namespace imgeo::compact {
 
 namespace {
 
-/// Knows the source's triangles and says at each edge which one lies across.
+/// Finds the triangle of the source across each edge of the boundary.
 class TriangleGuide {
 public:
   TriangleGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount, std::uint32_t firstTriangle,
@@ -33,7 +33,7 @@ public:
     latestNodes_[vertex] = node;
   }
 
-  /// Triangles around this vertex will be asked for soon.
+  /// Prefetches the triangles around a vertex.
   void expect(std::uint32_t vertex) const { edges_.prefetch(sources_[vertex]); }
 
   Step stepAcross(const Gate& gate, const std::vector<Node>& nodes) {
@@ -63,14 +63,14 @@ private:
     sources_.push_back(source);
   }
 
-  /// Takes the triangle of a corner, which becomes its first.
+  /// Takes the triangle of a corner, which becomes its first corner.
   void take(std::uint32_t corner) {
     edges_.take(corner / 3);
     sourceCorner_.insert(sourceCorner_.end(), {corner, after(corner), before(corner)});
   }
 
-  /// A living node of the target behind the pivot. Of a vertex with very many, the
-  /// latest are looked at: any choice is right, and time stays linear.
+  /// A live node of the target vertex behind the pivot. Only the latest nodes of a vertex are searched, so that time
+  /// stays linear; every choice is valid.
   std::uint32_t findNode(const Gate& gate, const std::vector<Node>& nodes) const {
     std::uint32_t node = latestNodes_[targetVertex_];
     for (int looks = 16; looks > 0 && node != none && node > gate.k; --looks, node = olderNodes_[node])
@@ -89,7 +89,7 @@ private:
   std::vector<std::uint32_t>& sourceCorner_;
 };
 
-/// Numbers the vertices of lines as they come.
+/// Numbers the vertices of lines in the order of their first use.
 class LineGuide {
 public:
   LineGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)

@@ -13,15 +13,14 @@ namespace imgeo::compact {
 
 namespace {
 
-/// An order of a patch's corners and vertices.
+/// An order of the corners and vertices of a patch.
 struct Ordered {
   Connectivity connectivity;
   std::vector<std::uint32_t> sourceCorner; ///< corner -> corner of the source
   std::vector<std::uint32_t> sourceVertex; ///< vertex -> vertex of the source
 };
 
-/// One of several that differ in where a patch begins: each finds other orders, of which
-/// none is the best for all patches.
+/// One of several first triangles of a patch. They lead to different orders, and none is best for all patches.
 struct Attempt {
   std::uint32_t number = 0, count = 1;
 
@@ -30,7 +29,7 @@ struct Attempt {
   }
 };
 
-/// Finds an order and writes it.
+/// Chooses an order and encodes it.
 Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, const Attempt& attempt,
                 StreamEncoders& streams) {
   const auto vertexCount = static_cast<std::uint32_t>(patch.positions.size());
@@ -55,8 +54,7 @@ Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& ver
   return ordered;
 }
 
-/// Whether the triangle normals' absolute values around each vertex sum up to less than
-/// 2^30, of edges shifted right.
+/// Whether the sums of absolute triangle normals around each vertex are below 2^30, with edges shifted right.
 bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, std::uint32_t shift) {
   constexpr std::int64_t limit = 1 << 30;
   std::vector<std::int64_t> sums(patch.positions.size());
@@ -75,7 +73,7 @@ bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& 
   return true;
 }
 
-/// The least shift with which they do.
+/// The smallest shift with which they are.
 std::uint32_t normalShiftFor(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices) {
   std::uint32_t shift = 0;
   while (patch.topology == Topology::triangles && !fitNormalSums(patch, vertices, shift))
@@ -94,7 +92,7 @@ double largestAngle(const std::vector<Value>& a, const std::vector<Value>& b) {
   return largest;
 }
 
-/// A patch in the order in which it is coded, as a decoder gets it.
+/// A patch in coded order, as a decoder returns it.
 struct CodedPatch {
   const CompactPatch& source;
   Ordered ordered;
@@ -105,8 +103,8 @@ struct CodedPatch {
 
   std::uint32_t sourceWedge(std::uint32_t corner) const { return source.corners[ordered.sourceCorner[corner]]; }
   Surface surface() const {
-    return {source.topology,   ordered.connectivity, wedges, positions, normalSums,
-            sizes.normalShift, source.partCount > 0};
+    return {source.topology,   ordered.connectivity,   wedges, positions, normalSums,
+            sizes.normalShift, source.segmentCount > 0};
   }
   /// The values of an attribute of the source.
   std::vector<Value> valuesOf(const Attribute& attribute) const {
@@ -118,15 +116,15 @@ struct CodedPatch {
   }
 };
 
-/// Fewer points than this have no use for a grid that takes 24 bytes.
-constexpr std::size_t leastPointsOfGrid = 64;
+/// Patches with fewer points do not gain the 24 bytes of a grid.
+constexpr std::size_t minGridPoints = 64;
 
 std::optional<Grid> gridOf(const CompactPatch& patch) {
-  const bool isWorthIt = patch.positionBits <= 16 && patch.positions.size() >= leastPointsOfGrid;
+  const bool isWorthIt = patch.positionBits <= 16 && patch.positions.size() >= minGridPoints;
   return isWorthIt ? findGrid(patch.positions) : std::nullopt;
 }
 
-/// The place of a value in a list, at the end of which it is put where it is missing.
+/// The index of a value in a list, to which it is appended if it is missing.
 template <typename T> std::uint32_t placeIn(std::vector<T>& list, const T& value) {
   const auto found = std::ranges::find(list, value);
   if (found != list.end())
@@ -168,9 +166,9 @@ public:
   }
 
 private:
-  /// A patch's attributes of one type are as many of the file's.
+  /// Several attributes of a patch that have the same type are different attributes of the file.
   PatchType typeOf(const CompactPatch& patch) {
-    PatchType type{patch.topology, patch.positionBits, patch.partCount > 0, {}};
+    PatchType type{patch.topology, patch.positionBits, patch.segmentCount > 0, {}};
     for (const Attribute& attribute : patch.attributes) {
       const auto isOther = [&](std::uint32_t place) {
         return header_.attributes[place] == attribute.type &&
@@ -186,7 +184,7 @@ private:
     return type;
   }
 
-  /// All of a patch but its attributes.
+  /// Encodes a patch without its attributes.
   void code(const CompactPatch& patch, std::uint32_t type) {
     std::vector<std::uint32_t> vertices;
     vertices.reserve(patch.corners.size());
@@ -197,25 +195,25 @@ private:
         codeSizes(streams_[StreamName::sizes], header_.types,
                   {type, static_cast<std::uint32_t>(patch.positions.size()),
                    static_cast<std::uint32_t>(patch.wedgeCount()), static_cast<std::uint32_t>(patch.elementCount()),
-                   normalShiftFor(patch, vertices), gridOf(patch), patch.partCount, patch.residualShift});
+                   normalShiftFor(patch, vertices), gridOf(patch), patch.segmentCount, patch.residualShift});
     const Connectivity& connectivity = coded.ordered.connectivity;
-    Parts parts;
-    if (patch.partCount > 0)
-      parts = codeParts(streams_[StreamName::parts], connectivity, patch.partCount, partsOf(coded));
+    Segments segments;
+    if (patch.segmentCount > 0)
+      segments = codeSegments(streams_[StreamName::segments], connectivity, patch.segmentCount, segmentsOf(coded));
     coded.positions = gather(patch.positions, coded.ordered.sourceVertex);
     coded.normalSums =
         PositionCoder(streams_[StreamName::positions], connectivity, patch.positionBits, coded.sizes.grid,
-                      coded.sizes.normalShift, {patch.residualShift, &parts.isShared}, coded.positions)
+                      coded.sizes.normalShift, {patch.residualShift, &segments.isShared}, coded.positions)
             .run();
     coded.wedges = codeWedges(coded);
     coded_.push_back(std::move(coded));
   }
 
-  static std::vector<std::uint32_t> partsOf(const CodedPatch& coded) {
-    std::vector<std::uint32_t> parts;
+  static std::vector<std::uint32_t> segmentsOf(const CodedPatch& coded) {
+    std::vector<std::uint32_t> segments;
     for (std::size_t corner = 0; corner < coded.ordered.sourceCorner.size(); corner += 3)
-      parts.push_back(coded.source.parts[coded.ordered.sourceCorner[corner] / 3]);
-    return parts;
+      segments.push_back(coded.source.segments[coded.ordered.sourceCorner[corner] / 3]);
+    return segments;
   }
 
   Wedges codeWedges(const CodedPatch& coded) {
@@ -226,7 +224,7 @@ private:
         .run();
   }
 
-  /// Calls visit(patch, values, number of the patch) for all that have an attribute of the header's.
+  /// Calls visit(patch, values, patch index) for all patches that have an attribute of the header.
   template <typename Visit> void forEachWith(std::uint32_t place, Visit visit) const {
     for (std::size_t i = 0; i < coded_.size(); ++i) {
       const CodedPatch& coded = coded_[i];
@@ -254,7 +252,7 @@ private:
     });
   }
 
-  /// By which normals are off that are not stored.
+  /// The largest error of derived normals, in radians.
   static double derivedError(const CodedPatch& coded, const AttributeType& type, const std::vector<Value>& values) {
     std::vector<Value> derived = values;
     RangeEncoder nothing(attributeModels::count);
@@ -262,7 +260,7 @@ private:
     return largestAngle(values, derived) + octahedronErrorBound(type.bits);
   }
 
-  /// That of the two weightings with the smaller stream, or the smaller error of derived normals.
+  /// The weighting with the smaller stream or, for derived normals, with the smaller error.
   NormalMode bestModeOf(std::uint32_t place) const {
     const AttributeType& given = header_.attributes[place];
     AttributeType other = given;
@@ -273,8 +271,7 @@ private:
     return costOf(place, other) < cost ? other.mode : given.mode;
   }
 
-  /// Bytes; of derived normals radians. Below the efforts that try all of them, the first
-  /// are enough to choose by.
+  /// The cost of a mode: bytes, or radians for derived normals. Lower efforts measure only the first normals.
   double costOf(std::uint32_t place, const AttributeType& as) const {
     std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxPatchCount;
     double error = 0;

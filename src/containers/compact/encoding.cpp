@@ -1,6 +1,9 @@
 #include "containers/compact/compact.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
+#include <memory>
 
 namespace imgeo {
 
@@ -8,6 +11,16 @@ namespace {
 
 /// `rgb` is convert's default and stands for octahedral.
 constexpr std::array compactNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::derived};
+
+void describeCompact(GeometryDescription& geometry, const PatchedMesh&, const EncodeOptions&) {
+  geometry.normalEncoding = NormalEncoding::rgb; // the files state the encoding, the node does not
+  // Texture coordinates are predicted from the shapes of triangles: one step on both axes.
+  geometry.texCoordSize.x = geometry.texCoordSize.y = std::max(geometry.texCoordSize.x, geometry.texCoordSize.y);
+}
+
+std::unique_ptr<PatchReader> makeCompactReader(const FetchFile& fetch) {
+  return std::make_unique<CompactReader>(fetch);
+}
 
 } // namespace
 
@@ -33,8 +46,11 @@ constinit const EncodingRow compactEncoding{
             .attributeBits = true,
             .maxError = true,
             .base = true,
-            .sharedFiles = true,
         },
+    .resolveOptions = resolveCompactOptions,
+    .describe = describeCompact,
+    .sharing = &compactSharing,
+    .makeReader = makeCompactReader,
 };
 
 } // namespace imgeo

@@ -9,7 +9,7 @@ namespace imgeo::compact {
 
 namespace {
 
-/// A coordinate that unusually many points have, and its number on the grid.
+/// A coordinate that unusually many points have, and its index on the grid.
 struct Line {
   std::int64_t coordinate = 0, number = 0;
 };
@@ -18,12 +18,11 @@ struct Axis {
   double origin = 0, step = 0; ///< in lattice steps
 };
 
-/// Lines closer than this would save next to nothing.
-constexpr std::int64_t leastStep = 16;
-constexpr std::size_t fewestLines = 4;
+/// Closer lines would save almost nothing.
+constexpr std::int64_t minStep = 16;
+constexpr std::size_t minLineCount = 4;
 
-/// The coordinates that have at least four times the points that they would have
-/// if points were spread evenly.
+/// The coordinates with at least four times as many points as a uniform distribution gives.
 std::vector<Line> popularCoordinates(std::span<const Vec3u> positions, int axis) {
   std::vector<std::uint32_t> counts(65536);
   std::uint32_t low = UINT32_MAX, high = 0;
@@ -40,13 +39,13 @@ std::vector<Line> popularCoordinates(std::span<const Vec3u> positions, int axis)
   return lines;
 }
 
-/// Numbers lines by the distance that most neighbours among them have; 0 where it is too small.
+/// Numbers lines by the most frequent distance of neighbours, which it returns; 0: too small.
 std::int64_t numberLines(std::vector<Line>& lines) {
   std::vector<std::uint32_t> counts(65536);
   for (std::size_t i = 1; i < lines.size(); ++i)
     ++counts[static_cast<std::size_t>(lines[i].coordinate - lines[i - 1].coordinate)];
   const std::int64_t distance = std::ranges::max_element(counts) - counts.begin();
-  if (distance < leastStep)
+  if (distance < minStep)
     return 0;
   for (std::size_t i = 1; i < lines.size(); ++i)
     lines[i].number =
@@ -66,19 +65,19 @@ Axis leastSquares(const std::vector<Line>& lines) {
   return {(sy - step * sx) / n, step};
 }
 
-/// Origin and step for which every line rounds to its coordinate, if there are such.
+/// The origin and step for which every line rounds to its coordinate; `fitted` if there are none.
 Axis exact(const std::vector<Line>& lines, const Axis& fitted) {
-  double leastStepPossible = 0, most = INFINITY;
+  double minPossibleStep = 0, maxPossibleStep = INFINITY;
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       const auto distance = static_cast<double>(lines[j].coordinate - lines[i].coordinate);
       const auto steps = static_cast<double>(lines[j].number - lines[i].number);
-      leastStepPossible = std::max(leastStepPossible, (distance - 1) / steps);
-      most = std::min(most, (distance + 1) / steps);
+      minPossibleStep = std::max(minPossibleStep, (distance - 1) / steps);
+      maxPossibleStep = std::min(maxPossibleStep, (distance + 1) / steps);
     }
-  if (!(leastStepPossible < most))
+  if (!(minPossibleStep < maxPossibleStep))
     return fitted;
-  const double step = (leastStepPossible + most) / 2;
+  const double step = (minPossibleStep + maxPossibleStep) / 2;
   double low = -INFINITY, high = INFINITY;
   for (const Line& line : lines) {
     const double origin = static_cast<double>(line.coordinate) - step * static_cast<double>(line.number);
@@ -90,16 +89,16 @@ Axis exact(const std::vector<Line>& lines, const Axis& fitted) {
 
 std::optional<Axis> findAxis(std::span<const Vec3u> positions, int axis) {
   std::vector<Line> lines = popularCoordinates(positions, axis);
-  if (lines.size() < fewestLines || lines.size() > 65536 / leastStep || numberLines(lines) == 0)
+  if (lines.size() < minLineCount || lines.size() > 65536 / minStep || numberLines(lines) == 0)
     return std::nullopt;
   const Axis fitted = leastSquares(lines);
-  if (!(fitted.step >= leastStep))
+  if (!(fitted.step >= minStep))
     return std::nullopt;
   std::erase_if(lines, [&](const Line& line) {
     return std::abs(fitted.origin + fitted.step * static_cast<double>(line.number) -
                     static_cast<double>(line.coordinate)) > 0.75;
   });
-  return lines.size() < fewestLines ? fitted : exact(lines, fitted);
+  return lines.size() < minLineCount ? fitted : exact(lines, fitted);
 }
 
 } // namespace
@@ -109,7 +108,7 @@ std::optional<Grid> findGrid(std::span<const Vec3u> positions) {
   int missing = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<Axis> found = findAxis(positions, axis);
-    if (!found) { // height fields have none along their height: one line at 0
+    if (!found) { // a height field has no grid along its height: one line at 0
       if (++missing > 1)
         return std::nullopt;
       grid.step[axis] = UINT32_MAX;
@@ -119,7 +118,7 @@ std::optional<Grid> findGrid(std::span<const Vec3u> positions) {
     const std::int64_t origin = std::llround(found->origin * 65536) % grid.step[axis];
     grid.origin[axis] = static_cast<std::uint32_t>(origin < 0 ? origin + grid.step[axis] : origin);
   }
-  // Worth it where points have more coordinates on the grid than off it.
+  // A grid saves bytes if points have more coordinates on it than off it.
   std::size_t onGrid = 0;
   for (const Vec3u& position : positions)
     onGrid += static_cast<std::size_t>(std::popcount(gridMask(grid, position)));

@@ -9,19 +9,19 @@
 
 namespace imgeo::compact {
 
-/// Coordinate number i of an axis.
+/// Grid line i of an axis.
 inline std::int64_t gridLine(const Grid& grid, int axis, std::int64_t i) {
   return (std::int64_t{grid.origin[axis]} + i * grid.step[axis] + 32768) >> 16;
 }
 
-/// The number whose coordinate is nearest.
+/// The index of the grid line nearest to a coordinate.
 inline std::int64_t nearestGridLine(const Grid& grid, int axis, std::int64_t coordinate) {
   const std::int64_t step = grid.step[axis];
   const std::int64_t numerator = coordinate * 65536 - grid.origin[axis] + step / 2;
   return numerator / step - (numerator % step < 0);
 }
 
-/// The axes, as bits, on which a point is on the grid.
+/// The axes on which a point lies on the grid, as bits.
 inline std::uint32_t gridMask(const Grid& grid, const Vec3u& point) {
   std::uint32_t mask = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -30,7 +30,7 @@ inline std::uint32_t gridMask(const Grid& grid, const Vec3u& point) {
   return mask;
 }
 
-/// The grid on which most of the coordinates lie, if there is one.
+/// The grid on which most coordinates lie; nothing if there is none.
 std::optional<Grid> findGrid(std::span<const Vec3u> positions);
 
 } // namespace imgeo::compact

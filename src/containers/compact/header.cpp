@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint8_t signature[] = {'I', 'G', 'C', 1};
 constexpr std::uint8_t baseFlag = 1;
 
-/// Takes numbers off a payload.
+/// Reads the fields of a header.
 class FieldReader {
 public:
   FieldReader(ByteSpan bytes, const std::string& location) : bytes_(bytes), location_(location) {}
@@ -23,12 +23,12 @@ public:
       throw Error(ErrorKind::truncated, location_, "the image ends before its header does");
     return bytes_[at_++];
   }
-  std::uint8_t takeByte(std::uint32_t least, std::uint32_t most, const char* what) {
+  std::uint8_t takeByte(std::uint32_t min, std::uint32_t max, const char* what) {
     const std::uint8_t value = takeByte();
-    require(value >= least && value <= most, what);
+    require(value >= min && value <= max, what);
     return value;
   }
-  /// Seven bits a byte, the least first; below 2^28.
+  /// Seven bits in each byte, the least significant first; below 2^28.
   std::uint32_t takeNumber() {
     std::uint32_t value = 0;
     for (std::uint32_t shift = 0; shift < 28; shift += 7) {
@@ -39,11 +39,11 @@ public:
     }
     throw Error(ErrorKind::malformed, location_, "the header states a number that is too long");
   }
-  /// 1 .. `most`.
-  std::uint32_t takeCount(std::uint32_t most, const char* what) {
+  /// A number of at most `max`.
+  std::uint32_t takeCount(std::uint32_t max, const char* what) {
     const std::uint32_t value = takeNumber();
-    if (value > most)
-      throw Error(ErrorKind::limit, location_, "a file has at most " + std::to_string(most) + " " + what);
+    if (value > max)
+      throw Error(ErrorKind::limit, location_, "a file has at most " + std::to_string(max) + " " + what);
     return value;
   }
   void require(bool condition, const char* what) const {
@@ -67,16 +67,16 @@ void appendNumber(Bytes& out, std::uint32_t value) {
 
 AttributeType takeAttribute(FieldReader& reader) {
   struct Range {
-    std::uint32_t leastComponents, mostComponents, leastBits, mostBits, mostMode;
+    std::uint32_t minComponents, maxComponents, minBits, maxBits, maxMode;
   };
   static constexpr Range ranges[] = {{3, 3, 4, 16, 3}, {2, 2, 1, 16, 0}, {3, 4, 1, 16, 0}, {1, 4, 1, 24, 0}};
   AttributeType type;
   const std::uint8_t kind = reader.takeByte(0, 3, "attributes");
   const Range& range = ranges[kind];
   type.kind = static_cast<AttributeKind>(kind);
-  type.components = reader.takeByte(range.leastComponents, range.mostComponents, "attributes");
-  type.bits = reader.takeByte(range.leastBits, range.mostBits, "attributes");
-  type.mode = static_cast<NormalMode>(reader.takeByte(0, range.mostMode, "attributes"));
+  type.components = reader.takeByte(range.minComponents, range.maxComponents, "attributes");
+  type.bits = reader.takeByte(range.minBits, range.maxBits, "attributes");
+  type.mode = static_cast<NormalMode>(reader.takeByte(0, range.maxMode, "attributes"));
   return type;
 }
 
@@ -85,7 +85,7 @@ PatchType takeType(FieldReader& reader, std::size_t attributeCount) {
   type.topology = static_cast<Topology>(reader.takeByte(1, 3, "elements"));
   type.positionBits = reader.takeByte(1, 30, "position bits");
   type.isBase = reader.takeByte(0, baseFlag, "flags") == baseFlag;
-  reader.require(!type.isBase || type.topology == Topology::triangles, "parts");
+  reader.require(!type.isBase || type.topology == Topology::triangles, "segments");
   const std::uint8_t count = reader.takeByte(0, maxAttributes, "attributes");
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint8_t attribute = reader.takeByte();

@@ -1,5 +1,5 @@
 #pragma once
-// What stands before the streams of a file: docs/formats/compact.md, "File".
+// The header of a file, before its streams: docs/formats/compact.md, "File".
 
 #include "base/bytes.h"
 #include "containers/compact/compact_patch.h"
@@ -8,36 +8,35 @@
 
 namespace imgeo::compact {
 
-/// What patches of a file may have in common.
+/// What patches of one type have in common.
 struct PatchType {
   Topology topology = Topology::triangles;
   std::uint32_t positionBits = 16;
   bool isBase = false;
-  std::vector<std::uint32_t> attributes; ///< places in FileHeader::attributes
+  std::vector<std::uint32_t> attributes; ///< indices into FileHeader::attributes
   friend bool operator==(const PatchType&, const PatchType&) = default;
 };
 
-/// Each stream holds what it is for of one patch after the other. Those of the
-/// file's attributes follow, one each.
-enum class StreamName : std::uint8_t { sizes, connectivity, parts, positions, wedges, attributes };
+/// Every stream holds the data of all patches, one patch after the other. A stream for each attribute follows the
+/// named ones.
+enum class StreamName : std::uint8_t { sizes, connectivity, segments, positions, wedges, attributes };
 
 struct FileHeader {
   std::vector<AttributeType> attributes;
   std::vector<PatchType> types;
   std::uint32_t patchCount = 0;
-  std::vector<std::uint32_t> streamLengths; ///< 0: no patch has any of it
+  std::vector<std::uint32_t> streamLengths; ///< in bytes; 0: no patch has such data
 
   std::size_t streamCount() const { return static_cast<std::size_t>(StreamName::attributes) + attributes.size(); }
 };
 
-/// What a file may have at most: of patches, of their types and of attributes. Its vertices,
-/// its wedges and its elements are maxPatchCount each.
+/// Limits of a file. All its patches together have at most maxPatchCount vertices, wedges and elements.
 inline constexpr std::uint32_t maxFilePatches = 65536, maxFileTypes = 256, maxFileAttributes = 256;
 
 void appendHeader(Bytes& out, const FileHeader& header);
 
-/// Reads the header of a payload, and the place of its first stream. Behind it every
-/// stream lies within the payload. Throws Error{truncated, malformed, unsupported, limit}.
+/// Reads the header of a payload and the offset of its first stream; checks that all streams lie within the payload.
+/// Throws Error{truncated, malformed, unsupported, limit}.
 struct PlacedHeader {
   FileHeader header;
   std::size_t streams = 0;

@@ -1,7 +1,7 @@
 #pragma once
 // The probabilities of a stream's adaptive bits: docs/formats/compact.md, "Stream".
-// A probability moves by 1/2, 1/4, 1/4, 1/8 ... of its distance, at last by 1/64:
-// it counts what little it has seen, and then forgets slowly.
+// With each bit a probability moves towards it by 1/2, 1/4, 1/4, 1/8 ... and finally 1/64
+// of the distance: it adapts fast at first, and slowly later.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace imgeo::compact {
 
-/// The probability that a bit is 1, in 1/65536, and how often it was asked, up to 31.
+/// The probability that a bit is 1, in 1/65536, and the number of bits coded, up to 31.
 class Model {
 public:
   std::uint32_t probability() const { return state_ >> 5; }
@@ -24,7 +24,7 @@ public:
   }
 
 private:
-  /// By count: the bits of the next one.
+  /// Shift for each count.
   static constexpr std::array<std::uint8_t, 32> shifts = [] {
     std::array<std::uint8_t, 32> bits{};
     for (std::uint32_t count = 0; count < bits.size(); ++count)

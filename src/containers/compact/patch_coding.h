@@ -1,5 +1,5 @@
 #pragma once
-// Patches in integers <-> the bytes that stand for them: docs/formats/compact.md.
+// Quantised patches <-> the payload of a file: docs/formats/compact.md.
 
 #include "base/bytes.h"
 #include "containers/compact/compact_patch.h"
@@ -12,25 +12,22 @@ namespace imgeo::compact {
 
 struct EncodedPatches {
   Bytes bytes;
-  /// Per patch: radians by which a normal may be off from what comes back, its quantising
-  /// included: a bound, for derived normals one that was measured.
+  /// Largest error of a normal of each patch in radians, quantisation included: a bound, measured for derived normals.
   std::vector<double> normalErrors;
 };
 
-/// Encodes the patches of one file, as many and as large as a header may state, all of
-/// whose vertices and wedges are in use and whose values are in their ranges. Each is
-/// coded with what the ones before it have taught. Elements, vertices and wedges of a
-/// patch come back in an order of its own; which these are and how triangles are turned
-/// around is kept. Deterministic. `effort` 0 .. 9: how much is tried. 0 keeps to the
-/// stated mode of normals; to 6 the better one of a sample is chosen, and from 7 on that of all; 7, 8 and 9
-/// find 2, 4 and 8 orders of each patch and keep the smallest file.
+/// Encodes the patches of one file. All vertices and wedges are used, values are within their ranges, and counts within
+/// the limits of a header. Probabilities adapt from patch to patch. Decoding returns elements, vertices and wedges in
+/// another order, with the orientation of triangles kept. Deterministic. `effort` is 0 .. 9: 0 uses the given mode of
+/// normals, 1 to 6 choose the mode by a sample of the normals, 7 to 9 by all; 7, 8 and 9 try 2, 4 and 8 orders of each
+/// patch and keep the smallest file.
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort);
 
-/// Decodes the patches of a payload. Safe for untrusted bytes: takes time and memory in
-/// proportion to counts that are limited. Throws Error naming `location`.
+/// Decodes the patches of a payload. Safe for untrusted bytes: time and memory are proportional to counts that are
+/// limited. Throws Error naming `location`.
 std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& location);
 
-/// The attributes of each patch, without decoding them; the same otherwise.
+/// The types of the attributes of each patch, from the header alone. Throws Error naming `location`.
 std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& location);
 
 } // namespace imgeo::compact

@@ -117,7 +117,7 @@ TEST(Compact, TakesNoMoreBytesForMoreEffort) {
       const std::vector<CompactPatch> back = decodePatches(bytes, "x.png");
       ASSERT_EQ(back.size(), sample.patches.size());
       for (std::size_t i = 0; i < back.size(); ++i)
-        if (back[i].partCount == 0) { // positions of bases are rounded
+        if (back[i].segmentCount == 0) { // positions of bases are rounded
           EXPECT_EQ(elementsOf(back[i]), elementsOf(sample.patches[i])) << effort;
         }
     }

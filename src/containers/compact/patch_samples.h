@@ -1,5 +1,5 @@
 #pragma once
-// Patches that between them use every part of the format. Header-only and for tests alone.
+// Patches that between them use every feature of the format. Header-only and for tests alone.
 
 #include "containers/compact/compact_patch.h"
 #include "containers/compact/quantise.h"
@@ -102,14 +102,14 @@ inline Mesh star(std::uint32_t triangles) {
   return mesh;
 }
 
-/// Three parts, whose common positions are exact where others are not.
+/// Three segments, whose common positions are exact where others are not.
 inline CompactPatch baseOf(const Mesh& mesh, NormalMode normals = NormalMode::derivedArea) {
   CompactPatch base = patchOf(mesh, 16, {8, 12, 8, normals});
-  base.partCount = 3;
+  base.segmentCount = 3;
   base.residualShift = 6;
   for (std::size_t corner = 0; corner < base.corners.size(); corner += 3) {
     const Vec3u& at = base.positions[base.wedgePositions[base.corners[corner]]];
-    base.parts.push_back(at.x < 30000 ? 0 : at.y < 30000 ? 1 : 2);
+    base.segments.push_back(at.x < 30000 ? 0 : at.y < 30000 ? 1 : 2);
   }
   return base;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes as the pixels of a gray PNG, and back.
+// The payload of a file <-> the pixels of a gray PNG.
 
 #include "base/bytes.h"
 
@@ -7,13 +7,13 @@
 
 namespace imgeo::compact {
 
-/// Bytes in an image: at most 4096^2. They are compressed already, so nothing is searched for.
+/// Maximum number of bytes in an image, 4096^2.
 inline constexpr std::size_t maxPayloadBytes = std::size_t{4096} * 4096;
 
-/// At least one byte, at most maxPayloadBytes. Zeros fill the last row.
+/// Writes 1 .. maxPayloadBytes bytes, without compression. Zeros fill the last row.
 Bytes imageOfPayload(ByteSpan payload);
 
-/// Safe for untrusted bytes. Throws Error naming `location`.
+/// Reads them back, with the zeros. Safe for untrusted bytes. Throws Error naming `location`.
 Bytes payloadOfImage(ByteSpan png, const std::string& location);
 
 } // namespace imgeo::compact

@@ -1,7 +1,7 @@
 #pragma once
-// Where a vertex is expected, from the vertices before it: the candidates and the
-// surface's slope of docs/formats/compact.md, "Positions". Several parallelograms
-// of which the encoder chooses, after Isenburg and Cohen-Or, "Geometry prediction
+// Predicts the position of a vertex from earlier vertices: the candidates and the slope of
+// the surface of docs/formats/compact.md, "Positions". The encoder chooses among several
+// parallelograms, after Isenburg and Cohen-Or, "Geometry prediction
 // for high degree polygons", 2005, and Draco's constrained multi-parallelograms.
 
 #include "base/vec.h"
@@ -13,7 +13,7 @@
 
 namespace imgeo::compact {
 
-/// Lattice coordinates and their differences, without overflow.
+/// Lattice coordinates and their differences; 64 bits do not overflow.
 using Place = Vec3<std::int64_t>;
 
 inline std::uint32_t lengthInBits(std::int64_t value) {
@@ -24,7 +24,7 @@ inline std::int64_t largestComponent(const Place& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// The axis of the largest component, the first of equals; 2 where all are 0.
+/// The axis of the largest component, the first of equals; 2 if all are 0.
 template <typename T> int dominantAxis(const Vec3<T>& v) {
   const T x = v.x < 0 ? -v.x : v.x, y = v.y < 0 ? -v.y : v.y, z = v.z < 0 ? -v.z : v.z;
   if (x == 0 && y == 0)
@@ -40,14 +40,13 @@ struct Candidates {
     places[count++] = place;
     set += flag;
   }
-  /// How far the first two are apart, as a context: 0 where there is one alone.
+  /// The distance of the first two candidates as a context; 0: there is only one.
   std::uint32_t agreement() const {
     return count == 1 ? 0 : 1 + std::min(14u, lengthInBits(largestComponent(places[1] - places[0])));
   }
 };
 
-/// The candidates of a vertex; `across` is the corner opposite of the edge over
-/// which a triangle brings it, or none.
+/// The candidates of a vertex; `across` is the corner opposite the edge across which a triangle introduces it, or none.
 inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, const Connectivity& connectivity,
                                 const std::vector<Vec3u>& positions, std::uint32_t positionBits) {
   const auto at = [&](std::uint32_t v) { return Place(positions[v]); };
@@ -77,7 +76,7 @@ inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, cons
   return candidates;
 }
 
-/// Sums of triangle normals in 32 wrapping bits.
+/// Sums of triangle normals in 32-bit integers that wrap.
 class NormalSums {
 public:
   NormalSums(std::size_t count, std::uint32_t shift) : sums_(count), shift_(shift) {}
@@ -89,7 +88,7 @@ public:
       sums_[i][axis] = wrap(bits(sums_[i][axis]) + bits(normal[axis]));
   }
 
-  /// Twice the area of a triangle as a vector, of edges shifted right.
+  /// The cross product of two edges of a triangle, shifted right before.
   Vec3<std::int32_t> normalOf(const Vec3u& a, const Vec3u& b, const Vec3u& c) const {
     const auto edge = [&](const Vec3u& to) {
       const auto component = [&](int axis) { return bits(static_cast<std::int32_t>(to[axis] - a[axis]) >> shift_); };
@@ -107,10 +106,10 @@ private:
   std::uint32_t shift_;
 };
 
-/// The surface's normal at an edge, small enough to multiply with.
+/// The surface normal at an edge, shifted right to 15 bits.
 struct Slope {
   Place normal;
-  int axis = 2; ///< the dominant one
+  int axis = 2; ///< the dominant axis
 
   Slope() = default;
   Slope(const Vec3<std::int32_t>& k, const Vec3<std::int32_t>& p) {

@@ -19,8 +19,8 @@ AttributeType typeOf(AttributeKind kind, std::uint32_t components, std::uint32_t
   return {kind, static_cast<std::uint8_t>(components), static_cast<std::uint8_t>(bits), NormalMode::area};
 }
 
-/// The octahedron's point in a direction, rounded as predictions are, so that what
-/// the same triangles give in floats and in integers becomes the same point.
+/// The point of the octahedron in a direction, rounded as predictions are, so that floating-point and integer normals
+/// of the same triangles give the same point.
 Value quantiseNormal(const Vec3f& normal, std::uint32_t bits) {
   constexpr double fine = 1 << 24;
   const Place direction{std::llround(normal.x * fine), std::llround(normal.y * fine), std::llround(normal.z * fine)};
@@ -33,7 +33,7 @@ std::int32_t quantiseShare(double share, std::uint32_t bits) {
   return static_cast<std::int32_t>(std::clamp(share, 0.0, 1.0) * steps + 0.5);
 }
 
-/// A component's share of its range.
+/// Quantises a component over its range.
 double shareOf(const Attribute& attribute, std::size_t wedge, std::uint32_t i) {
   return attribute.values[wedge][i] / static_cast<double>((1u << attribute.type.bits) - 1);
 }
@@ -75,7 +75,7 @@ CompactPatch quantiseInOrder(Patch patch, const GeometryDescription& geometry, c
   return quantised;
 }
 
-/// Every wedge with a position of its own, in Morton order.
+/// Gives every wedge of a point cloud its own position, in Morton order.
 Patch separatePoints(const Patch& patch) {
   const std::vector<std::uint32_t> order = mortonOrder(patch);
   Patch points;
@@ -88,7 +88,7 @@ Patch separatePoints(const Patch& patch) {
   return points;
 }
 
-/// The lines' corners in the order in which a pen would draw them.
+/// The corners of lines along trails (prepare/trails.h).
 std::vector<std::uint32_t> alongTrails(const Patch& patch) {
   std::vector<std::uint32_t> corners;
   for (const std::uint32_t corner : findLineStrips(patch.corners, patch.wedgeCount()).corners)

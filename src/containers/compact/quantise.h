@@ -1,5 +1,5 @@
 #pragma once
-// A patch's attributes in integers, and back.
+// Quantises the attributes of a patch, and reverses it.
 
 #include "containers/compact/compact_patch.h"
 #include "containers/geometry_description.h"
@@ -7,32 +7,30 @@
 
 namespace imgeo::compact {
 
-/// Bits of the attributes, and how normals are told.
+/// Bits of the attributes, and the mode of normals.
 struct AttributeBits {
   std::uint32_t normal = 8, texCoord = 12, color = 8;
   NormalMode normalMode = NormalMode::area;
 };
 
-/// Points come in Morton order, each wedge once and with a position of its own; lines
-/// one behind the other. Normals go to the octahedron's point of octahedronPoint, each coordinate of which
-/// is at most half a step off; texture coordinates to 2^bits points over the
-/// node's box, colours over 0 .. 255, both to the nearest.
+/// Quantises a patch. Points are in Morton order, each wedge once and with its own position; lines are in the order of
+/// trails. Normals become points of the octahedron (octahedronPoint), each coordinate of which is off by at most half a
+/// step. Texture coordinates are rounded to 2^bits points over the node's box, colours to 2^bits points over 0 .. 255.
 CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
-/// Attributes, one value a wedge, as `quantise` has them.
+/// Quantised attributes with one value for each wedge.
 Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryDescription& geometry,
                             std::uint32_t bits);
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
 
-/// `bits` are 1 .. 8 * description.bytes; with less than that, over the same box.
+/// `bits` are 1 .. 8 * description.bytes, over the box of the description.
 Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description, std::uint32_t bits);
 
-/// What is drawn of a patch: all its elements.
+/// The draws of a patch: all its elements.
 std::vector<Draw> drawsOf(const CompactPatch& patch);
 
-/// The vertices and elements that a decoded patch stands for: its wedges. Normals
-/// are unit length. Attributes of kind
-/// `other` are as many, of the same components and bits, as the geometry's further ones.
+/// The vertices (wedges) and elements of a decoded patch. Normals have unit length. Attributes of kind `other` are
+/// those of the geometry, with the same components and bits.
 IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& geometry);
 
 } // namespace imgeo::compact

@@ -1,6 +1,6 @@
 #pragma once
-// The other end of range_encoder.h. Safe for untrusted bytes: behind the end of a
-// stream there are zeros, and `finish` tells.
+// Decodes what range_encoder.h encodes. Safe for untrusted bytes: behind the end of a
+// stream it reads zeros, and `finish` throws.
 
 #include "base/bytes.h"
 #include "base/error.h"
@@ -21,7 +21,7 @@ public:
       shiftIn();
   }
 
-  /// Reads a bit. What is passed as its value serves encoders alone.
+  /// Reads a bit. The value argument is for encoders.
   bool bit(std::size_t model, bool = false) {
     Model& m = models_[model];
     const std::uint32_t bound = (range_ >> 8) * m.probability() >> 8;
@@ -48,13 +48,13 @@ public:
     return value;
   }
 
-  /// Throws Error{malformed} where a condition does not hold.
+  /// Throws Error{malformed} unless a condition holds.
   void require(bool condition, const char* message) const {
     if (!condition)
       throw Error(ErrorKind::malformed, location_, message);
   }
 
-  /// To be called when all is read: a stream is exactly as long as what it holds.
+  /// Call it after the last read: throws unless the stream has exactly the length of its contents.
   void finish() const { require(at_ + underrun_ == end_, "a stream is not as long as what it holds"); }
 
 private:

@@ -23,18 +23,18 @@ public:
   /// Writes a bit and returns it.
   bool bit(std::size_t model, bool value) {
     interval_.narrow(models_[model], value);
-    if (interval_.waiting >= mostWaiting)
+    if (interval_.waiting >= maxWaiting)
       flush();
     return value;
   }
 
-  /// What `codeTree` writes, without going to memory between its bits.
+  /// Writes a tree of bits as codeTree does, with the state in registers.
   std::uint32_t tree(std::size_t models, std::uint32_t depth, std::uint32_t value) {
     const std::uint32_t leaf = 1u << depth | value;
     Interval interval = interval_;
     for (std::uint32_t level = depth; level-- > 0;) {
       interval.narrow(models_[models + (leaf >> (level + 1))], leaf >> level & 1);
-      if (interval.waiting >= mostWaiting) {
+      if (interval.waiting >= maxWaiting) {
         interval_ = interval;
         flush();
         interval = interval_;
@@ -55,12 +55,12 @@ public:
     return value;
   }
 
-  /// What a decoder would refuse, an encoder must not write.
+  /// Asserts what decoders require.
   void require(bool condition, const char*) const { assert(condition), (void)condition; }
 
   Bytes finish() {
     flush();
-    interval_ = {interval_.low << 24, 0, 24}; // all of what is left
+    interval_ = {interval_.low << 24, 0, 24}; // the rest of the interval
     flush();
     while (held_ > 0)
       shiftOutRaw();
@@ -69,10 +69,10 @@ public:
   }
 
 private:
-  /// Bits leave in several bytes at a time, and nothing is asked about one but that: what
-  /// it is and how many bytes it moves are what a processor guesses wrong.
+  /// The state of the coder. Several bytes are written at a time: branches on each bit, or on the number of bytes that
+  /// it moves, would be mispredicted.
   struct Interval {
-    std::uint64_t low = 0; ///< above its 24 bits those that wait, and above these a carry
+    std::uint64_t low = 0; ///< 24 bits, above them the bits that wait, above those a carry
     std::uint32_t range = 0xffffff;
     std::uint32_t waiting = 0; ///< bits
 
@@ -92,10 +92,10 @@ private:
       waiting += bits;
     }
   };
-  /// A bit moves two bytes at most, as no probability is near 0: low has 24 + 16 + 16 bits and a carry.
-  static constexpr std::uint32_t mostWaiting = 24;
+  /// A bit moves at most two bytes, since no probability is near 0: low has 24 + 16 + 16 bits and a carry.
+  static constexpr std::uint32_t maxWaiting = 24;
 
-  /// Writes the bytes that wait.
+  /// Writes the waiting bytes.
   void flush() {
     if (interval_.low >> (24 + interval_.waiting))
       carry();
@@ -124,8 +124,8 @@ private:
   std::uint32_t held_ = 0;
 };
 
-/// The binary logarithm of a number of up to 31 bits, in 1/65536: a bit of its fraction
-/// is whether the square of what is left reaches 2.
+/// The binary logarithm of a number of up to 31 bits, in 1/65536. Each bit of the fraction is 1 if the square of the
+/// rest reaches 2.
 constexpr std::uint32_t binaryLogarithm(std::uint32_t number) {
   const auto whole = static_cast<std::uint32_t>(std::bit_width(number)) - 1;
   std::uint64_t left = std::uint64_t{number} << (31 - whole); // 1 .. 2, in 1/2^31
@@ -139,7 +139,7 @@ constexpr std::uint32_t binaryLogarithm(std::uint32_t number) {
   return logarithm;
 }
 
-/// What a bit of a probability costs, which is between i and i + 1 of 4096, in 1/65536 bits.
+/// The cost, in 1/65536 bits, of a bit whose probability is between i and i + 1 of 4096.
 inline constexpr std::array<std::uint32_t, 4096> costsOfProbabilities = [] {
   std::array<std::uint32_t, 4096> costs{};
   for (std::uint32_t i = 0; i < costs.size(); ++i)
@@ -147,12 +147,12 @@ inline constexpr std::array<std::uint32_t, 4096> costsOfProbabilities = [] {
   return costs;
 }();
 
-/// What bits would cost, in 1/65536 bits, if they were written now: for an encoder that chooses.
+/// Measures the cost of bits, in 1/65536 bits, without writing them.
 class CostMeter {
 public:
   static constexpr bool encodes = true;
 
-  /// What costs `limit` is of no use any more.
+  /// Measuring may stop at a cost of `limit`.
   explicit CostMeter(const RangeEncoder& encoder, std::uint32_t limit) : models_(encoder.models()), limit_(limit) {}
 
   std::uint32_t cost() const { return cost_; }
@@ -163,7 +163,7 @@ public:
     cost_ += costOf(value ? p : 65536 - p);
     return value;
   }
-  /// What `codeTree` would cost: an encoder asks for little else.
+  /// The cost of a tree of bits; most costs that encoders measure are trees.
   std::uint32_t tree(std::size_t models, std::uint32_t depth, std::uint32_t value) {
     const std::uint32_t leaf = 1u << depth | value;
     for (std::uint32_t level = depth; level-- > 0;) {
@@ -179,9 +179,9 @@ public:
   void require(bool, const char*) const {}
 
 private:
-  /// Of a probability in 1/65536.
+  /// The cost of a bit of this probability in 1/65536.
   static std::uint32_t costOf(std::uint32_t probability) {
-    assert(probability < 65536); // no model is ever certain
+    assert(probability < 65536); // no model reaches certainty
     return costsOfProbabilities[probability >> 4];
   }
 

@@ -1,24 +1,24 @@
 #pragma once
-// What the first stream of a file says of each patch: docs/formats/compact.md,
-// "Sizes". One function codes both ways.
+// Encodes and decodes the sizes of each patch, the first stream of a file:
+// docs/formats/compact.md, "Sizes".
 
 #include "containers/compact/header.h"
 #include "containers/compact/symbols.h"
 
 namespace imgeo::compact {
 
-/// One patch's sizes.
+/// Sizes of a patch.
 struct PatchSizes {
-  std::uint32_t type = 0; ///< of FileHeader::types
+  std::uint32_t type = 0; ///< index into FileHeader::types
   std::uint32_t vertexCount = 0, wedgeCount = 0, elementCount = 0;
   std::uint32_t normalShift = 0;
   std::optional<Grid> grid;
-  std::uint32_t partCount = 0, residualShift = 0; ///< of a base; 0: a patch
+  std::uint32_t segmentCount = 0, residualShift = 0; ///< of a base; 0: a patch
 
   bool hasSeams() const { return wedgeCount > vertexCount; }
 };
 
-/// The sums over some patches, which are limited for a file.
+/// The sums over patches, which have a limit for a file.
 struct SizeSums {
   std::uint64_t vertices = 0, wedges = 0, elements = 0;
 
@@ -33,7 +33,7 @@ struct SizeSums {
 namespace sizeModels {
 inline constexpr std::size_t type = 0, vertices = type + numberModels, seams = vertices + numberModels,
                              elements = seams + numberModels, shift = elements + numberModels,
-                             parts = shift + numberModels, residual = parts + numberModels,
+                             segments = shift + numberModels, residual = segments + numberModels,
                              grid = residual + numberModels, count = grid + 1;
 }
 
@@ -52,7 +52,7 @@ template <typename Coder> Grid codeGrid(Coder& coder, Grid grid) {
   return grid;
 }
 
-/// `sizes` are an encoder's, or anything for a decoder.
+/// Decoders ignore the values of `sizes`.
 template <typename Coder>
 PatchSizes codeSizes(Coder& coder, const std::vector<PatchType>& types, PatchSizes sizes = {}) {
   namespace models = sizeModels;
@@ -78,10 +78,10 @@ PatchSizes codeSizes(Coder& coder, const std::vector<PatchType>& types, PatchSiz
     sizes.grid = hasGrid ? std::optional(codeGrid(coder, sizes.grid.value_or(Grid{}))) : std::nullopt;
   }
   if (type.isBase) {
-    sizes.partCount = 1 + codeNumber(coder, models::parts, sizes.partCount - 1);
+    sizes.segmentCount = 1 + codeNumber(coder, models::segments, sizes.segmentCount - 1);
     sizes.residualShift = codeNumber(coder, models::residual, sizes.residualShift);
-    coder.require(sizes.partCount <= sizes.elementCount && sizes.residualShift < type.positionBits,
-                  "a base states impossible parts");
+    coder.require(sizes.segmentCount <= sizes.elementCount && sizes.residualShift < type.positionBits,
+                  "a base states impossible segments");
   }
   return sizes;
 }

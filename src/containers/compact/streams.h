@@ -1,11 +1,11 @@
 #pragma once
-// The streams of a file, each with one coder for what all patches have in it. A
-// coder is made when the first patch calls for it.
+// The streams of a file, each with one coder for all patches. A coder is made when the first
+// patch uses it.
 
 #include "base/error.h"
 #include "containers/compact/code_attributes.h"
 #include "containers/compact/code_positions.h"
-#include "containers/compact/parts.h"
+#include "containers/compact/segments.h"
 #include "containers/compact/sizes.h"
 #include "containers/compact/wedges.h"
 
@@ -13,17 +13,17 @@
 
 namespace imgeo::compact {
 
-/// Models that a stream has.
+/// Number of models of a stream.
 inline std::size_t modelsOf(std::size_t stream) {
-  const std::size_t models[] = {sizeModels::count, connectivityModels, partModels::count, positionModels::countWithGrid,
-                                wedgeModels::count};
+  const std::size_t models[] = {sizeModels::count, connectivityModels, segmentModels::count,
+                                positionModels::countWithGrid, wedgeModels::count};
   return stream < std::size(models) ? models[stream] : attributeModels::count;
 }
 
 inline std::size_t streamOf(StreamName name) {
   return static_cast<std::size_t>(name);
 }
-/// Of the attribute at this place of the header's.
+/// The stream of the attribute with this index in the header.
 inline std::size_t streamOfAttribute(std::size_t place) {
   return streamOf(StreamName::attributes) + place;
 }
@@ -38,7 +38,7 @@ public:
   }
   RangeEncoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
 
-  /// Of each stream; nothing of those that were not called for.
+  /// The bytes of each stream; empty for streams that no patch used.
   std::vector<Bytes> finish() {
     std::vector<Bytes> streams;
     for (std::optional<RangeEncoder>& encoder : encoders_)
@@ -67,7 +67,7 @@ public:
   }
   RangeDecoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
 
-  /// To be called when all that a stream holds is decoded.
+  /// Call it after the last patch: throws unless every stream ends with its contents.
   void finish(std::size_t stream) const {
     if (decoders_[stream])
       decoders_[stream]->finish();

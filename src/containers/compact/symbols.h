@@ -1,7 +1,7 @@
 #pragma once
-// Numbers as adaptive and raw bits. Each function codes both ways: a Coder is a
-// RangeEncoder or CostMeter, which is given the value, or a RangeDecoder, which
-// is not and returns it.
+// Numbers as adaptive and raw bits. Each function encodes and decodes: a Coder is a
+// RangeEncoder or a CostMeter, which take the value, or a RangeDecoder, which ignores the
+// argument and returns the value.
 
 #include <bit>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace imgeo::compact {
 
-/// Models that a number takes.
+/// Number of models of a number.
 inline constexpr std::size_t numberModels = 32;
 
 /// 0 .. 2^depth - 1 in models + 1 .. models + 2^depth - 1.
@@ -40,7 +40,7 @@ template <typename Coder> std::uint32_t codeNumber(Coder& coder, std::size_t mod
 
 struct SignedNumber {
   std::int32_t value = 0;
-  std::uint32_t length = 0; ///< of its absolute value, in bits: a context for what follows
+  std::uint32_t length = 0; ///< of its absolute value, in bits: a context for the next numbers
 };
 
 /// A number whose length `codeLength(magnitude's length)` codes.
@@ -61,7 +61,7 @@ template <typename Coder> SignedNumber codeSigned(Coder& coder, std::size_t mode
   return codeSignedBy(coder, value, [&](std::uint32_t length) { return codeClass(coder, models, length); });
 }
 
-/// The same of one that is 0 more often than not: a question for each bit of its length, and one more.
+/// A signed number that is mostly 0: its length is coded in unary.
 template <typename Coder> SignedNumber codeSmall(Coder& coder, std::size_t models, std::int64_t value = 0) {
   return codeSignedBy(coder, value, [&](std::uint32_t length) {
     std::uint32_t i = 0;

@@ -28,8 +28,8 @@ Json jsonOf(const CompactPatch& patch) {
             {"wedgePositions", Json::array()},
             {"corners", Json::array()},
             {"attributes", Json::array()}};
-  if (patch.partCount > 0)
-    json["partCount"] = patch.partCount;
+  if (patch.segmentCount > 0)
+    json["partCount"] = patch.segmentCount;
   testing::visitNumbers(patch, [&](const char* name, std::int64_t number) { json[name].push_back(number); });
   for (const Attribute& attribute : patch.attributes) {
     const AttributeType& type = attribute.type;

@@ -1,6 +1,6 @@
 #pragma once
-// For tests: what comes of a file of compact, in one word that a reader in any
-// language can be held to (web/src/decode/compact/verdict.testing.ts has the same).
+// For tests: the outcome of decoding a file in one word, to compare readers in several
+// languages (web/src/decode/compact/verdict.testing.ts has the same).
 
 #include "base/bytes.h"
 #include "base/error.h"
@@ -14,7 +14,7 @@
 
 namespace imgeo::compact::testing {
 
-/// Calls `visit(name, number)` for all of a patch's numbers but those of its attributes.
+/// Calls `visit(name, number)` for all numbers of a patch except its attributes. The names are keys of vectors/.
 template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit visit) {
   for (const Vec3u& position : patch.positions)
     for (int axis = 0; axis < 3; ++axis)
@@ -23,8 +23,8 @@ template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit vis
     visit("wedgePositions", std::int64_t{position});
   for (const std::uint32_t wedge : patch.corners)
     visit("corners", std::int64_t{wedge});
-  for (const std::uint32_t part : patch.parts)
-    visit("parts", std::int64_t{part});
+  for (const std::uint32_t segment : patch.segments)
+    visit("parts", std::int64_t{segment});
 }
 
 /// FNV-1a over every number that decodes, as four little-endian bytes each.
@@ -44,7 +44,7 @@ inline std::uint32_t sumOf(const std::vector<CompactPatch>& patches) {
   return hash;
 }
 
-/// The sum of the patches that `decode` gives, or the kind of its refusal.
+/// The sum of the patches that `decode` returns, or the kind of the Error that it throws.
 template <typename Decode> std::string verdictOf(Decode decode) {
   static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
   try {
@@ -54,7 +54,7 @@ template <typename Decode> std::string verdictOf(Decode decode) {
   }
 }
 
-/// Of a payload.
+/// The verdict of a payload.
 inline std::string verdictOn(ByteSpan payload) {
   return verdictOf([&] { return decodePatches(payload, "x.png"); });
 }

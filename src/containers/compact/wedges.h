@@ -1,6 +1,6 @@
 #pragma once
-// Which wedge each corner has: docs/formats/compact.md, "Wedges". A seam shows
-// where the wedges of two triangles at their common edge differ.
+// Encodes and decodes the wedge of each corner: docs/formats/compact.md, "Wedges". A seam
+// is where the wedges of two triangles differ at their common edge.
 
 #include "containers/compact/connectivity.h"
 #include "containers/compact/symbols.h"
@@ -15,16 +15,16 @@ inline constexpr std::size_t split = 0, same = split + 3, made = same + 9, step 
 struct Wedges {
   std::vector<std::uint32_t> ofCorner; ///< corner -> wedge
   std::vector<std::uint32_t> vertex;   ///< per wedge
-  std::vector<std::uint32_t> corner;   ///< per wedge: the first that has it
-  std::vector<std::uint32_t> previous; ///< per wedge: the one made before at its vertex, or none
+  std::vector<std::uint32_t> corner;   ///< per wedge: the first corner that has it
+  std::vector<std::uint32_t> previous; ///< per wedge: the previous wedge of its vertex, or none
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(vertex.size()); }
 };
 
-/// One wedge a vertex: what a patch without seams has, and needs no stream for.
+/// The wedges of a patch without seams: one for each vertex, not coded.
 Wedges plainWedges(const Connectivity& connectivity);
 
-/// `SourceWedge(corner)` tells an encoder a corner's wedge in its own numbering, below `wedgeCount`.
+/// `SourceWedge(corner)` is the wedge of a corner in the numbering of an encoder, below `wedgeCount`.
 template <typename Coder, typename SourceWedge> class WedgeCoder {
 public:
   WedgeCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t wedgeCount, SourceWedge sourceWedge)
@@ -49,7 +49,7 @@ public:
         wedge = make(corner);
         isSplit_[vertex] = coder_.bit(wedgeModels::split + splits, isSplit_[vertex]);
       } else if (!isSplit_[vertex]) {
-        // All its corners have the same.
+        // All its corners have the same wedge.
       } else if (const std::uint32_t guess = guessAt(corner); codeIsSame(corner, guess, differing)) {
         wedge = guess;
       } else {
@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /// Which vertices have several wedges, for an encoder.
+  /// Finds the vertices with several wedges, for encoders.
   void findSplits() {
     std::vector<std::uint32_t> firsts(connectivity_.vertexCount, none);
     for (std::uint32_t corner = 0; corner < connectivity_.vertex.size(); ++corner) {
@@ -77,7 +77,7 @@ private:
     }
   }
 
-  /// The wedge that continues over the edge behind; the latest of the vertex where there is none.
+  /// The wedge that continues across the previous edge; otherwise the latest wedge of the vertex.
   std::uint32_t guessAt(std::uint32_t corner) const {
     const std::uint32_t vertex = connectivity_.vertex[corner];
     if (connectivity_.across.empty())
@@ -92,8 +92,8 @@ private:
     return across == none ? latest_[vertex] : out_.ofCorner[corner % 3 == 0 ? before(across) : after(across)];
   }
 
-  /// An encoder's wedge of a corner in the numbering here; none where it has not come.
-  std::uint32_t wanted(std::uint32_t corner) const {
+  /// For encoders: the coded number of the wedge of a corner; none: not coded yet.
+  std::uint32_t sourceNumber(std::uint32_t corner) const {
     if constexpr (Coder::encodes)
       return numbers_[sourceWedge_(corner)];
     return none;
@@ -101,18 +101,18 @@ private:
 
   bool codeIsSame(std::uint32_t corner, std::uint32_t guess, std::uint32_t differing) {
     const std::uint32_t extra = std::min(extra_[connectivity_.vertex[corner]], 2u);
-    return coder_.bit(wedgeModels::same + std::size_t{extra} * 3 + differing, wanted(corner) == guess);
+    return coder_.bit(wedgeModels::same + std::size_t{extra} * 3 + differing, sourceNumber(corner) == guess);
   }
 
   std::uint32_t codeOther(std::uint32_t corner, std::uint32_t guess) {
-    const std::uint32_t vertex = connectivity_.vertex[corner], wanted = this->wanted(corner);
-    if (coder_.bit(wedgeModels::made + std::min(extra_[vertex], 2u), wanted == none))
+    const std::uint32_t vertex = connectivity_.vertex[corner], source = sourceNumber(corner);
+    if (coder_.bit(wedgeModels::made + std::min(extra_[vertex], 2u), source == none))
       return make(corner);
     coder_.require(extra_[vertex] > 0, "a vertex of one wedge has another");
     std::uint32_t steps = 0;
     if (extra_[vertex] > 1) {
       if constexpr (Coder::encodes)
-        for (std::uint32_t wedge = ring_[guess]; wedge != wanted && steps < 15; wedge = ring_[wedge])
+        for (std::uint32_t wedge = ring_[guess]; wedge != source && steps < 15; wedge = ring_[wedge])
           ++steps;
       steps = codeTree(coder_, wedgeModels::step, 4, steps);
     }
@@ -122,7 +122,7 @@ private:
         wedge = ring_[wedge];
       return wedge;
     }
-    const std::uint32_t distance = codeNumber(coder_, wedgeModels::wedge, out_.count() - 1 - wanted);
+    const std::uint32_t distance = codeNumber(coder_, wedgeModels::wedge, out_.count() - 1 - source);
     coder_.require(distance < out_.count() && out_.vertex[out_.count() - 1 - distance] == vertex,
                    "a wedge is named that is not one of its vertex");
     return out_.count() - 1 - distance;
@@ -153,9 +153,9 @@ private:
   std::uint32_t wedgeCount_;
   SourceWedge sourceWedge_;
   Wedges out_;
-  std::vector<std::uint32_t> ring_; ///< per wedge: the next of its vertex, in a circle
+  std::vector<std::uint32_t> ring_; ///< per wedge: the next wedge of its vertex, in a circle
   std::vector<std::uint32_t> start_, made_,
-      latest_;                         ///< per vertex: its first wedge, the newest, the last met
+      latest_;                         ///< per vertex: its first, newest and latest wedge
   std::vector<std::uint32_t> extra_;   ///< per vertex: wedges beyond the first
   std::vector<bool> isSplit_;          ///< per vertex: it has several wedges
   std::vector<std::uint32_t> numbers_; ///< source wedge -> wedge

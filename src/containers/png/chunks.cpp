@@ -14,18 +14,18 @@ namespace imgeo {
 namespace {
 
 constexpr std::uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-constexpr std::size_t headerLength = 13, chunkOverhead = 12; // length, type, sum
+constexpr std::size_t headerLength = 13, chunkOverhead = 12; // length, type, checksum
 
 struct Chunk {
   std::string_view type;
   ByteSpan data;
   std::uint32_t sum = 0;
 
-  /// Those that a reader must know: their first letter is a capital.
+  /// Whether a reader must know the chunk: its first letter is a capital.
   bool isCritical() const { return (type[0] & 32) == 0; }
 };
 
-/// Throws an Error of one place.
+/// Throws Errors of one location.
 struct Refusal {
   const std::string& location;
 
@@ -38,7 +38,7 @@ struct Refusal {
   }
 };
 
-/// What hosts and image optimisers put in the place of a PNG; empty for what we know no name of.
+/// The name of a format that hosts and image optimisers may serve instead of a PNG; empty: unknown.
 std::string_view foreignFormatOf(ByteSpan bytes) {
   struct Format {
     std::string_view name;
@@ -64,7 +64,7 @@ void checkSignature(ByteSpan png, const Refusal& refuse) {
   refuse(png.size() < std::size(signature) ? ErrorKind::truncated : ErrorKind::malformed, "is no PNG image");
 }
 
-/// In their order, the last one IEND, which ends where the bytes do.
+/// All chunks in order; the last one is IEND, which ends the file.
 std::vector<Chunk> splitChunks(ByteSpan png, const Refusal& refuse) {
   std::vector<Chunk> chunks;
   std::size_t at = std::size(signature);
@@ -80,7 +80,7 @@ std::vector<Chunk> splitChunks(ByteSpan png, const Refusal& refuse) {
   return chunks;
 }
 
-/// IHDR first, at most one palette, the image's data in a row, and nothing else that must be known.
+/// Requires IHDR first, at most one palette, consecutive IDAT chunks, and no other critical chunk.
 void checkOrder(const std::vector<Chunk>& chunks, const Refusal& refuse) {
   refuse.unless(chunks[0].type == "IHDR" && chunks[0].data.size() == headerLength, ErrorKind::malformed,
                 "does not begin with a PNG header");
@@ -118,7 +118,7 @@ PngChunks readHeader(ByteSpan header, const Refusal& refuse) {
   return png;
 }
 
-/// A chunk's sum is that of its type and its data, which stand side by side.
+/// The checksum of a chunk covers its type and its data.
 void checkSum(const Chunk& chunk, const Refusal& refuse) {
   const auto* begin = reinterpret_cast<const std::uint8_t*>(chunk.type.data());
   if (libdeflate_crc32(0, begin, chunk.type.size() + chunk.data.size()) != chunk.sum)

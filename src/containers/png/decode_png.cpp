@@ -13,7 +13,7 @@ namespace imgeo {
 
 namespace {
 
-/// One zlib stream out of several pieces, which has exactly `size` bytes.
+/// Unpacks a zlib stream in several pieces, whose contents must have exactly `size` bytes.
 Bytes inflate(const std::vector<ByteSpan>& pieces, std::size_t size, const std::string& location) {
   Bytes joined;
   ByteSpan packed = pieces[0];
@@ -39,7 +39,7 @@ Bytes inflate(const std::vector<ByteSpan>& pieces, std::size_t size, const std::
   return out;
 }
 
-/// The RGB that a palette makes of its indices, as a browser expands it.
+/// Expands palette indices to RGB.
 Image expanded(const Image& indices, ByteSpan palette, const std::string& location) {
   Image image{indices.width, indices.height, 3, {}};
   image.pixels.reserve(indices.pixels.size() * 3);

@@ -18,8 +18,8 @@ namespace {
 
 using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
 
-/// Of libdeflate's level 0 .. 12. Each thread keeps those it has used: memory of up to 9 MB
-/// takes longer to come by than a small image to deflate.
+/// The compressor of libdeflate's level 0 .. 12. Each thread keeps the compressors it has used: allocating up to 9 MB
+/// takes longer than deflating a small image.
 libdeflate_compressor* compressorOf(int level) {
   thread_local std::map<int, Compressor> compressors;
   const auto found = compressors.find(level);
@@ -42,21 +42,21 @@ Bytes deflate(ByteSpan bytes, int level) {
 
 /// Levels are libdeflate's, 0 .. 12, from 10 on by near-optimal parsing.
 struct Effort {
-  int levelOfDense;        ///< for images that hardly repeat: low bytes, normals
-  int level, levelOfLarge; ///< for images that do, where parsing takes the longer the longer its matches are
+  int levelOfDense;        ///< for images with few repetitions: low bytes, normals
+  int level, levelOfLarge; ///< for other images, where long matches slow parsing down
   std::span<const RowFilter> filters;
   int probeLevel = 1;                            ///< filters are compared at this level
-  std::size_t probeBytes = std::size_t{1} << 15; ///< and on so much of an image
+  std::size_t probeBytes = std::size_t{1} << 15; ///< and on at most so many bytes of an image
 };
 
-/// Records of a patch fill no more than this; what is larger holds indices.
+/// Record images are at most this large; larger images hold indices.
 constexpr std::size_t largeImageBytes = std::size_t{256} * 256 * 4;
 
-/// Rows that deflate to less than this part of themselves at the probe level repeat.
+/// Images that deflate below this ratio at the probe level count as repetitive.
 constexpr double repetitiveRatio = 0.3;
 
 /// Measured in docs/decisions/png-effort.md. Neighbours in the images of a mesh
-/// stand side by side, hardly ever above one another: sub nearly always wins.
+/// are next to each other in a row, rarely in a column: sub nearly always wins.
 Effort effortOf(int effort) {
   assert(effort >= 0 && effort <= 9);
   static constexpr RowFilter all[] = {RowFilter::sub,      RowFilter::none, RowFilter::paeth,
@@ -71,8 +71,8 @@ Effort effortOf(int effort) {
   return ladder[effort];
 }
 
-/// What filters are compared on: an image of at most some `bytes`, or else bands of
-/// rows spread evenly over it.
+/// The image on which filters are compared: the whole image, or bands of rows spread evenly over it if it has more than
+/// `bytes` bytes.
 Image probeOf(const Image& image, std::size_t bytes) {
   if (image.pixels.size() <= bytes)
     return image;
@@ -89,9 +89,9 @@ Image probeOf(const Image& image, std::size_t bytes) {
   return probe;
 }
 
-/// What is known of an image before all of it is deflated.
+/// The result of probing an image.
 struct Estimate {
-  RowFilter filter; ///< whose rows deflate smallest at the probe level; the first of equals
+  RowFilter filter; ///< with the smallest rows at the probe level; the first of equals
   bool isRepetitive = false;
 };
 
@@ -119,7 +119,7 @@ void appendChunk(Bytes& png, std::string_view type, ByteSpan data) {
   appendBig(png, libdeflate_crc32(0, png.data() + from, png.size() - from));
 }
 
-/// A PNG of an image's filtered rows as a zlib stream.
+/// Makes a PNG of the zlib stream of an image's filtered rows.
 Bytes pngOf(const Image& image, const Bytes& data) {
   Bytes header;
   appendBig(header, image.width);
@@ -160,7 +160,7 @@ Bytes encodePlainPng(const Image& image) {
   assert(isEncodable(image));
   const Bytes rows = filterRows(image, RowFilter::none);
   const Bytes packed = deflate(rows, 1);
-  // Stored bytes take a reader no time: they may be a little more.
+  // Stored bytes are fast to read: they may be a little larger.
   return pngOf(image, packed.size() + rows.size() / 256 < rows.size() ? packed : deflate(rows, 0));
 }
 

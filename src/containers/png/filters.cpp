@@ -15,7 +15,7 @@ std::uint8_t paeth(int left, int up, int upLeft) {
   return static_cast<std::uint8_t>(toUp <= toUpLeft ? up : upLeft);
 }
 
-/// Calls back with what a filter predicts of a byte from those to its left, above, and above the left one.
+/// Calls back with the prediction function of a filter: from the bytes to the left, above, and above left.
 template <typename Each> void withPredictor(RowFilter filter, Each each) {
   switch (filter) {
   case RowFilter::sub:
@@ -31,8 +31,8 @@ template <typename Each> void withPredictor(RowFilter filter, Each each) {
   }
 }
 
-/// Filters one row into `out`. `above` is the row before, or null at the top. The
-/// first pixel, which has nothing to its left, is apart, so that the rest is a plain loop.
+/// Filters one row into `out`. `above` is the previous row, or null at the top. The first pixel, which has no left
+/// neighbour, is handled separately, so that the rest is a plain loop.
 void filterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                std::size_t pixelBytes, std::uint8_t* out) {
   withPredictor(filter, [&](auto predict) {
@@ -47,7 +47,7 @@ void filterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* ab
   });
 }
 
-/// The other way around; `above` is zeros at the top.
+/// Reverses the filter of one row; `above` is zeros at the top.
 void unfilterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                  std::size_t pixelBytes, std::uint8_t* out) {
   withPredictor(filter, [&](auto predict) {

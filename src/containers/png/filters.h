@@ -10,12 +10,11 @@ namespace imgeo {
 /// that of the smallest sum of absolute signed differences (clause 12.8).
 enum class RowFilter : std::uint8_t { none = 0, sub = 1, up = 2, average = 3, paeth = 4, adaptive = 5 };
 
-/// The filtered rows of an image as IDAT holds them: a filter type, then the
-/// differences, row by row.
+/// Filters an image: each row becomes a filter type and the differences.
 Bytes filterRows(const Image& image, RowFilter filter);
 
-/// The other way around: makes `image.pixels` out of (width * channels + 1) * height bytes.
-/// False where a row states a filter that there is not.
+/// Reverses the filters: fills `image.pixels` from (width * channels + 1) * height bytes. False if a row states an
+/// unknown filter.
 bool unfilterRows(ByteSpan filtered, Image& image);
 
 } // namespace imgeo

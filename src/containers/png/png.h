@@ -1,6 +1,6 @@
 #pragma once
-// Lossless 8-bit images <-> PNG (ISO/IEC 15948): the few chunks that carry
-// pixels and nothing that a browser might use to alter them.
+// Lossless 8-bit images <-> PNG (ISO/IEC 15948), with only the chunks that carry pixels:
+// others could make a browser alter the pixels.
 
 #include "base/bytes.h"
 
@@ -14,17 +14,17 @@ struct Image {
   std::uint32_t width = 0, height = 0;
   std::uint32_t channels = 3; ///< 1 gray or palette, 3 RGB, 4 RGBA
   Bytes pixels{};             ///< width * height * channels
-  Bytes palette{};            ///< empty, or the RGB of 1 .. 256 entries that the pixels name
+  Bytes palette{};            ///< empty, or the RGB values of 1 .. 256 entries that the pixels index
 
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-/// Writes IHDR, PLTE where there is a palette, one IDAT and IEND. `effort` 0 (fastest) .. 9 (smallest) bounds
+/// Writes IHDR, PLTE if there is a palette, one IDAT and IEND. `effort` 0 (fastest) .. 9 (smallest) bounds
 /// the search for filters and matches: docs/decisions/png-effort.md.
 /// Deterministic. The image is not empty and its edges are at most maxImageEdge.
 Bytes encodePng(const Image& image, int effort);
 
-/// The same without filters or search, for pixels that are compressed data already.
+/// Writes a PNG without filters or compression, for pixels that are compressed data already.
 Bytes encodePlainPng(const Image& image);
 
 /// Reads a PNG of 8 bits a channel, gray, RGB, RGBA or of a palette without

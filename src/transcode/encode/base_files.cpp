@@ -1,13 +1,15 @@
 #include "transcode/encode/base_files.h"
 
-#include "containers/compact/base.h"
+#include <utility>
 
 namespace imgeo {
 
-void BaseFiles::add(compact::CompactPatch base, std::size_t geometryIndex) {
-  if (!contents_.fits(base, compact::maxPatchCount))
+void BaseFiles::add(std::unique_ptr<PreparedPatch> base, std::size_t geometryIndex) {
+  if (file_ && !file_->hasRoomFor(*base, sharing_->maxBaseVertices))
     writeContents();
-  contents_.add(std::move(base));
+  if (!file_)
+    file_ = sharing_->makeFile();
+  file_->add(std::move(base));
   geometryIndices_.push_back(geometryIndex);
 }
 
@@ -18,10 +20,9 @@ void BaseFiles::finish(std::vector<GeometryDescription>& geometries) {
 }
 
 void BaseFiles::writeContents() {
-  const FileContents contents = std::exchange(contents_, {});
-  if (contents.patches().empty())
+  if (!file_)
     return;
-  const EncodedFile file = baseFile(contents.patches());
+  const EncodedFile file = std::exchange(file_, nullptr)->encodeBases();
   const std::string url = files_.write(file.bytes, file.extension);
   for (std::size_t number = 0; number < geometryIndices_.size(); ++number)
     references_.push_back({geometryIndices_[number], {url, PatchLocation{static_cast<std::uint32_t>(number)}}});

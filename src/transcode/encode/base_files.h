@@ -1,8 +1,7 @@
 #pragma once
-// Base meshes of compact -> files that several of them share.
+// Base meshes -> files that several of them share.
 
-#include "containers/geometry_description.h"
-#include "transcode/encode/file_contents.h"
+#include "containers/shared_file.h"
 #include "transcode/site/content_files.h"
 
 #include <utility>
@@ -13,10 +12,11 @@ namespace imgeo {
 /// Collects the base meshes of all geometries and writes them, in one file as long as they fit into it.
 class BaseFiles {
 public:
-  explicit BaseFiles(ContentFiles& files) : files_(files) {}
+  /// `sharing` is nullptr for encodings without base meshes.
+  BaseFiles(ContentFiles& files, const FileSharing* sharing) : files_(files), sharing_(sharing) {}
 
   /// Takes the base mesh of the geometry with this index.
-  void add(compact::CompactPatch base, std::size_t geometryIndex);
+  void add(std::unique_ptr<PreparedPatch> base, std::size_t geometryIndex);
 
   /// Writes the last file and sets the base reference of every geometry that has one.
   void finish(std::vector<GeometryDescription>& geometries);
@@ -25,8 +25,9 @@ private:
   void writeContents();
 
   ContentFiles& files_;
-  FileContents contents_;
-  std::vector<std::size_t> geometryIndices_; ///< of the bases in `contents_`
+  const FileSharing* sharing_;
+  std::unique_ptr<SharedFile> file_;         ///< being filled; nullptr: none
+  std::vector<std::size_t> geometryIndices_; ///< of the base meshes in `file_`
   std::vector<std::pair<std::size_t, Reference>> references_;
 };
 

@@ -1,8 +1,6 @@
 #include "transcode/encode/encode_mesh.h"
 
 #include "base/parallel.h"
-#include "containers/compact/base.h"
-#include "containers/compact/compact.h"
 #include "containers/encodings.h"
 #include "containers/normals.h"
 #include "containers/stored.h"
@@ -19,74 +17,6 @@ namespace imgeo {
 
 namespace {
 
-IndexedPatch arrange(const Patch& patch, const ConvertOptions& options) {
-  if (patch.topology == Topology::points || options.primitives == Primitives::points)
-    return asPoints(patch);
-  const bool asStrip = options.primitives == Primitives::strips;
-  if (patch.topology == Topology::lines)
-    return asStrip ? asLineStrips(patch) : asLines(patch);
-  return asStrip ? asStrips(patch, options.effort) : asTriangles(patch);
-}
-
-IndexedPatch primitivesOf(const Patch& patch, const ConvertOptions& options) {
-  IndexedPatch arranged = arrange(patch, options);
-  return options.indexed ? arranged : withoutIndices(arranged);
-}
-
-ElementCounts drawnBy(const PatchDescription& patch) {
-  ElementCounts counts;
-  for (const Draw& draw : patch.draws)
-    counts += elementsOf(draw);
-  return counts;
-}
-
-struct EncodedElements {
-  EncodedPatch patch;
-  ElementCounts counts; ///< elements that it draws
-};
-
-/// The patch in the integers of compact.
-compact::CompactPatch quantisedAs(Patch patch, const GeometryDescription& geometry, const ConvertOptions& options,
-                                  const EncodeOptions& encoding) {
-  if (options.primitives == Primitives::points)
-    patch.topology = Topology::points;
-  return quantisePatch(std::move(patch), geometry, encoding);
-}
-
-EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescription& geometry, int effort) {
-  EncodedCompact encoded = encodeCompact({&patch, 1}, effort);
-  EncodedPatch result{
-      .description = describe(patch, geometry), .files = {}, .references = {}, .normalError = encoded.normalErrors[0]};
-  result.references = {{Role::patch, addFile(result, std::move(encoded.file)), PatchLocation{}}};
-  return result;
-}
-
-EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry, const ConvertOptions& options,
-                               const EncodeOptions& encoding) {
-  EncodedElements encoded;
-  if (geometry.encoding == Encoding::compact) {
-    encoded.patch = encodeAlone(quantisedAs(std::move(patch), geometry, options, encoding), geometry, encoding.effort);
-  } else {
-    const IndexedPatch indexed = primitivesOf(patch, options);
-    // Strips contain degenerate triangles, which draw nothing: count the others.
-    if (options.primitives == Primitives::strips && patch.topology == Topology::triangles)
-      encoded.counts.triangles = trianglesOf(indexed).size();
-    encoded.patch = encodePatch(indexed, geometry, encoding);
-  }
-  if (encoded.counts.sum() == 0)
-    encoded.counts = drawnBy(encoded.patch.description);
-  return encoded;
-}
-
-/// Keeps the only patch of a mesh for PatchFiles.
-void addSmall(EncodedMesh& mesh, Patch patch, const ConvertOptions& options, const EncodeOptions& encoding) {
-  mesh.small = quantisedAs(std::move(patch), mesh.geometry, options, encoding);
-  mesh.geometry.patches = {describe(*mesh.small, mesh.geometry)};
-  mesh.vertices = mesh.geometry.patches[0].vertexCount;
-  mesh.elements = drawnBy(mesh.geometry.patches[0]);
-  mesh.positionError = positionErrorBound(mesh.geometry);
-}
-
 EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
   return {.encoding = *options.encoding,
           .normalBits = options.normalBits,
@@ -97,7 +27,19 @@ EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
           .layout = options.layout,
           .attributeBits = options.attributeBits,
           .texCoordBits = options.texCoordBits,
-          .colorBits = options.colorBits};
+          .colorBits = options.colorBits,
+          .primitives = options.primitives,
+          .indexed = options.indexed};
+}
+
+/// Keeps the only patch of a mesh for PatchFiles.
+void addSmall(EncodedMesh& mesh, Patch patch, const EncodeOptions& encoding, const FileSharing& sharing) {
+  mesh.small = sharing.prepare(std::move(patch), mesh.geometry, encoding);
+  mesh.geometry.patches = {mesh.small->describe(mesh.geometry)};
+  mesh.vertices = mesh.geometry.patches[0].vertexCount;
+  for (const Draw& draw : mesh.geometry.patches[0].draws)
+    mesh.elements += elementsOf(draw);
+  mesh.positionError = positionErrorBound(mesh.geometry);
 }
 
 /// Notes which attributes any patch has.
@@ -113,20 +55,20 @@ void addAttributes(EncodedMesh& mesh, const std::vector<Patch>& patches, const C
 }
 
 /// Encodes and writes all patches, several at a time. Frees each patch when its files are written.
-void encodePatches(EncodedMesh& mesh, std::vector<Patch> patches, const ConvertOptions& options,
-                   const EncodeOptions& encoding, ContentFiles& files, const ElementsDone& done) {
+void encodePatches(EncodedMesh& mesh, std::vector<Patch> patches, const EncodeOptions& encoding, ContentFiles& files,
+                   const ElementsDone& done) {
   std::vector<PatchDescription> descriptions(patches.size());
   std::vector<ElementCounts> elements(patches.size());
   std::vector<double> normalErrors(patches.size());
   parallelFor(patches.size(), [&](std::size_t i) {
     const std::size_t elementCount = patches[i].elementCount();
-    EncodedElements encoded = encodeElements(std::exchange(patches[i], {}), mesh.geometry, options, encoding);
+    const EncodedPatch encoded = encodePatch(std::exchange(patches[i], {}), mesh.geometry, encoding);
     std::vector<std::string> urls;
-    for (const EncodedFile& file : encoded.patch.files)
+    for (const EncodedFile& file : encoded.files)
       urls.push_back(files.write(file.bytes, file.extension));
-    descriptions[i] = describeWithUrls(encoded.patch, urls);
-    elements[i] = encoded.counts;
-    normalErrors[i] = encoded.patch.normalError;
+    descriptions[i] = describeWithUrls(encoded, urls);
+    elements[i] = encoded.elements;
+    normalErrors[i] = encoded.normalError;
     done(elementCount);
   });
   for (const PatchDescription& patch : descriptions)
@@ -154,17 +96,17 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   const EncodeOptions encoding = encodeOptionsFrom(options);
   result.geometry = describe(patched, encoding);
   addAttributes(result, patched.patches, options);
-  const Capabilities& capabilities = rowOf(encoding.encoding).capabilities;
-  if (capabilities.base && options.primitives == Primitives::triangles)
+  const EncodingRow& row = rowOf(encoding.encoding);
+  if (row.capabilities.base && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
-      result.base = baseInIntegers(*base, result.geometry, options.texCoordBits, options.colorBits);
-  if (capabilities.sharedFiles && patched.patches.size() == 1 &&
-      patched.patches[0].wedgeCount() <= maxSharedFileWedges) {
-    addSmall(result, std::move(patched.patches[0]), options, encoding);
+      result.base = row.sharing->prepareBase(*base, result.geometry, encoding);
+  if (row.sharing != nullptr && patched.patches.size() == 1 &&
+      patched.patches[0].wedgeCount() <= row.sharing->maxFileVertices) {
+    addSmall(result, std::move(patched.patches[0]), encoding, *row.sharing);
     done(result.small->elementCount());
     return result;
   }
-  encodePatches(result, std::move(patched.patches), options, encoding, files, done);
+  encodePatches(result, std::move(patched.patches), encoding, files, done);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "transcode/encode/encode_scene.h"
 
+#include "containers/encodings.h"
 #include "transcode/encode/base_files.h"
 #include "transcode/encode/encode_report.h"
 #include "transcode/encode/load_groups.h"
@@ -46,8 +47,9 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
   const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
   document.geometries.resize(meshOf.size());
   const std::vector<std::size_t> groups = loadGroups(document.graph);
-  BaseFiles baseFiles(files);
-  PatchFiles patchFiles(files, options.effort);
+  const FileSharing* sharing = rowOf(*options.encoding).sharing;
+  BaseFiles baseFiles(files, sharing);
+  PatchFiles patchFiles(files, sharing, options.effort);
   std::vector<bool> isEncoded(meshOf.size());
   for (const std::size_t node : spatialOrder(document.graph, boxesOf(scene.meshes, meshOf))) {
     const std::size_t geometry = shapeOf(document.graph, node).mesh;
@@ -57,9 +59,9 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
     EncodedMesh encoded = encodeMesh(std::move(scene.meshes[meshOf[geometry]]), options, files, done);
     addToReport(report, encoded);
     if (encoded.base)
-      baseFiles.add(std::move(*encoded.base), geometry);
+      baseFiles.add(std::move(encoded.base), geometry);
     if (encoded.small)
-      patchFiles.add(std::move(*encoded.small), geometry, groups[node]);
+      patchFiles.add(std::move(encoded.small), geometry, groups[node]);
     document.geometries[geometry] = std::move(encoded.geometry);
   }
   for (PatchFiles::WrittenPatch& written : patchFiles.finish()) {

@@ -14,14 +14,16 @@ constexpr std::size_t maxClosedFiles = 64;
 
 } // namespace
 
-void PatchFiles::add(compact::CompactPatch patch, std::size_t geometryIndex, std::size_t group) {
+void PatchFiles::add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryIndex, std::size_t group) {
   File& file = open_[group];
-  if (!file.contents.fits(patch, maxSharedFileWedges)) {
+  if (file.contents && !file.contents->hasRoomFor(*patch, sharing_->maxFileVertices)) {
     closed_.push_back(std::exchange(file, {}));
     if (closed_.size() == maxClosedFiles)
       encodeClosed();
   }
-  file.contents.add(std::move(patch));
+  if (!file.contents)
+    file.contents = sharing_->makeFile();
+  file.contents->add(std::move(patch));
   file.geometryIndices.push_back(geometryIndex);
 }
 
@@ -36,7 +38,7 @@ void PatchFiles::encodeClosed() {
   std::vector<std::vector<WrittenPatch>> written(closed_.size());
   parallelFor(closed_.size(), [&](std::size_t i) {
     const File file = std::exchange(closed_[i], {});
-    const EncodedCompact encoded = encodeCompact(file.contents.patches(), effort_);
+    const EncodedSharedFile encoded = file.contents->encode(effort_);
     const std::string url = files_.write(encoded.file.bytes, encoded.file.extension);
     for (std::size_t number = 0; number < file.geometryIndices.size(); ++number)
       written[i].push_back({file.geometryIndices[number],

@@ -1,11 +1,12 @@
 #pragma once
-// Small patches of compact -> files that several of them share.
+// Small patches -> files that several of them share.
 
+#include "containers/shared_file.h"
 #include "transcode/encode/encode_mesh.h"
-#include "transcode/encode/file_contents.h"
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace imgeo {
@@ -15,7 +16,9 @@ namespace imgeo {
 class PatchFiles {
 public:
   /// `files` must outlive this.
-  PatchFiles(ContentFiles& files, int effort) : files_(files), effort_(effort) {}
+  /// `sharing` is nullptr for encodings whose patches share no files.
+  PatchFiles(ContentFiles& files, const FileSharing* sharing, int effort)
+      : files_(files), sharing_(sharing), effort_(effort) {}
 
   /// The reference to the patch of a geometry.
   struct WrittenPatch {
@@ -25,20 +28,21 @@ public:
   };
 
   /// Takes the only patch of a geometry. `group`: see loadGroups.
-  void add(compact::CompactPatch patch, std::size_t geometryIndex, std::size_t group);
+  void add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryIndex, std::size_t group);
 
   /// Writes the remaining files and returns all references. Call it once, at the end.
   std::vector<WrittenPatch> finish();
 
 private:
   struct File {
-    FileContents contents;
+    std::unique_ptr<SharedFile> contents; ///< nullptr: no patch yet
     std::vector<std::size_t> geometryIndices;
   };
 
   void encodeClosed();
 
   ContentFiles& files_;
+  const FileSharing* sharing_;
   int effort_;
   std::map<std::size_t, File> open_; ///< by group
   std::vector<File> closed_;

@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "base/narrow.h"
 #include "base/parallel.h"
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "containers/stored.h"
 #include "prepare/weld.h"
 

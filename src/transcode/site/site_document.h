@@ -2,7 +2,7 @@
 // A finished site -> its document, and the files that the document names. Safe for untrusted bytes; functions throw
 // Error.
 
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "documents/documents.h"
 
 #include <filesystem>

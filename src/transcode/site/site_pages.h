@@ -1,7 +1,7 @@
 #pragma once
 // The documents of a site: page, scene, stylesheet, inlined documents; and the runtime that the page loads.
 
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "documents/documents.h"
 #include "transcode/site/x3dom_release.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A mesh of the input against the geometry of the site that stands for it.
 
-#include "containers/container.h"
+#include "containers/container_reader.h"
 #include "scene/mesh.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/verify/findings.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Sites of other programs: they do not state how the input was prepared, and round differently.
 
-#include "containers/container.h"
+#include "containers/container_reader.h"
 
 #include <span>
 #include <vector>

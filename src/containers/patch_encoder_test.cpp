@@ -1,4 +1,4 @@
-#include "containers/container.h"
+#include "containers/container_reader.h"
 
 #include "containers/named_attributes.h"
 #include "containers/normals.h"

@@ -1,0 +1,101 @@
+#include "containers/patch_encoder.h"
+
+#include "containers/encodings.h"
+#include "containers/named_attributes.h"
+#include "containers/stored.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace imgeo {
+
+namespace {
+
+/// Texture coordinates are stored relative to the box of all of them. X3DOM knows no such box: there they keep 0..1.
+void setTexCoordBox(GeometryDescription& geometry, const PatchedMesh& mesh) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  Vec2f min{infinite, infinite}, max{-infinite, -infinite};
+  for (const Patch& patch : mesh.patches)
+    for (const Vec2f& texCoord : patch.texCoords) {
+      min = {std::min(min.x, texCoord.x), std::min(min.y, texCoord.y)};
+      max = {std::max(max.x, texCoord.x), std::max(max.y, texCoord.y)};
+    }
+  if (!(min.x <= max.x))
+    return;
+  geometry.texCoordMin = min;
+  geometry.texCoordSize = {max.x - min.x, max.y - min.y};
+}
+
+IndexedPatch primitivesOf(const Patch& patch, const EncodeOptions& options) {
+  if (patch.topology == Topology::points || options.primitives == Primitives::points)
+    return asPoints(patch);
+  const bool asStrip = options.primitives == Primitives::strips;
+  if (patch.topology == Topology::lines)
+    return asStrip ? asLineStrips(patch) : asLines(patch);
+  return asStrip ? asStrips(patch, options.effort) : asTriangles(patch);
+}
+
+ElementCounts drawnElements(const std::vector<Draw>& draws) {
+  ElementCounts counts;
+  for (const Draw& draw : draws)
+    counts += elementsOf(draw);
+  return counts;
+}
+
+/// Encodes a patch as the only one of a file that could be shared.
+EncodedPatch encodeAlone(const FileSharing& sharing, Patch patch, const GeometryDescription& geometry,
+                         const EncodeOptions& options) {
+  std::unique_ptr<PreparedPatch> prepared = sharing.prepare(std::move(patch), geometry, options);
+  EncodedPatch encoded{.description = prepared->describe(geometry)};
+  const std::unique_ptr<SharedFile> file = sharing.makeFile();
+  file->add(std::move(prepared));
+  EncodedSharedFile shared = file->encode(options.effort);
+  encoded.normalError = shared.normalErrors[0];
+  encoded.references = {{Role::patch, addFile(encoded, std::move(shared.file)), PatchLocation{}}};
+  return encoded;
+}
+
+} // namespace
+
+GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options) {
+  GeometryDescription geometry;
+  geometry.encoding = options.encoding;
+  geometry.lattice = mesh.lattice;
+  geometry.box = mesh.box;
+  if (options.target != Target::x3dom)
+    setTexCoordBox(geometry, mesh);
+  for (const Patch& patch : mesh.patches)
+    geometry.colorComponents = std::max(geometry.colorComponents, patch.colorComponents);
+  geometry.normalEncoding = options.normals;
+  geometry.attributes = describeAttributes(mesh, options.encoding, options.attributeBits / 8);
+  rowOf(geometry).describe(geometry, mesh, options);
+  return geometry;
+}
+
+EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options) {
+  const EncodingRow& row = rowOf(geometry);
+  assert(row.encodeIndexed != nullptr);
+  EncodedPatch encoded = row.encodeIndexed(patch, geometry, options);
+  encoded.elements = drawnElements(patch.draws);
+  return encoded;
+}
+
+EncodedPatch encodePatch(Patch patch, const GeometryDescription& geometry, const EncodeOptions& options) {
+  const EncodingRow& row = rowOf(geometry);
+  if (row.encodeIndexed == nullptr) {
+    EncodedPatch encoded = encodeAlone(*row.sharing, std::move(patch), geometry, options);
+    encoded.elements = drawnElements(encoded.description.draws);
+    return encoded;
+  }
+  IndexedPatch indexed = primitivesOf(patch, options);
+  if (!options.indexed)
+    indexed = withoutIndices(indexed);
+  EncodedPatch encoded = encodePatch(indexed, geometry, options);
+  if (options.primitives == Primitives::strips && patch.topology == Topology::triangles)
+    encoded.elements = {.triangles = trianglesOf(indexed).size()};
+  return encoded;
+}
+
+} // namespace imgeo

@@ -1,0 +1,53 @@
+#pragma once
+// The interface of an encoding's reader.
+
+#include "base/bytes.h"
+#include "containers/geometry_description.h"
+#include "prepare/base_mesh.h"
+
+#include <functional>
+#include <string>
+
+namespace imgeo {
+
+/// Gives the bytes of a url; throws Error{io} where there are none.
+using FetchFile = std::function<Bytes(const std::string& url)>;
+
+/// Bits of a component of each attribute; 0: a geometry lacks the attribute.
+struct StoredPrecision {
+  std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0;
+  NormalEncoding normalEncoding = NormalEncoding::rgb;
+};
+
+/// Reads geometries of one encoding. Safe to call from any thread, and for untrusted bytes: sizes and indices are
+/// checked against the description, and limits (containers/limits.h) bound every allocation. Throws Error naming the
+/// url.
+class PatchReader {
+public:
+  virtual ~PatchReader() = default;
+
+  /// Decodes a patch. Normals have unit length.
+  virtual IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) = 0;
+
+  /// Decodes the base mesh of a geometry that has one; called only for encodings with Capabilities::base.
+  virtual BaseMesh decodeBase(const GeometryDescription& geometry);
+
+  /// The precision of stored attributes.
+  virtual StoredPrecision precisionOf(const GeometryDescription& geometry) = 0;
+};
+
+/// A reader of an encoding whose patches are decoded one at a time, and whose nodes state the precision of attributes.
+class SinglePatchReader final : public PatchReader {
+public:
+  using Decode = IndexedPatch(const PatchDescription&, const GeometryDescription&, const FetchFile&);
+
+  SinglePatchReader(FetchFile fetch, Decode& decode) : fetch_(std::move(fetch)), decode_(decode) {}
+  IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) override;
+  StoredPrecision precisionOf(const GeometryDescription& geometry) override;
+
+private:
+  FetchFile fetch_;
+  Decode& decode_;
+};
+
+} // namespace imgeo
