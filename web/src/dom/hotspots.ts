@@ -72,7 +72,7 @@ export class Hotspots {
   }
 
   /** Positions all hotspots for a view of this size in CSS pixels. If no other frame follows, tests whether they are covered. */
-  place(view: View, width: number, height: number): void {
+  update(view: View, width: number, height: number): void {
     this.#invalidateFrame();
     if (this.#hotspots.length === 0) return;
     for (const hotspot of this.#hotspots) projectInto(view, width, height, hotspot);

@@ -69,7 +69,7 @@ function listOf(label: string): HTMLSelectElement {
 /** Hides a menu of fewer than two options. Options are replaced only where they differ, so that an open menu stays open. */
 function fill(list: HTMLSelectElement, names: readonly string[], selected: number): void {
   const isSame =
-    names.length === list.options.length && names.every((name, place) => list.options[place]?.text === name);
+    names.length === list.options.length && names.every((name, index) => list.options[index]?.text === name);
   if (!isSame) list.replaceChildren(...names.map((name) => new Option(name)));
   list.hidden = names.length < 2;
   if (list.selectedIndex !== selected) list.selectedIndex = selected;

@@ -330,7 +330,7 @@ export class ViewController {
     const { navigator, renderer } = this.viewer;
     const { view } = renderer;
     if (this.#preview && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
-    if (view !== undefined) this.#hotspots.place(view, this.#size.width, this.#size.height);
+    if (view !== undefined) this.#hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
     if (navigator.pose === this.#lastPose) return;
     const isFirst = this.#lastPose === undefined;

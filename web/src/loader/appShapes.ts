@@ -116,7 +116,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     this.onChange(shape, instance, group);
   }
 
-  /** Whoever draws a LOD chooses its level, so a group in it is hidden only where the document hides its shape in every level. */
+  /** The renderer of a LOD chooses its level, so a group in it is hidden only where the document hides its shape in every level. */
   onChange(shape: ShapeDescription, instance: NodeInstance, group: Group): void {
     group.visible = shape.contributesToBounds;
     this.#objectOf(shape).instances.set(instance, shape);

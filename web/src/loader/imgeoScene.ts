@@ -228,10 +228,10 @@ function passOnShadows(scene: ImgeoScene): void {
       configurable: true,
       enumerable: true,
       get: () => flag,
-      set: (wanted: boolean) => {
-        flag = wanted;
+      set: (value: boolean) => {
+        flag = value;
         scene.traverse((object) => {
-          if (object !== scene) object[name] = wanted;
+          if (object !== scene) object[name] = value;
         });
       },
     });

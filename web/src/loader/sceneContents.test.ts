@@ -24,9 +24,9 @@ import { SceneContents } from "./sceneContents.ts";
 const shape = (name: string) => `<Shape DEF="${name}"><BinaryGeometry vertexCount="3" coord="${name}.bin"/></Shape>`;
 const triangle = () => new Uint8Array(36);
 
-/** A scene in an app that has no GPU, looked at as three's renderer does. */
+/** A scene in an app that has no GPU, drawn as three.js does. */
 function appOf(markup: string, files: Record<string, Answer>) {
-  const { pool, asked, aborted, arrayOf } = siteOf(files);
+  const { pool, asked: requested, aborted, arrayOf } = siteOf(files);
   const viewOf = (bytes: StoredBytes, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
   const buffers: BufferProvider = {
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
@@ -74,8 +74,8 @@ function appOf(markup: string, files: Record<string, Answer>) {
     },
   );
   contents.start();
-  /** What a frame from there draws: the names of shapes that show something. */
-  const look = async (...from: [number, number, number]) => {
+  /** Draws a frame from a position, and gives the names of the shapes that it draws. */
+  const namesDrawnFrom = async (...from: [number, number, number]) => {
     const camera = new PerspectiveCamera();
     camera.position.set(...from);
     camera.updateMatrixWorld();
@@ -84,11 +84,11 @@ function appOf(markup: string, files: Record<string, Answer>) {
     await soon();
     return seen;
   };
-  /** Until everything that is wanted is here. */
+  /** Waits until everything requested is here. */
   const settled = async () => {
     while (!contents.isSettled) await soon();
   };
-  return { contents, asked, aborted, look, settled };
+  return { contents, requested, aborted, namesDrawnFrom, settled };
 }
 
 function isLod(object: object): object is Pick<LOD, "autoUpdate" | "update"> {
@@ -108,73 +108,76 @@ function drawnIn(object: Object3D, camera: PerspectiveCamera): string[] {
 describe("the contents of a scene in a three.js app", () => {
   test("are requested where any instance of them is visible", async () => {
     const files = { "a.bin": triangle(), "b.bin": triangle() };
-    const { contents, asked, look, settled } = appOf(
+    const { contents, requested, namesDrawnFrom, settled } = appOf(
       `<X3D><Group visible="false"><Transform DEF="t">${shape("a")}</Transform>${shape("b")}</Group>
       <Transform USE="t"/></X3D>`,
       files,
     );
     assert.ok(!contents.isDisplayed && !contents.isSettled);
     await settled();
-    assert.deepEqual([asked, await look(0, 0, 5), contents.isDisplayed], [["a.bin"], ["a"], true]);
+    assert.deepEqual([requested, await namesDrawnFrom(0, 0, 5), contents.isDisplayed], [["a.bin"], ["a"], true]);
   });
 
   test("display of a LOD the level for the nearest camera, and the level before until that has come", async () => {
     const near = held(triangle());
-    const { contents, asked, aborted, look, settled } = appOf(
+    const { contents, requested, aborted, namesDrawnFrom, settled } = appOf(
       `<X3D><LOD DEF="lod" range="10">${shape("near")}${shape("far")}</LOD>
       <Transform translation="100 0 0"><LOD USE="lod"/></Transform></X3D>`,
       { "near.bin": near.promise, "far.bin": triangle() },
     );
     await settled();
-    assert.deepEqual(asked, ["far.bin"]);
-    assert.deepEqual(await look(0, 0, 50), ["far", "far"]);
-    assert.deepEqual(await look(100, 0, 5), ["far", "far"]); // near to one of its places
-    while (asked.length < 2) await soon();
-    assert.deepEqual([contents.isDisplayed, asked[1]], [false, "near.bin"]);
-    await look(0, 0, 50);
-    while (aborted.length === 0) await soon(); // nobody wants it any more
+    assert.deepEqual(requested, ["far.bin"]);
+    assert.deepEqual(await namesDrawnFrom(0, 0, 50), ["far", "far"]);
+    assert.deepEqual(await namesDrawnFrom(100, 0, 5), ["far", "far"]); // near to one of its instances
+    while (requested.length < 2) await soon();
+    assert.deepEqual([contents.isDisplayed, requested[1]], [false, "near.bin"]);
+    await namesDrawnFrom(0, 0, 50);
+    while (aborted.length === 0) await soon(); // it is not needed any more
     assert.ok(contents.isDisplayed);
-    await look(0, 0, 5);
+    await namesDrawnFrom(0, 0, 5);
     near.release();
-    while (asked.length < 3) await soon();
+    while (requested.length < 3) await soon();
     await settled();
-    assert.deepEqual(await look(0, 0, 5), ["near", "far"]);
-    assert.deepEqual(await look(0, 0, 50), ["far", "far"]);
-    assert.deepEqual(asked, ["far.bin", "near.bin", "near.bin"]);
+    assert.deepEqual(await namesDrawnFrom(0, 0, 5), ["near", "far"]);
+    assert.deepEqual(await namesDrawnFrom(0, 0, 50), ["far", "far"]);
+    assert.deepEqual(requested, ["far.bin", "near.bin", "near.bin"]);
   });
 
   test("turn billboards to the camera, and observe no camera where there are none", async () => {
     const plain = appOf(`<X3D>${shape("a")}</X3D>`, { "a.bin": triangle() });
     assert.equal(plain.contents.root.getObjectByProperty("isLOD", true), undefined);
-    const { contents, look, settled } = appOf(
+    const { contents, namesDrawnFrom, settled } = appOf(
       `<X3D><Billboard><Transform translation="0 0 1">${shape("a")}</Transform></Billboard></X3D>`,
       { "a.bin": triangle() },
     );
     await settled();
-    const placeOf = () =>
+    const positionOf = () =>
       new Vector3()
         .setFromMatrixPosition(contents.root.getObjectByName("a")?.matrixWorld ?? contents.root.matrixWorld)
         .round()
         .toArray();
     contents.root.position.set(10, 0, 0); // the app's business
-    await look(20, 0, 0);
-    assert.deepEqual(placeOf(), [11, 0, 0]);
-    await look(10, 0, -9);
+    await namesDrawnFrom(20, 0, 0);
+    assert.deepEqual(positionOf(), [11, 0, 0]);
+    await namesDrawnFrom(10, 0, -9);
     assert.deepEqual(
-      placeOf().map((part) => part + 0),
+      positionOf().map((coordinate) => coordinate + 0),
       [10, 0, -1],
     );
   });
 
   test("request nothing more once stopped, and remain displayed", async () => {
-    const { contents, asked, look, settled } = appOf(
+    const { contents, requested, namesDrawnFrom, settled } = appOf(
       `<X3D><LOD range="10">${shape("near")}${shape("far")}</LOD></X3D>`,
       { "near.bin": triangle(), "far.bin": triangle() },
     );
     await settled();
     contents.stop();
-    assert.deepEqual([await look(0, 0, 5), await look(0, 0, 5), asked], [["far"], ["far"], ["far.bin"]]);
+    assert.deepEqual(
+      [await namesDrawnFrom(0, 0, 5), await namesDrawnFrom(0, 0, 5), requested],
+      [["far"], ["far"], ["far.bin"]],
+    );
     contents.dispose();
-    assert.deepEqual(await look(0, 0, 5), []);
+    assert.deepEqual(await namesDrawnFrom(0, 0, 5), []);
   });
 });

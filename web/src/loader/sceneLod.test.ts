@@ -8,25 +8,25 @@ const element = { localName: "LOD", children: [], getAttribute: () => null, getA
 
 /** Levels of a box each, around (1, 0, 0), of which those are here that are in `here`. */
 function levelsOf(range: readonly number[], here: Set<number>, empty?: number, others: LoadState = "loading") {
-  const looks = { count: 0 };
-  const placeOf = (level: Object3D) => Number(level.name);
+  const updates = { count: 0 };
+  const indexOf = (level: Object3D) => Number(level.name);
   const levels = new SceneLod(
     { element, center: [1, 0, 0], range, levelCount: range.length + 1 },
     {
-      loadStateOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "empty" : "displayed"),
+      loadStateOf: (level) => (!here.has(indexOf(level)) ? others : indexOf(level) === empty ? "empty" : "displayed"),
       onCamera: () => {
-        looks.count += 1;
+        updates.count += 1;
       },
     },
   );
-  for (let place = 0; place <= range.length; ++place) {
+  for (let index = 0; index <= range.length; ++index) {
     const group = new Group();
-    group.name = String(place);
-    if (place !== empty) group.add(new Mesh(new BoxGeometry()));
+    group.name = String(index);
+    if (index !== empty) group.add(new Mesh(new BoxGeometry()));
     levels.add(group);
   }
   levels.fill();
-  return { levels, looks };
+  return { levels, updates };
 }
 
 function cameraAt(x: number, y = 0, z = 0): PerspectiveCamera {
@@ -36,8 +36,8 @@ function cameraAt(x: number, y = 0, z = 0): PerspectiveCamera {
   return camera;
 }
 
-function shownOf({ children }: LOD): number[] {
-  return children.flatMap(({ visible }, place) => (visible ? [place] : []));
+function displayedLevelsOf({ children }: LOD): number[] {
+  return children.flatMap(({ visible }, index) => (visible ? [index] : []));
 }
 
 describe("a LOD in a three.js app", () => {
@@ -48,12 +48,12 @@ describe("a LOD in a three.js app", () => {
       levels.levels.map(({ distance }) => distance),
       [0, 10, 20],
     );
-    assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[2], 2]);
+    assert.deepEqual([displayedLevelsOf(levels), levels.getCurrentLevel()], [[2], 2]);
     assert.equal(levels.takeDistance(), Infinity);
   });
 
   test("displays the level for each camera, by the distance from its centre in its own units", () => {
-    const { levels, looks } = levelsOf([10, 20], new Set([0, 1, 2]));
+    const { levels, updates } = levelsOf([10, 20], new Set([0, 1, 2]));
     const around = new Group();
     around.scale.setScalar(2);
     around.position.set(100, 0, 0);
@@ -66,9 +66,9 @@ describe("a LOD in a three.js app", () => {
       [102 - 18, 0],
     ] as const) {
       levels.update(cameraAt(x));
-      assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[level], level], `from ${x}`);
+      assert.deepEqual([displayedLevelsOf(levels), levels.getCurrentLevel()], [[level], level], `from ${x}`);
     }
-    assert.equal(looks.count, 4);
+    assert.equal(updates.count, 4);
     assert.equal(levels.takeDistance(), 9); // the nearest of all that have looked
     assert.equal(levels.takeDistance(), Infinity);
   });
@@ -78,29 +78,29 @@ describe("a LOD in a three.js app", () => {
     const { levels } = levelsOf([10, 20], here);
     const near = cameraAt(1, 5);
     levels.update(near);
-    assert.deepEqual(shownOf(levels), [2]);
+    assert.deepEqual(displayedLevelsOf(levels), [2]);
     here.add(1);
     levels.update(near);
-    assert.deepEqual(shownOf(levels), [2]);
+    assert.deepEqual(displayedLevelsOf(levels), [2]);
     here.add(0);
     levels.update(near);
-    assert.deepEqual(shownOf(levels), [0]);
-    here.clear(); // what has shown something always does
+    assert.deepEqual(displayedLevelsOf(levels), [0]);
+    here.clear(); // what has been displayed stays
     levels.update(near);
-    assert.deepEqual(shownOf(levels), [0]);
+    assert.deepEqual(displayedLevelsOf(levels), [0]);
   });
 
   test("displays the required level while it loads where no other can stand in", () => {
     const { levels } = levelsOf([10], new Set([1]), 1);
-    assert.deepEqual(shownOf(levels), [1]);
+    assert.deepEqual(displayedLevelsOf(levels), [1]);
     levels.update(cameraAt(1, 5));
-    assert.deepEqual(shownOf(levels), [0]);
+    assert.deepEqual(displayedLevelsOf(levels), [0]);
   });
 
   test("keeps its level where nothing of another has come", () => {
     const { levels } = levelsOf([10, 20], new Set([2]), undefined, "failed");
     levels.update(cameraAt(1, 5));
-    assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[2], 2]);
+    assert.deepEqual([displayedLevelsOf(levels), levels.getCurrentLevel()], [[2], 2]);
   });
 
   test("is intersected by rays in its displayed level only", () => {
@@ -120,6 +120,6 @@ describe("a LOD in a three.js app", () => {
     levels.scale.setScalar(0);
     levels.updateMatrixWorld(true);
     levels.update(cameraAt(1));
-    assert.deepEqual(shownOf(levels), [1]);
+    assert.deepEqual(displayedLevelsOf(levels), [1]);
   });
 });

@@ -105,7 +105,9 @@ export class Preview {
     const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape])); // a shape may have several instances
     return Array.from(shapes.values(), (shape) => ({
       element: shape.element,
-      patches: (this.#baseOf(shape)?.segments ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
+      patches: (this.#baseOf(shape)?.segments ?? []).flatMap((segment, patch) =>
+        segment === undefined ? [] : [patch],
+      ),
     }));
   }
 
