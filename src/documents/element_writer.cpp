@@ -8,7 +8,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::size_t lineLength = 110;
+constexpr std::size_t maxLineLength = 110;
 
 } // namespace
 
@@ -27,7 +27,7 @@ void ElementWriter::startTag(const Element& element) {
   text_.append(2 * level_, ' ');
   text_ += "<" + element.name;
   std::string separator = " ";
-  if (length > lineLength)
+  if (length > maxLineLength)
     separator.assign("\n").append(2 * level_ + 4, ' ');
   for (std::size_t i = 0; i < lines.size(); ++i)
     text_ += (i == 0 ? " " : separator) + lines[i];
@@ -37,7 +37,7 @@ void ElementWriter::startTag(const Element& element) {
 void ElementWriter::open(const Element& element) {
   const std::size_t begin = text_.size();
   startTag(element);
-  opened_.push_back({begin, text_.size()});
+  openTags_.push_back({begin, text_.size()});
   text_ += "\n";
   ++level_;
 }
@@ -46,15 +46,15 @@ void ElementWriter::open(const Element& element) {
 /// indentation would be a third of the text.
 void ElementWriter::close(const Element& element) {
   --level_;
-  const auto [begin, end] = opened_.back();
-  opened_.pop_back();
+  const auto [begin, end] = openTags_.back();
+  openTags_.pop_back();
   const std::string endTag = "</" + element.name + ">\n";
-  const std::size_t only = end + 1 + 2 * (level_ + 1), newline = text_.find('\n', end + 1);
-  const bool isTagOfOneLine = text_.find('\n', begin) == end;
-  const bool hasOneLine = newline != std::string::npos && newline + 1 == text_.size();
-  if (isTagOfOneLine && hasOneLine && end - begin + newline - only + endTag.size() - 1 <= lineLength) {
+  const std::size_t contentBegin = end + 1 + 2 * (level_ + 1), newline = text_.find('\n', end + 1);
+  const bool isTagOnOneLine = text_.find('\n', begin) == end;
+  const bool isContentOneLine = newline != std::string::npos && newline + 1 == text_.size();
+  if (isTagOnOneLine && isContentOneLine && end - begin + newline - contentBegin + endTag.size() - 1 <= maxLineLength) {
     text_.erase(newline);
-    text_.erase(end, only - end);
+    text_.erase(end, contentBegin - end);
   } else {
     text_.append(2 * level_, ' ');
   }

@@ -31,8 +31,9 @@ public:
 
   void open(const Element& element);
   void close(const Element& element);
-  void leaf(const Element& element); ///< an empty element, with an end tag: HTML has no self-closing custom elements
-  void leaf(const Element& element, std::string_view content); ///< an element with a text
+  void
+  leaf(const Element& element); ///< an empty element, with an end tag, since HTML has no self-closing custom elements
+  void leaf(const Element& element, std::string_view content); ///< an element that contains text, which is escaped
 
   /// A comment; consecutive hyphens, which would end it, are separated by spaces.
   void comment(std::string_view content);
@@ -49,10 +50,10 @@ private:
 
   std::size_t level_;
   std::string text_;
-  std::vector<Tag> opened_;
+  std::vector<Tag> openTags_;
 };
 
-/// The shortest decimal text that is parsed as the same number.
+/// The shortest decimal text from which parsing gives the same number.
 std::string number(double value);
 std::string number(float value);
 template <typename T> std::string numbers(Vec2<T> v) {
@@ -62,12 +63,13 @@ template <typename T> std::string numbers(Vec3<T> v) {
   return number(v.x) + " " + number(v.y) + " " + number(v.z);
 }
 
+/// The numbers, separated by spaces.
 std::string numbers(const std::vector<double>& values);
 
-/// Appends the attribute unless its value is the default, which is the meaning of an absent attribute.
+/// Appends the attribute `name` with `text` unless its value is the default, which an absent attribute stands for.
 template <typename T>
-void addUnless(Attributes& attributes, const char* name, const T& value, const T& absent, std::string text) {
-  if (!(value == absent))
+void addUnless(Attributes& attributes, const char* name, const T& value, const T& defaultValue, std::string text) {
+  if (!(value == defaultValue))
     attributes.push_back({name, std::move(text)});
 }
 

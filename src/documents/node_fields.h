@@ -1,6 +1,6 @@
 #pragma once
-// The table of fields of the nodes that a scene holds as structs, for the writer and the reader: X3D names, in the
-// order in which they are written. The default of a field is the default of the struct's member.
+// The fields of the nodes that a scene holds as structs, for the writer and the reader: their X3D names, in the order
+// in which they are written. The default of a field is the default of the struct's member.
 //
 // A visitor is called with the name and the member, and whether the field is written even if it has its default. Its
 // line() begins a new group of attributes (Element::groups).
@@ -31,7 +31,7 @@ template <typename Visit> void visitFieldsOf(const Viewpoint*, auto& viewpoint, 
   visit("centerOfRotation", viewpoint.centerOfRotation, Written::always);
 }
 
-/// All fields except fieldOfView, which is two members.
+/// All fields except fieldOfView, which the struct holds as two members.
 template <typename Visit> void visitFieldsOf(const OrthoViewpoint*, auto& viewpoint, Visit&& visit) {
   visit("description", viewpoint.description);
   visit.line();

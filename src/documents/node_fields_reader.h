@@ -1,5 +1,5 @@
 #pragma once
-// Reading of the fields in node_fields.h.
+// Reads the fields that node_fields.h lists from an element.
 
 #include "documents/field_reader.h"
 #include "documents/node_fields.h"
@@ -18,7 +18,7 @@ template <typename Node> Node readNode(const FieldReader& fields) {
     void operator()(const char* name, Vec3f& member, Written = {}) { member = fields.vec3(name, member); }
     void operator()(const char* name, Vec3d& member, Written = {}) { member = fields.vec3(name, member); }
     void operator()(const char* name, Rotation& member, Written = {}) { member = fields.rotation(name, member); }
-    void line() {}
+    void line() {} // groups of attributes matter to the writer only
   };
   Node node;
   visitFields(node, Read{fields});

@@ -10,13 +10,13 @@ namespace imgeo {
 
 namespace {
 
-/// A map that turns -z to a direction and moves the origin: glTF lights shine along -z of their node.
+/// A rotation of -z, along which glTF lights shine, to `direction`, then a translation of the origin to `origin`.
 Affine3d facing(Vec3d direction, Vec3d origin) {
   const double size = length(direction);
   if (size == 0)
     return {.translation = origin};
-  const Vec3d z = direction * (-1 / size), aside = cross(std::abs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, z);
-  const Vec3d x = aside * (1 / length(aside));
+  const Vec3d z = direction * (-1 / size), side = cross(std::abs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, z);
+  const Vec3d x = side * (1 / length(side));
   return {x, cross(z, x), z, origin};
 }
 
@@ -32,17 +32,18 @@ std::optional<GltfLight> gltfLight(const NodeContent& content) {
     json["range"] = light.radius;
     return json;
   };
+  // Lights of glTF fall off with the square of the distance.
   const auto isSupported = [](const auto& light) {
     return light.global && light.attenuation == Vec3d{0, 0, 1} && light.radius > 0;
   };
-  if (const auto* sun = std::get_if<DirectionalLight>(&content); sun && sun->global)
-    return GltfLight{common("directional", *sun), facing(sun->direction, {})};
-  if (const auto* lamp = std::get_if<PointLight>(&content); lamp && isSupported(*lamp))
-    return GltfLight{local("point", *lamp), {.translation = lamp->location}};
+  if (const auto* directional = std::get_if<DirectionalLight>(&content); directional && directional->global)
+    return GltfLight{common("directional", *directional), facing(directional->direction, {})};
+  if (const auto* point = std::get_if<PointLight>(&content); point && isSupported(*point))
+    return GltfLight{local("point", *point), {.translation = point->location}};
   if (const auto* spot = std::get_if<SpotLight>(&content); spot && isSupported(*spot)) {
     Json json = local("spot", *spot);
     const double outer = std::min(spot->cutOffAngle, std::numbers::pi / 2);
-    // The inner angle has to be the smaller one.
+    // glTF requires innerConeAngle < outerConeAngle.
     json["spot"] = {{"innerConeAngle", std::min(spot->beamWidth, outer * 0.999)}, {"outerConeAngle", outer}};
     return GltfLight{std::move(json), facing(spot->direction, spot->location)};
   }

@@ -65,22 +65,22 @@ std::vector<std::uint32_t> nearestWedges(WedgeSets& sets, const SimplifiedTriang
     const std::uint32_t position = patch.wedgePositions[wedge], vertex = simplified.vertexOfInput[position];
     if (vertex == SimplifiedTriangles::none)
       continue;
-    const Vec3d off = Vec3d(patch.positions[position]) - Vec3d(simplified.positions[vertex]);
+    const Vec3d difference = Vec3d(patch.positions[position]) - Vec3d(simplified.positions[vertex]);
     const std::uint32_t set = sets.setOf(wedge);
-    if (dot(off, off) < distances[set]) {
-      distances[set] = dot(off, off);
+    if (dot(difference, difference) < distances[set]) {
+      distances[set] = dot(difference, difference);
       nearest[set] = wedge;
     }
   }
   return nearest;
 }
 
-/// Makes one wedge of all sets of a vertex whose texture coordinates are close maxDistance.
+/// Makes one wedge of all sets of a vertex whose texture coordinates are close to each other.
 class WedgeBuilder {
 public:
   WedgeBuilder(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
       : patch_(patch), nearest_(nearest), latest_(simplified.positions.size(), SimplifiedTriangles::none),
-        numbers_(patch.wedgeCount(), SimplifiedTriangles::none) {}
+        wedgeOfSet_(patch.wedgeCount(), SimplifiedTriangles::none) {}
 
   /// Adds the next corner, given its set of wedges and its simplified vertex.
   void add(std::uint32_t set, std::uint32_t position) {
@@ -89,12 +89,12 @@ public:
   }
 
   SimplifiedWedges finish() {
-    const double maxDistance = patch_.texCoords.empty() ? 0 : meanEdge() / 4;
+    const double maxDistance = patch_.texCoords.empty() ? 0 : meanTexCoordEdge() / 4;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner) {
-      std::uint32_t& number = numbers_[sets_[corner]];
-      if (number == SimplifiedTriangles::none)
-        number = wedgeAt(positions_[corner], nearest_[sets_[corner]], maxDistance);
-      wedges_.corners.push_back(number);
+      std::uint32_t& wedge = wedgeOfSet_[sets_[corner]];
+      if (wedge == SimplifiedTriangles::none)
+        wedge = wedgeAt(positions_[corner], nearest_[sets_[corner]], maxDistance);
+      wedges_.corners.push_back(wedge);
     }
     return std::move(wedges_);
   }
@@ -105,14 +105,16 @@ private:
     return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
   }
 
-  /// Mean edge length of the simplified triangles in the texture.
-  double meanEdge() const {
+  /// Mean edge length of the simplified triangles in texture coordinates.
+  double meanTexCoordEdge() const {
     double sum = 0;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner)
       sum += texCoordDistance(nearest_[sets_[corner]], nearest_[sets_[corner % 3 == 2 ? corner - 2 : corner + 1]]);
     return sum / static_cast<double>(sets_.size());
   }
 
+  /// The wedge of a vertex whose texture coordinates are within maxDistance of those of `source`; a new one if there is
+  /// none.
   std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source, double maxDistance) {
     constexpr int maxCandidates = 16; // one vertex may have thousands of unconnected triangles
     std::uint32_t wedge = latest_[position];
@@ -130,7 +132,7 @@ private:
   const std::vector<std::uint32_t>& nearest_;   ///< by set
   std::vector<std::uint32_t> sets_, positions_; ///< by corner
   std::vector<std::uint32_t> latest_, before_;  ///< linked list of the wedges of each position
-  std::vector<std::uint32_t> numbers_;          ///< by set: its wedge
+  std::vector<std::uint32_t> wedgeOfSet_;       ///< by set
   SimplifiedWedges wedges_;
 };
 

@@ -9,7 +9,8 @@ namespace imgeo {
 
 namespace {
 
-/// An edge in the queue with its cost. The entry is outdated where the sum of its vertices' versions has changed.
+/// An edge in the queue with its cost. An entry whose `versions` is no longer the sum of its vertices' versions
+/// is outdated.
 struct Candidate {
   std::uint64_t rank = 0; ///< upper half: the bits of its cost, a float of 0 or more; lower half: `from`
   std::uint32_t to = 0, versions = 0;
@@ -18,7 +19,7 @@ struct Candidate {
       : rank(std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32 | from), to(other), versions(sum) {}
   std::uint32_t from() const { return static_cast<std::uint32_t>(rank); }
 
-  /// Orders by cost, then by vertices. Without branches, since they would be unpredictable.
+  /// Orders by cost, then by vertices. Has no branches, which would be unpredictable.
   bool isBefore(const Candidate& other) const { return (rank < other.rank) | ((rank == other.rank) & (to < other.to)); }
 };
 
@@ -32,8 +33,8 @@ public:
   EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount)
       : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources), targetCount_(triangleCount),
         triangleCount_(corners_.size() / 3), first_(vertices_.size(), none), last_(vertices_.size(), none),
-        next_(corners_.size(), none), isGone_(triangleCount_), isBorder_(vertices_.size()), versions_(vertices_.size()),
-        marks_(vertices_.size()) {
+        next_(corners_.size(), none), isRemoved_(triangleCount_), isBorder_(vertices_.size()),
+        versions_(vertices_.size()), marks_(vertices_.size()) {
     for (std::uint32_t corner = 0; corner < corners_.size(); ++corner)
       append(corners_[corner], corner, corner);
   }
@@ -51,7 +52,7 @@ public:
       if (candidate.versions == versions_[candidate.from()] + versions_[candidate.to])
         collapse(candidate.from(), candidate.to);
     }
-    keepTriangles();
+    eraseRemovedTriangles();
   }
 
 private:
@@ -71,11 +72,12 @@ private:
   /// Calls visit(corner) for each corner of a vertex whose triangle remains.
   template <typename Visit> void visitCorners(std::uint32_t vertex, Visit visit) const {
     for (std::uint32_t corner = first_[vertex]; corner != none; corner = next_[corner])
-      if (!isGone_[corner / 3])
+      if (!isRemoved_[corner / 3])
         visit(corner);
   }
 
-  /// The vertices that share an edge with a vertex. The reference is valid until the next call.
+  /// The vertices that share an edge with a vertex, whose marks_ become mark_. The reference is valid until the next
+  /// call.
   const std::vector<std::uint32_t>& neighboursOf(std::uint32_t vertex) {
     neighbours_.clear();
     ++mark_;
@@ -152,24 +154,24 @@ private:
     heap_.push({static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]});
   }
 
-  /// The link condition (Dey et al. 1999): every common neighbour of the two vertices is the third corner of a
-  /// triangle at their edge. Also, the collapse must not join two borders.
+  /// Whether the edge meets the link condition (Dey et al. 1999), that every common neighbour of a and b is the third
+  /// corner of a triangle at their edge, and its collapse does not join two borders.
   bool keepsTopology(std::uint32_t a, std::uint32_t b) {
     neighboursOf(b);
-    std::uint32_t shared = 0;
+    std::uint32_t edgeTriangleCount = 0;
     visitCorners(a, [&](std::uint32_t corner) {
       const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
       if (u != b && v != b)
         return;
-      ++shared;
+      ++edgeTriangleCount;
       marks_[u == b ? v : u] = 0;
     });
-    bool isTied = isBorder_[a] && isBorder_[b] && shared != 1;
+    bool breaksTopology = isBorder_[a] && isBorder_[b] && edgeTriangleCount != 1;
     visitCorners(a, [&](std::uint32_t corner) {
-      isTied =
-          isTied || marks_[corners_[afterCorner(corner)]] == mark_ || marks_[corners_[beforeCorner(corner)]] == mark_;
+      breaksTopology = breaksTopology || marks_[corners_[afterCorner(corner)]] == mark_ ||
+                       marks_[corners_[beforeCorner(corner)]] == mark_;
     });
-    return !isTied;
+    return !breaksTopology;
   }
 
   /// Whether moving `vertex` to `position` would flip, or nearly flip, a triangle that does not contain `other`.
@@ -198,7 +200,7 @@ private:
       return;
     visitCorners(from, [&](std::uint32_t corner) {
       if (corners_[afterCorner(corner)] == to || corners_[beforeCorner(corner)] == to) {
-        isGone_[corner / 3] = true;
+        isRemoved_[corner / 3] = true;
         --triangleCount_;
       } else {
         corners_[corner] = to;
@@ -216,10 +218,10 @@ private:
       pushCandidate(to, neighbour);
   }
 
-  void keepTriangles() {
+  void eraseRemovedTriangles() {
     std::size_t kept = 0;
-    for (std::size_t triangle = 0; triangle < isGone_.size(); ++triangle) {
-      if (isGone_[triangle])
+    for (std::size_t triangle = 0; triangle < isRemoved_.size(); ++triangle) {
+      if (isRemoved_[triangle])
         continue;
       std::copy_n(&corners_[3 * triangle], 3, &corners_[3 * kept]);
       sources_[kept++] = sources_[triangle];
@@ -233,10 +235,11 @@ private:
   std::vector<std::uint32_t>& sources_;
   std::size_t targetCount_, triangleCount_;
   std::vector<std::uint32_t> first_, last_, next_; ///< linked list of the corners of each vertex
-  std::vector<bool> isGone_;                       ///< by triangle
+  std::vector<bool> isRemoved_;                    ///< by triangle
   std::vector<bool> isBorder_;                     ///< by vertex
   std::vector<std::uint32_t> versions_;            ///< by vertex: number of its changes
-  std::vector<std::uint32_t> marks_, neighbours_;
+  std::vector<std::uint32_t> marks_; ///< by vertex: mark_ if the vertex was found by the last neighboursOf()
+  std::vector<std::uint32_t> neighbours_;
   std::uint32_t mark_ = 0;
   DaryHeap<Candidate> heap_;
 };

@@ -12,29 +12,30 @@
 namespace imgeo {
 namespace {
 
-/// An element as the values of its corners, which division into patches must keep.
-template <typename Piece>
-std::vector<double> elementOf(const Piece& piece, const std::vector<Vec3u>& positions, std::size_t element) {
+/// The values of an element's corners, which division into patches must keep.
+template <typename MeshOrPatch>
+std::vector<double> elementOf(const MeshOrPatch& source, const std::vector<Vec3u>& positions, std::size_t element) {
   std::vector<double> value;
-  const std::size_t count = cornersPerElement(piece.topology);
+  const std::size_t count = cornersPerElement(source.topology);
   for (std::size_t corner = element * count; corner < (element + 1) * count; ++corner) {
-    const std::uint32_t wedge = piece.corners[corner];
-    const Vec3u p = positions[piece.wedgePositions[wedge]];
+    const std::uint32_t wedge = source.corners[corner];
+    const Vec3u p = positions[source.wedgePositions[wedge]];
     value.insert(value.end(), {double(p.x), double(p.y), double(p.z)});
-    if (!piece.normals.empty())
-      value.insert(value.end(), {piece.normals[wedge].x, piece.normals[wedge].y, piece.normals[wedge].z});
-    if (!piece.texCoords.empty())
-      value.insert(value.end(), {piece.texCoords[wedge].x, piece.texCoords[wedge].y});
-    if (!piece.colors.empty())
-      value.insert(value.end(), {double(piece.colors[wedge].r), double(piece.colors[wedge].a)});
+    if (!source.normals.empty())
+      value.insert(value.end(), {source.normals[wedge].x, source.normals[wedge].y, source.normals[wedge].z});
+    if (!source.texCoords.empty())
+      value.insert(value.end(), {source.texCoords[wedge].x, source.texCoords[wedge].y});
+    if (!source.colors.empty())
+      value.insert(value.end(), {double(source.colors[wedge].r), double(source.colors[wedge].a)});
   }
   return value;
 }
 
-template <typename Piece>
-void addElements(std::multiset<std::vector<double>>& into, const Piece& piece, const std::vector<Vec3u>& positions) {
-  for (std::size_t element = 0; element < piece.elementCount(); ++element)
-    into.insert(elementOf(piece, positions, element));
+template <typename MeshOrPatch>
+void addElements(std::multiset<std::vector<double>>& into, const MeshOrPatch& source,
+                 const std::vector<Vec3u>& positions) {
+  for (std::size_t element = 0; element < source.elementCount(); ++element)
+    into.insert(elementOf(source, positions, element));
 }
 
 PatchedMesh cut(const Mesh& mesh, std::uint32_t maxWedges) {
@@ -79,8 +80,7 @@ TEST(Patches, MayContainLines) {
   EXPECT_TRUE(found == expected);
 }
 
-TEST(Patches, HaveEqualPositionsOnTheirBorders) {
-  // The patches have exactly the lattice positions of the mesh.
+TEST(Patches, TogetherHaveTheLatticePositionsOfTheMesh) {
   const Mesh mesh = testing::torus(60, 60);
   std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> expected, found;
   for (const Vec3u& p : quantise(mesh.positions, latticeFor(boxOf(mesh), 16)))
@@ -127,12 +127,12 @@ TEST(Patches, AreMadeEvenIfAllCentroidsAreEqual) {
   for (const Patch& patch : cut(mesh, 100).patches)
     expectWellFormed(patch, 100);
 
-  Mesh same;
-  same.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  testing::addPlainWedges(same);
+  Mesh duplicates;
+  duplicates.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  testing::addPlainWedges(duplicates);
   for (int i = 0; i < 1'400'000; ++i)
-    testing::addTriangle(same, 0, 1, 2);
-  const PatchedMesh result = cut(same, 65535);
+    testing::addTriangle(duplicates, 0, 1, 2);
+  const PatchedMesh result = cut(duplicates, 65535);
   EXPECT_EQ(result.patches.size(), 2u);
   for (const Patch& patch : result.patches)
     EXPECT_LE(patch.corners.size(), maxPatchCorners);
@@ -158,7 +158,7 @@ TEST(Patches, AreMadeEvenIfAllTrianglesShareOneVertex) {
   EXPECT_EQ(elements, rim);
 }
 
-TEST(Patches, OfAnEmptyMeshAreNone) {
+TEST(Patches, AreNoneForAnEmptyMesh) {
   EXPECT_TRUE(cut(Mesh{}, 100).patches.empty());
   EXPECT_TRUE(cut(Mesh{}, 100).box.empty());
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Sums of squared distances to planes: Garland and Heckbert, "Surface
-// simplification using quadric error metrics", 1997.
+// Sums of squared distances to planes (Garland and Heckbert, "Surface simplification using quadric error metrics",
+// 1997).
 
 #include "base/vec.h"
 
@@ -32,8 +32,8 @@ public:
   /// The weighted sum of squared distances. Rounding may make it negative.
   double errorAt(Vec3d p) const { return dot(p, timesMatrix(p)) + 2 * dot(linear_, p) + constant_; }
 
-  /// The position of minimum error. A small weight pulls it towards `near`, which decides where many positions have
-  /// almost the same error, as on a plane.
+  /// The position of minimum error. A term of small weight pulls it towards `near`: of positions with almost equal
+  /// errors, as on a plane, it is the one closest to `near`.
   Vec3d minimizerNear(Vec3d near) const {
     const double regularisation = 1e-3 * (xx_ + yy_ + zz_);
     const double a = xx_ + regularisation, d = yy_ + regularisation, f = zz_ + regularisation;

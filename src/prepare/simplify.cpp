@@ -11,10 +11,10 @@ namespace imgeo {
 
 namespace {
 
-/// Clusters for each requested triangle. A smaller number is faster and coarser: docs/decisions/compact.md.
+/// Number of clusters per requested triangle. A smaller number is faster and coarser: docs/decisions/compact.md.
 constexpr std::size_t clustersPerTriangle = 1;
 
-/// Maps lattice positions to points within -1 .. 1, where double precision is used best, and back.
+/// Maps lattice positions to points within -1 .. 1, and back.
 class UnitFrame {
 public:
   explicit UnitFrame(std::span<const Vec3u> positions) {
@@ -44,36 +44,36 @@ private:
 };
 
 /// A triangle's vertices in ascending order, and whether sorting them has reversed its orientation.
-struct FoldedTriangle {
+struct SortedTriangle {
   std::uint64_t lower = 0; ///< the lower two vertices
   std::uint32_t highest = 0;
   std::uint32_t firstCorner = 0;
   bool isReversed = false;
 
-  FoldedTriangle(const std::uint32_t* corners, std::uint32_t corner) : firstCorner(corner) {
+  SortedTriangle(const std::uint32_t* corners, std::uint32_t corner) : firstCorner(corner) {
     std::uint32_t a = corners[0], b = corners[1], c = corners[2];
-    const auto put = [&](std::uint32_t& u, std::uint32_t& v) {
+    const auto sortPair = [&](std::uint32_t& u, std::uint32_t& v) {
       if (u > v) {
         std::swap(u, v);
         isReversed = !isReversed;
       }
     };
-    put(a, b), put(b, c), put(a, b);
+    sortPair(a, b), sortPair(b, c), sortPair(a, b);
     lower = std::uint64_t{a} << 32 | b;
     highest = c;
   }
 
-  bool hasSameVertices(const FoldedTriangle& other) const { return lower == other.lower && highest == other.highest; }
-  friend bool operator<(const FoldedTriangle& a, const FoldedTriangle& b) {
+  bool hasSameVertices(const SortedTriangle& other) const { return lower == other.lower && highest == other.highest; }
+  friend bool operator<(const SortedTriangle& a, const SortedTriangle& b) {
     return a.lower != b.lower       ? a.lower < b.lower
            : a.highest != b.highest ? a.highest < b.highest
                                     : a.firstCorner < b.firstCorner;
   }
 };
 
-/// Removes pairs of triangles of the same vertices and opposite orientation.
-void dropFolds(std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& sources) {
-  std::vector<FoldedTriangle> triangles;
+/// Removes pairs of triangles that have the same vertices and opposite orientations.
+void removeOppositePairs(std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& sources) {
+  std::vector<SortedTriangle> triangles;
   triangles.reserve(corners.size() / 3);
   for (std::uint32_t corner = 0; corner < corners.size(); corner += 3)
     triangles.emplace_back(&corners[corner], corner);
@@ -123,27 +123,27 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> points, std::span<const std::
                             const VertexClusters& clusters) {
   CollapsingSurface surface;
   surface.vertices.resize(clusters.count);
-  std::vector<std::uint32_t> members(clusters.count);
+  std::vector<std::uint32_t> memberCounts(clusters.count);
   for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
     CollapsingSurface::Vertex& cluster = surface.vertices[clusters.clusterOf[vertex]];
-    if (members[clusters.clusterOf[vertex]]++ == 0)
+    if (memberCounts[clusters.clusterOf[vertex]]++ == 0)
       cluster.source = vertex;
     cluster.position += points[vertex];
     cluster.isFixed = cluster.isFixed || isFixed[vertex];
   }
   for (std::uint32_t cluster = 0; cluster < clusters.count; ++cluster)
-    surface.vertices[cluster].position = surface.vertices[cluster].position * (1.0 / members[cluster]);
+    surface.vertices[cluster].position = surface.vertices[cluster].position * (1.0 / memberCounts[cluster]);
 
   for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
     const Vec3d normal = normals[corner / 3];
-    const double size = length(normal);
+    const double twiceArea = length(normal);
     const std::uint32_t u = clusters.clusterOf[corners[corner]], v = clusters.clusterOf[corners[corner + 1]],
                         w = clusters.clusterOf[corners[corner + 2]];
-    if (size > 0 && u == v && v == w) {
-      surface.vertices[u].quadric.addPlane(normal * (1 / size), points[corners[corner]], 3 * size);
-    } else if (size > 0) {
+    if (twiceArea > 0 && u == v && v == w) {
+      surface.vertices[u].quadric.addPlane(normal * (1 / twiceArea), points[corners[corner]], 3 * twiceArea);
+    } else if (twiceArea > 0) {
       Quadric plane;
-      plane.addPlane(normal * (1 / size), points[corners[corner]], size);
+      plane.addPlane(normal * (1 / twiceArea), points[corners[corner]], twiceArea);
       for (const std::uint32_t cluster : {u, v, w})
         surface.vertices[cluster].quadric += plane;
     }
@@ -153,7 +153,7 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> points, std::span<const std::
     surface.sources.push_back(static_cast<std::uint32_t>(corner / 3));
   }
   if (clusters.count < points.size())
-    dropFolds(surface.corners, surface.sources);
+    removeOppositePairs(surface.corners, surface.sources);
   return surface;
 }
 
@@ -163,20 +163,20 @@ SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& 
   constexpr std::uint32_t none = SimplifiedTriangles::none;
   SimplifiedTriangles result;
   result.triangles = surface.sources;
-  std::vector<std::uint32_t> numbers(surface.vertices.size(), none);
+  std::vector<std::uint32_t> resultIndices(surface.vertices.size(), none);
   for (const std::uint32_t vertex : surface.corners) {
-    if (numbers[vertex] == none) {
-      numbers[vertex] = static_cast<std::uint32_t>(result.positions.size());
-      const CollapsingSurface::Vertex& from = surface.vertices[vertex];
-      result.positions.push_back(from.isFixed ? positions[from.source] : frame.nearest(from.position));
+    if (resultIndices[vertex] == none) {
+      resultIndices[vertex] = static_cast<std::uint32_t>(result.positions.size());
+      const CollapsingSurface::Vertex& merged = surface.vertices[vertex];
+      result.positions.push_back(merged.isFixed ? positions[merged.source] : frame.nearest(merged.position));
     }
-    result.corners.push_back(numbers[vertex]);
+    result.corners.push_back(resultIndices[vertex]);
   }
   result.vertexOfInput.reserve(positions.size());
   for (std::uint32_t vertex : clusters.clusterOf) {
     while (surface.vertices[vertex].mergedInto != CollapsingSurface::none)
       vertex = surface.vertices[vertex].mergedInto;
-    result.vertexOfInput.push_back(numbers[vertex]);
+    result.vertexOfInput.push_back(resultIndices[vertex]);
   }
   return result;
 }

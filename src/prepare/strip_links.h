@@ -29,12 +29,12 @@ private:
 /// quarters of an index:
 ///  - 1 index for each swap: two turns in the same direction, at a link between two others;
 ///  - 2 indices for each path, and 1 for each vertex that is the tip of an odd number of paths. The tip of a path is
-///  the
-///    corner opposite its first or last link. Paths that share a tip are joined by one repeated index, others by three.
-///  - half an index for each path, since the direction of its first turn is wrong for the strip in half of the cases.
+///    the corner opposite its first or last link. Paths that share a tip are joined by one repeated index, others by
+///    three;
+///  - half an index for each path, since in half of the cases its first turn has the wrong direction for the strip.
 class StripLinks {
 public:
-  /// Begins without links. `opposites` is oppositeHalfEdges(corners).
+  /// Begins without links. `across` is oppositeHalfEdges(corners).
   StripLinks(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across, std::size_t vertexCount);
 
   /// Resamples the links around every vertex, all links of one vertex at once, with probabilities proportional to

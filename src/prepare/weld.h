@@ -1,5 +1,5 @@
 #pragma once
-// Welding: equal input bits become one position, one wedge.
+// Merges positions and wedges whose values have equal bits.
 
 #include "imgeo/preparation.h"
 #include "scene/mesh.h"

@@ -33,7 +33,7 @@ function loadingShapes(count: number) {
     requestFrame: () => {
       frames.requested += 1;
     },
-    requestFrameAtPace: () => {
+    requestPacedFrame: () => {
       frames.atPace += 1;
     },
   } as unknown as SceneRenderer;

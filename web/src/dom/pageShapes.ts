@@ -226,7 +226,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
     this.#incomplete.delete(shape);
     this.#isQuiet = false;
     // Events wait for a frame; the last event does not wait until the GPU is idle.
-    if (this.isLoading) this.#renderer.requestFrameAtPace();
+    if (this.isLoading) this.#renderer.requestPacedFrame();
     else this.#renderer.requestFrame();
   }
 }

@@ -109,7 +109,7 @@ export class PageViewer {
     this.renderer = new SceneRenderer(canvas, context, this.navigator, () => {
       this.#onFrame();
     });
-    this.#readsTextures = this.renderer.mayReadTextures;
+    this.#readsTextures = this.renderer.hasVertexTextureUnits;
     const pool = this.#makePool();
     const deliveries = sceneDeliveriesOf(pool);
     this.#shapes = new PageShapes(
@@ -238,7 +238,7 @@ export class PageViewer {
       scheduler: this.#scheduler,
       makeImage: (png, signal) => uploads.makeImage(png, signal),
       readsTextures: () => Promise.resolve(this.#readsTextures),
-      maxTextureSize: this.renderer.largestTexture,
+      maxTextureSize: this.renderer.maxTextureSize,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
       runOnMainThread: (name, input, signal) => this.#workers.runOnMainThread(name, input, signal),
       makePicture: (bytes, sampling, signal) => uploads.makePicture(bytes, sampling, signal),

@@ -1,4 +1,4 @@
-// Draws a described scene into a canvas, only when something has changed.
+// Draws the scene of a SceneDescription into a canvas, whenever something has changed.
 
 import type { Object3D, Sphere } from "three";
 import {
@@ -55,12 +55,12 @@ import type { CameraController, View } from "./view.ts";
 /** What has been drawn, and what is on the GPU. */
 export interface RenderStatistics {
   readonly frames: number;
-  /** Of the last frame. */
+  /** Draw calls of the last frame. */
   readonly drawCalls: number;
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
-  /** A change has come that no frame shows yet. */
+  /** Whether a change waits for its first frame. */
   readonly isFrameDue: boolean;
   /** Memory of vertex data: images and buffers. */
   readonly textureBytes: number;
@@ -153,17 +153,17 @@ export class SceneRenderer {
     };
   }
 
-  /** No shape displays anything yet. */
+  /** Whether no shape displays anything yet. */
   get isEmpty(): boolean {
     return this.#shapes.isEmpty;
   }
 
-  /** Until the browser restores the context, nothing is drawn, and nothing is on the GPU. */
+  /** Whether the WebGL context is lost: until the browser restores it, nothing is drawn and nothing is on the GPU. */
   get isContextLost(): boolean {
     return this.#renderer.getContext().isContextLost();
   }
 
-  /** Undefined while the picture has no area. */
+  /** The camera's view of the scene; undefined while the canvas has no area. */
   get view(): View | undefined {
     if (!this.#hasArea) return undefined;
     const camera = this.#camera;
@@ -177,7 +177,7 @@ export class SceneRenderer {
     };
   }
 
-  /** Displays this scene from now on. Shapes that have been removed free their GPU resources. */
+  /** Replaces the scene. GPU resources of shapes that it no longer has are freed. */
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
@@ -200,12 +200,12 @@ export class SceneRenderer {
   }
 
   /** Maximum width and height of textures, in texels. */
-  get largestTexture(): number {
+  get maxTextureSize(): number {
     return this.#renderer.capabilities.maxTextureSize;
   }
 
   /** Whether vertex shaders have enough texture units. */
-  get mayReadTextures(): boolean {
+  get hasVertexTextureUnits(): boolean {
     return this.#renderer.capabilities.maxVertexTextures >= minVertexTextureUnits;
   }
 
@@ -216,34 +216,34 @@ export class SceneRenderer {
   }
 
   /** Begins the upload of an image; stages may use it after the last step. */
-  beginUpload(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
+  beginTextureUpload(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
     return this.#textures.begin(bitmap, this.#renderer, sampling);
   }
 
-  /** Begins the upload of an array. */
-  beginStoring(array: ElementArray, use: ArrayUse): BufferUpload {
+  /** Begins the upload of a vertex array. */
+  beginBufferUpload(array: ElementArray, use: ArrayUse): BufferUpload {
     return this.#buffers.begin(array, use);
   }
 
   /** Replaces the stage of a patch of a shape of the current scene. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     this.#shapes.setStage(element, geometry, patch, stage);
-    this.requestFrameAtPace();
+    this.requestPacedFrame();
   }
 
-  /** Around all visible shapes, in scene coordinates. Grows with bounds that only vertices tell. */
+  /** The bounding sphere of all visible shapes, in scene coordinates. Grows when vertices arrive outside it. */
   get sphere(): Sphere {
     return this.#shapes.sphere;
   }
 
-  /** Applies a texture to a shape; undefined: removes it. */
+  /** Sets a texture of a shape; `undefined` removes it. */
   setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
     this.#shapes.setTexture(
       element,
       role,
       picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
     );
-    this.requestFrameAtPace();
+    this.requestPacedFrame();
   }
 
   /** Removes everything that a shape displays. */
@@ -252,7 +252,10 @@ export class SceneRenderer {
     this.requestFrame();
   }
 
-  /** Sizes in device pixels, and device pixels per CSS pixel. The canvas is empty until the next frame. */
+  /**
+   * Sets the size in device pixels, and the number of device pixels per CSS pixel. The canvas is empty until the next
+   * frame.
+   */
   setSize(width: number, height: number, pixelRatio: number): void {
     this.#size = { width, height };
     if (!this.#hasArea) return;
@@ -260,7 +263,7 @@ export class SceneRenderer {
     this.#renderer.setSize(width, height, false);
   }
 
-  /** The same, with a frame before the browser shows the empty canvas. */
+  /** Sets the size and draws a frame at once, before the browser can show the empty canvas. */
   resize(width: number, height: number, pixelRatio: number): void {
     this.setSize(width, height, pixelRatio);
     this.#drawNow();
@@ -290,13 +293,13 @@ export class SceneRenderer {
     this.requestFrame();
   }
 
-  /** Draws surfaces, or only their vertices. */
+  /** Whether to draw vertices as points in place of surfaces. */
   drawAsPoints(asPoints: boolean): void {
     this.#shapes.drawAsPoints(asPoints);
     this.requestFrame();
   }
 
-  /** Draws at once, for callers that read the canvas in this turn of the event loop. */
+  /** Draws a frame at once, so that the caller can read the canvas before it returns to the event loop. */
   draw(): void {
     this.#drawNow();
   }
@@ -310,16 +313,16 @@ export class SceneRenderer {
   }
 
   /**
-   * Requests a frame that only refines the picture, with frame pacing: while a scene loads, such frames would keep the
-   * GPU busy without an end.
+   * Requests a frame that only refines the picture, with frame pacing: while a scene loads, such frames would
+   * otherwise keep the GPU busy all the time.
    */
-  requestFrameAtPace(): void {
+  requestPacedFrame(): void {
     this.#framePacer.request(() => {
       this.requestFrame();
     });
   }
 
-  /** Frees the GPU. No method may be called afterwards. */
+  /** Frees all GPU resources and the WebGL context. No method may be called afterwards. */
   dispose(): void {
     cancelAnimationFrame(this.#frameRequest);
     this.#shapes.dispose();
@@ -333,13 +336,13 @@ export class SceneRenderer {
   /** Starts compiling programs for the given shapes, without waiting for them. */
   #compileAhead(shapes: Iterable<ShapeDescription>): void {
     if (this.isContextLost) return;
-    const fresh = new Group();
+    const newObjects = new Group();
     for (const [key, object] of warmUpObjects(shapes, this.#shapes.plan, x3dMaterials, this.#shared)) {
       if (this.#compiled.has(key)) continue;
       this.#compiled.set(key, object);
-      fresh.add(object);
+      newObjects.add(object);
     }
-    if (fresh.children.length > 0) this.#renderer.compile(fresh, this.#camera, this.#scene);
+    if (newObjects.children.length > 0) this.#renderer.compile(newObjects, this.#camera, this.#scene);
   }
 
   get #aspect(): number {
@@ -379,12 +382,12 @@ export class SceneRenderer {
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
-    void this.#sampleSurroundings();
+    void this.#sampleGround();
     if (this.#cameraController.isMoving) this.requestFrame();
   }
 
-  /** Samples the surroundings for the camera controller, when the GPU has drawn them. */
-  async #sampleSurroundings(): Promise<void> {
+  /** Draws a depth image of the ground around a walking avatar, if the camera controller needs one, and gives it the samples. */
+  async #sampleGround(): Promise<void> {
     const depthCamera = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
     if (depthCamera === undefined) return;
     const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(depthCamera.eye);

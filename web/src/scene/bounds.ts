@@ -4,13 +4,10 @@ import type { Matrix4 } from "three";
 import { Box3, Sphere, Vector3 } from "three";
 import type { Vec3 } from "../document/description.ts";
 
-/**
- * Squares of such lengths still fit single precision; a GPU draws nothing beyond, and a larger box must not hide the
- * rest.
- */
+/** A GPU draws nothing beyond this coordinate, since single precision must hold squares of lengths. */
 const maxCoordinate = 1e18;
 
-/** Whether a GPU can draw what the box bounds. */
+/** Whether a GPU can draw the content of a box. Other boxes are left out of the scene's bounds, to which the camera fits. */
 export function isDrawable({ min, max }: Box3): boolean {
   return [...min.toArray(), ...max.toArray()].every((edge) => Math.abs(edge) < maxCoordinate);
 }

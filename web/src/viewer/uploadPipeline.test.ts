@@ -12,7 +12,7 @@ class FakeRenderer {
   moved = 0;
   closed = 0;
 
-  beginStoring({ byteLength }: { byteLength: number }): BufferUpload {
+  beginBufferUpload({ byteLength }: { byteLength: number }): BufferUpload {
     const move = (): void => {
       this.moved += megabyte;
     };

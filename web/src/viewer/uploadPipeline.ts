@@ -37,7 +37,7 @@ export class UploadPipeline {
 
   /** Decodes and uploads an image of vertex data. Rejects with DecodeError, or with the signal's reason; nothing is then left on the GPU. */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
-    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.largestTexture);
+    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.maxTextureSize);
     try {
       signal.throwIfAborted();
       return { image: await this.#upload(bitmap, signal), channels };
@@ -52,7 +52,7 @@ export class UploadPipeline {
     sampling: SamplingDescription,
     signal: AbortSignal,
   ): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture, sampling);
+    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.maxTextureSize, sampling);
     try {
       signal.throwIfAborted();
       return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
@@ -63,13 +63,13 @@ export class UploadPipeline {
 
   /** Uploads an array. Rejects with the signal's reason; nothing is then left on the GPU. */
   async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
-    const { bytes, steps } = this.#renderer.beginStoring(array, use);
+    const { bytes, steps } = this.#renderer.beginBufferUpload(array, use);
     await this.#finish(steps, bytes, signal);
     return bytes;
   }
 
   async #upload(bitmap: ImageBitmap, signal: AbortSignal, sampling?: SamplingDescription): Promise<DecodedImage> {
-    const { image, steps } = this.#renderer.beginUpload(bitmap, sampling);
+    const { image, steps } = this.#renderer.beginTextureUpload(bitmap, sampling);
     await this.#finish(steps, image, signal);
     return image;
   }

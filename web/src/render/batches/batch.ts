@@ -14,12 +14,12 @@ import { backFaces, frontFaces } from "../shaders/instanceRecord.ts";
 /** A draw that a batch may take in; the same for all instances of its shape. */
 export interface BatchedDraw {
   readonly stage: Stage;
-  /** All of one primitive; a single range unless it is merged. */
+  /** All ranges have the same primitive. A draw that is not merged has one range. */
   readonly ranges: readonly DrawRange[];
   readonly isMerged: boolean;
   /** Drawn in depth order, the farthest first. */
   readonly isBlended: boolean;
-  /** Vertices of the stage; used where it is merged. */
+  /** Number of vertices of the stage; used if the draw is merged. */
   readonly vertexCount: number;
   /** Bounds of the vertices, in stored coordinates. */
   readonly bounds: Sphere;
@@ -32,7 +32,7 @@ export interface BatchedDraw {
   readonly request: MaterialRequest;
   readonly appearance: AppearanceDescription;
   readonly surfaceTextures: SurfaceTextures;
-  /** As materialKeyOf returns it: equal where one material can be used. */
+  /** As materialKeyOf returns it; draws with equal keys can use one material. */
   readonly materialKey: string;
 }
 
@@ -43,7 +43,7 @@ export interface Member {
   readonly instanceIndex: number;
   batch: Batch | undefined;
   isVisible: boolean;
-  /** Its transform mirrors, which turns triangles inside out. */
+  /** Whether its transform mirrors, which swaps front and back faces. */
   isMirrored: boolean;
   /** Bounds in the coordinates of the batches' root. */
   readonly sphere: Sphere;
@@ -70,11 +70,11 @@ export interface Batch {
   hasRoomFor(member: Member): boolean;
   add(member: Member): void;
   remove(member: Member): void;
-  /** A member has moved, or its visibility has changed. */
+  /** Called when a member has moved or its visibility has changed. */
   invalidateBounds(): void;
-  /** Before a frame, in batches that do not blend: culls, as far as that is cheap. */
+  /** Called before a frame, for opaque batches: hides members outside the frustum, as far as that is cheap. */
   update(frustum: Frustum): void;
-  /** Before a frame, in batches that blend: these runs are drawn, and nothing else. */
+  /** Called before a frame, for transparent batches: the frame draws these runs of the batch and no other members. */
   drawRuns(runs: readonly Run[]): void;
   dispose(): void;
 }
@@ -83,14 +83,14 @@ export interface Batch {
 export interface MergedGeometry {
   readonly members: Iterable<Member>;
   readonly isEmpty: boolean;
-  /** Removed members waste much memory, or would still be visible. */
+  /** Whether removed members waste much memory, or would still be visible. */
   readonly needsRebuild: boolean;
   hasRoomFor(member: Member): boolean;
   add(member: Member): void;
   remove(member: Member): void;
   /** Rewrites the geometry without removed members. */
   rebuild(): void;
-  /** It shares memory with this object: valid until the next `add`. */
+  /** Makes a geometry that shares memory with this object, and is valid until the next `add`. */
   makeGeometry(): BufferGeometry;
 }
 

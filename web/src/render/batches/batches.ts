@@ -11,7 +11,7 @@ import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";
-import { runsOf } from "./depthOrder.ts";
+import { visibleRuns } from "./depthOrder.ts";
 import { InstancedBatch } from "./instancedBatch.ts";
 import { MergedBatch } from "./mergedBatch.ts";
 import { layoutOf } from "../attributes/vertexColumns.ts";
@@ -110,7 +110,7 @@ export class Batches {
     this.#table.update();
     const viewFromRoot = new Matrix4().multiplyMatrices(camera.matrixWorldInverse, this.root.matrixWorld);
     const frustum = frustumOf(camera.projectionMatrix, viewFromRoot, margin);
-    const runs = runsOf(this.#blended, frustum, viewFromRoot);
+    const runs = visibleRuns(this.#blended, frustum, viewFromRoot);
     const emptyBefore = this.#empty;
     this.#empty = new Set();
     for (const [key, batches] of this.#batches) {

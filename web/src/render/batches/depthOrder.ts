@@ -1,32 +1,33 @@
-// The draw order of everything that blends: back to front, across all batches. Consecutive members
-// of one batch are one draw call.
+// Sorts the members of all transparent batches from back to front. Consecutive members of the same
+// batch are drawn with one call.
 
 import type { Frustum, Matrix4 } from "three";
 import type { Batch, Member, Run } from "./batch.ts";
 
 /**
- * Runs of the visible members, by batch. `viewFromRoot`: from the coordinates of the members' spheres to the camera's.
+ * The runs of the visible members, by batch. `viewFromRoot` transforms the coordinates of the members' spheres to those
+ * of the camera.
  */
-export function runsOf(members: Iterable<Member>, frustum: Frustum, viewFromRoot: Matrix4): Map<Batch, Run[]> {
+export function visibleRuns(members: Iterable<Member>, frustum: Frustum, viewFromRoot: Matrix4): Map<Batch, Run[]> {
   const [, , xz, , , , yz, , , , zz] = viewFromRoot.elements;
-  const seen: { readonly member: Member; readonly batch: Batch; readonly height: number }[] = [];
+  const visible: { readonly member: Member; readonly batch: Batch; readonly viewZ: number }[] = [];
   for (const member of members) {
     const { batch, isVisible, sphere } = member;
     if (batch === undefined || !isVisible || !frustum.intersectsSphere(sphere)) continue;
     const { x, y, z } = sphere.center;
-    seen.push({ member, batch, height: xz * x + yz * y + zz * z }); // the camera looks along its -z
+    visible.push({ member, batch, viewZ: xz * x + yz * y + zz * z }); // the camera looks along its -z
   }
-  seen.sort((a, b) => a.height - b.height);
+  visible.sort((a, b) => a.viewZ - b.viewZ);
   const runs = new Map<Batch, Run[]>();
   let last: { readonly batch: Batch; readonly members: Member[] } | undefined;
   let order = 0;
-  for (const { member, batch } of seen) {
+  for (const { member, batch } of visible) {
     if (last?.batch !== batch) {
       last = { batch, members: [] };
       order += 1;
-      const own = runs.get(batch) ?? [];
-      own.push({ members: last.members, order });
-      runs.set(batch, own);
+      const batchRuns = runs.get(batch) ?? [];
+      batchRuns.push({ members: last.members, order });
+      runs.set(batch, batchRuns);
     }
     last.members.push(member);
   }

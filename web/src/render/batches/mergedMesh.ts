@@ -1,5 +1,5 @@
-// Small meshes merged into one: their vertices one mesh after the other, each with the index of its
-// record, and one common index.
+// Merges small meshes into one geometry: their vertices, one mesh after the other, each vertex with
+// the index of its instance record, and one common index.
 
 import { BufferAttribute, BufferGeometry } from "three";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
@@ -10,7 +10,7 @@ import { GrowingArray } from "../attributes/growingArray.ts";
 import type { Column } from "../attributes/vertexColumns.ts";
 import { appendVertices, attributeOf, columnsOf, indicesOf } from "../attributes/vertexColumns.ts";
 
-/** Index 65,535 is WebGL's primitive restart. */
+/** Not 65,536, since index 65,535 is WebGL's primitive restart. */
 export const maxVertices = 65535;
 
 interface Entry {
@@ -44,20 +44,21 @@ export class MergedMesh implements MergedGeometry {
   }
 
   /** The fraction of indices that belong to removed members, 0 … 1. */
-  get lostShare(): number {
+  get removedFraction(): number {
     return this.#lostIndices === 0 ? 0 : this.#lostIndices / this.#index.length;
   }
 
   get needsRebuild(): boolean {
     // Indices of removed members point to vertex 0: degenerate triangles, but visible points.
-    return this.lostShare > 0.5 || (this.lostShare > 0 && this.#primitive === "points");
+    return this.removedFraction > 0.5 || (this.removedFraction > 0 && this.#primitive === "points");
   }
 
-  /** The common index; those of removed members are 0. */
+  /** The common index, in which the indices of removed members are 0. */
   get index(): Uint16Array<ArrayBuffer> {
     return this.#index.used;
   }
 
+  /** The range of the common index that belongs to a member. */
   indicesOf(member: Member): Uint16Array {
     const { firstIndex, indexCount } = this.#entries.get(member) ?? { firstIndex: 0, indexCount: 0 };
     return this.#index.used.subarray(firstIndex, firstIndex + indexCount);
@@ -76,18 +77,19 @@ export class MergedMesh implements MergedGeometry {
       const firstVertex = this.#instanceIndices.length;
       for (const column of this.#columns) appendVertices(column, stage, vertexCount, this.#buffers);
       this.#instanceIndices.extend(vertexCount).fill(member.instanceIndex + pass);
-      const own = this.#index.extend(indices.length);
-      // Damaged indices must not refer to other meshes' vertices.
-      for (let i = 0; i < indices.length; ++i) own[i] = firstVertex + Math.min(indices[i] ?? 0, vertexCount - 1);
+      const memberIndices = this.#index.extend(indices.length);
+      // Indices of a damaged file must not refer to another mesh's vertices.
+      for (let i = 0; i < indices.length; ++i)
+        memberIndices[i] = firstVertex + Math.min(indices[i] ?? 0, vertexCount - 1);
     }
     this.#entries.set(member, { firstIndex, indexCount: this.#index.length - firstIndex });
   }
 
-  /** Its triangles become degenerate; `rebuild` removes them when there are many. */
+  /** Makes the member's triangles degenerate; `rebuild` removes them. */
   remove(member: Member): void {
-    const own = this.indicesOf(member);
-    own.fill(0);
-    this.#lostIndices += own.length;
+    const memberIndices = this.indicesOf(member);
+    memberIndices.fill(0);
+    this.#lostIndices += memberIndices.length;
     this.#entries.delete(member);
   }
 
@@ -108,7 +110,7 @@ export class MergedMesh implements MergedGeometry {
     return geometry;
   }
 
-  /** They share memory with this object: valid until the next `add`. */
+  /** Sets the vertex attributes of a geometry. They share memory with this object, and are valid until the next `add`. */
   setVerticesOf(geometry: BufferGeometry): void {
     for (const column of this.#columns) geometry.setAttribute(column.name, attributeOf(column));
     geometry.setAttribute("instanceIndex", new BufferAttribute(this.#instanceIndices.used, 1));

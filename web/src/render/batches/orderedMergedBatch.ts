@@ -1,5 +1,5 @@
-// Small blended meshes merged into one. The index is rewritten in draw order where that has
-// changed; each run is a range of it.
+// A batch that merges small transparent meshes into one. Its index holds the members in draw order,
+// and is rewritten when the order changes; each run draws a range of it.
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere } from "three";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
@@ -10,10 +10,11 @@ import { MergedMesh } from "./mergedMesh.ts";
 export class OrderedMergedBatch implements Batch {
   readonly #resources: BatchResources;
   readonly #mesh: MergedMesh;
-  /** One per run of the frame with the most runs. */
+  /** By run; as many as the frame with the most runs had. Those that a frame does not need are invisible. */
   readonly #objects: DrawnObject[] = [];
-  /** Holds the vertices; the objects' geometries share them and the index. */
+  /** Owns the vertices, which the geometries of all objects share. */
   #vertices = new BufferGeometry();
+  /** The index of all objects. */
   #index = new BufferAttribute(new Uint16Array(), 1);
   /** The members in the order of the index. */
   #order: readonly Member[] = [];
@@ -43,11 +44,11 @@ export class OrderedMergedBatch implements Batch {
   }
 
   invalidateBounds(): void {
-    // Every frame sorts all members.
+    // Nothing is cached: every frame culls and sorts by the members' current bounds.
   }
 
   update(): void {
-    throw new RangeError("what blends is drawn in an order");
+    throw new RangeError("transparent members are drawn with drawRuns");
   }
 
   drawRuns(runs: readonly Run[]): void {
@@ -80,10 +81,10 @@ export class OrderedMergedBatch implements Batch {
     return (this.#objects[n] ??= this.#resources.addObject(this.#shared()));
   }
 
-  /** Makes a new geometry, which three.js uploads with the next frame. */
+  /** Replaces the vertices and the index, which three.js uploads with the next frame. */
   #send(): void {
     this.#hasChanged = false;
-    if (this.#mesh.lostShare > 0.5) this.#mesh.rebuild();
+    if (this.#mesh.removedFraction > 0.5) this.#mesh.rebuild();
     for (const { geometry } of this.#objects) geometry.dispose();
     this.#vertices.dispose();
     this.#vertices = new BufferGeometry();

@@ -1,7 +1,7 @@
-// The textures of X3D 4's materials (ISO/IEC 19775-1:2023, 12.2). Each is multiplied by the field
-// beside it; the normal texture perturbs the surface normal. Colour textures are in display (sRGB)
-// values, which a PhysicalMaterial, being lit in linear space, converts first. Other textures are
-// data and taken as they are.
+// The textures of X3D 4's materials (ISO/IEC 19775-1:2023, 12.2). Each texture is multiplied by
+// the field that it belongs to; the normal texture perturbs the surface normal. Colour textures have
+// display (sRGB) values; a PhysicalMaterial converts them to linear ones before it computes light.
+// The values of other textures are not converted.
 
 import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
 import type { MaterialDescription } from "../../document/description.ts";
@@ -9,14 +9,14 @@ import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instancesDefine } from "../shaders/instanceRecord.ts";
 import { setDefine } from "./defines.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
-import type { OwnMapRole } from "../shaders/texCoords.ts";
-import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "../shaders/texCoords.ts";
+import type { ExtraMapRole } from "../shaders/texCoords.ts";
+import { extraMapDefine, extraMapRoles, extraTexel } from "../shaders/texCoords.ts";
 import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
 
-/** Samplers of textures that three.js' materials have no map for. */
-export type OwnMapUniforms = Readonly<Record<`${OwnMapRole}Map`, { value: Texture | null }>>;
+/** Samplers of the textures for which three.js' Phong and basic materials have no map. */
+export type ExtraMapUniforms = Readonly<Record<`${ExtraMapRole}Map`, { value: Texture | null }>>;
 
-export function makeOwnMapUniforms(): OwnMapUniforms {
+export function makeExtraMapUniforms(): ExtraMapUniforms {
   return { metallicRoughnessMap: { value: null }, ambientMap: { value: null }, shininessMap: { value: null } };
 }
 
@@ -66,14 +66,14 @@ export const x3dMaterialChunk = /* glsl */ `
 #ifdef USE_SPECULARMAP
   material.specularColor *= texture2D(specularMap, vSpecularMapUv).rgb;
 #endif
-#ifdef ${ownMapDefine("shininess")}
-  material.shininess *= ${ownTexel("shininess")}.a;
+#ifdef ${extraMapDefine("shininess")}
+  material.shininess *= ${extraTexel("shininess")}.a;
 #endif
-#ifdef ${ownMapDefine("ambient")}
-  material.ambient *= ${ownTexel("ambient")}.rgb;
+#ifdef ${extraMapDefine("ambient")}
+  material.ambient *= ${extraTexel("ambient")}.rgb;
 #endif
-#ifdef ${ownMapDefine("metallicRoughness")}
-  vec4 metallicRoughnessTexel = ${ownTexel("metallicRoughness")};
+#ifdef ${extraMapDefine("metallicRoughness")}
+  vec4 metallicRoughnessTexel = ${extraTexel("metallicRoughness")};
   material.roughness *= metallicRoughnessTexel.g;
   material.metallic *= metallicRoughnessTexel.b;
 #endif
@@ -86,20 +86,18 @@ export const textureMapChunks: readonly (readonly [string, string])[] = [
   ["#include <aomap_fragment>", occlusionChunk],
 ];
 
-export { ownMapDeclarations };
-
 type Slot = "map" | "emissiveMap" | "normalMap" | "aoMap" | "specularMap";
 
-/** Sets the texture maps of a material; three.js compiles another program where some have come or gone. */
+/** Sets the texture maps of a material; when a map is added or removed, three.js compiles another program. */
 export function setTextureMaps(
   material: MeshPhongMaterial | MeshBasicMaterial,
   description: MaterialDescription,
   surfaceTextures: SurfaceTextures,
-  ownMaps: OwnMapUniforms | undefined,
+  extraMaps: ExtraMapUniforms | undefined,
 ): void {
   const textureOf = (role: Parameters<SurfaceTextures["get"]>[0]) => surfaceTextures.get(role)?.texture ?? null;
   setMap(material, "map", textureOf("color"));
-  if (!("emissiveMap" in material) || ownMaps === undefined) return;
+  if (!("emissiveMap" in material) || extraMaps === undefined) return;
   setMap(material, "emissiveMap", textureOf("emissive"));
   setMap(material, "normalMap", textureOf("normal"));
   setMap(material, "aoMap", textureOf("occlusion"));
@@ -108,7 +106,7 @@ export function setTextureMaps(
     material.normalScale.set(description.normalScale, description.normalScale);
     material.aoMapIntensity = description.occlusionStrength;
   }
-  for (const role of ownMapRoles) setOwnMap(material, role, textureOf(role), ownMaps);
+  for (const role of extraMapRoles) setExtraMap(material, role, textureOf(role), extraMaps);
 }
 
 function setMap(material: MeshPhongMaterial | MeshBasicMaterial, slot: Slot, texture: Texture | null): void {
@@ -117,12 +115,12 @@ function setMap(material: MeshPhongMaterial | MeshBasicMaterial, slot: Slot, tex
   maps[slot] = texture;
 }
 
-function setOwnMap(
+function setExtraMap(
   material: MeshPhongMaterial,
-  role: OwnMapRole,
+  role: ExtraMapRole,
   texture: Texture | null,
-  uniforms: OwnMapUniforms,
+  uniforms: ExtraMapUniforms,
 ): void {
   uniforms[`${role}Map`].value = texture;
-  setDefine(material, ownMapDefine(role), texture !== null);
+  setDefine(material, extraMapDefine(role), texture !== null);
 }

@@ -22,16 +22,10 @@ import { addValueColors } from "./valueColors.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
 import { srgbColorsDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
+import { extraMapDeclarations } from "../shaders/texCoords.ts";
 import { followViewport } from "../shaders/wideLineChunk.ts";
-import type { OwnMapUniforms } from "./x3dMaps.ts";
-import {
-  setTextureMaps,
-  makeOwnMapUniforms,
-  textureMapChunks,
-  x3dMaterialChunk,
-  ownMapDeclarations,
-  unlitDefine,
-} from "./x3dMaps.ts";
+import type { ExtraMapUniforms } from "./x3dMaps.ts";
+import { setTextureMaps, makeExtraMapUniforms, textureMapChunks, x3dMaterialChunk, unlitDefine } from "./x3dMaps.ts";
 import { setColor } from "../lights/linearColor.ts";
 import { blends, isUnlit, keyOf, numbersOf } from "./x3dBatching.ts";
 
@@ -46,7 +40,7 @@ ${x3dLighting}
 `;
 
 /** Uniforms of lit materials. */
-interface LitUniforms extends OwnMapUniforms {
+interface LitUniforms extends ExtraMapUniforms {
   readonly ambientIntensity: { value: number };
   readonly metallic: { value: number };
   readonly roughness: { value: number };
@@ -77,7 +71,7 @@ function makeMaterial(
     ambientIntensity: { value: 0 },
     metallic: { value: 1 },
     roughness: { value: 1 },
-    ...makeOwnMapUniforms(),
+    ...makeExtraMapUniforms(),
   };
   const material: PatchMaterial = isUnlit(shading)
     ? new MeshBasicMaterial()
@@ -101,7 +95,7 @@ function makeMaterial(
     addValueColors(shader);
     addGlyphField(shader);
     shader.fragmentShader =
-      ownMapDeclarations +
+      extraMapDeclarations +
       replaceChunks(shader.fragmentShader, [
         ["#include <lights_pars_begin>", lightsChunk],
         ["#include <lights_phong_pars_fragment>", x3dLightingChunk],

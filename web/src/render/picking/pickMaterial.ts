@@ -2,8 +2,8 @@
 // primitive and the nearest vertex, and the position and normals there. Vertices come from the same
 // chunk as in every other pass, so that hits agree with the picture.
 //
-// Four attachments of 32-bit unsigned integers, which every WebGL 2 can draw into; floats are
-// stored as their bits.
+// The render target has four attachments of 32-bit unsigned integers, to which every WebGL 2
+// implementation can render. Floats are stored as their bits.
 
 import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
@@ -31,6 +31,7 @@ export const pickedWordOffsets = {
   faceNormal: 12,
   facePoint: [7, 11, 15],
 } as const;
+/** Number of the render target's attachments. */
 export const pickTargetCount = 4;
 
 /** Defined where fragments with too little alpha are not hit. */
@@ -64,8 +65,8 @@ void main() {
   vPosition = transformed;
   // Normalized before interpolation, as in materials.
   vNormal = hasNormals ? objectNormal / max(length(objectNormal), 1e-30) : vec3(0.0);
-  // For vertices behind an index buffer, the shader gets only the index of the primitive's last
-  // vertex; picker.ts finds the rest.
+  // If the geometry has an index buffer, the shader gets only the index of the primitive's last
+  // vertex; picker.ts finds the others.
   element = gl_VertexID;
   cornerVertices = ivec3(gl_VertexID);
   cornerWeights = vec3(1.0, 0.0, 0.0);
@@ -159,12 +160,12 @@ export interface PickMaterialRequest extends VertexFormat {
 
 export type PickMaterial = ShaderMaterial & { uniforms: { pickId: { value: number } } };
 
-/** Where a surface has holes: fragments with alpha below the cutoff. */
+/** The alpha test of a surface with alphaMode MASK: fragments with alpha below the cutoff are discarded. */
 export interface AlphaMask {
   readonly texture: Texture | undefined;
-  /** Whether vertex colours have alpha. */
-  readonly isOfVertices: boolean;
-  /** Multiplies the other alphas. */
+  /** Whether the alpha of vertex colours is a factor, too. */
+  readonly usesVertexAlpha: boolean;
+  /** The material's alpha, a factor of the alpha of the texture and of vertex colours. */
   readonly factor: number;
   readonly cutoff: number;
 }
@@ -172,9 +173,9 @@ export interface AlphaMask {
 export function alphaMaskOf(
   { alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription,
   texture: Texture | undefined,
-  isOfVertices: boolean,
+  usesVertexAlpha: boolean,
 ): AlphaMask | undefined {
-  return mode === "MASK" ? { texture, isOfVertices, factor: 1 - transparency, cutoff } : undefined;
+  return mode === "MASK" ? { texture, usesVertexAlpha, factor: 1 - transparency, cutoff } : undefined;
 }
 
 export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
@@ -193,7 +194,7 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       ...primitiveDefinesOf(primitive),
       ...(alphaMask && { [alphaCutoffDefine]: "" }),
       ...(alphaMask?.texture && { [alphaMaskDefine]: "" }),
-      ...(alphaMask?.isOfVertices === true && { USE_COLOR_ALPHA: "" }),
+      ...(alphaMask?.usesVertexAlpha === true && { USE_COLOR_ALPHA: "" }),
     },
     uniforms: {
       ...uniforms,

@@ -1,5 +1,5 @@
-// Texture coordinates of a material's textures: three.js' maps, and further ones that three.js has
-// no map for.
+// GLSL for the coordinates of a material's textures: three.js' maps, and extra maps for the
+// textures of X3D for which three.js has none.
 
 import { Matrix3 } from "three";
 import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
@@ -16,44 +16,44 @@ const maps: readonly (readonly [define: string, varying: string, role: TextureRo
   ["USE_ROUGHNESSMAP", "vRoughnessMapUv", "metallicRoughness"],
 ];
 
-/** Roles without a map in three.js' Phong and basic materials; their samplers are called `<role>Map`. */
-export const ownMapRoles = ["metallicRoughness", "ambient", "shininess"] as const satisfies readonly TextureRole[];
-export type OwnMapRole = (typeof ownMapRoles)[number];
+/** Roles for which three.js' Phong and basic materials have no map; their samplers are called `<role>Map`. */
+export const extraMapRoles = ["metallicRoughness", "ambient", "shininess"] as const satisfies readonly TextureRole[];
+export type ExtraMapRole = (typeof extraMapRoles)[number];
 
-export function ownMapDefine(role: OwnMapRole): string {
-  return `USE_OWN_${role.toUpperCase()}`;
+export function extraMapDefine(role: ExtraMapRole): string {
+  return `USE_EXTRA_${role.toUpperCase()}`;
 }
 
-/** GLSL that samples such a texture, in a fragment shader. */
-export function ownTexel(role: OwnMapRole): string {
+/** The GLSL expression of the texel of an extra map, in a fragment shader. */
+export function extraTexel(role: ExtraMapRole): string {
   return `texture2D(${role}Map, v_${role}Uv)`;
 }
 
-/** In the picking pass: the texture whose alpha masks the surface. */
+/** Picking pass only: defined if the alpha of the colour texture discards fragments. */
 export const alphaMaskDefine = "USE_ALPHA_MASK";
 export const alphaMaskVarying = "vAlphaMaskUv";
 
-const all = [
+const varyings = [
   ...maps,
   [alphaMaskDefine, alphaMaskVarying, "color"] as const,
-  ...ownMapRoles.map((role) => [ownMapDefine(role), `v_${role}Uv`, role] as const),
+  ...extraMapRoles.map((role) => [extraMapDefine(role), `v_${role}Uv`, role] as const),
 ];
 
-/** For the head of a vertex shader. */
+/** Declarations at the head of a vertex shader. */
 export const texCoordDeclarations = /* glsl */ `
 uniform vec4 texCoordFrame;
 uniform mat3 textureTransforms[${textureRoles.length}];
-${ownVaryings("")}
+${extraMapVaryings("")}
 `;
 
-/** For the head of a fragment shader. */
-export const ownMapDeclarations = ownVaryings("uniform sampler2D ");
+/** Declarations at the head of a fragment shader. */
+export const extraMapDeclarations = extraMapVaryings("uniform sampler2D ");
 
-/** After `vertex` has been read. */
+/** Computes the coordinates of each texture, after `vertex` has been read. */
 export const texCoordChunk = /* glsl */ `
 vec4 frame = instanceTexCoordFrame();
 vec3 shapeTexCoord = vec3(frame.xy + frame.zw * vertex.texCoord, 1.0);
-${all
+${varyings
   .map(
     ([define, varying, role]) => `#ifdef ${define}
   ${varying} = (textureTransforms[${textureRoles.indexOf(role)}] * shapeTexCoord).xy;
@@ -62,10 +62,10 @@ ${all
   .join("\n")}
 `;
 
-function ownVaryings(sampler: string): string {
-  return ownMapRoles
+function extraMapVaryings(sampler: string): string {
+  return extraMapRoles
     .map(
-      (role) => `#ifdef ${ownMapDefine(role)}
+      (role) => `#ifdef ${extraMapDefine(role)}
   varying vec2 v_${role}Uv;
   ${sampler === "" ? "" : `${sampler}${role}Map;`}
 #endif`,
