@@ -1,5 +1,5 @@
 // Draws the picture of docs/decisions/lossless.md: what `build/bench/lossy MODEL
-// --write DIRECTORY` left of a mesh, seen from one place.
+// --write DIRECTORY` left of a mesh, seen from one viewpoint.
 //
 //   scripts/node bench/lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]
 
@@ -26,17 +26,17 @@ const variants: readonly { file: string; bits?: number; says: string }[] = [
   { file: "WebP100-both", says: "WebP 100, both bytes" },
 ];
 
-const viewpoint = /<Viewpoint[\s\S]*?<\/Viewpoint>/;
+const viewpointElement = /<Viewpoint[\s\S]*?<\/Viewpoint>/;
 
-/** The site's page with `place` for its viewpoint. */
-async function picture(browser: Browser, site: string, place: string): Promise<Buffer> {
+/** The site's page with this Viewpoint element. */
+async function picture(browser: Browser, site: string, viewpoint: string): Promise<Buffer> {
   const server = await startServer(site);
   const page = await browser.newPage({ viewport: panel, reducedMotion: "reduce" });
   try {
     const html = readFileSync(join(site, "index.html"), "utf8");
     server.put(
       "/index.html",
-      html.replace(viewpoint, () => place),
+      html.replace(viewpointElement, () => viewpoint),
     );
     await page.goto(`${server.origin}index.html`);
     await page.waitForFunction(() => "complete" in (document.querySelector("x3d") ?? {}));
@@ -67,7 +67,7 @@ const sites = mkdtempSync(join(tmpdir(), "imgeo-lossy-"));
 const browser = await launchChromium();
 try {
   const pictures: Buffer[] = [];
-  let place = "";
+  let viewpoint = "";
   for (const { file, bits, says } of variants) {
     const site = join(sites, says.replaceAll(/\W+/g, "-"));
     execFileSync(
@@ -86,8 +86,8 @@ try {
       { stdio: "ignore" },
     );
     // All from where the first is seen: what is torn out of a mesh widens its box.
-    place ||= viewpoint.exec(readFileSync(join(site, "index.html"), "utf8"))?.[0] ?? "";
-    pictures.push(await picture(browser, site, place));
+    viewpoint ||= viewpointElement.exec(readFileSync(join(site, "index.html"), "utf8"))?.[0] ?? "";
+    pictures.push(await picture(browser, site, viewpoint));
   }
   writeFileSync(output, await together(browser, pictures));
 } finally {

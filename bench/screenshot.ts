@@ -24,7 +24,7 @@ const panel = { width: 400, height: 340 };
 
 interface Strip {
   profile: "compact" | "classic";
-  /** The page's container files, each with its place in the order in which they come. */
+  /** The page's container files, each with its rank in the order of requests. */
   ranks: (html: string) => Map<string, number>;
   /** Files up to `rank` have come: what is then seen. */
   moments: readonly { rank: number; says: string }[];
@@ -55,7 +55,7 @@ const strips: readonly Strip[] = [
 function patchesInTheirOrder(html: string): Map<string, number> {
   const urls = (attribute: string): string[] =>
     [...html.matchAll(new RegExp(`\\s${attribute}=["'](geometry/[^"'#]+)`, "g"))].map((match) => match[1]!);
-  return new Map([...new Set([...urls("base"), ...urls("data")])].map((url, place) => [url, place]));
+  return new Map([...new Set([...urls("base"), ...urls("data")])].map((url, index) => [url, index]));
 }
 
 /** A promise that never resolves: held requests stay held. */

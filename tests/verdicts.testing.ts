@@ -8,7 +8,7 @@ import { payloadOf } from "../web/src/decode/compact/jobs.ts";
 import { TestRandom } from "../web/src/decode/compact/rangeEncoder.testing.ts";
 import { verdictOn } from "../web/src/decode/compact/verdict.testing.ts";
 
-/** Of a payload, or of the image that has it as its pixels. */
+/** Verdict on a payload, or on the image whose pixels are the payload. */
 async function verdictOnFile(path: string): Promise<string> {
   const bytes = new Uint8Array(readFileSync(path));
   try {
@@ -19,7 +19,7 @@ async function verdictOnFile(path: string): Promise<string> {
   }
 }
 
-/** Of lines as fuzz/compact_verdicts prints them: a verdict, a tab and a path. */
+/** Compares verdicts. `output` holds lines of fuzz/compact_verdicts: a verdict, a tab and a path. */
 export async function differencesIn(output: string): Promise<{ count: number; differences: string[] }> {
   const lines = output.split("\n").filter((line) => line !== "");
   const differences: string[] = [];

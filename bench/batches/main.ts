@@ -13,7 +13,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { pageOf, shapeIn, siteOfGenerated } from "../../tests/browser/sites.ts";
-import { goUntilComplete } from "../wholePage.ts";
+import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
 const frames = 50;
@@ -67,11 +67,11 @@ async function row(browser: Browser, name: string, shape: (n: number) => string)
     const times: number[] = [];
     for (let round = 0; round < rounds; ++round) {
       const before = await taskSeconds();
-      const drawn = await page.evaluate(async (wanted) => {
+      const drawn = await page.evaluate(async (frameCount) => {
         const x3d = document.querySelector<ViewElement>("x3d")!;
         const first = x3d.statistics!.frames;
         x3d.play();
-        while (x3d.statistics!.frames < first + wanted) await new Promise(requestAnimationFrame);
+        while (x3d.statistics!.frames < first + frameCount) await new Promise(requestAnimationFrame);
         x3d.pause();
         return x3d.statistics!.frames - first;
       }, frames);

@@ -11,7 +11,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
-import { goUntilComplete } from "../wholePage.ts";
+import { goUntilComplete } from "../completePage.ts";
 
 const alike = 7000,
   others = 3000;
@@ -20,14 +20,14 @@ const timeout = 300_000;
 
 function sceneText(): string {
   const shapes = Array.from({ length: alike + others }, (_, n) => {
-    const place = `${2 * (n % 100)} ${2 * Math.floor(n / 100)} 0`;
+    const position = `${2 * (n % 100)} ${2 * Math.floor(n / 100)} 0`;
     const shape =
       n === 0
         ? '<Shape DEF="box"><Appearance><Material></Material></Appearance><Box size="1 1 1"></Box></Shape>'
         : n < alike
           ? '<Shape USE="box"></Shape>'
           : `<Shape><Appearance><Material diffuseColor="${(n % 7) / 7} ${(n % 11) / 11} 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
-    return `<Transform translation="${place}">${shape}</Transform>`;
+    return `<Transform translation="${position}">${shape}</Transform>`;
   });
   return `<X3D style="width:64px;height:48px;display:block" budget="1000"><Scene>${shapes.join("\n")}</Scene></X3D>`;
 }
@@ -93,7 +93,7 @@ const browser = await launchChromium();
 try {
   const page = await browser.newPage();
   await goUntilComplete(page, server.origin, timeout);
-  console.log(`| in a scene of ${alike + others} shapes | median | least |\n|---|--:|--:|`);
+  console.log(`| in a scene of ${alike + others} shapes | median | minimum |\n|---|--:|--:|`);
   for (const [name, change] of Object.entries(changes)) console.log(await row(page, name, change));
 } finally {
   await browser.close();

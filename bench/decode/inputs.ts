@@ -13,7 +13,7 @@ export function inputsOf(model: Model, directory: string): Inputs {
   const run = (program: string, ...words: string[]): void =>
     void execFileSync(program, words, { stdio: ["ignore", "ignore", "inherit"] });
   const site = join(directory, "compact");
-  // Of the mesh with its normals: Draco and gltfpack are given them, and must keep them.
+  // The mesh has normals, which Draco and gltfpack must keep.
   run(converter, "convert", model.ply, "-o", site, "--profile", "compact", "--base", "0", "--force");
   const geometry = join(site, "geometry");
   const drc = join(directory, "mesh.drc");

@@ -9,20 +9,20 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
 import { join } from "node:path";
 import { parseArgs } from "node:util";
-import type { LineOptions } from "../../tests/browser/line.ts";
+import type { LinkOptions } from "../../tests/browser/networkLink.ts";
 import { launchWarm, medianLoad, serve } from "./measure.ts";
 import { containers, prepareModels, type Container, type Model } from "./models.ts";
 import { dracoPage, inlinePage, lod2Page, meshoptPage, sitePage, type BenchPage } from "./pages.ts";
 import { describeBrowser, longestTasks } from "./tasks.ts";
 
-const { values: options, positionals: wanted } = parseArgs({
+const { values: options, positionals: modelNames } = parseArgs({
   options: { runs: { type: "string", default: "5" }, tasks: { type: "boolean", default: false } },
   allowPositionals: true,
 });
 const runs = Number(options.runs);
 if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is no number of loads`);
 
-const lines: Record<string, LineOptions | undefined> = {
+const lines: Record<string, LinkOptions | undefined> = {
   unthrottled: undefined,
   "20 Mbit/s, 40 ms": { bitsPerSecond: 20e6, roundTripMs: 40 },
   "5 Mbit/s, 40 ms": { bitsPerSecond: 5e6, roundTripMs: 40 },
@@ -62,10 +62,10 @@ async function printLoads(model: string, page: BenchPage): Promise<void> {
     const cells: string[] = [];
     let sent = 0;
     for (const line of Object.values(lines)) {
-      const { first, most, final, bytes } = await medianLoad(browser, page, server, line, runs);
+      const { first, nearlyFinal: nearlyFinal, final, bytes } = await medianLoad(browser, page, server, line, runs);
       sent = bytes;
       const seconds = (ms: number): string => (ms / 1000).toFixed(2);
-      cells.push(first === final ? seconds(final) : [first, most, final].map(seconds).join(" / "));
+      cells.push(first === final ? seconds(final) : [first, nearlyFinal, final].map(seconds).join(" / "));
     }
     print(model, page.name, Math.round(sent / 1000), ...cells);
   });
@@ -82,7 +82,7 @@ async function printTasks(page: BenchPage): Promise<void> {
 const browser = await launchWarm();
 const work = mkdtempSync(join(tmpdir(), "imgeo-load-"));
 try {
-  const models = prepareModels(wanted, work);
+  const models = prepareModels(modelNames, work);
   if (!options.tasks) {
     print("model", "as", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
     print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));

@@ -6,17 +6,17 @@ import { extname, join } from "node:path";
 import { brotliCompressSync, constants } from "node:zlib";
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
-import type { LineOptions } from "../../tests/browser/line.ts";
+import type { LinkOptions } from "../../tests/browser/networkLink.ts";
 import { startServer, type TestServer } from "../../tests/browser/server.ts";
 import type { BenchPage } from "./pages.ts";
-import { completeMessage, timesOf, watch, type Times } from "./watch.ts";
+import { completeMessage, timesOf, recordFrames, type Times } from "./frameRecorder.ts";
 
 export interface Load extends Times {
   bytes: number;
 }
 
 /** A model's smallest patch has more vertices, a background or a test of the context fewer. */
-const leastVertices = 500;
+const minModelVertices = 500;
 export const timeoutMs = 180_000;
 export const viewport = { width: 640, height: 480 };
 
@@ -49,18 +49,18 @@ export async function medianLoad(
   browser: Browser,
   page: BenchPage,
   server: TestServer,
-  line: LineOptions | undefined,
+  line: LinkOptions | undefined,
   count: number,
 ): Promise<Load> {
   const loads: Load[] = [];
-  server.useLine(line);
+  server.useLink(line);
   do loads.push(await coldLoad(browser, page, server));
   while (loads.length < count && loads.at(-1)!.first < longLoadMs);
   const median = (of: (load: Load) => number): number =>
     loads.map(of).sort((a, b) => a - b)[Math.floor(loads.length / 2)]!;
   return {
     first: median(({ first }) => first),
-    most: median(({ most }) => most),
+    nearlyFinal: median(({ nearlyFinal }) => nearlyFinal),
     final: median(({ final }) => final),
     bytes: median(({ bytes }) => bytes),
   };
@@ -101,7 +101,7 @@ export async function openTab(
   takesPictures: boolean,
 ): Promise<Page> {
   const tab = await context.newPage();
-  await tab.addInitScript(watch, { saysWhenComplete, leastVertices, takesPictures, completeMessage });
+  await tab.addInitScript(recordFrames, { saysWhenComplete, minModelVertices, takesPictures, completeMessage });
   await new Promise((resolve) => setTimeout(resolve, tabMs));
   return tab;
 }

@@ -32,8 +32,8 @@ const sources: Record<string, string> = {
 
 /** Those of `names` (all, where there are none) whose files are here, converted into `directory`. */
 export function prepareModels(names: readonly string[], directory: string): Model[] {
-  const wanted = names.length > 0 ? names : Object.keys(sources);
-  return wanted.flatMap((name) => {
+  const modelNames = names.length > 0 ? names : Object.keys(sources);
+  return modelNames.flatMap((name) => {
     const source = sources[name];
     if (source === undefined) throw new Error(`no model ${name}; there are ${Object.keys(sources).join(", ")}`);
     if (existsSync(source)) return [convertModel(name, source, join(directory, name))];

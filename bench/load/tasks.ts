@@ -25,7 +25,7 @@ export async function longestTasks(
   count: number,
 ): Promise<Tasks> {
   const runs: Task[][] = [];
-  server.useLine(undefined);
+  server.useLink(undefined);
   for (let i = 0; i < count; ++i) {
     const context = await browser.newContext({ viewport });
     try {

@@ -44,7 +44,7 @@ export type Cause = (typeof causes)[keyof typeof causes] | "unknown";
 /** V8 finds out where functions stand when the inspector that traces wants a stack; nobody else waits for that. */
 const inspectorsEvent = "V8.CollectSourcePositions";
 
-/** Of the main threads of a trace's pages, from a time on. */
+/** Tasks of the main threads of a trace's pages that begin at `from` (microseconds) or later. */
 export function mainTasksOf(events: readonly TraceEvent[], from = 0): Task[] {
   const mainThreads = new Set(
     events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf),
@@ -67,7 +67,7 @@ function outermostTasks(sorted: readonly TraceEvent[]): TraceEvent[] {
   });
 }
 
-/** Of disjoint tasks in their order: what begins in one stands in one piece of the events, and is looked at once. */
+/** Durations and causes of `tasks`, which are sorted and disjoint. The events inside a task are contiguous in `sorted`, so one pass is enough. */
 function tasksOf(tasks: readonly TraceEvent[], sorted: readonly TraceEvent[]): Task[] {
   let next = 0;
   return tasks.map((task) => {

@@ -89,9 +89,12 @@ export function sitesOf(input: Input, file: string, work: string): [string, stri
   const [first, second] = [join(work, `${input.name}-1`), join(work, `${input.name}-2`)];
   execFileSync(converter, ["convert", file, "-o", first], { stdio: ["ignore", "ignore", "ignore"] });
   cpSync(first, second, { recursive: true });
-  for (const [place, site] of [first, second].entries()) {
+  for (const [camera, site] of [first, second].entries()) {
     const page = join(site, "index.html");
-    writeFileSync(page, readFileSync(page, "utf8").replace("<X3D ", `<X3D ${input.cameras[place]?.attributes ?? ""} `));
+    writeFileSync(
+      page,
+      readFileSync(page, "utf8").replace("<X3D ", `<X3D ${input.cameras[camera]?.attributes ?? ""} `),
+    );
   }
   return [first, second];
 }

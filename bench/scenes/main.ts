@@ -12,7 +12,7 @@ import { join } from "node:path";
 import { launchWarm } from "../load/measure.ts";
 import { converter, repository } from "../../tests/browser/paths.ts";
 import { fileOf, inputs, sitesOf, type Input } from "./inputs.ts";
-import { visit, type AskedFile, type Visit } from "./visit.ts";
+import { loadScene, type RequestedFile, type SceneLoad } from "./sceneLoad.ts";
 
 const line = { bitsPerSecond: 20e6, roundTripMs: 40 };
 const output = join(repository, "build/scenes");
@@ -27,7 +27,7 @@ interface SiteInfo {
 interface Measured {
   readonly input: Input;
   readonly info: SiteInfo;
-  readonly visits: readonly Visit[];
+  readonly visits: readonly SceneLoad[];
 }
 
 function print(...cells: (string | number)[]): void {
@@ -42,10 +42,10 @@ async function measure(input: Input, work: string): Promise<Measured | undefined
   if (file === undefined) return undefined;
   const sites = sitesOf(input, file, work);
   const info = JSON.parse(execFileSync(converter, ["info", "--json", sites[0]], { encoding: "utf8" })) as SiteInfo;
-  const visits: Visit[] = [];
-  for (const site of sites) visits.push(await visit(browser, site, line));
-  visits.forEach(({ picture }, place) => {
-    writeFileSync(join(output, `${input.name}-${place + 1}.png`), picture);
+  const visits: SceneLoad[] = [];
+  for (const site of sites) visits.push(await loadScene(browser, site, line));
+  visits.forEach(({ picture }, camera) => {
+    writeFileSync(join(output, `${input.name}-${camera + 1}.png`), picture);
   });
   // The second copy's document has a camera's attributes more.
   return { input, info: { ...info, documentBytes: statSync(join(sites[0], "index.html")).size }, visits };
@@ -55,7 +55,7 @@ async function measure(input: Input, work: string): Promise<Measured | undefined
 function printBytes({ input, info, visits }: Measured): void {
   const { shapes, triangles, documentBytes, runtimeBytes } = visits[0]!;
   const { containerBytes, textureBytes } = info;
-  // What its containers would take were every place of a mesh stored by itself.
+  // What its containers would take were every instance of a mesh stored by itself.
   const unshared = (containerBytes * triangles) / info.triangles;
   const page = runtimeBytes + containerBytes + textureBytes;
   print(
@@ -73,11 +73,11 @@ function printBytes({ input, info, visits }: Measured): void {
   );
 }
 
-function printLoad({ input, visits }: Measured, place: number): void {
-  const { requests, bytes, firstBytes, firstSeconds, finalSeconds, drawCalls } = visits[place]!;
+function printLoad({ input, visits }: Measured, camera: number): void {
+  const { requests, bytes, firstBytes, firstSeconds, finalSeconds, drawCalls } = visits[camera]!;
   print(
     input.name,
-    input.cameras[place]!.name,
+    input.cameras[camera]!.name,
     requests,
     drawCalls,
     `${whole(firstBytes / 1000)} kB, ${firstSeconds.toFixed(2)} s`,
@@ -85,7 +85,7 @@ function printLoad({ input, visits }: Measured, place: number): void {
   );
 }
 
-function textOf({ role, names, bytes }: AskedFile): string {
+function textOf({ role, names, bytes }: RequestedFile): string {
   const some = names
     .slice(0, 3)
     .map((name) => (name.length > 24 ? `${name.slice(0, 23)}…` : name))
@@ -94,10 +94,10 @@ function textOf({ role, names, bytes }: AskedFile): string {
 }
 
 /** Previews come in one go, and would fill the list. */
-function printOrder({ input, visits }: Measured, place: number): void {
-  const steps = visits[place]!.asked.filter(({ role }) => role !== "preview").map(textOf);
+function printOrder({ input, visits }: Measured, camera: number): void {
+  const steps = visits[camera]!.requestedFiles.filter(({ role }) => role !== "preview").map(textOf);
   console.log(
-    `- **${input.name}, ${input.cameras[place]!.name}**: ${steps.slice(0, 8).join("; ")}${steps.length > 8 ? `; ${steps.length - 8} more` : ""}`,
+    `- **${input.name}, ${input.cameras[camera]!.name}**: ${steps.slice(0, 8).join("; ")}${steps.length > 8 ? `; ${steps.length - 8} more` : ""}`,
   );
 }
 
@@ -105,7 +105,7 @@ function printOrder({ input, visits }: Measured, place: number): void {
 async function sheetOf(all: readonly Measured[]): Promise<Buffer> {
   const width = 200;
   const page = await browser.newPage({ viewport: { width: width * all.length, height: 300 } });
-  const pictures = [0, 1].flatMap((place) => all.map(({ visits }) => visits[place]!.picture.toString("base64")));
+  const pictures = [0, 1].flatMap((camera) => all.map(({ visits }) => visits[camera]!.picture.toString("base64")));
   await page.setContent(
     `<style>body { margin: 0; line-height: 0 }</style>${pictures
       .map((png) => `<img width="${width}" src="data:image/png;base64,${png}">`)
@@ -114,14 +114,14 @@ async function sheetOf(all: readonly Measured[]): Promise<Buffer> {
   return page.screenshot();
 }
 
-const wanted = process.argv.slice(2);
+const sceneNames = process.argv.slice(2);
 mkdirSync(output, { recursive: true });
 const work = mkdtempSync(join(tmpdir(), "imgeo-scenes-"));
 const browser = await launchWarm();
 try {
   const all: Measured[] = [];
   for (const input of inputs) {
-    if (wanted.length > 0 && !wanted.includes(input.name)) continue;
+    if (sceneNames.length > 0 && !sceneNames.includes(input.name)) continue;
     const measured = await measure(input, work);
     if (measured) all.push(measured);
   }
@@ -143,9 +143,9 @@ try {
   console.log();
   print("scene", "camera", "requests", "draw calls", "until the first picture", "until all is seen");
   print("---", "---", "--:", "--:", "--:", "--:");
-  for (const measured of all) for (const place of [0, 1]) printLoad(measured, place);
+  for (const measured of all) for (const camera of [0, 1]) printLoad(measured, camera);
   console.log();
-  for (const measured of all) for (const place of [0, 1]) printOrder(measured, place);
+  for (const measured of all) for (const camera of [0, 1]) printOrder(measured, camera);
   if (all.length === inputs.length) writeFileSync(join(repository, "docs/images/scenes.png"), await sheetOf(all));
 } finally {
   await browser.close();

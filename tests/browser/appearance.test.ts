@@ -31,17 +31,17 @@ function plyOf(name: string, properties: string, rows: string[], faces: string[]
   return path;
 }
 
-/** From -1 to 1, with texture coordinates from 0 to `most`. */
-const quad = (most: number): string =>
+/** From -1 to 1, with texture coordinates from 0 to `maxTexCoord`. */
+const quad = (maxTexCoord: number): string =>
   plyOf(
-    `quad${most}`,
+    `quad${maxTexCoord}`,
     "float:x float:y float:z float:nx float:ny float:nz float:s float:t",
     [
       [-1, -1],
       [1, -1],
       [1, 1],
       [-1, 1],
-    ].map(([x, y]) => `${x} ${y} 0 0 0 1 ${((x! + 1) / 2) * most} ${((y! + 1) / 2) * most}`),
+    ].map(([x, y]) => `${x} ${y} 0 0 0 1 ${((x! + 1) / 2) * maxTexCoord} ${((y! + 1) / 2) * maxTexCoord}`),
     ["3 0 1 2", "3 0 2 3"],
   );
 
@@ -94,7 +94,7 @@ const texelAt = (s: number, t: number): [number, number, number] =>
 interface Case {
   what: string;
   site: string;
-  most: number;
+  maxTexCoord: number;
   appearance: string;
   /** From the quad's texture coordinates to the picture's. */
   expected: (s: number, t: number) => [number, number, number];
@@ -124,14 +124,14 @@ const cases = (): Case[] => [
   ].map((options): Case => ({
     what: options.join(" "),
     site: siteOf(quad(1), ...options),
-    most: 1,
+    maxTexCoord: 1,
     appearance: white + image(),
     expected: texelAt,
   })),
   {
     what: "on the CPU",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: white + image(),
     expected: texelAt,
     change: (shape) => shape.replace(/<ImageGeometry/i, '$& decode="cpu"'),
@@ -139,28 +139,28 @@ const cases = (): Case[] => [
   {
     what: "repeated",
     site: siteOf(quad(3), "--profile", "classic"),
-    most: 3,
+    maxTexCoord: 3,
     appearance: white + image(),
     expected: (s, t) => texelAt(wrapped(s), wrapped(t)),
   },
   {
     what: "held at the border",
     site: siteOf(quad(3), "--profile", "classic"),
-    most: 3,
+    maxTexCoord: 3,
     appearance: white + image("", properties("CLAMP_TO_EDGE", "REPEAT")),
     expected: (s, t) => texelAt(clamped(s), wrapped(t)),
   },
   {
     what: "mirrored",
     site: siteOf(quad(3), "--profile", "classic"),
-    most: 3,
+    maxTexCoord: 3,
     appearance: white + image("", properties("REPEAT", "MIRRORED_REPEAT")),
     expected: (s, t) => texelAt(wrapped(s), mirrored(t)),
   },
   {
     what: "moved, turned and scaled",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `${white}${image()}<TextureTransform translation="0.25 0.5" rotation="1.5707963" scale="2 0.5" center="0.5 0.25"></TextureTransform>`,
     expected: (s, t) => {
       const [x, y] = [s + 0.25 + 0.5, t + 0.5 + 0.25]; // T, C
@@ -170,7 +170,7 @@ const cases = (): Case[] => [
   {
     what: "of a physical material",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `<PhysicalMaterial metallic="0" roughness="1">${image('containerField="baseTexture"')}</PhysicalMaterial>`,
     expected: texelAt,
     tolerance: 12,
@@ -179,14 +179,14 @@ const cases = (): Case[] => [
   {
     what: "unlit",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `<UnlitMaterial>${image('containerField="emissiveTexture"')}</UnlitMaterial>`,
     expected: texelAt,
   },
   {
     what: "written as numbers and multiplied by the material",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0"><PixelTexture image="${numbers}" containerField="diffuseTexture">${nearest}</PixelTexture></Material>`,
     expected: (s, t) => {
       const [r, g] = texelAt(s, t);
@@ -196,7 +196,7 @@ const cases = (): Case[] => [
   {
     what: "that shines",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `<Material diffuseColor="0 0 0" emissiveColor="1 0.5 1">${image('containerField="emissiveTexture"')}</Material>`,
     expected: (s, t) => {
       const [r, g, b] = texelAt(s, t);
@@ -206,7 +206,7 @@ const cases = (): Case[] => [
   {
     what: "of normals, lit by the headlight and from the upper right",
     site: siteOf(quad(1), "--container", "bg"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `<Material diffuseColor="0.5 0.5 0.5" ambientIntensity="0">${dataImage("normal.png", "normalTexture")}</Material>`,
     expected: () => {
       const grey = 127.5 * (tilted[2] + sideLight * (tilted[0] + tilted[1]) * Math.SQRT1_2);
@@ -217,7 +217,7 @@ const cases = (): Case[] => [
   {
     what: "of metallic and roughness",
     site: siteOf(quad(1), "--profile", "compact"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: `<PhysicalMaterial metallic="1" roughness="1">${image('containerField="baseTexture"')}${dataImage("plain.png", "metallicRoughnessTexture")}</PhysicalMaterial>`,
     expected: texelAt,
     tolerance: 12,
@@ -225,7 +225,7 @@ const cases = (): Case[] => [
   {
     what: "with holes",
     site: siteOf(quad(1), "--profile", "classic"),
-    most: 1,
+    maxTexCoord: 1,
     appearance: white + dataImage("holes.png", "texture"),
     alphaMode: "MASK",
     expected: (s) => (s < 0.5 ? [0, 0, 0] : [200, 100, 50]),
@@ -233,7 +233,7 @@ const cases = (): Case[] => [
   ...["classic", "compact"].map((profile): Case => ({
     what: `whose vertices hide half of it, in ${profile}`,
     site: siteOf(fadingQuad(), "--profile", profile),
-    most: 1,
+    maxTexCoord: 1,
     appearance: white,
     alphaMode: "MASK",
     expected: (s) => (s < 0.5 ? [0, 0, 0] : [255, 255, 255]),
@@ -257,7 +257,7 @@ const dataFiles = {
 };
 
 const perRow = 6;
-const placeOf = (n: number): [number, number] => [2.5 * (n % perRow) - 6.25, 2.5 - 2.5 * Math.floor(n / perRow)];
+const positionOf = (n: number): [number, number] => [2.5 * (n % perRow) - 6.25, 2.5 - 2.5 * Math.floor(n / perRow)];
 const distance = 14;
 
 /** The pixel of a point of the plane z = 0. */
@@ -274,19 +274,19 @@ const viewpoint = (z: number): string =>
   `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 ${z}" fieldOfView="0.7854"></Viewpoint>`;
 
 /** Whether the pointer hits something there. */
-const hitAt = (view: View, place: readonly [number, number]): Promise<boolean> =>
+const hitAt = (view: View, pixel: readonly [number, number]): Promise<boolean> =>
   view.page.evaluate(
     ([x, y]) =>
       (
         document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown }
       ).positionAndNormalFromPoint(x, y) !== null,
-    place,
+    pixel,
   );
 
 function texturedScene(): { directory: string; all: Case[] } {
   const all = cases();
   const shapes = all.map(({ site, appearance, alphaMode = "AUTO", change = (shape) => shape }, n) => {
-    const [x, y] = placeOf(n);
+    const [x, y] = positionOf(n);
     const shape = change(shapeIn(site, `q${n}`)).replace(
       /<Appearance[\s\S]*<\/Appearance>/i,
       `<Appearance alphaMode="${alphaMode}">${appearance}</Appearance>`,
@@ -330,32 +330,34 @@ describe("a texture", () => {
         await view.promise("complete");
         const shown = await view.picture();
         savePicture("textures", shown);
-        for (const [n, { what, most, expected, tolerance = 2 }] of all.entries()) {
-          const [x, y] = placeOf(n);
+        for (const [n, { what, maxTexCoord, expected, tolerance = 2 }] of all.entries()) {
+          const [x, y] = positionOf(n);
           let compared = 0;
           for (let step = 0; step < 121; ++step) {
             const [u, v] = [((step % 11) + 0.52) / 11, (Math.floor(step / 11) + 0.52) / 11];
             const found = colorAt(shown, pixelAt(x + 2 * u - 1, y + 2 * v - 1));
-            const wanted = expected(u * most, v * most);
+            const expectedColor = expected(u * maxTexCoord, v * maxTexCoord);
             // Which texel a pixel on a border shows is nobody's promise.
             const isInside = [-0.02, 0.02].every((away) =>
               [
                 [away, away],
                 [away, -away],
-              ].every(([a, b]) => expected((u + a!) * most, (v + b!) * most).join() === wanted.join()),
+              ].every(
+                ([a, b]) => expected((u + a!) * maxTexCoord, (v + b!) * maxTexCoord).join() === expectedColor.join(),
+              ),
             );
             if (!isInside) continue;
             compared += 1;
             assert.ok(
-              wanted.every((channel, i) => Math.abs(channel - found[i]!) <= tolerance),
-              `${what}, at ${u.toFixed(2)} ${v.toFixed(2)}: ${found.join()} instead of ${wanted.join()}`,
+              expectedColor.every((channel, i) => Math.abs(channel - found[i]!) <= tolerance),
+              `${what}, at ${u.toFixed(2)} ${v.toFixed(2)}: ${found.join()} instead of ${expectedColor.join()}`,
             );
           }
-          assert.ok(compared >= 20, `${what}: ${compared} places`);
+          assert.ok(compared >= 20, `${what}: ${compared} points`);
         }
         for (const [n, { what, alphaMode }] of all.entries()) {
           if (alphaMode !== "MASK") continue;
-          const [x, y] = placeOf(n);
+          const [x, y] = positionOf(n);
           assert.deepEqual(
             [await hitAt(view, pixelAt(x - 0.5, y)), await hitAt(view, pixelAt(x + 0.5, y))],
             [false, true],

@@ -11,7 +11,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
-import { placed } from "./placed.ts";
+import { transformedPatches } from "./transformedPatches.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
 import { writePly } from "./meshes.ts";
@@ -25,7 +25,7 @@ const pixelsPerUnit = pictureSize.height / 2 / Math.tan(0.4) / distance;
 
 type Point = readonly [x: number, y: number];
 
-function placeOf(n: number): Point {
+function positionOf(n: number): Point {
   return [(n % side) - side / 2 + 0.5, Math.floor(n / side) - side / 2 + 0.5];
 }
 
@@ -40,7 +40,7 @@ function crowd(ball: string): string {
     /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(ball)?.[0].replace("<ImageGeometry", '<ImageGeometry DEF="ball"') ??
     "";
   const shapes = Array.from({ length: side * side }, (_, n) => {
-    const [x, y] = placeOf(n);
+    const [x, y] = positionOf(n);
     const own =
       n === 0
         ? geometry
@@ -81,7 +81,7 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
     assert.ok((await drawsOfFrame(view)) <= 20, `${await drawsOfFrame(view)} draws`);
     const numbers = [0, 1201, 1250, 1301, 2499];
     assert.deepEqual(
-      await shapesAt(view, numbers.map(placeOf)),
+      await shapesAt(view, numbers.map(positionOf)),
       numbers.map((n) => `s${n}`),
     );
     await view.page.evaluate(() => {
@@ -90,7 +90,7 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
       document.querySelector("#s1201 material")!.setAttribute("diffuseColor", "0 0 1");
       document.querySelector("#s2499")!.remove();
     });
-    assert.deepEqual(await shapesAt(view, [...numbers.map(placeOf), [30, 0]]), [
+    assert.deepEqual(await shapesAt(view, [...numbers.map(positionOf), [30, 0]]), [
       "s0",
       "s1201",
       undefined,
@@ -107,29 +107,29 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
     const sky = colorAt([0, 25.8]);
     const strongest = (color: number[]) => color.indexOf(Math.max(...color));
     assert.deepEqual(
-      [1250, 1301, 2499].map((n) => colorAt(placeOf(n))),
+      [1250, 1301, 2499].map((n) => colorAt(positionOf(n))),
       [sky, sky, sky],
     );
     assert.deepEqual(
-      [0, 1201, 1251, 1252].map((n) => strongest(colorAt(placeOf(n)))),
+      [0, 1201, 1251, 1252].map((n) => strongest(colorAt(positionOf(n)))),
       [0, 2, 0, 1],
     );
     assert.ok((await drawsOfFrame(view)) <= 20);
   });
 });
 
-/** In the page. The context may be asked for again when all have heard that it is lost. */
+/** In the page. The context may be asked for again when all have eventOf that it is lost. */
 async function loseContextForAMoment(): Promise<void> {
   const canvas = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!;
   const loser = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
-  const heard = (name: string) =>
+  const eventOf = (name: string) =>
     new Promise((resolve) => {
       canvas.addEventListener(name, () => setTimeout(resolve), { once: true });
     });
-  const lost = heard("webglcontextlost");
+  const lost = eventOf("webglcontextlost");
   loser.loseContext();
   await lost;
-  const restored = heard("webglcontextrestored");
+  const restored = eventOf("webglcontextrestored");
   loser.restoreContext();
   await restored;
 }
@@ -153,8 +153,8 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
   const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8"); // small on the screen, more bits would wait
   const buffers = siteOfGenerated("sphere-small", "--profile", "compact");
   const inOther = shapeIn(pageOf(buffers)).replaceAll("geometry/", "other/geometry/");
-  const look = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";
-  const ball = inOther.replace(/<Appearance[\s\S]*<\/Appearance>/i, () => look);
+  const appearance = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";
+  const ball = inOther.replace(/<Appearance[\s\S]*<\/Appearance>/i, () => appearance);
   const expected: PlainPatch[] = [];
   const scene = (knot: string): string =>
     Array.from({ length: copies }, (_, n) => {
@@ -163,7 +163,10 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
         n === 0
           ? knot.replace("<ImageGeometry", '<ImageGeometry DEF="knot"')
           : knot.replace(/<ImageGeometry[\s\S]*<\/ImageGeometry>/i, '<ImageGeometry USE="knot"></ImageGeometry>');
-      expected.push(...placed(decodeSite(images), left.matrix), ...placed(decodeCompactSite(buffers), right.matrix));
+      expected.push(
+        ...transformedPatches(decodeSite(images), left.matrix),
+        ...transformedPatches(decodeCompactSite(buffers), right.matrix),
+      );
       return `${left.markup}${geometry}</Transform>${right.markup}${ball}</Transform>`;
     }).join("\n");
   const page = withShapes(pageOf(images), scene);
@@ -182,7 +185,7 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
   });
 });
 
-/** Of the panes: where they stand along z, and what lies behind how much of whose colour. */
+/** Positions, colours and transparencies of the panes. */
 const panes = Array.from({ length: 24 }, (_, n) => ({
   // Three stacks of eight, which cover one another in part; no two alike, in no order.
   z: ((n * 7) % 24) / 8,
@@ -196,19 +199,19 @@ const panes = Array.from({ length: 24 }, (_, n) => ({
 function panesMarkup(image: string): string {
   return panes
     .map(({ x, y, z, color, transparency }, n) => {
-      const look = `<Appearance><UnlitMaterial emissiveColor="${color.join(" ")}" transparency="${transparency}"></UnlitMaterial></Appearance>`;
+      const appearance = `<Appearance><UnlitMaterial emissiveColor="${color.join(" ")}" transparency="${transparency}"></UnlitMaterial></Appearance>`;
       const square =
         n % 3 === 2
           ? n === 2
             ? image.replace("<ImageGeometry", '<ImageGeometry DEF="pane"')
             : '<ImageGeometry USE="pane"></ImageGeometry>'
           : `<IndexedFaceSet solid="false" coordIndex="0 1 2 3 -1"><Coordinate point="-1 -1 0 1 -1 0 1 1 0 -1 1 0"></Coordinate></IndexedFaceSet>`;
-      return `<Transform translation="${x} ${y} ${z}"><Shape id="p${n}">${look}${square}</Shape></Transform>`;
+      return `<Transform translation="${x} ${y} ${z}"><Shape id="p${n}">${appearance}${square}</Shape></Transform>`;
     })
     .join("");
 }
 
-test("panes that blend are a few draws, and look from both sides as if each were drawn in its turn", async () => {
+test("panes that blend are a few draws, and appearance from both sides as if each were drawn in its turn", async () => {
   const away = 12;
   const images = siteOf(squareFile(), "--profile", "classic");
   const image =
@@ -244,8 +247,8 @@ test("panes that blend are a few draws, and look from both sides as if each were
       let compared = 0;
       for (let n = 0; n < 400; ++n) {
         const at: Point = [(n % 20) / 4 - 2.4, Math.floor(n / 20) / 10 - 0.87];
-        const wanted = blendedAt(at, side * away);
-        if (wanted === undefined) continue;
+        const expectedColor = blendedAt(at, side * away);
+        if (expectedColor === undefined) continue;
         compared += 1;
         const scale = pictureSize.height / 2 / Math.tan(0.4) / away;
         const [x, y] = [
@@ -259,11 +262,11 @@ test("panes that blend are a few draws, and look from both sides as if each were
           ),
         );
         assert.ok(
-          wanted.every((channel, i) => Math.abs(channel - found[i]!) <= 3),
-          `side ${side}, at ${at.join()}: ${found.join()} instead of ${wanted.join()}`,
+          expectedColor.every((channel, i) => Math.abs(channel - found[i]!) <= 3),
+          `side ${side}, at ${at.join()}: ${found.join()} instead of ${expectedColor.join()}`,
         );
       }
-      assert.ok(compared > 100, `${compared} places`);
+      assert.ok(compared > 100, `${compared} points`);
     }
   });
 });

@@ -21,7 +21,8 @@ function twoMeshSite(): string {
   return directory;
 }
 
-const inTransform = (html: string): string => withShapes(html, (shape) => `<Transform id="place">${shape}</Transform>`);
+const inTransform = (html: string): string =>
+  withShapes(html, (shape) => `<Transform id="transform">${shape}</Transform>`);
 
 /** The sphere's Shape, its files in other/. */
 function sphereShape(): string {
@@ -53,7 +54,7 @@ async function freshPicture(site: string, scene: string): Promise<Picture> {
 type Changes = Record<string, () => void>;
 
 /** Self-contained: each runs in the page, after those before it. */
-const changesOfLook: Changes = {
+const appearanceChanges: Changes = {
   "a material's colour": () => {
     document.querySelector("material")!.setAttribute("diffuseColor", "0.9 0.2 0.1");
   },
@@ -78,7 +79,7 @@ const changesOfLook: Changes = {
   },
 };
 
-const changesOfPlace: Changes = {
+const transformChanges: Changes = {
   "a transform's translation": () => {
     document.querySelector("transform")!.setAttribute("translation", "0.8 0.4 0");
   },
@@ -100,7 +101,7 @@ const changesOfPlace: Changes = {
   },
 };
 
-const changesOfVertices: Changes = {
+const vertexChanges: Changes = {
   "the box that stored integers are spread over": () => {
     document.querySelector("imagegeometry")!.setAttribute("size", "3 6 4");
   },
@@ -148,12 +149,12 @@ describe("a change in the document shows", () => {
     });
 
   for (const [what, changes, site] of [
-    ["of look", changesOfLook, twoMeshSite],
-    ["of place", changesOfPlace, twoMeshSite],
-    ["of vertices", changesOfVertices, twoMeshSite],
+    ["of appearance", appearanceChanges, twoMeshSite],
+    ["of transforms", transformChanges, twoMeshSite],
+    ["of vertices", vertexChanges, twoMeshSite],
     [
-      "of place and look, of compact",
-      { ...changesOfPlace, ...changesOfLook },
+      "of transforms and appearance, with the encoding compact",
+      { ...transformChanges, ...appearanceChanges },
       () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000"),
     ],
   ] as const) {
@@ -199,9 +200,9 @@ describe("a change in the document shows", () => {
       await view.page.evaluate((text) => {
         const other = new DOMParser().parseFromString(text, "text/html");
         for (const name of ["imagegeometry", "geometrypatch"]) {
-          const [own, wanted] = [document.querySelector(name)!, other.querySelector(name)!];
-          for (const attribute of [...own.getAttributeNames(), ...wanted.getAttributeNames()]) {
-            const value = wanted.getAttribute(attribute);
+          const [own, replacement] = [document.querySelector(name)!, other.querySelector(name)!];
+          for (const attribute of [...own.getAttributeNames(), ...replacement.getAttributeNames()]) {
+            const value = replacement.getAttribute(attribute);
             if (value === null) own.removeAttribute(attribute);
             else own.setAttribute(attribute, value);
           }

@@ -85,8 +85,8 @@ describe("a base", () => {
     );
     const gates = patches.map(gate);
     const server = (server: View["server"]): void => {
-      patches.forEach((url, place) => {
-        server.when(isPath(url), { hold: gates[place]!.closed });
+      patches.forEach((url, index) => {
+        server.when(isPath(url), { hold: gates[index]!.closed });
       });
     };
     await withPage(site(), { server }, async (view) => {
@@ -95,10 +95,10 @@ describe("a base", () => {
       const mixtures = [await view.picture()];
       // Another order in each run, named where it fails; all of its beginnings are mixtures.
       const order = shuffled([...patches.keys()]);
-      for (const place of order.slice(0, -1)) {
-        gates[place]!.open();
+      for (const index of order.slice(0, -1)) {
+        gates[index]!.open();
         await until("the patch is here", () =>
-          view.server.requests.some(({ path, status }) => isPath(patches[place]!)(path) && status === 200),
+          view.server.requests.some(({ path, status }) => isPath(patches[index]!)(path) && status === 200),
         );
         const seen = mixtures.at(-1)!;
         await until("the patch is shown", async () => {
@@ -116,8 +116,8 @@ describe("a base", () => {
       assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);
       const input = patchOfInput(readPly(readFileSync(meshFile("trefoil-large"))));
       assertSamePicture("input compact", full, await referencePicture(pageOf(site()), [input]), boundsOfCompact);
-      for (const [place, mixture] of mixtures.entries()) {
-        const what = `a base with patches ${order.slice(0, place).join(", ")}`;
+      for (const [count, mixture] of mixtures.entries()) {
+        const what = `a base with patches ${order.slice(0, count).join(", ")}`;
         assertNoHoles(mixture, full, what);
         assert.ok(difference(mixture, full).mean > 0, `${what} is complete`);
       }
@@ -141,16 +141,16 @@ describe("a file of compact that is no use", () => {
   test("costs its patch alone, which its base stands in for, and is named", async () => {
     const { patches } = filesOf(site());
     const server = (server: View["server"]): void => {
-      faults.forEach(([, behaviour], place) => {
-        server.when(isPath(patches[place]!), behaviour);
+      faults.forEach(([, behaviour], index) => {
+        server.when(isPath(patches[index]!), behaviour);
       });
     };
     await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
       await until("all have been reported", async () => (await view.events("error", "x3d")).length === faults.length);
       await until("the scene is loaded", async () => (await view.events("load", "x3d")).length === 1);
       const errors = await view.events("error", "shape");
-      for (const [place, [what, , kind]] of faults.entries()) {
-        const error = errors.find(({ detail }) => detail.url === patches[place]);
+      for (const [index, [what, , kind]] of faults.entries()) {
+        const error = errors.find(({ detail }) => detail.url === patches[index]);
         assert.match(String(error?.detail.type), kind, what);
       }
       assertNoHoles(await view.picture(), wholePicture, "the shape");
@@ -186,7 +186,7 @@ describe("patches of compact", () => {
         );
     await withPage(site(), { server: (server) => server.when(/^\/$/, { replace: near }) }, async (view) => {
       await view.promise("complete");
-      const asked = view.asked.filter((path) => path === base || patches.includes(path));
+      const asked = view.requestedPaths.filter((path) => path === base || patches.includes(path));
       assert.equal(asked[0], base);
       assert.deepEqual(new Set(asked.slice(1)), new Set(patches));
       const seen = await view.page.evaluate(() =>

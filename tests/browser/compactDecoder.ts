@@ -18,7 +18,7 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
   const bytes = Math.ceil(bits / 8);
   const position = numbersOf(node.position, [0, 0, 0]);
   const size = numbersOf(node.size, [1, 1, 1]);
-  const place = (stored: number, axis: number): number =>
+  const coordinate = (stored: number, axis: number): number =>
     position[axis]! - size[axis]! / 2 + (stored * 2 ** (8 * bytes - bits) * size[axis]!) / (256 ** bytes - 1);
   return tags
     .filter(({ attributes }) => attributes.data !== undefined)
@@ -29,7 +29,7 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
       const elementsOf = (kind: typeof topology): Uint32Array =>
         Uint32Array.from(topology === kind ? (index ?? running(vertexCount)) : []);
       return {
-        positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => place(numberAt(coord, i), i % 3)),
+        positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => coordinate(numberAt(coord, i), i % 3)),
         ...(normal && {
           normals: unitVectors(Float32Array.from({ length: 3 * vertexCount }, (_, i) => numberAt(normal, i))),
         }),

@@ -23,10 +23,10 @@ export function difference(a: Picture, b: Picture): Difference {
   let off = 0;
   let largest = 0;
   for (let pixel = 0; pixel < pixels; ++pixel) {
-    const most = channelDifferences(a, b, pixel);
-    sum += most.sum;
-    off += most.largest > 16 ? 1 : 0;
-    largest = Math.max(largest, most.largest);
+    const pixelDifference = channelDifferences(a, b, pixel);
+    sum += pixelDifference.sum;
+    off += pixelDifference.largest > 16 ? 1 : 0;
+    largest = Math.max(largest, pixelDifference.largest);
   }
   return { mean: sum / (3 * pixels), offShare: off / pixels, largest };
 }

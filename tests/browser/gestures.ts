@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { pictureSize, type View } from "./harness.ts";
 import type { Picture } from "./png.ts";
 
-/** Of a page of the usual size. */
+/** Center of a page of the default size, in CSS pixels. */
 export const center = { x: pictureSize.width / 2, y: pictureSize.height / 2 };
 
 /** Reaches the view by keyboard. */

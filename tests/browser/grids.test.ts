@@ -7,7 +7,7 @@ import { meshOf, shapeOf, sheet, terrain, vase, type GridExample } from "./gener
 import { pictureSize, withPage, type View } from "./harness.ts";
 import { decodePng } from "./png.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
-import { lookOf, referencePicture } from "./reference.ts";
+import { referenceSettingsOf, referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
@@ -70,7 +70,7 @@ for (const [name, example] of [
           [280, 300],
           [330, 320],
         ] as const) {
-          const expected = firstHit(rayThrough(lookOf(html).viewpoint, pictureSize, x, y), [mesh]);
+          const expected = firstHit(rayThrough(referenceSettingsOf(html).viewpoint, pictureSize, x, y), [mesh]);
           const found = await view.page.evaluate(
             ([x, y]) => {
               const point = document

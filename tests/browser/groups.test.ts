@@ -9,7 +9,7 @@ import { siteOfGenerated } from "./sites.ts";
 const size = { width: 320, height: 240 };
 const paint = (color: string): string =>
   `<Appearance><UnlitMaterial emissiveColor="${color}"></UnlitMaterial></Appearance>`;
-/** Of no thickness: seen from its side it is nothing. */
+/** A flat panel: invisible when seen from its side. */
 const panel = `<Shape>${paint("1 0 0")}<IndexedFaceSet solid="false" coordIndex="0 1 2 3"><Coordinate point="-1 -1 0 1 -1 0 1 1 0 -1 1 0"></Coordinate></IndexedFaceSet></Shape>`;
 const box = `<Shape>${paint("0 0 1")}<Box size="0.8 0.8 0.8"></Box></Shape>`;
 const views = { ahead: 0, aside: 1.5708, behind: 2.5 };

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after } from "node:test";
 import type { Browser, Page } from "playwright-core";
 import { launchChromium } from "./chromium.ts";
-import { observe, type Observed, type ObservedEvent } from "./observe.ts";
+import { observe, type Observed, type ObservedEvent } from "./pageObserver.ts";
 import { outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { startServer, type TestServer } from "./server.ts";
@@ -48,7 +48,7 @@ export interface View {
   /** Requests to anywhere but the test's server. */
   foreignRequests: string[];
   /** Paths without their first slash in the order in which the page asked for them, which the network may change. */
-  asked: string[];
+  requestedPaths: string[];
   /** Resolves when the promise of that name on the element does; throws after 20 s, or as many as are given. */
   promise: (name: "firstImage" | "complete", selector?: string, seconds?: number) => Promise<void>;
   observed: () => Promise<Observed>;
@@ -81,7 +81,7 @@ async function openPage(device: Device): Promise<Page> {
   return page;
 }
 
-/** Of the site, not the origin, of all the tests' servers: what it opens need not change processes. */
+/** Opens the page that opens all pages of a device. Its host is that of all test servers, so that pages which it opens stay in its process. */
 async function openOpener({ deviceScaleFactor, hasTouch, motion }: Device): Promise<Page> {
   // Less motion: the bar does not fade while pictures are taken.
   const reducedMotion = motion ? "no-preference" : "reduce";
@@ -145,7 +145,7 @@ function watch(page: Page, server: TestServer): View {
     server,
     errors,
     foreignRequests,
-    asked,
+    requestedPaths: asked,
     observed,
     async promise(name, selector = "x3d", seconds = 20) {
       const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });

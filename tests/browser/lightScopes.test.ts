@@ -16,10 +16,10 @@ const apart = 2,
 const names = ["alone", "outer", "inner", "spot", "last"] as const;
 type Name = (typeof names)[number];
 
-const place = (name: Name): number => apart * (names.indexOf(name) - 2);
+const centerOf = (name: Name): number => apart * (names.indexOf(name) - 2);
 
 function wall(name: Name): string {
-  const [left, right] = [place(name) - 0.8, place(name) + 0.8];
+  const [left, right] = [centerOf(name) - 0.8, centerOf(name) + 0.8];
   return `<Shape id="${name}"><Appearance><Material diffuseColor="1 1 1" ambientIntensity="1"></Material></Appearance><IndexedFaceSet coordIndex="0 1 2 3">
     <Coordinate point="${left} -1 0 ${right} -1 0 ${right} 1 0 ${left} 1 0"></Coordinate></IndexedFaceSet></Shape>`;
 }
@@ -45,15 +45,15 @@ const lit: Readonly<Record<Name, Color>> = {
   last: dark,
 };
 
-async function assertColors(view: View, what: string, wanted: Readonly<Record<Name, Color>>): Promise<void> {
+async function assertColors(view: View, what: string, expected: Readonly<Record<Name, Color>>): Promise<void> {
   const { data, width, height, channels } = await view.picture();
   const seen = Object.fromEntries(
     names.map((name) => {
-      const at = (Math.floor(height / 2) * width + Math.floor(width * (0.5 + place(name) / across))) * channels;
+      const at = (Math.floor(height / 2) * width + Math.floor(width * (0.5 + centerOf(name) / across))) * channels;
       return [name, Array.from(data.subarray(at, at + 3), (value) => Math.round(value / 2.55) / 100)];
     }),
   );
-  assert.deepEqual(seen, wanted, what);
+  assert.deepEqual(seen, expected, what);
 }
 
 test("lights shine in their groups alone, as the document says now, and however walls are drawn", async () => {

@@ -26,7 +26,7 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo><Viewpoint pos
   <Transform translation="0 0 ${lamp}"><SpotLight location="0 0 0" direction="0 0 -1" beamWidth="${beamWidth}" cutOffAngle="${cutOffAngle}" attenuation="${attenuation.join(" ")}" radius="2.3"></SpotLight></Transform>
   <Shape><Appearance><Material diffuseColor="1 1 1" ambientIntensity="0"></Material></Appearance>${wall}</Shape>`;
 
-/** Of a white wall at this distance from where the lamp points: ISO/IEC 19775-1, 17.2.2.4. */
+/** Brightness of a white wall at a distance `aside` from the point that the lamp points at: ISO/IEC 19775-1, 17.2.2.4. */
 function lit(aside: number): number {
   const distance = Math.hypot(aside, lamp);
   if (distance > 2.3) return 0;
@@ -61,13 +61,15 @@ test("a lamp's light falls off with distance and angle, and the sky has its ring
         const seen = Array.from(data.subarray((y * width + x) * channels, (y * width + x) * channels + 3));
         const isWall = inPlane < edge;
         const aside = Math.hypot(right, down) * eye;
-        const wanted = isWall ? [1, 1, 1].map(() => lit(aside)) : skyAt(Math.acos(-down / Math.hypot(right, down, 1)));
+        const expected = isWall
+          ? [1, 1, 1].map(() => lit(aside))
+          : skyAt(Math.acos(-down / Math.hypot(right, down, 1)));
         // Where the light ends, a pixel is on both sides.
         if (isWall && Math.abs(Math.hypot(aside, lamp) - 2.3) < 0.02) continue;
-        const off = Math.max(...seen.map((value, i) => Math.abs(value - 255 * wanted[i]!)));
+        const off = Math.max(...seen.map((value, i) => Math.abs(value - 255 * expected[i]!)));
         assert.ok(
           off <= 3,
-          `(${x}, ${y}) is ${seen.join(" ")} instead of ${wanted.map((value) => Math.round(255 * value)).join(" ")}`,
+          `(${x}, ${y}) is ${seen.join(" ")} instead of ${expected.map((value) => Math.round(255 * value)).join(" ")}`,
         );
         if (!isWall) skies += 1;
         else if (seen[0]! > 0) lamps += 1;

@@ -77,7 +77,7 @@ const ways: string[][] = [
   ["--profile", "compact"],
 ];
 const perRow = 4;
-const placeOf = (n: number): Pair => [2.2 * (n % perRow) - 3.3, 2.2 - 2.2 * Math.floor(n / perRow)];
+const positionOf = (n: number): Pair => [2.2 * (n % perRow) - 3.3, 2.2 - 2.2 * Math.floor(n / perRow)];
 
 function zigzags(sites: readonly string[]): string {
   const shapes = sites.map((site, n) =>
@@ -95,7 +95,7 @@ function zigzags(sites: readonly string[]): string {
   // One is mirrored, and one lies flat on its side.
   const turns = shapes.map((_, n) => (n === 1 ? 'scale="-1 1 1"' : n === 3 ? 'scale="1 1 -3"' : ""));
   return shapes
-    .map((shape, n) => `<Transform translation="${placeOf(n).join(" ")} 0" ${turns[n]!}>${shape}</Transform>`)
+    .map((shape, n) => `<Transform translation="${positionOf(n).join(" ")} 0" ${turns[n]!}>${shape}</Transform>`)
     .join("\n");
 }
 
@@ -153,7 +153,7 @@ function segments(): Segment[] {
     [255, 255, 255],
   ];
   const zigzagged = Array.from({ length: ways.length + 2 }, (_, n) => {
-    const [x, y] = placeOf(n);
+    const [x, y] = positionOf(n);
     const at = corners.map(([u, v]) => onScreen([x + (n === 1 ? -u : u), y + v]));
     return at
       .slice(1)
@@ -193,10 +193,10 @@ function assertDrawn(picture: Picture, drawn: readonly Segment[]): void {
         lit += 1;
         const [begin, end] = only.segment.colors;
         begin.forEach((channel, i) => {
-          const wanted = channel + (end[i]! - channel) * only.along;
+          const expected = channel + (end[i]! - channel) * only.along;
           assert.ok(
-            Math.abs(found[i]! - wanted) < 8,
-            `at ${x} ${y}: ${found.join()}, channel ${i} should be ${wanted.toFixed()}`,
+            Math.abs(found[i]! - expected) < 8,
+            `at ${x} ${y}: ${found.join()}, channel ${i} should be ${expected.toFixed()}`,
           );
         });
       }
@@ -227,10 +227,10 @@ function heightOf(picture: Picture, [x, row]: Pair): number {
 
 const hitAt = (view: View, [x, y]: Pair): Promise<boolean> =>
   view.page.evaluate(
-    (place) =>
+    (pixel) =>
       (
         document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown }
-      ).positionAndNormalFromPoint(place[0], place[1]) !== null,
+      ).positionAndNormalFromPoint(pixel[0], pixel[1]) !== null,
     [x / ratio, y / ratio] as const,
   );
 

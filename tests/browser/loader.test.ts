@@ -13,7 +13,7 @@ import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
 import { readPly } from "./meshes.ts";
 import { outputDirectory, repository } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
-import { lookOf, patchOfInput } from "./reference.ts";
+import { referenceSettingsOf, patchOfInput } from "./reference.ts";
 import { gate } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
@@ -103,10 +103,10 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
       const site = siteOfGenerated(mesh, ...options);
       await withApp(site, {}, async ({ page, server }) => {
         await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keepsVertices);
-        const { diffuseColor, shininess } = lookOf(pageOf(site)).material;
+        const { diffuseColor, shininess } = referenceSettingsOf(pageOf(site)).material;
         await page.evaluate(
-          ([mesh, look]) => {
-            window.app.setPlain(mesh, look);
+          ([mesh, material]) => {
+            window.app.setPlain(mesh, material);
           },
           [plainOf(mesh), { diffuseColor, shininess }] as const,
         );
@@ -446,18 +446,18 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
     assert.equal(server.requestsOf(/^\/(model\.x3d|geometry)/).length, 0);
 
     // From afar the last level; from near by too, until all of the first shows something.
-    const look = (z: number): Promise<number> => page.evaluate((z) => window.app.look([0, 0, z]), z);
+    const drawFrom = (z: number): Promise<number> => page.evaluate((z) => window.app.drawFrom([0, 0, z]), z);
     const seen = async (): Promise<Picture> => decodePng(await page.screenshot());
-    assert.equal(await look(15), 1);
+    assert.equal(await drawFrom(15), 1);
     assert.deepEqual(await page.evaluate(() => window.app.pick(320, 240).ray?.name), "far");
     assert.equal(colorAt(await seen(), 320, 240), "blue");
-    assert.equal(await look(9), 1);
+    assert.equal(await drawFrom(9), 1);
     await until("the level is asked for", () => server.requestsOf(/^\/model\.x3d$/).length === 1);
-    assert.equal(await look(9), 1);
+    assert.equal(await drawFrom(9), 1);
     open();
     await until(
       "the level is there",
-      async () => (await look(9)) === 0 && (await page.evaluate(() => window.app.isSettled())),
+      async () => (await drawFrom(9)) === 0 && (await page.evaluate(() => window.app.isSettled())),
     );
     const found = await page.evaluate(() => [window.app.pick(320, 300), window.app.pick(300, 50)]);
     assert.deepEqual(
@@ -471,8 +471,8 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
 
     // What has come is there in the frame in which it is looked at.
     const asked = server.requestsOf(/./).length;
-    assert.equal(await look(15), 1);
-    assert.equal(await look(9), 0);
+    assert.equal(await drawFrom(15), 1);
+    assert.equal(await drawFrom(9), 0);
     assert.equal(server.requestsOf(/./).length, asked);
   });
 });

@@ -61,7 +61,7 @@ declare global {
   interface Window {
     app: {
       /** What "plain" is from now on, with X3D's material. */
-      setPlain: (mesh: PlainBuffers, look: { diffuseColor: [number, number, number]; shininess: number }) => void;
+      setPlain: (mesh: PlainBuffers, material: { diffuseColor: [number, number, number]; shininess: number }) => void;
       loader: ImgeoLoader;
       /** Loads scene.x3d to its end. */
       load: () => Promise<void>;
@@ -76,7 +76,7 @@ declare global {
       dispose: () => void;
       inspect: () => Promise<Record<string, unknown>>;
       /** Draws what is loaded as it is seen from a place; the level that its LOD then shows. */
-      look: (from: [number, number, number]) => Promise<number>;
+      drawFrom: (from: [number, number, number]) => Promise<number>;
       /** Nothing of what is loaded is on its way. */
       isSettled: () => boolean;
       /** Names of what is below the loaded scene, and of what. */
@@ -140,16 +140,19 @@ function plainObject(
   set("position", positions);
   if (normals) set("normal", normals);
   if (colors) set("color", linear(colors));
-  const look = { color: colors ? 0xffffff : color, vertexColors: colors !== undefined };
+  const colorOptions = { color: colors ? 0xffffff : color, vertexColors: colors !== undefined };
   if (triangles.length > 0) {
     geometry.setIndex(triangles);
     const roughness = Math.sqrt(2 / (shininess * 128 + 2));
-    return new Mesh(geometry, new MeshStandardMaterial({ ...look, roughness, metalness: 0 }));
+    return new Mesh(geometry, new MeshStandardMaterial({ ...colorOptions, roughness, metalness: 0 }));
   }
   if (lines.length === 0)
-    return new Points(geometry, new PointsMaterial({ ...look, size: 2 * devicePixelRatio, sizeAttenuation: false }));
+    return new Points(
+      geometry,
+      new PointsMaterial({ ...colorOptions, size: 2 * devicePixelRatio, sizeAttenuation: false }),
+    );
   geometry.setIndex(lines);
-  return new LineSegments(geometry, new LineBasicMaterial(look));
+  return new LineSegments(geometry, new LineBasicMaterial(colorOptions));
 }
 
 /** sRGB triples to what three.js lights with. */
@@ -290,7 +293,7 @@ window.app = {
     loaded = undefined;
   },
 
-  async look(from) {
+  async drawFrom(from) {
     if (loaded === undefined) throw new Error("nothing is loaded");
     const scene = new Scene().add(loaded);
     camera.position.set(...from);

@@ -33,7 +33,7 @@ function encoded(linear: number): number {
   return 255 * (clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * clamped ** (1 / 2.4) - 0.055);
 }
 
-/** Of a dielectric (glTF 2.0, appendix B). */
+/** Reflected color of a dielectric that faces light and eye (glTF 2.0, appendix B). */
 function facing(baseColor: Color, roughness: number): Color {
   const fresnel = 0.04;
   const mirrored = fresnel / roughness ** 4 / 4;

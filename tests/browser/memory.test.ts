@@ -9,16 +9,16 @@ import { sceneOf, shapeIn } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 interface Memory {
-  /** Of all arrays that were sent to WebGL or read as images. */
+  /** All arrays that were sent to WebGL or read as images. */
   seen: { bytes: number; array: WeakRef<ArrayBuffer> }[];
-  /** Of textures and buffers that exist now, and the most that ever did. */
+  /** Bytes of the textures and buffers that exist now, and their maximum so far. */
   gpuBytes: number;
-  mostGpuBytes: number;
+  maxGpuBytes: number;
 }
 
 /** Self-contained: keeps an account of memory from outside of the runtime. */
 function keepAccount(): void {
-  const memory: Memory = { seen: [], gpuBytes: 0, mostGpuBytes: 0 };
+  const memory: Memory = { seen: [], gpuBytes: 0, maxGpuBytes: 0 };
   Object.assign(window, { memory });
   const see = (data: unknown): void => {
     if (ArrayBuffer.isView(data))
@@ -37,7 +37,7 @@ function keepAccount(): void {
   const take = (object: unknown, bytes: number): void => {
     memory.gpuBytes += bytes - (sizes.get(object) ?? 0);
     sizes.set(object, bytes);
-    memory.mostGpuBytes = Math.max(memory.mostGpuBytes, memory.gpuBytes);
+    memory.maxGpuBytes = Math.max(memory.maxGpuBytes, memory.gpuBytes);
   };
   const bound: Record<number, number> = {
     [gl.COPY_WRITE_BUFFER]: 0x8f37,
@@ -49,9 +49,9 @@ function keepAccount(): void {
   });
   after("bufferData", (context, [target, data]) => {
     see(data);
-    const place = bound[target as number];
-    if (place)
-      take(context.getParameter(place), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
+    const binding = bound[target as number];
+    if (binding)
+      take(context.getParameter(binding), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
   });
   after("texStorage2D", (context, [target, , , width, height]) => {
     if (target === gl.TEXTURE_2D) take(context.getParameter(gl.TEXTURE_BINDING_2D), Number(width) * Number(height) * 4);
@@ -109,7 +109,7 @@ describe("vertex data", () => {
           const { memory, gc } = window as unknown as { memory: Memory; gc: () => void };
           const sum = (arrays: Memory["seen"]): number => arrays.reduce((bytes, each) => bytes + each.bytes, 0);
           const all = sum(memory.seen);
-          const largestPiece = memory.seen.reduce((most, { bytes }) => Math.max(most, bytes), 0);
+          const largestPiece = memory.seen.reduce((max, { bytes }) => Math.max(max, bytes), 0);
           for (let turn = 0; turn < 20 && memory.seen.length > 0; ++turn) {
             await new Promise((resolve) => setTimeout(resolve, 50)); // whoever asks a WeakRef keeps it for the turn
             gc();
@@ -140,14 +140,14 @@ describe("a budget", () => {
     );
   };
 
-  async function pictures(directory: string, check: (view: View, place: number) => Promise<void>): Promise<Picture[]> {
+  async function pictures(directory: string, check: (view: View, x: number) => Promise<void>): Promise<Picture[]> {
     const seen: Picture[] = [];
     await withPage(directory, { before: keepAccount }, async (view) => {
       await view.promise("complete");
-      for (const place of [0, 500, 0]) {
+      for (const x of [0, 500, 0]) {
         await view.page.evaluate((name) => {
           (document.querySelector("x3d") as unknown as { bindViewpoint: (name: string) => void }).bindViewpoint(name);
-        }, `at ${place}`);
+        }, `at ${x}`);
         const stateOf = async (): Promise<string> =>
           `${view.server.requests.length} ${(await memoryOf(view)).gpuBytes}`;
         for (let before = ""; before !== (before = await stateOf());) {
@@ -155,7 +155,7 @@ describe("a budget", () => {
           await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
         }
         seen.push(await view.picture());
-        await check(view, place);
+        await check(view, x);
       }
     });
     return seen;
@@ -178,13 +178,13 @@ describe("a budget", () => {
       });
       const budget = 0.6 * all;
       let requests = 0;
-      const found = await pictures(scene(site, `id="${container}" budget="${budget / 1e6}"`), async (view, place) => {
-        const { gpuBytes, mostGpuBytes } = await memoryOf(view);
+      const found = await pictures(scene(site, `id="${container}" budget="${budget / 1e6}"`), async (view, x) => {
+        const { gpuBytes, maxGpuBytes } = await memoryOf(view);
         assert.ok(gpuBytes <= budget && gpuBytes > 0.4 * all, `${gpuBytes} bytes of ${budget}`);
         // A stage of buffers is there before the one that it replaces is gone.
-        assert.ok(mostGpuBytes <= budget * 1.1, `at most ${mostGpuBytes} bytes of ${budget}`);
+        assert.ok(maxGpuBytes <= budget * 1.1, `up to ${maxGpuBytes} bytes of ${budget}`);
         const { length } = view.server.requests;
-        assert.ok(place === 0 || length > requests, "nothing was fetched again");
+        assert.ok(x === 0 || length > requests, "nothing was fetched again");
         requests = length;
       });
       found.forEach((picture, n) => {

@@ -50,9 +50,9 @@ export function withColors(mesh: PlainMesh): PlainMesh {
 /** The same with a picture laid over it from the front, `times` times a side and from `start` on. */
 export function withTexCoords(mesh: PlainMesh, times = 1, start = 0): PlainMesh {
   const across = [0, 1].map((axis) => mesh.positions.filter((_, i) => i % 3 === axis));
-  const [least, most] = [Math.min, Math.max].map((pick) => across.map((values) => values.reduce((a, b) => pick(a, b))));
+  const [min, max] = [Math.min, Math.max].map((pick) => across.map((values) => values.reduce((a, b) => pick(a, b))));
   const texCoords = Float32Array.from({ length: (mesh.positions.length / 3) * 2 }, (_, i) => {
-    const [low, high] = [least![i % 2]!, most![i % 2]!];
+    const [low, high] = [min![i % 2]!, max![i % 2]!];
     return start + (times * (across[i % 2]![Math.floor(i / 2)]! - low)) / (high - low);
   });
   return { ...mesh, texCoords };

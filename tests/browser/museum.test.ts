@@ -9,7 +9,7 @@ import { museumPage } from "../../examples/museum/page.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { focusView } from "./gestures.ts";
 import { until, withPage } from "./harness.ts";
-import { heard, listen } from "./heard.ts";
+import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import { repository } from "./paths.ts";
 import { siteOfGenerated, variantOf } from "./sites.ts";
 
@@ -20,13 +20,13 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
   ] as const;
   const site = variantOf(siteOfGenerated("sphere"), "museum", (page) => museumPage(page, "A ball", "Turn it.", notes));
   cpSync(join(repository, "examples/museum/museum.css"), join(site, "museum.css"));
-  await withPage(site, { before: listen }, async (view) => {
+  await withPage(site, { before: recordViewEvents }, async (view) => {
     const { page } = view;
     await view.promise("complete");
     const opacityOf = (name: string): Promise<string> =>
-      page.evaluate((wanted) => {
+      page.evaluate((expectedText) => {
         const note = Array.from(document.querySelectorAll<HTMLElement>(".note")).find(
-          ({ textContent }) => textContent === wanted,
+          ({ textContent }) => textContent === expectedText,
         );
         return getComputedStyle(note!).opacity;
       }, name);
@@ -65,7 +65,7 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
     await page.keyboard.press("p");
     assertSamePicture("a surface again", await view.picture(), surface, { mean: 0.001 });
     assert.ok(
-      (await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"),
+      (await viewEvents(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"),
       "it turns for who wants less motion",
     );
   });

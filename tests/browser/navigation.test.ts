@@ -7,7 +7,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { drag, focusView, touch } from "./gestures.ts";
 import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
-import { heard, listen } from "./heard.ts";
+import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import type { Picture } from "./png.ts";
 import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
 
@@ -28,7 +28,7 @@ function siteWith(name: string, viewpoints: string, navigation?: string): string
 const threeViews = (): string => siteWith("views", above + side);
 
 async function withScene(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
-  await withPage(site, { before: listen, ...options }, async (view) => {
+  await withPage(site, { before: recordViewEvents, ...options }, async (view) => {
     await view.promise("complete");
     await use(view);
   });
@@ -139,10 +139,10 @@ describe("a viewpoint is chosen by", () => {
 describe("the way to a viewpoint", () => {
   const travel = async (view: View): Promise<{ frames: number; picture: Picture }> => {
     await settle(view.page);
-    const before = (await heard(view, "camera-change")).length;
+    const before = (await viewEvents(view, "camera-change")).length;
     await waysToBind.set_bind!(view);
     const picture = await bare(view);
-    return { frames: (await heard(view, "camera-change")).length - before, picture };
+    return { frames: (await viewEvents(view, "camera-change")).length - before, picture };
   };
 
   test("is a journey that ends where the viewpoint is", async () => {
@@ -177,18 +177,18 @@ describe("walking and flying", () => {
             (document.activeElement as HTMLElement).blur();
           }),
       ]) {
-        const before = (await heard(view, "camera-change")).length;
+        const before = (await viewEvents(view, "camera-change")).length;
         await view.page.keyboard.down("ArrowUp");
-        await until("the camera moves on", async () => (await heard(view, "camera-change")).length > before + 3);
+        await until("the camera moves on", async () => (await viewEvents(view, "camera-change")).length > before + 3);
         await end();
         await settle(view.page);
-        const { length } = await heard(view, "camera-change");
+        const { length } = await viewEvents(view, "camera-change");
         await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
-        assert.equal((await heard(view, "camera-change")).length, length);
+        assert.equal((await viewEvents(view, "camera-change")).length, length);
         await view.page.keyboard.up("ArrowUp");
       }
       assert.ok(
-        (await heard(view, "camera-change")).slice(1).every(({ detail }) => detail.source === "user-interaction"),
+        (await viewEvents(view, "camera-change")).slice(1).every(({ detail }) => detail.source === "user-interaction"),
       );
     });
   });
@@ -356,9 +356,9 @@ describe("what a document does not allow", () => {
     await withScene(siteWith("only-walk", "", '<NavigationInfo type="WALK">'), {}, async (view) => {
       await focusView(view);
       await view.page.keyboard.press("e");
-      const before = (await heard(view)).length;
+      const before = (await viewEvents(view)).length;
       await view.page.keyboard.down("ArrowUp"); // walks still: examining would be a single step
-      await until("the camera moves on", async () => (await heard(view)).length > before + 3);
+      await until("the camera moves on", async () => (await viewEvents(view)).length > before + 3);
       await view.page.keyboard.up("ArrowUp");
     });
   });

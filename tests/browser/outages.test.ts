@@ -54,7 +54,7 @@ describe("a slow host", () => {
     const { closed, open } = gate();
     const isSecondByte = filesOf((rank) => rank === 4);
     const server = (server: View["server"]): void => {
-      server.useLine({ bitsPerSecond: 2e6, roundTripMs: 100 });
+      server.useLink({ bitsPerSecond: 2e6, roundTripMs: 100 });
       server.when(isSecondByte, { hold: closed });
     };
     await withPage(site(), { server }, async (view) => {
@@ -171,9 +171,9 @@ test("ten thousand shapes, one without its files, are all shown but that one, an
   const side = 100;
   const small = siteOfGenerated("sphere-small", "--profile", "classic");
   const [whole, broken] = [shapeIn(small, "small", 'id="NAME"'), shapeIn(small, "missing", 'id="NAME"')];
-  const shapes = Array.from({ length: side * side }, (_, place) => {
-    const shape = (place === 4321 ? broken : whole).replace("NAME", `s${place}`);
-    return `<Transform translation="${2.5 * (place % side) - 125} ${2.5 * Math.floor(place / side) - 125} 0">${shape}</Transform>`;
+  const shapes = Array.from({ length: side * side }, (_, n) => {
+    const shape = (n === 4321 ? broken : whole).replace("NAME", `s${n}`);
+    return `<Transform translation="${2.5 * (n % side) - 125} ${2.5 * Math.floor(n / side) - 125} 0">${shape}</Transform>`;
   });
   const directory = sceneOf(
     "ten-thousand",
@@ -184,8 +184,8 @@ test("ten thousand shapes, one without its files, are all shown but that one, an
     await view.promise("complete", "x3d", 120);
     await settle(view.page);
     const { loaded, failed, draws } = await view.page.evaluate(() => {
-      const of = (wanted: string) =>
-        window.observed.events.filter(({ type, target }) => type === wanted && target !== "x3d");
+      const of = (eventType: string) =>
+        window.observed.events.filter(({ type, target }) => type === eventType && target !== "x3d");
       return {
         loaded: of("load").length,
         failed: of("error").map(({ target }) => target),

@@ -7,12 +7,12 @@ import { describe, test } from "node:test";
 import type { ImgeoView, ShapePointerEvent } from "../../web/src/dom/index.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { dot, firstHit, minus, rayThrough, vectorAt, type RayHit, type Vec3 } from "./rays.ts";
-import { lookOf } from "./reference.ts";
+import { referenceSettingsOf } from "./reference.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
-interface HeardEvent {
+interface PointerRecord {
   type: string;
   target: string;
   triangleId: number | null;
@@ -25,13 +25,13 @@ interface HeardEvent {
 
 declare global {
   interface Window {
-    heard: HeardEvent[];
+    pointerEvents: PointerRecord[];
   }
 }
 
 /** Self-contained: records pointer events as the document hears them, after all bubbling. */
 function hear(): void {
-  window.heard = [];
+  window.pointerEvents = [];
   const types = [
     "pointerdown",
     "pointerup",
@@ -47,15 +47,15 @@ function hear(): void {
     document.addEventListener(type, (event) => {
       if (!(event.target instanceof Element)) return;
       const { worldPosition: p, worldNormal: n, triangleId, vertexId, patch, hitPnt } = event as ShapePointerEvent;
-      const place = (v: { x: number; y: number; z: number } | null): Vec3 | null => v && [v.x, v.y, v.z];
+      const vectorOf = (v: { x: number; y: number; z: number } | null): Vec3 | null => v && [v.x, v.y, v.z];
       const { localName, id } = event.target;
-      window.heard.push({
+      window.pointerEvents.push({
         type,
         triangleId,
         vertexId,
         patch,
         target: localName + (id && `#${id}`),
-        ...("worldPosition" in event && { position: place(p)!, normal: place(n), hitPnt: [...hitPnt] as Vec3 }),
+        ...("worldPosition" in event && { position: vectorOf(p)!, normal: vectorOf(n), hitPnt: [...hitPnt] as Vec3 }),
       });
     });
   }
@@ -76,23 +76,23 @@ async function withSite(
   });
 }
 
-async function heard({ page }: View, type: string): Promise<HeardEvent[]> {
-  return (await page.evaluate(() => window.heard)).filter((event) => event.type === type);
+async function pointerEvents({ page }: View, type: string): Promise<PointerRecord[]> {
+  return (await page.evaluate(() => window.pointerEvents)).filter((event) => event.type === type);
 }
 
-/** Clicks and gives what the document heard of it. */
-async function clickAt(view: View, x: number, y: number): Promise<HeardEvent> {
+/** Clicks and gives what the document pointerEvents of it. */
+async function clickAt(view: View, x: number, y: number): Promise<PointerRecord> {
   await view.page.evaluate(() => {
-    window.heard = [];
+    window.pointerEvents = [];
   });
   await view.page.mouse.click(x, y);
-  const clicks = await heard(view, "click");
+  const clicks = await pointerEvents(view, "click");
   assert.equal(clicks.length, 1, `one click at ${x}, ${y}`);
   return clicks[0]!;
 }
 
 function expectedAt(site: string, patches: PlainPatch[], x: number, y: number): RayHit | undefined {
-  return firstHit(rayThrough(lookOf(pageOf(site)).viewpoint, pictureSize, x, y), patches);
+  return firstHit(rayThrough(referenceSettingsOf(pageOf(site)).viewpoint, pictureSize, x, y), patches);
 }
 
 /** Pixels over the whole picture, off any regular pattern of the mesh. */
@@ -145,7 +145,7 @@ describe("a click tells the triangle, vertex, place and normal that the pixel sh
           hits += 1;
           assert.deepEqual([click.patch, click.triangleId], [expected.patch, expected.triangle]);
           assert.equal(click.vertexId, expected.vertices[expected.shares.indexOf(Math.max(...expected.shares))]);
-          assertNear(click.position, expected.position, 1e-5, `the place at ${x}, ${y}`);
+          assertNear(click.position, expected.position, 1e-5, `the position at ${x}, ${y}`);
           assert.deepEqual(click.hitPnt, click.position);
           // The GPU interpolates normals at places that it has rounded to a fraction of a pixel.
           assertNear(click.normal, expected.normal, 1e-2, "the normal");
@@ -219,7 +219,7 @@ describe("a point is hit where it is drawn", () => {
     test(what, async () => {
       const site = siteOfGenerated("points", ...options);
       const [patch] = what === "compact" ? decodeCompactSite(site) : decodeSite(site);
-      const points = projected(patch!, patch!.points, lookOf(pageOf(site)).viewpoint);
+      const points = projected(patch!, patch!.points, referenceSettingsOf(pageOf(site)).viewpoint);
       await withSite(site, async (view) => {
         let hits = 0;
         for (const seed of points.filter((_, i) => i % 250 === 0)) {
@@ -251,7 +251,7 @@ describe("a line is hit where it is drawn, at its nearer end", () => {
     test(what, async () => {
       const site = siteOfGenerated("coil", ...options);
       const [patch] = what === "compact" ? decodeCompactSite(site) : decodeSite(site);
-      const { viewpoint } = lookOf(pageOf(site));
+      const { viewpoint } = referenceSettingsOf(pageOf(site));
       const ends = projected(patch!, patch!.lines, viewpoint);
       const lines = Array.from({ length: ends.length / 2 }, (_, i) => [ends[2 * i]!, ends[2 * i + 1]!] as const);
       await withSite(site, async (view) => {
@@ -279,12 +279,12 @@ describe("a line is hit where it is drawn, at its nearer end", () => {
     });
   }
 
-  interface Place {
+  interface Pixel {
     x: number;
     y: number;
   }
 
-  function distanceToLine(at: Place, from: Place, to: Place): number {
+  function distanceToLine(at: Pixel, from: Pixel, to: Pixel): number {
     const [dx, dy] = [to.x - from.x, to.y - from.y];
     const along = Math.min(1, Math.max(0, ((at.x - from.x) * dx + (at.y - from.y) * dy) / (dx * dx + dy * dy || 1)));
     return Math.hypot(from.x + along * dx - at.x, from.y + along * dy - at.y);
@@ -304,18 +304,19 @@ describe("pointer events", () => {
       await mouse.move(offShape.x, offShape.y);
       await mouse.move(onShape.x, onShape.y);
       await until("the shape is entered", async () =>
-        (await heard(view, "pointermove")).some(({ target }) => target === "shape"),
+        (await pointerEvents(view, "pointermove")).some(({ target }) => target === "shape"),
       );
       await mouse.move(offShape.x, offShape.y);
       await until("the shape is left", async () =>
-        (await heard(view, "pointerout")).some(({ target }) => target === "shape"),
+        (await pointerEvents(view, "pointerout")).some(({ target }) => target === "shape"),
       );
-      const targets = async (type: string): Promise<string[]> => (await heard(view, type)).map(({ target }) => target);
+      const targets = async (type: string): Promise<string[]> =>
+        (await pointerEvents(view, type)).map(({ target }) => target);
       assert.deepEqual(await targets("pointerover"), ["imgeo-view", "shape", "imgeo-view"]);
       assert.deepEqual(await targets("mouseover"), ["imgeo-view", "shape", "imgeo-view"]);
       assert.deepEqual(await targets("pointerout"), ["imgeo-view", "shape"]);
       assert.deepEqual(await targets("mousemove"), await targets("pointermove"));
-      const [move] = (await heard(view, "pointermove")).filter(({ target }) => target === "shape");
+      const [move] = (await pointerEvents(view, "pointermove")).filter(({ target }) => target === "shape");
       assert.equal(move!.triangleId, expectedAt(site(), decodeSite(site()), onShape.x, onShape.y)!.triangle);
     });
   });
@@ -335,8 +336,8 @@ describe("pointer events", () => {
           });
         });
         await view.page.mouse.click(onShape.x, onShape.y);
-        assert.deepEqual(await heard(view, "click"), []);
-        assert.equal((await heard(view, "pointerdown")).length, 1);
+        assert.deepEqual(await pointerEvents(view, "click"), []);
+        assert.equal((await pointerEvents(view, "pointerdown")).length, 1);
         await until("the group is entered", async () => (await view.page.title()) === "entered all");
       },
       inGroup,
@@ -366,13 +367,13 @@ describe("pointer events", () => {
       const before = await frames();
       await drag();
       assert.equal(await frames(), before, "the camera has moved");
-      assert.equal((await heard(view, "mousedown")).length, 0, "a prevented press has no mouse event");
+      assert.equal((await pointerEvents(view, "mousedown")).length, 0, "a prevented press has no mouse event");
       await view.page.evaluate(() => {
-        window.heard = [];
+        window.pointerEvents = [];
       });
       await drag();
       assert.ok((await frames()) > before, "the camera has not moved");
-      assert.deepEqual(await heard(view, "click"), []);
+      assert.deepEqual(await pointerEvents(view, "click"), []);
     });
   });
 
@@ -414,7 +415,7 @@ describe("pointer events", () => {
           const click = await clickAt(view, x, y);
           if (click.target !== "shape") continue;
           ++hits;
-          const { origin, direction } = rayThrough(lookOf(pageOf(site())).viewpoint, pictureSize, x, y);
+          const { origin, direction } = rayThrough(referenceSettingsOf(pageOf(site())).viewpoint, pictureSize, x, y);
           const along = dot(minus(click.position!, origin), direction) / dot(direction, direction);
           assertNear(
             click.position,
@@ -447,7 +448,7 @@ test("hovering draws no frame and never waits for the GPU", async () => {
     await view.page.mouse.move(onShape.x, onShape.y);
     await view.page.mouse.move(nearby.x, nearby.y, { steps: 3 });
     await until("the shape hears of it", async () =>
-      (await heard(view, "pointermove")).some(({ target }) => target === "shape"),
+      (await pointerEvents(view, "pointermove")).some(({ target }) => target === "shape"),
     );
     assert.equal(await frames(), before);
     assert.notEqual(await view.page.title(), "waited");

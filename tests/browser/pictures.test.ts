@@ -17,7 +17,7 @@ import { withPage, type PageOptions } from "./harness.ts";
 import { readObj, readPly } from "./meshes.ts";
 import { modelDirectory } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
-import { lookOf, patchOfInput, referencePicture } from "./reference.ts";
+import { referenceSettingsOf, patchOfInput, referencePicture } from "./reference.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
 
@@ -146,14 +146,14 @@ describe("a wrong mesh is seen", () => {
     test(`one index off, ${container}`, async () => {
       const site = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
       const index = `/${fileOfRank(site, 1)}`;
-      const corner = mostVisibleCorner(site);
+      const corner = nearestCorner(site);
       const replace = container === "sig" ? otherIndexInImage(corner) : otherIndexInArray(corner);
       await assertDiffers(site, { server: (server) => server.when((path) => path === index, { replace }) });
     });
   }
 
-  function fileOfRank(site: string, wanted: number): string {
-    const [url] = [...ranksOfFiles(pageOf(site))].find(([, rank]) => rank === wanted) ?? [];
+  function fileOfRank(site: string, expectedRank: number): string {
+    const [url] = [...ranksOfFiles(pageOf(site))].find(([, rank]) => rank === expectedRank) ?? [];
     assert.ok(url);
     return url;
   }
@@ -162,9 +162,9 @@ describe("a wrong mesh is seen", () => {
   const offBy = 1024;
 
   /** The corner that spans the largest triangle towards the camera when its index is off. */
-  function mostVisibleCorner(site: string): number {
+  function nearestCorner(site: string): number {
     const { positions, triangles } = decodeSite(site)[0]!;
-    const eye = lookOf(pageOf(site)).viewpoint.position;
+    const eye = referenceSettingsOf(pageOf(site)).viewpoint.position;
     const spanned = (corner: number): number => {
       const vertices = [...triangles.subarray(corner - (corner % 3), corner - (corner % 3) + 3)];
       vertices[corner % 3]! ^= offBy;

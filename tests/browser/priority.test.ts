@@ -30,7 +30,9 @@ const atBoth = 'position="0 0 80" fieldOfView="1"';
 /** What was asked for of both shapes, in order: "knot0" is a first byte of the knot, "ball2" a normal of the ball. */
 function order(view: View): string[] {
   const ranks = new Map([...ranksIn(knot(), "knot"), ...ranksIn(ball(), "ball")]);
-  return view.asked.filter((url) => ranks.has(url)).map((url) => `${url.split("/")[0] ?? ""}${ranks.get(url) ?? ""}`);
+  return view.requestedPaths
+    .filter((url) => ranks.has(url))
+    .map((url) => `${url.split("/")[0] ?? ""}${ranks.get(url) ?? ""}`);
 }
 
 const isOf =

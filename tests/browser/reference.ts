@@ -38,7 +38,7 @@ export interface ReferenceScene {
 }
 
 /** The numbers that the only shape of a document is drawn with. */
-export function lookOf(html: string): Omit<ReferenceScene, "patches"> {
+export function referenceSettingsOf(html: string): Omit<ReferenceScene, "patches"> {
   const tags = tagsOf(html);
   const attributesOf = (name: string): Record<string, string> =>
     tags.find((tag) => tag.name === name)?.attributes ?? {};
@@ -144,7 +144,7 @@ export async function referencePicture(
   const opened = referencePages.get(deviceScaleFactor) ?? openReferencePage(deviceScaleFactor);
   referencePages.set(deviceScaleFactor, opened);
   const { page, server, failures } = await opened;
-  const scene: ReferenceScene = { ...lookOf(html), patches: patches.map(asArrays) };
+  const scene: ReferenceScene = { ...referenceSettingsOf(html), patches: patches.map(asArrays) };
   server.put("/scene.json", JSON.stringify(scene));
   await page.setViewportSize(size);
   await page.evaluate(() => window.drawReference("/scene.json"));

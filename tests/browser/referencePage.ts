@@ -29,7 +29,7 @@ declare global {
 
 type Patch = ReferenceScene["patches"][number];
 
-/** Of points, in CSS pixels. */
+/** Size of points in CSS pixels. */
 const pointSize = 2;
 
 let drawn: WebGLRenderer | undefined;
@@ -68,10 +68,10 @@ function cameraOf({ viewpoint, patches }: ReferenceScene, aspect: number): Persp
   return camera;
 }
 
-function farthestFrom(place: Vector3, positions: number[]): number {
+function farthestFrom(point: Vector3, positions: number[]): number {
   let farthest = 0;
   for (let i = 0; i < positions.length; i += 3)
-    farthest = Math.max(farthest, place.distanceTo(new Vector3().fromArray(positions, i)));
+    farthest = Math.max(farthest, point.distanceTo(new Vector3().fromArray(positions, i)));
   return farthest;
 }
 
@@ -92,27 +92,27 @@ function objectOf(patch: Patch, material: ShaderMaterial): Object3D {
 const vertexShader = /* glsl */ `
 uniform float pointSize;
 varying vec3 vNormal;
-varying vec3 vPlace;
+varying vec3 vEyePosition;
 varying vec3 vColor;
 #ifdef HAS_COLORS
 attribute vec3 color;
 #endif
 uniform vec3 diffuseColor;
 void main() {
-  vec4 place = modelViewMatrix * vec4(position, 1.0);
-  vPlace = place.xyz;
+  vec4 eyePosition = modelViewMatrix * vec4(position, 1.0);
+  vEyePosition = eyePosition.xyz;
   vNormal = normalize(normalMatrix * normal);
   vColor = diffuseColor;
   #ifdef HAS_COLORS
   vColor = color;
   #endif
   gl_PointSize = pointSize;
-  gl_Position = projectionMatrix * place;
+  gl_Position = projectionMatrix * eyePosition;
 }`;
 
 const fragmentShader = /* glsl */ `
 varying vec3 vNormal;
-varying vec3 vPlace;
+varying vec3 vEyePosition;
 varying vec3 vColor;
 uniform vec3 specularColor, emissiveColor, ambient;
 uniform float shininess;
@@ -121,7 +121,7 @@ uniform vec3 lightColor[LIGHTS];
 void main() {
   #ifdef HAS_NORMALS
   vec3 normal = normalize(vNormal);
-  vec3 towardsEye = normalize(-vPlace);
+  vec3 towardsEye = normalize(-vEyePosition);
   #ifdef HAS_NO_BACK
   if (dot(normal, towardsEye) < 0.0) normal = -normal;
   #endif

@@ -8,7 +8,7 @@ import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
-import { Line, type LineOptions } from "./line.ts";
+import { NetworkLink, type LinkOptions } from "./networkLink.ts";
 
 export interface RequestRecord {
   /** Decoded path, without the query. */
@@ -40,10 +40,10 @@ export interface TestServer {
   origin: string;
   /** Every request in order of arrival. */
   requests: RequestRecord[];
-  /** Of all bodies so far. */
+  /** Bytes of all bodies sent so far. */
   bytesSent: number;
   /** What lies between the server and its clients; at first nothing. */
-  useLine(options: LineOptions | undefined): void;
+  useLink(options: LinkOptions | undefined): void;
   /** Sends this file as it is, with `Content-Encoding`, to clients that take it. */
   putEncoded(path: string, encoding: "br" | "gzip", body: Buffer): void;
   /** Sent with everything; ours is the strictest, other people's pages need more. */
@@ -72,7 +72,7 @@ export async function startServer(directory: string): Promise<TestServer> {
   const requests: RequestRecord[] = [];
   const bodies = new Map<string, Buffer>();
   const encoded = new Map<string, { encoding: string; body: Buffer }>();
-  let line: Line | undefined;
+  let line: NetworkLink | undefined;
   const rules: { matches: (path: string) => boolean; behaviour: Behaviour }[] = [];
 
   async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
@@ -133,7 +133,7 @@ export async function startServer(directory: string): Promise<TestServer> {
     origin: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
     requests,
     bytesSent: 0,
-    useLine: (options) => void (line = options && new Line(options)),
+    useLink: (options) => void (line = options && new NetworkLink(options)),
     putEncoded: (path, encoding, body) => void encoded.set(path, { encoding, body }),
     put: (path, body) => void bodies.set(path, Buffer.from(body)),
     when(matches, behaviour) {

@@ -80,13 +80,13 @@ export function ranksOfFiles(html: string): Map<string, number> {
   const ranks = new Map<string, number>();
   for (const { name, attributes } of tagsOf(html)) {
     if (!/^(geometrypatch|imagegeometry|binarygeometry)$/.test(name)) continue;
-    const note = (text: string | undefined, rank: (place: number) => number): void => {
-      stringsOf(text).forEach((reference, place) => {
+    const note = (text: string | undefined, rank: (index: number) => number): void => {
+      stringsOf(text).forEach((reference, index) => {
         const url = reference.split("#")[0]!;
-        ranks.set(url, Math.min(rank(place), ranks.get(url) ?? Infinity));
+        ranks.set(url, Math.min(rank(index), ranks.get(url) ?? Infinity));
       });
     };
-    note(attributes.coord, (place) => (place === 0 ? 0 : 3 + place));
+    note(attributes.coord, (index) => (index === 0 ? 0 : 3 + index));
     note(attributes.index, () => 1);
     note(attributes.normal, () => 2);
     note(attributes.color, () => 3);
@@ -142,10 +142,10 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   const recordCount = Number(patch.recordcount);
   const index = patch.index ? image(patch.index) : undefined;
   // The middle of what the bytes that are not here may hold stands for them.
-  const byteOf = (plane: Records, place: number, r: number, axis: number): number =>
-    place < planesHere ? plane.at(r, axis) : 127.5;
+  const byteOf = (plane: Records, index: number, r: number, axis: number): number =>
+    index < planesHere ? plane.at(r, axis) : 127.5;
   const coordinate: Records = {
-    at: (r, axis) => planes.reduce((value, plane, place) => 256 * value + byteOf(plane, place, r, axis), 0),
+    at: (r, axis) => planes.reduce((value, plane, index) => 256 * value + byteOf(plane, index, r, axis), 0),
   };
   const normal = patch.normal ? image(patch.normal) : undefined;
   const color = patch.color ? image(patch.color) : undefined;
@@ -175,10 +175,10 @@ const readers: Record<string, [bytes: number, largest: number, read: (bytes: Buf
 
 function decodeBg(node: Attributes, patch: Attributes, directory: string): PlainPatch {
   const array = (url: string, type: string, components: number): Records => {
-    const [path, place] = url.split("#");
+    const [path, fragment] = url.split("#");
     const bytes = readFileSync(join(directory, path!));
     const [size, , read] = readers[type]!;
-    const [offset, stride] = (place ?? "0+0").split("+").map(Number);
+    const [offset, stride] = (fragment ?? "0+0").split("+").map(Number);
     const step = stride === 0 ? size * components : stride!;
     return { at: (record, component) => read(bytes, offset! + record * step + component * size) };
   };

@@ -208,8 +208,8 @@ describe("files are asked for", () => {
       // Requests that leave together over several connections may arrive in any order.
       const connections = 6;
       const order = asked.map((path) => ranks.get(path)!);
-      order.forEach((rank, place) => {
-        const late = order.findIndex((other, later) => later >= place + connections && other < rank);
+      order.forEach((rank, index) => {
+        const late = order.findIndex((other, later) => later >= index + connections && other < rank);
         assert.equal(late, -1, `rank ${rank} was asked for well before rank ${order[late]}: ${order.join(" ")}`);
       });
     });
@@ -243,8 +243,8 @@ describe("files are asked for", () => {
         .map(({ path }) => path)
         .filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
       const strange = others.filter(
-        (path, place) =>
-          !/^\/(imgeo\.css|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) || others.indexOf(path) < place,
+        (path, index) =>
+          !/^\/(imgeo\.css|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) || others.indexOf(path) < index,
       );
       assert.deepEqual(strange, []); // besides the page, its modules and its stylesheet, each once
       assert.ok(view.server.requests.every(({ status }) => status === 200));

@@ -160,8 +160,8 @@ describe("events", () => {
     const shares = details.map(({ totalProgress }) => Number(totalProgress));
     assert.ok(shares.length > 1);
     assert.equal(shares.at(-1), 1);
-    shares.forEach((share, place) => {
-      assert.ok(share >= (shares[place - 1] ?? 0) && share <= 1, `progress ${shares.join(" ")}`);
+    shares.forEach((share, index) => {
+      assert.ok(share >= (shares[index - 1] ?? 0) && share <= 1, `progress ${shares.join(" ")}`);
     });
     for (const { loadedBytes, totalBytes, stage } of details) {
       assert.ok(Number(loadedBytes) >= 0 && Number(totalBytes) > 0, `${String(loadedBytes)} of ${String(totalBytes)}`);

@@ -5,7 +5,7 @@ export const sameMean = 1;
 
 const otherDiagonal =
   "X3D leaves open along which diagonal a quad is split; X_ITE takes the other. X3DOM's npm package does not have the node";
-const otherFonts = "letters are those of the browser's fonts; X_ITE brings its own";
+const otherFonts = "glyphs come from the browser's fonts; X_ITE brings its own fonts";
 const noFans = "X3DOM's npm package does not draw it";
 const noTexturesInMaterials = "X3DOM does not know X3D 4's textures of materials";
 const withoutPi =
@@ -46,7 +46,7 @@ export const explanations: Readonly<Record<string, string>> = {
   "PointLight-of-its-group": allLightsAreGlobal,
   "PointLight-scaled": "what scales a light scales its radius and its falloff; not in X3DOM",
   Text: otherFonts,
-  "Text-length": `${otherFonts}. Letters are stretched; X_ITE moves them apart and together, X3DOM does not know \`length\` and squeezes one string alone`,
+  "Text-length": `${otherFonts}. Glyphs are stretched; X_ITE changes the space between them; X3DOM does not support \`length\` and squeezes one string alone`,
   "Text-no-material": `${otherFonts}; in X3DOM MIDDLE is a little higher`,
   TextureTransform: "textures seen small are filtered otherwise",
   "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",

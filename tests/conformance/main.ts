@@ -14,10 +14,10 @@ import { repository } from "../browser/paths.ts";
 import { decodePng, encodePng } from "../browser/png.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
 import { explanations, sameMean } from "./explanations.ts";
-import type { Runtime } from "./rivals.ts";
-import { pageOf, runtimes, serveRuntimes, size } from "./rivals.ts";
-import type { Row } from "./sheet.ts";
-import { contactSheet } from "./sheet.ts";
+import type { Runtime } from "./runtimes.ts";
+import { pageOf, runtimes, serveRuntimes, size } from "./runtimes.ts";
+import type { Row } from "./contactSheet.ts";
+import { contactSheet } from "./contactSheet.ts";
 
 const here = import.meta.dirname;
 const output = join(repository, "build/conformance");
@@ -86,11 +86,11 @@ function lineOf(row: Row): { text: string; isExplained: boolean } {
 }
 
 const words = process.argv.slice(2);
-const wanted = words.filter((word) => word !== "--check");
+const requestedNames = words.filter((word) => word !== "--check");
 const all = readdirSync(join(here, "nodes"))
   .map((file) => file.replace(/\.x3d$/, ""))
   .sort();
-const names = wanted.length > 0 ? all.filter((name) => wanted.includes(name)) : all;
+const names = requestedNames.length > 0 ? all.filter((name) => requestedNames.includes(name)) : all;
 mkdirSync(output, { recursive: true });
 const browser = await launchChromium();
 try {

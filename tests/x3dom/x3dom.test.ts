@@ -86,8 +86,8 @@ function statedCube(site: string): Cube {
 function onLattice(mesh: PlainMesh, bits: number, { origin, edge } = cubeAround(mesh)): PlainMesh {
   const step = edge / (2 ** bits - 1);
   const positions = mesh.positions.map((value, i) => {
-    const least = origin[i % 3] ?? NaN;
-    const stored = least + step * Math.round((value - least) / step);
+    const min = origin[i % 3] ?? NaN;
+    const stored = min + step * Math.round((value - min) / step);
     assert.ok(Math.abs(stored - value) < 0.51 * step, "the lattice is not the mesh's");
     return stored;
   });

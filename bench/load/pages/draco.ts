@@ -1,6 +1,6 @@
 import { Mesh, MeshPhongMaterial } from "three";
 import { DRACOLoader } from "three/examples/jsm/loaders/DRACOLoader.js";
-import { show } from "./stage.ts";
+import { show } from "./threePage.ts";
 
 const loader = new DRACOLoader().setDecoderPath("draco/");
 const geometry = await loader.preload().loadAsync("mesh.drc");

@@ -1,4 +1,4 @@
 import { load } from "./gltf.ts";
-import { show } from "./stage.ts";
+import { show } from "./threePage.ts";
 
 show(await load("mesh.glb"));

@@ -17,7 +17,7 @@ export interface GridExample {
   files: Map<string, Buffer>;
 }
 
-/** Of a point on the grid, 0..1 in each axis of its box; u runs along columns, v along rows. */
+/** Position of a point on the grid, 0..1 in each axis of its box; u runs along columns, v along rows. */
 type Shape = (u: number, v: number) => Point;
 
 /** Hills 4 wide and at most 1 high; heights in 16 bits. */

@@ -1,8 +1,8 @@
 // All pictures of a run in one: a row a document, a column a runtime.
 
 import type { Browser } from "playwright-core";
-import type { Runtime } from "./rivals.ts";
-import { runtimes, size } from "./rivals.ts";
+import type { Runtime } from "./runtimes.ts";
+import { runtimes, size } from "./runtimes.ts";
 
 export interface Row {
   readonly name: string;

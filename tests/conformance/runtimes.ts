@@ -11,7 +11,7 @@ import type { TestServer } from "../browser/server.ts";
 export const runtimes = ["imgeo", "X_ITE", "X3DOM"] as const;
 export type Runtime = (typeof runtimes)[number];
 
-/** Of a picture, in CSS pixels. */
+/** Size of a picture in CSS pixels. */
 export const size = { width: 320, height: 240 };
 
 const fill = "margin: 0; border: 0; padding: 0; display: block; width: 100vw; height: 100vh";

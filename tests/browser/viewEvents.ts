@@ -3,19 +3,19 @@
 
 import type { View } from "./harness.ts";
 
-export interface Heard {
+export interface ViewEvent {
   type: string;
   detail: Record<string, unknown>;
 }
 
 declare global {
   interface Window {
-    viewEvents: Heard[];
+    viewEvents: ViewEvent[];
   }
 }
 
 /** Self-contained: runs in the page before its scripts. */
-export function listen(): void {
+export function recordViewEvents(): void {
   window.viewEvents = [];
   for (const type of ["camera-change", "model-visibility", "poster-dismissed", "hotspot-visibility"]) {
     document.addEventListener(
@@ -28,7 +28,7 @@ export function listen(): void {
   }
 }
 
-export async function heard({ page }: View, type?: string): Promise<Heard[]> {
+export async function viewEvents({ page }: View, type?: string): Promise<ViewEvent[]> {
   const all = await page.evaluate(() => window.viewEvents);
   return all.filter((event) => type === undefined || event.type === type);
 }

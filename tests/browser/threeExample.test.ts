@@ -9,7 +9,7 @@ import { outputDirectory, repository } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { siteOfGenerated } from "./sites.ts";
 
-/** Of pixels that are as red as the mark. */
+/** Number of pixels that are as red as the mark. */
 function redIn({ data, channels }: Picture): number {
   let count = 0;
   for (let i = 0; i < data.length; i += channels)

@@ -4,7 +4,7 @@
 import type { IncomingMessage, ServerResponse } from "node:http";
 import type { Socket } from "node:net";
 
-export interface LineOptions {
+export interface LinkOptions {
   bitsPerSecond: number;
   roundTripMs: number;
 }
@@ -14,13 +14,13 @@ const packetBytes = 4096;
 /** Status line and headers, roughly. */
 const headBytes = 300;
 
-export class Line {
-  readonly #options: LineOptions;
+export class NetworkLink {
+  readonly #options: LinkOptions;
   readonly #greeted = new WeakSet<Socket>();
   /** When the line will have sent what has been given to it. */
   #freeAt = 0;
 
-  constructor(options: LineOptions) {
+  constructor(options: LinkOptions) {
     this.#options = options;
   }
 

@@ -142,8 +142,8 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
     const first = await view.picture();
     savePicture("batched-looks", first);
     // Buffers with values, images with values, lines, dashed ones, those that blend, those of images and that of them which is mirrored.
-    const mostDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
-    assert.ok((await drawsOfFrame(view)) <= mostDraws, `${await drawsOfFrame(view)} draws`);
+    const maxDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
+    assert.ok((await drawsOfFrame(view)) <= maxDraws, `${await drawsOfFrame(view)} draws`);
     await view.page.evaluate(() => {
       const set = (selector: string, name: string, value: string) => {
         document.querySelector(selector)!.setAttribute(name, value);
@@ -173,7 +173,7 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
       document.querySelector("scene")!.insertAdjacentHTML("beforeend", text);
     }, crowd);
     assertSamePicture("batched-looks-points", await view.picture(), points, boundsOfQuantised);
-    assert.ok((await drawsOfFrame(view)) <= mostDraws + 1, "they are drawn together again");
+    assert.ok((await drawsOfFrame(view)) <= maxDraws + 1, "they are drawn together again");
     await view.page.evaluate(() => {
       for (const gone of document.querySelectorAll("scene > transform")) gone.remove();
     });

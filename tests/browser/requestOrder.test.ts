@@ -71,7 +71,7 @@ function hallOfOneMesh(): string {
 
 interface SeenPatch {
   readonly url: string;
-  /** Of its middle. */
+  /** x coordinate of the patch's center. */
   readonly x: number;
   /** Its diameter over its distance. */
   readonly size: number;
@@ -108,10 +108,10 @@ function patchesSeenBy({ eye, gaze }: Visitor, page: string): Map<string, SeenPa
 
 /** No patch comes after one that is a tenth smaller. */
 function assertLargestFirst(patches: readonly SeenPatch[], who: string): void {
-  let least = Infinity;
+  let minSize = Infinity;
   for (const { url, size } of patches) {
-    assert.ok(size < 1.1 * least, `${who}: ${url} (${size}) after one of ${least}`);
-    least = Math.min(least, size);
+    assert.ok(size < 1.1 * minSize, `${who}: ${url} (${size}) after one of ${minSize}`);
+    minSize = Math.min(minSize, size);
   }
 }
 
@@ -130,12 +130,12 @@ test("of a hall comes first what is seen largest, last what is behind one, from 
     const server = (server: View["server"]): void =>
       void server.when((path) => patches.has(path.slice(1)), { hold: closed });
     await withPage(site, { server, before: pretend[visitor.protocol]! }, async (view) => {
-      const count = (): number => view.asked.filter((url) => patches.has(url)).length;
+      const count = (): number => view.requestedPaths.filter((url) => patches.has(url)).length;
       await until("all slots are taken", () => count() >= visitor.slots);
       assert.equal(count(), visitor.slots, `${name}: files asked for at a time, over ${visitor.protocol}`);
       open();
       await view.promise("complete", "x3d", 60);
-      const asked = view.asked.flatMap((url) => patches.get(url) ?? []);
+      const asked = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
       assert.equal(asked.length, patches.size);
       assert.ok(asked.length >= 20, `${asked.length} patches`);
       // 0.5 is half the height of the view, 0.8 more than half its diagonal.

@@ -6,7 +6,7 @@ import { describe, test } from "node:test";
 import { Matrix4, Quaternion, Vector3 } from "three";
 import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
 import { withPage } from "./harness.ts";
-import { placed } from "./placed.ts";
+import { transformedPatches } from "./transformedPatches.ts";
 import type { Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
@@ -63,7 +63,7 @@ describe("a Transform places shape and normals", () => {
         const site = siteOfGenerated("trefoil-colors", "--profile", "classic", "--container", container);
         const page = withShapes(pageOf(site), markup);
         const seen = await pictureOf(variantOf(site, "placed", () => page));
-        const expected = await referencePicture(page, placed(decodeSite(site), matrix));
+        const expected = await referencePicture(page, transformedPatches(decodeSite(site), matrix));
         assertSamePicture(`${name} ${container}`, seen, expected, boundsOfQuantised);
       });
     }

@@ -7,7 +7,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { center, drag, focusView } from "./gestures.ts";
 import { screenshotOf, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
-import { heard, listen } from "./heard.ts";
+import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import { decodePng } from "./png.ts";
 import { gate } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
@@ -24,7 +24,7 @@ function siteWith(name: string, { attributes = "", inside = "", before = "", aft
 }
 
 async function withScene(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
-  await withPage(site, { before: listen, ...options }, async (view) => {
+  await withPage(site, { before: recordViewEvents, ...options }, async (view) => {
     await view.promise("complete");
     await use(view);
   });
@@ -193,10 +193,10 @@ describe("turning by itself", () => {
   const attributes = 'auto-rotate auto-rotate-delay="50" rotation-per-second="90deg"';
 
   test("begins after the delay, rests while somebody moves the camera, and stops when it is told", async () => {
-    await withPage(siteWith("turns", { attributes }), { before: listen, motion: true }, async (view) => {
+    await withPage(siteWith("turns", { attributes }), { before: recordViewEvents, motion: true }, async (view) => {
       await view.promise("complete");
       await until("it turns", async () =>
-        (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
+        (await viewEvents(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
       );
       assert.equal(await view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.paused), false);
       await view.page.evaluate(() => {
@@ -219,12 +219,12 @@ describe("turning by itself", () => {
   test("is not for people who prefer less motion, unless they ask", async () => {
     await withScene(siteWith("turns", { attributes }), {}, async (view) => {
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
-      assert.ok((await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"));
+      assert.ok((await viewEvents(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"));
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.play();
       });
       await until("it turns", async () =>
-        (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
+        (await viewEvents(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
       );
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.pause();
@@ -247,14 +247,14 @@ describe("a poster", () => {
       server.when(geometry, { hold: closed });
       server.put("/poster.png", redPng());
     };
-    await withPage(site, { server, before: listen }, async (view) => {
+    await withPage(site, { server, before: recordViewEvents }, async (view) => {
       await until("the poster is shown", async () => isRed(view));
       assert.equal(await view.page.getByRole("img", { name: "A knot" }).count(), 1);
-      assert.deepEqual(await heard(view, "poster-dismissed"), []);
+      assert.deepEqual(await viewEvents(view, "poster-dismissed"), []);
       open();
       await view.promise("complete");
       assert.equal(await posterShown(view), false);
-      const types = (await heard(view)).map(({ type }) => type).filter((type) => type !== "camera-change");
+      const types = (await viewEvents(view)).map(({ type }) => type).filter((type) => type !== "camera-change");
       assert.deepEqual(types, ["poster-dismissed", "model-visibility"]);
     });
   });
@@ -265,19 +265,19 @@ describe("a poster", () => {
       await settle(view.page);
       assert.ok(await posterShown(view));
       assert.ok(await view.page.getByText("Wait for it").isVisible());
-      assert.deepEqual(await heard(view, "model-visibility"), []);
+      assert.deepEqual(await viewEvents(view, "model-visibility"), []);
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.dismissPoster();
       });
       assert.equal(await posterShown(view), false);
       assert.deepEqual(
-        (await heard(view, "model-visibility")).map(({ detail }) => detail),
+        (await viewEvents(view, "model-visibility")).map(({ detail }) => detail),
         [{ visible: true }],
       );
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.dismissPoster();
       });
-      assert.equal((await heard(view, "poster-dismissed")).length, 1);
+      assert.equal((await viewEvents(view, "poster-dismissed")).length, 1);
     });
   });
 
@@ -384,7 +384,7 @@ describe("hotspots", () => {
         document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg 10m");
       });
       await until("they change places", async () => !(await visible("#front")) && (await visible("#back")));
-      assert.ok((await heard(view, "hotspot-visibility")).length >= 4);
+      assert.ok((await viewEvents(view, "hotspot-visibility")).length >= 4);
       assert.equal(await view.page.getByRole("button", { name: "Front" }).count(), 1);
       await view.page.keyboard.press("Tab");
       await view.page.keyboard.press("Tab");

@@ -24,16 +24,16 @@ const withFields =
   (server) =>
     void server.when(/^\/$/, { replace: (html) => html.toString().replace("<Shape ", `<Shape ${fields} `) });
 
-/** Plain buffers with a colour for each vertex between two, which are those at `least` and `most`. */
+/** Plain buffers with a colour for each vertex between two, which are those at `min` and `max`. */
 async function expectedPicture(
   site: string,
   values: Float32Array,
-  [least, most]: [number, number],
+  [min, max]: [number, number],
   [from, to]: [Color, Color],
 ): Promise<Picture> {
   const colors = Float32Array.from({ length: 3 * values.length }, (_, i) => {
-    const place = Math.min(1, Math.max(0, (values[Math.floor(i / 3)]! - least) / (most - least)));
-    return from[i % 3]! + (to[i % 3]! - from[i % 3]!) * place;
+    const share = Math.min(1, Math.max(0, (values[Math.floor(i / 3)]! - min) / (max - min)));
+    return from[i % 3]! + (to[i % 3]! - from[i % 3]!) * share;
   });
   return await referencePicture(pageOf(site), [{ ...patchOfInput(mesh), colors }]);
 }
@@ -89,7 +89,7 @@ describe("a shape coloured by an attribute", () => {
         await expectedPicture(site, away, [0.5, 4], [black, white]),
         boundsOfInput,
       );
-      const asked = view.asked.length;
+      const asked = view.requestedPaths.length;
       await view.page.evaluate(() => {
         const shape = document.querySelector("shape")!;
         shape.setAttribute("colorMap", "1 1 1 0 0 0");
@@ -102,7 +102,7 @@ describe("a shape coloured by an attribute", () => {
         await expectedPicture(site, away, [0, 5], [white, black]),
         boundsOfInput,
       );
-      assert.equal(view.asked.length, asked, "something was asked for again");
+      assert.equal(view.requestedPaths.length, asked, "something was asked for again");
       assert.ok(!isWithin(difference(first, second), boundsOfInput));
       await view.page.evaluate(() => {
         document.querySelector("shape")!.setAttribute("colorBy", "height");
@@ -132,7 +132,7 @@ describe("a shape coloured by an attribute", () => {
         await view.promise("complete");
         pictures.push(await view.picture());
         const files = /attrib='([^']*)'/.exec(pageOf(site))?.[1] ?? "";
-        for (const url of view.asked) assert.ok(!files.includes(url) || url === "", `${url} was asked for`);
+        for (const url of view.requestedPaths) assert.ok(!files.includes(url) || url === "", `${url} was asked for`);
       });
     }
     assertSamePicture("values unused", pictures[0]!, pictures[1]!, { mean: 0, offShare: 0 });

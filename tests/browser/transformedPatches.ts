@@ -4,7 +4,7 @@ import { Matrix3, Vector3, type Matrix4 } from "three";
 import type { PlainPatch } from "./siteDecoder.ts";
 
 /** The patches under a matrix; where it mirrors, triangles turn round so that they face outwards still. */
-export function placed(patches: PlainPatch[], matrix: Matrix4): PlainPatch[] {
+export function transformedPatches(patches: PlainPatch[], matrix: Matrix4): PlainPatch[] {
   const normalMatrix = new Matrix3().getNormalMatrix(matrix);
   const each = (numbers: Float32Array, act: (vector: Vector3) => Vector3): Float32Array =>
     numbers.map((_, i) => act(new Vector3().fromArray(numbers, i - (i % 3))).getComponent(i % 3));

@@ -3,23 +3,23 @@
 // time is taken when the GPU has done its work (the picture is read back), so
 // that a renderer in software counts for everybody alike.
 
-export interface Watched {
+export interface Recording {
   /** Milliseconds from navigation to when all of the model had been drawn; 0 until then. */
   complete: number;
-  /** Of each frame that was drawn: when the GPU had drawn it, and every second pixel of every second line, RGBA. */
+  /** For each drawn frame: the time at which the GPU had finished it, and every second pixel of every second row, RGBA. */
   frames: { at: number; pixels: Uint8Array }[];
-  /** Of these pictures. */
+  /** Width of the recorded pictures in pixels. */
   columns: number;
 }
 
-export interface Wanted {
+export interface RecordOptions {
   /**
    * The page says by an event when all of the model is there: `load` of <x3d>, or
    * `model-complete` of the document. Others are complete with their first draw of
    * so many vertices.
    */
   saysWhenComplete: boolean;
-  leastVertices: number;
+  minModelVertices: number;
   /** Otherwise no picture is taken, and times are those at which the GPU has been told. */
   takesPictures: boolean;
   completeMessage: string;
@@ -27,7 +27,7 @@ export interface Wanted {
 
 declare global {
   interface Window {
-    watched: Watched;
+    recording: Recording;
   }
 }
 
@@ -37,16 +37,16 @@ export const completeMessage = "bench: complete";
 type Context = WebGLRenderingContext | WebGL2RenderingContext;
 
 /** Self-contained: its text is sent to the browser. */
-export function watch(wanted: Wanted): void {
-  const watched: Watched = { complete: 0, frames: [], columns: 0 };
-  window.watched = watched;
+export function recordFrames(options: RecordOptions): void {
+  const recording: Recording = { complete: 0, frames: [], columns: 0 };
+  window.recording = recording;
   const sparse = 2;
   const due = new Set<Context>();
   let hasModel = false;
 
   const complete = (): void => {
-    watched.complete = performance.now();
-    console.debug(wanted.completeMessage);
+    recording.complete = performance.now();
+    console.debug(options.completeMessage);
   };
   const takePicture = (gl: Context): void => {
     const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
@@ -60,28 +60,28 @@ export function watch(wanted: Wanted): void {
     const some = new Uint32Array(columns * rows);
     for (let i = 0; i < some.length; ++i)
       some[i] = all[Math.floor(i / columns) * sparse * width + (i % columns) * sparse]!;
-    watched.columns = columns;
-    watched.frames.push({ at, pixels: new Uint8Array(some.buffer) });
+    recording.columns = columns;
+    recording.frames.push({ at, pixels: new Uint8Array(some.buffer) });
   };
   /** A page may draw into a canvas that it shows later: nobody has seen that yet. */
   const isSeen = ({ canvas }: Context): boolean =>
     canvas instanceof HTMLCanvasElement && canvas.checkVisibility({ opacityProperty: true, visibilityProperty: true });
   const note = (gl: Context, count: number): void => {
     if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // what is drawn for the page's own use
-    hasModel ||= count >= wanted.leastVertices;
+    hasModel ||= count >= options.minModelVertices;
     if (due.has(gl)) return;
     due.add(gl);
     // When the frame's draws have all been given, and before the browser takes them.
     queueMicrotask(() => {
       due.delete(gl);
-      if (wanted.takesPictures && isSeen(gl)) takePicture(gl);
-      if (hasModel && !wanted.saysWhenComplete && watched.complete === 0) complete();
+      if (options.takesPictures && isSeen(gl)) takePicture(gl);
+      if (hasModel && !options.saysWhenComplete && recording.complete === 0) complete();
     });
   };
 
   for (const prototype of [WebGLRenderingContext.prototype, WebGL2RenderingContext.prototype]) {
     const calls = prototype as unknown as Record<string, (this: Context, ...args: unknown[]) => unknown>;
-    for (const [name, place] of [
+    for (const [name, countArgument] of [
       ["drawArrays", 2],
       ["drawElements", 1],
       ["drawArraysInstanced", 2],
@@ -90,7 +90,7 @@ export function watch(wanted: Wanted): void {
       const draw = calls[name];
       if (draw)
         calls[name] = function (...args) {
-          note(this, Number(args[place]));
+          note(this, Number(args[countArgument]));
           return draw.apply(this, args);
         };
     }
@@ -99,7 +99,7 @@ export function watch(wanted: Wanted): void {
   document.addEventListener(
     "load",
     ({ target }) => {
-      if (wanted.saysWhenComplete && target instanceof Element && target.localName.toLowerCase() === "x3d") complete();
+      if (options.saysWhenComplete && target instanceof Element && target.localName.toLowerCase() === "x3d") complete();
     },
     true,
   );
@@ -110,14 +110,14 @@ export interface Times {
   /** 95 % of the model's silhouette are covered, or have a pixel beside them that is. */
   first: number;
   /** Nine tenths of the way from nothing to the final picture, in the sum of all channels' differences. */
-  most: number;
+  nearlyFinal: number;
   /** The final picture, but for what nobody sees. */
   final: number;
 }
 
 /** Runs in the page, when it is complete. */
 export function timesOf(): Times {
-  const { frames, columns } = window.watched;
+  const { frames, columns } = window.recording;
   const last = frames.at(-1);
   if (last === undefined) throw new Error("nothing was drawn");
   const final = last.pixels;
@@ -126,7 +126,7 @@ export function timesOf(): Times {
     Math.abs(pixels[i + channel]! - background[channel]!);
   const shows = (pixels: Uint8Array, i: number): boolean =>
     Math.max(off(pixels, i, 0), off(pixels, i, 1), off(pixels, i, 2)) > 8;
-  // Of one picture in another: who simplifies a shape moves its outline by a hair, and would miss much of a thin leg.
+  // One pixel of tolerance: simplification moves the outline slightly, which would miss much of a thin leg.
   const isCovered = (pixels: Uint8Array, i: number): boolean =>
     [0, -4, 4, -4 * columns, 4 * columns].some(
       (away) => i + away >= 0 && i + away < pixels.length && shows(pixels, i + away),
@@ -149,7 +149,7 @@ export function timesOf(): Times {
     measured[measured.findLastIndex((frame) => !holds(frame)) + 1]!.at;
   return {
     first: since(({ coverage }) => coverage >= 0.95),
-    most: since(({ likeness }) => likeness >= 0.9),
+    nearlyFinal: since(({ likeness }) => likeness >= 0.9),
     final: since(({ likeness }) => likeness >= 0.998),
   };
 }

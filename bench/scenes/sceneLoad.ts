@@ -3,19 +3,19 @@
 
 import type { Browser } from "playwright-core";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
-import { observe } from "../../tests/browser/observe.ts";
-import type { LineOptions } from "../../tests/browser/line.ts";
+import { observe } from "../../tests/browser/pageObserver.ts";
+import type { LinkOptions } from "../../tests/browser/networkLink.ts";
 import { serve, timeoutMs, viewport } from "../load/measure.ts";
 
 /** A file as the page's document names it. */
-export interface AskedFile {
+export interface RequestedFile {
   readonly role: "base" | "patches" | "preview" | "texture";
-  /** Of the shapes that need it, without numbers behind them, each once. */
+  /** Names of the shapes that need the file, without trailing numbers, each once. */
   readonly names: readonly string[];
   readonly bytes: number;
 }
 
-export interface Visit {
+export interface SceneLoad {
   /** All that the page asked for, itself included. */
   readonly requests: number;
   /** As sent. */
@@ -27,15 +27,15 @@ export interface Visit {
   readonly firstBytes: number;
   readonly finalSeconds: number;
   readonly drawCalls: number;
-  /** Of the scene, each place counted. */
+  /** Counts in the scene; each instance of a shape counts. */
   readonly shapes: number;
   readonly triangles: number;
   /** The scene's files in the order in which they were asked for. */
-  readonly asked: readonly AskedFile[];
+  readonly requestedFiles: readonly RequestedFile[];
   readonly picture: Buffer;
 }
 
-export async function visit(browser: Browser, directory: string, line: LineOptions): Promise<Visit> {
+export async function loadScene(browser: Browser, directory: string, line: LinkOptions): Promise<SceneLoad> {
   const server = await serve({ name: "", directory, contentPolicy: "default-src 'self'", saysWhenComplete: true });
   const context = await browser.newContext({ viewport, reducedMotion: "reduce" });
   try {
@@ -46,7 +46,7 @@ export async function visit(browser: Browser, directory: string, line: LineOptio
     });
     const order: string[] = [];
     page.on("request", (request) => order.push(request.url().slice(server.origin.length)));
-    server.useLine(line);
+    server.useLink(line);
     await page.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs });
     await page.waitForFunction(
       () => window.observed.events.some(({ type, target }) => type === "load" && target === "x3d"),
@@ -62,7 +62,7 @@ export async function visit(browser: Browser, directory: string, line: LineOptio
 }
 
 /** Runs in the page; self-contained. */
-async function measure(order: readonly string[]): Promise<Omit<Visit, "requests" | "bytes" | "picture">> {
+async function measure(order: readonly string[]): Promise<Omit<SceneLoad, "requests" | "bytes" | "picture">> {
   const x3d = document.querySelector<ViewElement>("x3d")!;
   const timeOf = (type: string): number =>
     window.observed.events.find((event) => event.type === type && event.target === "x3d")?.at ?? NaN;
@@ -96,7 +96,7 @@ async function measure(order: readonly string[]): Promise<Omit<Visit, "requests"
   };
   countIn(x3d.querySelector("scene")!);
 
-  /** Of a texture its appearance's, of a geometry the nearest around its shape. */
+  /** DEF of a texture's Appearance, or the nearest DEF around a geometry's Shape. */
   const nameOf = (element: Element): string => {
     const shape = element.closest("shape");
     const named = element.closest("appearance[DEF]") ?? shape?.closest("[DEF]:not(shape)") ?? shape ?? element;
@@ -129,6 +129,6 @@ async function measure(order: readonly string[]): Promise<Omit<Visit, "requests"
     finalSeconds: timeOf("load") / 1000,
     drawCalls: statistics?.drawCalls ?? 0,
     ...count,
-    asked,
+    requestedFiles: asked,
   };
 }

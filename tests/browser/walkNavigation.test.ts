@@ -18,7 +18,7 @@ interface Eye {
   z: number;
 }
 
-/** Of the hall's generator. */
+/** Dimensions of the generated hall in meters. */
 const rowDepth = 0.95,
   rowRise = 0.16,
   firstRow = 5,
