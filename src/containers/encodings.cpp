@@ -10,7 +10,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::array rows{&compactEncoding, &classicEncoding, &bgEncoding};
+constexpr std::array encodingRows{&compactEncoding, &classicEncoding, &bgEncoding};
 
 } // namespace
 
@@ -19,15 +19,15 @@ const char* nameOf(Encoding encoding) {
 }
 
 std::span<const EncodingRow* const> allEncodings() {
-  return rows;
+  return encodingRows;
 }
 
 const EncodingRow& rowOf(Encoding encoding) {
-  return *rows.at(static_cast<std::size_t>(encoding));
+  return *encodingRows.at(static_cast<std::size_t>(encoding));
 }
 
 const EncodingRow* findEncoding(std::string_view container, std::string_view profile) {
-  for (const EncodingRow* row : rows)
+  for (const EncodingRow* row : encodingRows)
     if (row->container == container && row->profile == profile)
       return row;
   return nullptr;
