@@ -120,7 +120,7 @@ describe("the stages of a patch of images", () => {
           [[missing, "http"]],
         );
         assert.match(errors[0]?.message ?? "", new RegExp(`^${missing}: .*${status}`));
-        assert.equal(site.scheduler.running, 0);
+        assert.equal(site.scheduler.runningCount, 0);
       });
     }
   }
@@ -332,7 +332,7 @@ describe("a cancelled delivery", () => {
     assert.deepEqual(errors, []);
     assert.ok(site.aborted.includes("b0.png"));
     assert.equal(site.images.open, 0);
-    assert.deepEqual([site.scheduler.running, site.scheduler.waiting], [0, 0]);
+    assert.deepEqual([site.scheduler.runningCount, site.scheduler.waitingCount], [0, 0]);
   });
 
   test("before anything was sent sends nothing", async () => {

@@ -175,7 +175,7 @@ describe("a delivery", () => {
     assert.equal(stages.at(-1)?.stage.name, "full");
     assert.deepEqual(errors, []);
     assert.equal(site.asked.filter((name) => name === "b0.png").length, 2);
-    assert.equal(site.scheduler.running, 0);
+    assert.equal(site.scheduler.runningCount, 0);
   });
 
   test("that is no longer wanted while it waits never asks", async () => {

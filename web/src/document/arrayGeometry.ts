@@ -51,14 +51,14 @@ export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolea
 }
 
 function boxAroundAll(positions: Float32Array): Box3 {
-  const edge = (choose: (...values: number[]) => number, start: number): Vec3 => {
+  const cornerOf = (choose: (...values: number[]) => number, start: number): Vec3 => {
     const corner: [number, number, number] = [start, start, start];
     positions.forEach((value, i) => {
       corner[i % 3] = choose(corner[i % 3] ?? start, value);
     });
     return corner;
   };
-  return { min: edge(Math.min, Infinity), max: edge(Math.max, -Infinity) };
+  return { min: cornerOf(Math.min, Infinity), max: cornerOf(Math.max, -Infinity) };
 }
 
 /** BG is little-endian, as are typed arrays on every machine with a browser. */

@@ -44,7 +44,7 @@ describe("a shape's colorBy", () => {
     assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", byteOffset: 4, byteStride: 16 }]);
   });
 
-  test("selects no files in compact, whose patches have the values and their bits", () => {
+  test("selects no files in compact, whose patch files contain the values", () => {
     const {
       geometry: {
         value,
@@ -62,7 +62,7 @@ describe("a shape's colorBy", () => {
     );
   });
 
-  test("that is absent or names an unknown attribute colors nothing", () => {
+  test("colors nothing where it is absent or names an unknown attribute", () => {
     assert.deepEqual(read("").geometry.patches[0]?.value, []);
     assert.deepEqual(read("").messages, []);
     const unknown = read(`colorBy="cold"`);
@@ -70,7 +70,7 @@ describe("a shape's colorBy", () => {
     assert.deepEqual(unknown.messages, [`colorBy="cold" is no attribute of the geometry`]);
   });
 
-  test("makes one geometry of one attribute, however often the document is read", () => {
+  test("gives one geometry per attribute, however often the document is read", () => {
     const scene =
       elementsOf(`<X3D><Shape colorBy="heat">${geometry.replace("<ImageGeometry", `<ImageGeometry DEF="g"`)}</Shape>
       <Shape colorBy="heat" colorMap="gray"><ImageGeometry USE="g"/></Shape><Shape colorBy="flow"><ImageGeometry USE="g"/></Shape></X3D>`);
@@ -104,7 +104,7 @@ describe("a shape's colorBy", () => {
 });
 
 describe("a FloatVertexAttribute", () => {
-  test("with unsupported numbers raises a warning", () => {
+  test("raises a warning where its numbers are not supported", () => {
     assert.equal(read("", geometry.replace(`valueBits="16"`, `valueBits="12"`)).messages.length, 1);
     assert.equal(read("", geometry.replace(`numComponents="2"`, `numComponents="5"`)).messages.length, 1);
   });

@@ -1,6 +1,5 @@
 // Custom vertex attributes (FloatVertexAttribute), and the attribute that colors a shape: `colorBy` names it, and a
-// color
-// map maps its values to colors.
+// color map maps its values to colors.
 
 import type {
   AttributeDescription,
@@ -29,12 +28,12 @@ export function readAttributes(element: SceneElement, encoding: Encoding, warnin
     if (components !== numComponents || (bits !== undefined && ![8, 16, 24].includes(bits))) {
       warnings.push({
         element: child,
-        message: `numComponents="${numComponents}" valueBits="${valueBits}" are no numbers that are read`,
+        message: `numComponents="${numComponents}" valueBits="${valueBits}" are not supported`,
       });
     }
-    const each = (values: readonly number[], missing: number) =>
+    const perComponent = (values: readonly number[], missing: number) =>
       Array.from({ length: components }, (_, c) => values[c] ?? missing);
-    return { name, components, fileCount, bits, min: each(valueMin, 0), size: each(valueSize, 1) };
+    return { name, components, fileCount, bits, min: perComponent(valueMin, 0), size: perComponent(valueSize, 1) };
   });
 }
 

@@ -22,12 +22,12 @@ export function dequantizationOf(geometry: GeometryDescription, patch: PatchDesc
   const maxStored = maxStoredValueOf(geometry, patch);
   // Signed coordinates are relative to the center; X3DOM maps -PMAX/2 … PMAX/2 to the box.
   const signed = geometry.coordType.startsWith("Int");
-  const along = (axis: 0 | 1 | 2) => (signed ? position[axis] : position[axis] - size[axis] / 2);
+  const originAlong = (axis: 0 | 1 | 2) => (signed ? position[axis] : position[axis] - size[axis] / 2);
   // A flat box would make a singular matrix; the values stored along its thin axis are 0.
-  const edge = (axis: 0 | 1 | 2) => size[axis] || Math.max(...size) || 1;
+  const edgeAlong = (axis: 0 | 1 | 2) => size[axis] || Math.max(...size) || 1;
   return {
-    origin: [along(0), along(1), along(2)],
-    step: [edge(0) / maxStored, edge(1) / maxStored, edge(2) / maxStored],
+    origin: [originAlong(0), originAlong(1), originAlong(2)],
+    step: [edgeAlong(0) / maxStored, edgeAlong(1) / maxStored, edgeAlong(2) / maxStored],
   };
 }
 

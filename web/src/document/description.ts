@@ -274,8 +274,8 @@ export interface ShapeDescription {
   readonly appearance: AppearanceDescription;
   /** Undefined where there is no geometry that can be drawn; the same object for shapes that USE one geometry. */
   readonly geometry: GeometryDescription | undefined;
-  /** It has a geometry element that could not be read: malformed, or of a kind without reader. */
-  readonly isUnread: boolean;
+  /** The shape has a geometry element that could not be read: malformed, or of a kind without reader. */
+  readonly hasUnreadableGeometry: boolean;
 }
 
 export interface GroupDescription {

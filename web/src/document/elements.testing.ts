@@ -1,4 +1,4 @@
-// A tree of elements out of well-formed markup, for tests that have no DOM.
+// Parses well-formed markup into a tree of elements, for tests without a DOM.
 
 import type { SceneElement } from "./element.ts";
 
@@ -9,28 +9,28 @@ export interface TestElement extends SceneElement {
 
 /** Reads start tags, end tags and attributes; names keep their case as in XML. The first element is the root. */
 export function elementsOf(markup: string): TestElement {
-  const top = elementNamed("");
-  const open = [top];
-  for (const [, end, name, attributes = "", selfClosing] of markup.matchAll(
+  const container = createElement("");
+  const openElements = [container];
+  for (const [, slash, name, attributes = "", selfClosing] of markup.matchAll(
     /<(\/)?(\w+)((?:\s+\w+=(?:"[^"]*"|'[^']*'))*)\s*(\/)?>/g,
   )) {
-    if (end !== undefined) {
-      open.pop();
+    if (slash !== undefined) {
+      openElements.pop();
       continue;
     }
-    const element = elementNamed(name ?? "");
-    for (const [, key = "", double, single] of attributes.matchAll(/(\w+)=(?:"([^"]*)"|'([^']*)')/g)) {
-      element.attributes.set(key, double ?? single ?? "");
+    const element = createElement(name ?? "");
+    for (const [, key = "", doubleQuoted, singleQuoted] of attributes.matchAll(/(\w+)=(?:"([^"]*)"|'([^']*)')/g)) {
+      element.attributes.set(key, doubleQuoted ?? singleQuoted ?? "");
     }
-    open.at(-1)?.children.push(element);
-    if (selfClosing === undefined) open.push(element);
+    openElements.at(-1)?.children.push(element);
+    if (selfClosing === undefined) openElements.push(element);
   }
-  const root = top.children[0];
+  const root = container.children[0];
   if (root === undefined) throw new Error("no element");
   return root;
 }
 
-function elementNamed(localName: string): TestElement {
+function createElement(localName: string): TestElement {
   const attributes = new Map<string, string>();
   return {
     localName,

@@ -125,7 +125,7 @@ const mfColor: FieldType<readonly Vec3[]> = {
   },
 };
 
-function maker<Value>(type: FieldType<Value>): (defaultValue: Value) => Field<Value> {
+function fieldMaker<Value>(type: FieldType<Value>): (defaultValue: Value) => Field<Value> {
   return (defaultValue) => ({ type, defaultValue });
 }
 
@@ -134,18 +134,18 @@ export function optional<Value>(field: Field<Value>): Field<Value | undefined> {
   return { ...field, defaultValue: undefined };
 }
 
-export const SFBool = maker(sfBool);
-export const SFFloat = maker(sfFloat);
-export const SFInt32 = maker(sfInt32);
-export const Priority = maker(priority);
-export const SFString = maker(sfString);
-export const SFVec2f = maker(tuple<Vec2>("SFVec2f", 2));
-export const SFVec3f = maker(tuple<Vec3>("SFVec3f", 3));
-export const SFColor = maker(tuple<Vec3>("SFColor", 3));
-export const SFImage = maker(sfImage);
-export const SFRotation = maker(tuple<Rotation>("SFRotation", 4));
-export const MFInt32 = maker(mfInt32);
-export const MFFloat = maker(mfFloat);
-export const MFString = maker(mfString);
-export const MFText = maker(mfText);
-export const MFColor = maker(mfColor);
+export const SFBool = fieldMaker(sfBool);
+export const SFFloat = fieldMaker(sfFloat);
+export const SFInt32 = fieldMaker(sfInt32);
+export const Priority = fieldMaker(priority);
+export const SFString = fieldMaker(sfString);
+export const SFVec2f = fieldMaker(tuple<Vec2>("SFVec2f", 2));
+export const SFVec3f = fieldMaker(tuple<Vec3>("SFVec3f", 3));
+export const SFColor = fieldMaker(tuple<Vec3>("SFColor", 3));
+export const SFImage = fieldMaker(sfImage);
+export const SFRotation = fieldMaker(tuple<Rotation>("SFRotation", 4));
+export const MFInt32 = fieldMaker(mfInt32);
+export const MFFloat = fieldMaker(mfFloat);
+export const MFString = fieldMaker(mfString);
+export const MFText = fieldMaker(mfText);
+export const MFColor = fieldMaker(mfColor);

@@ -34,13 +34,13 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
     : "sig";
   return {
-    ...commonOf(element, values, warnings),
+    ...commonFieldsOf(element, values, warnings),
     attributes: readAttributes(element, encoding, warnings),
     encoding,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
     decode: choiceOf(element, "decode", values.decode, decodeModes, "auto", warnings),
-    // The bytes of an image are its only element type; indices are made of two or three.
     base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
+    // Images store bytes; an index consists of two or three of them.
     coordType: "Uint8",
     normalType: "Uint8",
     texCoordType: "Uint8",
@@ -61,7 +61,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
       warnings,
     );
   const geometry: GeometryDescription = {
-    ...commonOf(element, values, warnings),
+    ...commonFieldsOf(element, values, warnings),
     attributes: readAttributes(element, "bg", warnings),
     encoding: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
@@ -79,7 +79,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
   return geometry;
 }
 
-/** X3DOM has spherical normals of one byte each in the fourth element of 16-bit coordinate records. */
+/** X3DOM stores spherical normals of one byte each in the fourth element of 16-bit coordinate records. */
 function withNormalsInCoords(geometry: GeometryDescription): GeometryDescription {
   const patches = geometry.patches.map((patch) => ({ ...patch, normal: fourthElementOf(patch) }));
   return { ...geometry, normalEncoding: "spherical", normalType: "Uint8", patches };
@@ -122,7 +122,7 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 /** Fields of ImageGeometry only. */
 type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode";
 
-function commonOf(
+function commonFieldsOf(
   element: SceneElement,
   values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
   warnings: Warning[],
@@ -143,7 +143,7 @@ function commonOf(
   };
 }
 
-/** The choice that the text names, case-insensitively. */
+/** The choice that the text names, case-insensitively; `fallback`, with a warning, where it names none. */
 function choiceOf<Choice extends string>(
   element: SceneElement,
   field: string,

@@ -38,7 +38,7 @@ function trianglesOf(markup: string): Triangles {
   };
 }
 
-/** Of what closed triangles enclose that face outwards. */
+/** The volume inside a closed surface of triangles that face outwards. */
 function volumeOf(positions: number[]): number {
   let volume = 0;
   for (let i = 0; i < positions.length; i += 9) {
@@ -57,7 +57,7 @@ describe("geometry in the document", () => {
     ['<Cylinder radius="0.5" height="3"/>', 0.75 * Math.PI, [1, 3, 1]],
     ['<Cone bottomRadius="1" height="3"/>', Math.PI, [2, 3, 2]],
     ['<Extrusion spine="0 -0.5 0 0 0.5 0"/>', 4, [2, 1, 2]],
-    // Down the other way, and turned a quarter with half of the width at its end.
+    // A spine that points down; and a twist by a quarter turn with half of the width at the end.
     ['<Extrusion spine="0 1 0 0 -1 0"/>', 8, [2, 2, 2]],
     ['<Extrusion spine="0 -1 0 0 1 0" scale="1 0.5" orientation="0 1 0 1.5707963"/>', 4, [1, 2, 2]],
   ] as const) {
@@ -77,8 +77,8 @@ describe("geometry in the document", () => {
     });
   }
 
-  test("has the same triangles in every node that can state them", () => {
-    const two = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0];
+  test("has the same triangles in every node type that can represent them", () => {
+    const twoTriangles = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0];
     for (const markup of [
       `<IndexedFaceSet coordIndex="0 1 2 3 -1">${square}</IndexedFaceSet>`,
       `<IndexedFaceSet ccw="false" coordIndex="3 2 1 0">${square}</IndexedFaceSet>`,
@@ -88,11 +88,11 @@ describe("geometry in the document", () => {
       '<TriangleSet><Coordinate point="0 0 0 1 0 0 1 1 0 0 0 0 1 1 0 0 1 0"/></TriangleSet>',
     ]) {
       const { positions, normals } = trianglesOf(markup);
-      // The polygon that was turned begins elsewhere: compare what they enclose with a point behind them.
+      // Reversed polygons begin at another corner, so the triangles differ: compare the volumes between them and a point behind.
       const raised = (numbers: readonly number[]) =>
         volumeOf(numbers.map((value, i) => (i % 3 === 2 ? value + 1 : value)));
-      assert.equal(positions.length, two.length, markup);
-      assert.ok(Math.abs(raised(positions) - raised(two)) < 1e-6, markup);
+      assert.equal(positions.length, twoTriangles.length, markup);
+      assert.ok(Math.abs(raised(positions) - raised(twoTriangles)) < 1e-6, markup);
       assert.ok(
         normals.every((value, i) => Math.abs(value - (i % 3 === 2 ? 1 : 0)) < 1e-6),
         markup,
@@ -105,7 +105,7 @@ describe("geometry in the document", () => {
   });
 
   test("cuts concave polygons and caps within their outline", () => {
-    const hook = "0 0 0 3 0 0 3 1 0 1 1 0 1 3 0 0 3 0"; // of area 5, in the order of a fan of 7
+    const hook = "0 0 0 3 0 0 3 1 0 1 1 0 1 3 0 0 3 0"; // of area 5; the triangles of a fan about its corner 4 cover 9
     const prism = (positions: number[]) => volumeOf(positions.map((value, i) => (i % 3 === 2 ? value + 3 : value)));
     const faces = (convex: boolean) =>
       `<IndexedFaceSet convex="${convex}" coordIndex="4 5 0 1 2 3"><Coordinate point="${hook}"/></IndexedFaceSet>`;
@@ -154,7 +154,7 @@ describe("geometry in the document", () => {
     assert.deepEqual(geometry.patches[0]?.box, { min: [0, 0, 0], max: [4, 1, 1] });
     assert.ok(
       normals.every((value, i) => i % 3 !== 1 || value > 0.5),
-      "it is seen from above",
+      "normals point upwards",
     );
     assert.equal(read('<ElevationGrid xDimension="3" zDimension="3" height="0 1"/>').warnings, 1);
     assert.deepEqual(
@@ -177,7 +177,7 @@ describe("geometry in the document", () => {
     const distinct = (normals: number[]) =>
       new Set(normals.flatMap((_, i) => (i % 3 === 0 ? [normals.slice(i, i + 3).join()] : []))).size;
     assert.equal(distinct(roof(0.5)), 2);
-    assert.equal(distinct(roof(2)), 3); // those of the edge are between
+    assert.equal(distinct(roof(2)), 3); // the third one, at the shared edge, is the mean of both
   });
 
   test("draws lines and points, in colours of vertices or of lines", () => {
@@ -196,7 +196,7 @@ describe("geometry in the document", () => {
     );
   });
 
-  test("resolves the nodes that it USEs, and warns of missing ones", () => {
+  test("resolves USE of its child nodes, and warns of missing coordinates", () => {
     const scene = readScene(
       elementsOf(`<X3D><Scene><Shape><PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet></Shape>
       <Shape><PointSet><Coordinate USE="C"/></PointSet></Shape></Scene></X3D>`),

@@ -20,7 +20,7 @@ const dashesOf: ReadonlyMap<number, readonly number[]> = new Map([
   [13, [14, 3, 4, 3, 4, 3]], // phantom line
 ]);
 
-/** The largest number of lengths of a line type. */
+/** The largest number of dash lengths and gap lengths of a line type. */
 export const maxDashLengths = 6;
 
 /** In CSS pixels. Points have the same maximum. */

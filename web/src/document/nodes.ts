@@ -59,7 +59,7 @@ const geometryFields = {
   solid: SFBool(true),
   position: SFVec3f([0, 0, 0]),
   size: SFVec3f([1, 1, 1]),
-  /** 0: all bits of the stored bytes carry the lattice. */
+  /** The number of bits of a stored coordinate that are used; 0: all bits of its bytes. */
   positionBits: SFInt32(0),
   texCoordMin: SFVec2f([0, 0]),
   texCoordSize: SFVec2f([1, 1]),

@@ -12,7 +12,7 @@ export interface PixelImage {
 
 export const noPixels: PixelImage = { width: 0, height: 0, components: 1, pixels: [] };
 
-/** No GPU has larger textures. */
+/** The largest texture size of most GPUs. */
 const maxEdge = 16384;
 
 /** Parses the numbers of an SFImage; undefined where the number of pixels is wrong or a pixel exceeds its components. */
@@ -30,23 +30,23 @@ export function pixelImageOf([width, height, count, ...pixels]: readonly number[
 const pngColorTypes = { 1: 0, 2: 4, 3: 2, 4: 6 } as const;
 const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 
-/** Encodes an uncompressed PNG, which is decoded once on the same machine. */
+/** Encodes a PNG without compression, since it is decoded once, on the same machine. */
 export function pngOfPixels({ width, height, components, pixels }: PixelImage): Uint8Array {
   const header = new Uint8Array(13);
   const numbers = new DataView(header.buffer);
   numbers.setUint32(0, width);
   numbers.setUint32(4, height);
   header.set([8, pngColorTypes[components]], 8);
-  const rows = new Uint8Array(height * (1 + width * components)); // each begins with the number of its filter: none
-  let at = 0;
+  const rows = new Uint8Array(height * (1 + width * components)); // each row begins with its filter type, 0 for none
+  let offset = 0;
   for (let row = height - 1; row >= 0; --row) {
-    ++at;
+    ++offset;
     for (let column = 0; column < width; ++column) {
       const pixel = pixels[row * width + column] ?? 0;
-      for (let shift = 8 * (components - 1); shift >= 0; shift -= 8) rows[at++] = pixel >>> shift;
+      for (let shift = 8 * (components - 1); shift >= 0; shift -= 8) rows[offset++] = pixel >>> shift;
     }
   }
-  return joined([
+  return concatenate([
     Uint8Array.from(signature),
     chunk("IHDR", header),
     chunk("IDAT", storedZlib(rows)),
@@ -70,16 +70,16 @@ function chunk(type: string, data: Uint8Array): Uint8Array {
 /** RFC 1950 around RFC 1951's stored blocks. */
 function storedZlib(data: Uint8Array): Uint8Array {
   const maxBlockLength = 65535;
-  const parts: Uint8Array[] = [Uint8Array.of(0x78, 0x01)];
-  for (let at = 0; at < data.length; at += maxBlockLength) {
-    const block = data.subarray(at, at + maxBlockLength);
-    const isLast = at + maxBlockLength >= data.length;
+  const pieces: Uint8Array[] = [Uint8Array.of(0x78, 0x01)];
+  for (let start = 0; start < data.length; start += maxBlockLength) {
+    const block = data.subarray(start, start + maxBlockLength);
+    const isLast = start + maxBlockLength >= data.length;
     const { length } = block;
-    parts.push(Uint8Array.of(Number(isLast), length & 255, length >> 8, ~length & 255, (~length >> 8) & 255), block);
+    pieces.push(Uint8Array.of(Number(isLast), length & 255, length >> 8, ~length & 255, (~length >> 8) & 255), block);
   }
-  const sum = new Uint8Array(4);
-  new DataView(sum.buffer).setUint32(0, adler32(data));
-  return joined([...parts, sum]);
+  const checksum = new Uint8Array(4);
+  new DataView(checksum.buffer).setUint32(0, adler32(data));
+  return concatenate([...pieces, checksum]);
 }
 
 function adler32(bytes: Uint8Array): number {
@@ -92,23 +92,23 @@ function adler32(bytes: Uint8Array): number {
 }
 
 const crcTable = Uint32Array.from({ length: 256 }, (_, byte) => {
-  let rest = byte;
-  for (let bit = 0; bit < 8; ++bit) rest = rest & 1 ? (rest >>> 1) ^ 0xedb88320 : rest >>> 1;
-  return rest;
+  let crc = byte;
+  for (let bit = 0; bit < 8; ++bit) crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
+  return crc;
 });
 
 function crc32(bytes: Uint8Array): number {
-  let rest = 0xffffffff;
-  for (const byte of bytes) rest = (crcTable[(rest ^ byte) & 255] ?? 0) ^ (rest >>> 8);
-  return ~rest >>> 0;
+  let crc = 0xffffffff;
+  for (const byte of bytes) crc = (crcTable[(crc ^ byte) & 255] ?? 0) ^ (crc >>> 8);
+  return ~crc >>> 0;
 }
 
-function joined(parts: readonly Uint8Array[]): Uint8Array {
-  const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
-  let at = 0;
-  for (const part of parts) {
-    all.set(part, at);
-    at += part.length;
+function concatenate(arrays: readonly Uint8Array[]): Uint8Array {
+  const result = new Uint8Array(arrays.reduce((sum, { length }) => sum + length, 0));
+  let offset = 0;
+  for (const array of arrays) {
+    result.set(array, offset);
+    offset += array.length;
   }
-  return all;
+  return result;
 }

@@ -8,7 +8,7 @@ import { boxOf } from "./geometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { asViewpoint } from "./orthoViewpoint.ts";
-import type { ShapeReading } from "./readShape.ts";
+import type { ShapeReadingContext } from "./readShape.ts";
 import { readShape } from "./readShape.ts";
 import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
 import { declarationsOf, joinDeclarations, warningsOnly } from "./sceneFragment.ts";
@@ -21,7 +21,7 @@ export interface InlinedDocument {
 }
 
 /** The context that reading a node needs besides its element. */
-export interface NodeReading extends ShapeReading {
+export interface NodeReadingContext extends ShapeReadingContext {
   /** The page's element for it. */
   readonly host: SceneElement;
   readonly childrenOf: (element: SceneElement) => readonly SceneElement[];
@@ -35,39 +35,39 @@ export function isReadAsWhole(node: SceneElement): boolean {
   return lowerNameOf(node) === "shape";
 }
 
-/** `element` stands in the document; `node` describes it: another element where `element` USEs a node. */
-export function readNode(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
-  const { warnings } = reading;
+/** `element` is read; `node` describes it, which is another element where `element` USEs a node. */
+export function readNode(element: SceneElement, node: SceneElement, context: NodeReadingContext): FragmentReader {
+  const { warnings } = context;
   switch (lowerNameOf(node)) {
     case "shape":
-      return shapeReader(element, node, reading);
+      return shapeReader(element, node, context);
     case "group":
     case "staticgroup":
-      return groupReader(node, readFields(node, nodeFields.Group, warnings), reading);
+      return groupReader(node, readFields(node, nodeFields.Group, warnings), context);
     case "anchor": {
       const { url, description, parameter, ...fields } = readFields(node, nodeFields.Anchor, warnings);
       const anchor: AnchorDescription = { element: node, urls: url, description, target: targetIn(parameter) };
-      return groupReader(node, fields, reading, url.length > 0 ? { anchor } : {});
+      return groupReader(node, fields, context, url.length > 0 ? { anchor } : {});
     }
     case "collision":
       return groupReader(node, readFields(node, nodeFields.Group, warnings), {
-        ...reading,
-        childrenOf: (of) => reading.childrenOf(of).filter(isVisibleChild),
+        ...context,
+        childrenOf: (parent) => context.childrenOf(parent).filter(isVisibleChild),
       });
     case "billboard": {
       const { axisOfRotation, ...fields } = readFields(node, nodeFields.Billboard, warnings);
-      return groupReader(node, fields, reading, { billboardAxis: axisOfRotation });
+      return groupReader(node, fields, context, { billboardAxis: axisOfRotation });
     }
     case "transform": {
       const transform = readFields(node, nodeFields.Transform, warnings);
-      return groupReader(node, transform, reading, { transform });
+      return groupReader(node, transform, context, { transform });
     }
     case "switch":
-      return switchReader(node, reading);
+      return switchReader(node, context);
     case "lod":
-      return lodReader(node, reading);
+      return lodReader(node, context);
     case "inline":
-      return inlineReader(node, reading);
+      return inlineReader(node, context);
     case "directionallight":
       return lightReader({ kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) }, warnings);
     case "pointlight":
@@ -92,7 +92,7 @@ export function readNode(element: SceneElement, node: SceneElement, reading: Nod
     case "background":
       return constantReader([], declarationsOf({ background: readBackground(node, warnings), warnings }));
     default:
-      return (inherited, readChildren) => readChildren(reading.childrenOf(node), inherited);
+      return (inherited, readChildren) => readChildren(context.childrenOf(node), inherited);
   }
 }
 
@@ -109,15 +109,15 @@ function lightReader(
   return constantReader([{ kind: "light", light }], warningsOnly(warnings));
 }
 
-function shapeReader(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
-  const shape = readShape(element, reading.host, node, reading);
-  const declarations = warningsOnly(reading.warnings);
-  return ({ visible, contributesToBounds: reaches, priority }) => ({
+function shapeReader(element: SceneElement, node: SceneElement, context: NodeReadingContext): FragmentReader {
+  const shape = readShape(element, context.host, node, context);
+  const declarations = warningsOnly(context.warnings);
+  return ({ visible, contributesToBounds, priority }) => ({
     nodes: [
       {
         ...shape,
         visible: visible && shape.visible,
-        contributesToBounds: reaches && shape.contributesToBounds,
+        contributesToBounds: contributesToBounds && shape.contributesToBounds,
         priority: priority * shape.priority,
       },
     ],
@@ -148,8 +148,8 @@ function isVisible({ visible, render }: Pick<GroupFields, "visible" | "render">)
   return visible && render;
 }
 
-/** The state that a node with these fields passes down. */
-function within(fields: GroupFields, inherited: Inherited): Inherited {
+/** The state that the children of a node with these fields inherit. */
+function inheritedByChildren(fields: GroupFields, inherited: Inherited): Inherited {
   const visible = isVisible(fields);
   return {
     visible: inherited.visible && visible,
@@ -184,21 +184,21 @@ function isVisibleChild(child: SceneElement): boolean {
 function groupReader(
   node: SceneElement,
   fields: GroupFields,
-  { warnings, childrenOf }: NodeReading,
+  { warnings, childrenOf }: NodeReadingContext,
   traits?: GroupTraits,
 ): FragmentReader {
   const ownDeclarations = warningsOnly(warnings);
   return (inherited, readChildren) => {
-    const { nodes, declarations } = readChildren(childrenOf(node), within(fields, inherited));
+    const { nodes, declarations } = readChildren(childrenOf(node), inheritedByChildren(fields, inherited));
     return { nodes: [groupOf(fields, nodes, traits)], declarations: joinDeclarations([ownDeclarations, declarations]) };
   };
 }
 
 /**
- * At most one child is visible. The others stay in the scene, so that choosing them shows at once what is loaded of
- * them.
+ * At most one child is visible. The others stay in the scene: a child that is chosen later displays at once what has
+ * been loaded of it.
  */
-function switchReader(node: SceneElement, { warnings, childrenOf }: NodeReading): FragmentReader {
+function switchReader(node: SceneElement, { warnings, childrenOf }: NodeReadingContext): FragmentReader {
   const fields = readFields(node, nodeFields.Switch, warnings);
   const ownDeclarations = warningsOnly(warnings);
   return (inherited, readChildren) =>
@@ -218,7 +218,7 @@ function choicesIn(children: readonly SceneElement[]): SceneElement[] {
   return children.filter((child) => !lowerNameOf(child).startsWith("metadata"));
 }
 
-/** `allContributeToBounds`: the scene's bounds include the choices that are not chosen. */
+/** `allContributeToBounds`: the scene's bounds include the choices that are not visible. */
 function choiceFragment(
   choices: readonly SceneElement[],
   choice: number,
@@ -229,11 +229,11 @@ function choiceFragment(
   ownDeclarations: SceneDeclarations,
   levels?: GroupDescription["lod"],
 ): SceneFragment {
-  const each = choices.map((child, index) => {
+  const branches = choices.map((child, index) => {
     const visible = index === choice;
     const fragment = readChildren(
       [child],
-      within(fields, {
+      inheritedByChildren(fields, {
         ...inherited,
         visible: inherited.visible && visible,
         contributesToBounds: inherited.contributesToBounds && (visible || allContributeToBounds),
@@ -248,7 +248,7 @@ function choiceFragment(
     };
     return { group, declarations: fragment.declarations };
   });
-  const children = each.map(({ group }) => group);
+  const children = branches.map(({ group }) => group);
   const group: GroupDescription = {
     kind: "group",
     box: undefined,
@@ -258,14 +258,14 @@ function choiceFragment(
   };
   return {
     nodes: [levels === undefined ? group : { ...group, lod: levels }],
-    declarations: joinDeclarations([ownDeclarations, ...each.map(({ declarations }) => declarations)]),
+    declarations: joinDeclarations([ownDeclarations, ...branches.map(({ declarations }) => declarations)]),
   };
 }
 
 /**
  * Chooses a level by distance. While the distance is unknown the last level is visible, which needs the fewest files.
  */
-function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeReading): FragmentReader {
+function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeReadingContext): FragmentReader {
   const { center, range, ...fields } = readFields(node, nodeFields.LOD, warnings);
   const ownDeclarations = warningsOnly(warnings);
   return (inherited, readChildren) => {
@@ -282,12 +282,12 @@ function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
 }
 
 /** The document replaces the Inline and has its own DEF names; its NavigationInfo and Background are ignored. */
-function inlineReader(node: SceneElement, { warnings, inlined }: NodeReading): FragmentReader {
+function inlineReader(node: SceneElement, { warnings, inlined }: NodeReadingContext): FragmentReader {
   const { load, url, ...fields } = readFields(node, nodeFields.Inline, warnings);
   const x3d = load ? inlined(node) : undefined;
   const ownDeclarations = warningsOnly(warnings);
   return (inherited, readChildren) => {
-    const inner = within(fields, inherited);
+    const inner = inheritedByChildren(fields, inherited);
     const inlines =
       load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
     const { nodes, declarations } = readChildren(x3d ? [x3d] : [], inner);

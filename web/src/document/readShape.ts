@@ -14,7 +14,7 @@ import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
 /** The context that reading a shape needs besides its element. */
-export interface ShapeReading {
+export interface ShapeReadingContext {
   readonly geometries: GeometryCache;
   readonly lookup: Lookup;
   readonly warnings: Warning[];
@@ -27,26 +27,26 @@ export interface ShapeReading {
 }
 
 /**
- * `element` is the shape's identity, `host` the page's element for it, and `node` describes it: another element where
- * `element` USEs a shape.
+ * `element` is the shape's identity, `host` the page's element for it, and `node` describes it, which is another element
+ * where `element` USEs a shape.
  */
 export function readShape(
   element: SceneElement,
   host: SceneElement,
   node: SceneElement,
-  reading: ShapeReading,
+  context: ShapeReadingContext,
 ): ShapeDescription {
-  const { warnings } = reading;
+  const { warnings } = context;
   const values = readFields(node, nodeFields.Shape, warnings);
   const children = childrenOf(node);
   const ownBox = boxOf(values);
-  const [geometry, priorityOfGeometry] = readGeometryOf(children, reading, ownBox, values.colorBy);
+  const [geometry, priorityOfGeometry] = readGeometryOf(children, context, ownBox, values.colorBy);
   const nodesIn = (parent: SceneElement) =>
     childrenOf(parent).flatMap((child) => {
-      const used = resolveUse(child, reading);
+      const used = resolveUse(child, context);
       return used === undefined ? [] : [substitutedFor(child, used)];
     });
-  const appearance = firstOf(children, reading, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
+  const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
   const isVisible = values.visible && values.render;
   const appearanceDescription = readAppearance(
     appearance,
@@ -59,16 +59,16 @@ export function readShape(
     element,
     geometry,
     host,
-    isUnread: geometry === undefined && children.some(isGeometry),
+    hasUnreadableGeometry: geometry === undefined && children.some(isGeometry),
     visible: isVisible,
     contributesToBounds: isVisible,
     priority: values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
     appearance:
-      geometry?.glyphAtlas === undefined || reading.text === undefined
+      geometry?.glyphAtlas === undefined || context.text === undefined
         ? appearanceDescription
-        : reading.text.appearanceOf(appearanceDescription, geometry.glyphAtlas, node, warnings),
+        : context.text.appearanceOf(appearanceDescription, geometry.glyphAtlas, node, warnings),
   };
 }
 
@@ -78,14 +78,14 @@ export function readShape(
  */
 function readGeometryOf(
   children: readonly SceneElement[],
-  reading: ShapeReading,
+  context: ShapeReadingContext,
   box: Box3 | undefined,
   colorBy: string,
 ): readonly [geometry: GeometryDescription | undefined, priority: number] {
-  const { geometries, lookup, warnings } = reading;
-  const found = firstOf(children, reading, (child) => {
-    if (lowerNameOf(child) === "text") reading.listen(child);
-    const geometry = geometries.recall(child, lookup, warnings, (...of) => readGeometry(reading, ...of));
+  const { geometries, lookup, warnings } = context;
+  const found = firstOf(children, context, (child) => {
+    if (lowerNameOf(child) === "text") context.listen(child);
+    const geometry = geometries.recall(child, lookup, warnings, (...args) => readGeometry(context, ...args));
     return geometry && { child, geometry };
   });
   if (found === undefined) return [undefined, 1];
@@ -104,7 +104,7 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
 
 /** Undefined for an element that is no geometry. */
 function readGeometry(
-  { geometries, inlineGeometry, text }: ShapeReading,
+  { geometries, inlineGeometry, text }: ShapeReadingContext,
   element: SceneElement,
   lookup: Lookup,
   warnings: Warning[],
@@ -115,8 +115,8 @@ function readGeometry(
   };
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
-  const ofFiles = geometryReaders[name]?.(element, warnings);
-  return ofFiles ? geometries.intern(ofFiles) : inlineGeometry?.(element, resolve, warnings);
+  const fileGeometry = geometryReaders[name]?.(element, warnings);
+  return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.(element, resolve, warnings);
 }
 
 /** Whether a child of a Shape is a geometry, judged by its name: all but Appearance and metadata are. */
@@ -133,7 +133,7 @@ function withBox(geometry: GeometryDescription, box: Box3): GeometryDescription 
 }
 
 /** The element, or the one that its USE names; undefined where there is none. */
-function resolveUse(element: SceneElement, { lookup, warnings }: ShapeReading): SceneElement | undefined {
+function resolveUse(element: SceneElement, { lookup, warnings }: ShapeReadingContext): SceneElement | undefined {
   const name = attributeOf(element, "USE");
   if (name === undefined) return element;
   const node = lookup(name);
@@ -143,11 +143,11 @@ function resolveUse(element: SceneElement, { lookup, warnings }: ShapeReading): 
 
 function firstOf<Result>(
   elements: readonly SceneElement[],
-  reading: ShapeReading,
+  context: ShapeReadingContext,
   read: (element: SceneElement) => Result | undefined,
 ): Result | undefined {
   for (const element of elements) {
-    const used = resolveUse(element, reading);
+    const used = resolveUse(element, context);
     const result = used && read(used);
     if (result !== undefined) return result;
   }
@@ -156,7 +156,7 @@ function firstOf<Result>(
 
 /**
  * The union of the patches' boxes; the quantization box, which contains them all, where a patch has none; undefined
- * where only the vertices tell.
+ * where the bounds depend on the vertices.
  */
 function boxOfGeometry(geometry: GeometryDescription): Box3 | undefined {
   if (geometry.patches.some((patch) => isUnbounded(geometry, patch))) return undefined;

@@ -104,7 +104,7 @@ test("groups that USE one another exponentially are cut off at the limit of inst
   const shown = reader.read();
   assert.deepEqual(
     shown.warnings.map(({ message }) => message),
-    ["has more than 1000 nodes in all their places: the rest is left out"],
+    ["has more than 1000 instances of nodes: the rest is left out"],
   );
   const count = shapesOf(shown.root).length;
   assert.ok(count > 300 && count < 1000, `${count} shapes`);

@@ -39,7 +39,7 @@ const maxInlineDepth = 16;
 /** Nested USEs and Inlines multiply instances exponentially: instances beyond this number are left out. */
 const defaultMaxInstances = 500_000;
 
-const everything: Inherited = { visible: true, contributesToBounds: true, priority: 1 };
+const rootState: Inherited = { visible: true, contributesToBounds: true, priority: 1 };
 
 /** Unknown elements are ignored, as browsers ignore unknown tags; their children are read. */
 export class SceneReader {
@@ -49,14 +49,15 @@ export class SceneReader {
   readonly #page: ElementTree;
   readonly #geometries = new GeometryCache();
   readonly #inlinedTrees = new WeakMap<SceneElement, ElementTree>();
-  /** The instances that were read from an element, and those that have looked up a name. */
+  /** By element: the instances that were read from it. */
   readonly #readers = new Map<SceneElement, Set<ElementInstance>>();
+  /** By name: the instances that have looked it up. */
   readonly #nameUsers = new Map<string, Set<ElementInstance>>();
   readonly #root: ElementInstance;
   readonly #touched = new Set<SceneElement>();
   readonly #rearranged = new Set<SceneElement>();
-  /** The number of instances, and those of which some children are left out. */
   #instanceCount = 0;
+  /** The instances of which some children are left out. */
   readonly #truncated = new Set<ElementInstance>();
   #scene: SceneDescription | undefined;
 
@@ -89,23 +90,24 @@ export class SceneReader {
     this.#invalidateTouched();
     if (this.#scene !== undefined && this.#root.fragment !== undefined) return this.#scene;
     this.#geometries.begin();
-    this.#fragmentOf(this.#root, everything);
-    if (this.#instanceCount < this.#maxInstances) for (const instance of this.#truncated) instance.invalidate(); // other instances have left
-    const { nodes, declarations: asides } = this.#fragmentOf(this.#root, everything);
-    const warnings: Warning[] = [...asides.warnings];
+    this.#fragmentOf(this.#root, rootState);
+    // Other instances have been removed: instances that were left out may now fit.
+    if (this.#instanceCount < this.#maxInstances) for (const instance of this.#truncated) instance.invalidate();
+    const { nodes, declarations } = this.#fragmentOf(this.#root, rootState);
+    const warnings: Warning[] = [...declarations.warnings];
     if (this.#truncated.size > 0) {
       warnings.push({
         element: this.#x3d,
-        message: `has more than ${this.#maxInstances} nodes in all their places: the rest is left out`,
+        message: `has more than ${this.#maxInstances} instances of nodes: the rest is left out`,
       });
     }
     const { chunkPriority } = readFields(this.#x3d, nodeFields.X3D, warnings);
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
-      navigation: asides.navigation ?? defaultNavigation,
-      background: asides.background,
+      navigation: declarations.navigation ?? defaultNavigation,
+      background: declarations.background,
       chunkPriority,
-      inlines: asides.inlines,
+      inlines: declarations.inlines,
       warnings,
     };
     return this.#scene;
@@ -136,21 +138,21 @@ export class SceneReader {
     const reader = (instance.reader ??= this.#read(instance));
     const [previous, children] = [instance.takeChildren(), [] as ElementInstance[]];
     this.#truncated.delete(instance);
-    const readChildren: ReadChildren = (elements, inner) => {
+    const readChildren: ReadChildren = (elements, inheritedByElements) => {
       const fragments: SceneFragment[] = [];
       for (const element of elements) {
         const child = previous.take(element) ?? this.#newInstance(element, instance);
         if (child === undefined) break;
         children.push(child);
-        fragments.push(this.#fragmentOf(child, inner));
+        fragments.push(this.#fragmentOf(child, inheritedByElements));
       }
       return {
         nodes: fragments.flatMap(({ nodes }) => nodes),
-        declarations: joinDeclarations(fragments.map(({ declarations: asides }) => asides)),
+        declarations: joinDeclarations(fragments.map(({ declarations }) => declarations)),
       };
     };
     const fragment = reader(inherited, readChildren);
-    for (const child of previous.rest()) this.#leave(child);
+    for (const child of previous.rest()) this.#remove(child);
     instance.setFragment(inherited, fragment, children);
     return fragment;
   }
@@ -194,9 +196,9 @@ export class SceneReader {
       inlineGeometry: this.#options.inlineGeometry,
       text: this.#options.text,
       host: host ?? element,
-      childrenOf: (of) => tree.childrenOf(of),
-      listen: (part) => {
-        this.#addReader(instance, part);
+      childrenOf: (parent) => tree.childrenOf(parent),
+      listen: (source) => {
+        this.#addReader(instance, source);
       },
       levelOf: (lod) => this.#options.levelOf?.(lod),
       inlined: (inline) => this.#inlinedAt(instance, inline, warnings),
@@ -241,11 +243,11 @@ export class SceneReader {
     instance.names.clear();
   }
 
-  #leave(instance: ElementInstance): void {
+  #remove(instance: ElementInstance): void {
     this.#instanceCount -= 1;
     this.#truncated.delete(instance);
     this.#removeReader(instance);
-    for (const child of instance.children) this.#leave(child);
+    for (const child of instance.children) this.#remove(child);
   }
 }
 

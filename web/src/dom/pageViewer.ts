@@ -208,7 +208,7 @@ export class PageViewer {
   }
 
   get statistics(): ViewStatistics {
-    const { started, running, waiting } = this.#scheduler;
+    const { startedCount: started, runningCount: running, waitingCount: waiting } = this.#scheduler;
     return { ...this.renderer.statistics, requests: started, openRequests: running + waiting };
   }
 

@@ -11,7 +11,7 @@ import { forwardOf, poseFraming, poseOfViewpoint, orbited } from "./cameraPose.t
 import { interpolatePose } from "./cameraTransition.ts";
 import { navigationTypesOf } from "./navigationType.ts";
 import { CameraController } from "./cameraController.ts";
-import { lookedAround, noMovement, moved, movedFor } from "./firstPerson.ts";
+import { turnEye, noMovement, moveEye, applyMovement } from "./firstPerson.ts";
 
 const defaultsOf = (fields: Record<string, { defaultValue: unknown }>) =>
   Object.fromEntries(Object.entries(fields).map(([name, { defaultValue }]) => [name, defaultValue]));
@@ -143,30 +143,30 @@ describe("walking and flying", () => {
   };
 
   test("walking stays on its level wherever the camera looks, flying follows the view direction", () => {
-    const lookingDown = lookedAround(upright, 0, -0.8);
-    near(moved(lookingDown, 2, 0, 0, true).position, [0, 1.6, -2]);
-    near(moved(lookingDown, 2, 0, 0, false).position, [0, 1.6 - 2 * Math.sin(0.8), -2 * Math.cos(0.8)]);
-    near(moved(lookingDown, 0, 3, 1, true).position, [3, 2.6, 0]);
+    const lookingDown = turnEye(upright, 0, -0.8);
+    near(moveEye(lookingDown, 2, 0, 0, true).position, [0, 1.6, -2]);
+    near(moveEye(lookingDown, 2, 0, 0, false).position, [0, 1.6 - 2 * Math.sin(0.8), -2 * Math.cos(0.8)]);
+    near(moveEye(lookingDown, 0, 3, 1, true).position, [3, 2.6, 0]);
   });
 
   test("a camera that looks straight down still walks ahead", () => {
-    const { position } = moved(lookedAround(upright, 0, -10), 2, 0, 0, true);
+    const { position } = moveEye(turnEye(upright, 0, -10), 2, 0, 0, true);
     near(position, [0, 1.6, -2], 1e-6);
   });
 
   test("turning rotates the camera in place, at most up to the zenith", () => {
-    const pose = lookedAround(upright, Math.PI / 2, 0);
+    const pose = turnEye(upright, Math.PI / 2, 0);
     near(forwardOf(pose), [1, 0, 0]);
     near(pose.position, upright.position);
     near(pose.center, [4, 1.6, 0]);
-    assert.ok(forwardOf(lookedAround(upright, 0, 9)).y < 1);
-    assert.ok(forwardOf(lookedAround(upright, 0, 9)).y > 0.99);
+    assert.ok(forwardOf(turnEye(upright, 0, 9)).y < 1);
+    assert.ok(forwardOf(turnEye(upright, 0, 9)).y > 0.99);
   });
 
   test("covers speed times time, however many frames it takes", () => {
     const motion = { ...noMovement, forward: 1 };
     let pose = upright;
-    for (let frame = 0; frame < 60; ++frame) pose = movedFor(pose, motion, 1 / 60, 2.5, true);
+    for (let frame = 0; frame < 60; ++frame) pose = applyMovement(pose, motion, 1 / 60, 2.5, true);
     near(pose.position, [0, 1.6, -2.5], 1e-9);
   });
 });

@@ -15,7 +15,7 @@ import { navigationTypesOf } from "./navigationType.ts";
 import type { MovementInput } from "./firstPerson.ts";
 import type { CameraSetting } from "./orbit.ts";
 import { poseWithin, unsetCamera } from "./orbit.ts";
-import { isNoMovement, lookedAround, noMovement, moved, movedFor } from "./firstPerson.ts";
+import { isNoMovement, turnEye, noMovement, moveEye, applyMovement } from "./firstPerson.ts";
 import { AutoRotation } from "./autoRotation.ts";
 import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
@@ -160,7 +160,7 @@ export class CameraController {
       this.#moveTo(orbited(this.#pose, right, over));
     } else {
       const share = this.#pose.fieldOfView / Math.PI; // dragging across the whole view is half a turn
-      this.#moveTo(lookedAround(this.#pose, -right * share, over * share));
+      this.#moveTo(turnEye(this.#pose, -right * share, over * share));
     }
   }
 
@@ -259,7 +259,7 @@ export class CameraController {
   /** Moves ahead, aside and up, by lengths in scene units. */
   #step(forward: number, right: number, up: number): void {
     const isWalking = this.#type === "walk";
-    const pose = moved(this.#pose, forward, right, up, isWalking);
+    const pose = moveEye(this.#pose, forward, right, up, isWalking);
     if (isWalking) this.#walk.push(pose.position.clone().sub(this.#pose.position), this.#speed);
     this.#moveTo(isWalking ? this.#pose : pose);
   }
@@ -267,11 +267,11 @@ export class CameraController {
   /** Moves as held keys and the pending walk ask for in this time. */
   #moveFor(seconds: number): void {
     if (this.#type !== "walk") {
-      this.#pose = movedFor(this.#pose, this.#input, seconds, this.#speed, false);
+      this.#pose = applyMovement(this.#pose, this.#input, seconds, this.#speed, false);
       return;
     }
     const previous = this.#pose;
-    const target = movedFor(previous, this.#input, seconds, this.#speed, true);
+    const target = applyMovement(previous, this.#input, seconds, this.#speed, true);
     const move = target.position.clone().sub(previous.position);
     if (move.lengthSq() > 0) this.#walk.push(move, this.#speed);
     const isLooking = this.#input.turn !== 0 || this.#input.look !== 0;

@@ -1,6 +1,6 @@
 // Animated transitions from one camera pose to another. They interpolate the center of rotation, the orientation, and
-// the offset from the center to the eye in the camera's own axes: a camera that goes to the other side of a statue so
-// keeps its distance instead of flying through it.
+// the offset from the center to the eye in the camera's own axes. A camera that goes to the other side of a statue
+// therefore keeps its distance instead of flying through it.
 
 import { MathUtils } from "three";
 import type { Pose } from "./cameraPose.ts";
@@ -11,13 +11,17 @@ export function interpolatePose(from: Pose, to: Pose, t: number): Pose {
   if (t >= 1) return to;
   const orientation = from.orientation.clone().slerp(to.orientation, t);
   const center = from.center.clone().lerp(to.center, t);
-  const [a, b] = [eyeOffsetOf(from), eyeOffsetOf(to)];
-  const distance = a.length() * (b.length() / (a.length() || 1)) ** t; // geometric, so that zooming looks even
-  const direction = a.clone().lerp(b, t);
-  const isDirected = direction.length() > 1e-3 * Math.max(a.length(), b.length()) && a.length() > 0 && b.length() > 0;
-  const eye = isDirected ? direction.setLength(distance) : direction;
+  const [startOffset, endOffset] = [eyeOffsetOf(from), eyeOffsetOf(to)];
+  // Interpolated geometrically, so that zooming looks even.
+  const distance = startOffset.length() * (endOffset.length() / (startOffset.length() || 1)) ** t;
+  const direction = startOffset.clone().lerp(endOffset, t);
+  const isDirected =
+    direction.length() > 1e-3 * Math.max(startOffset.length(), endOffset.length()) &&
+    startOffset.length() > 0 &&
+    endOffset.length() > 0;
+  const eyeOffset = isDirected ? direction.setLength(distance) : direction;
   return {
-    position: center.clone().add(eye.applyQuaternion(orientation)),
+    position: center.clone().add(eyeOffset.applyQuaternion(orientation)),
     orientation,
     center,
     up: from.up.clone().lerp(to.up, t).normalize(),

@@ -5,7 +5,7 @@ import { Vector3 } from "three";
 import type { Pose } from "./cameraPose.ts";
 import { forwardOf, boundedRotation } from "./cameraPose.ts";
 
-/** The movement that held keys ask for, each component -1 … 1. */
+/** The movement that pressed keys request; each component is -1 … 1. */
 export interface MovementInput {
   readonly forward: number;
   readonly right: number;
@@ -25,15 +25,15 @@ export function isNoMovement(input: MovementInput): boolean {
   return Object.values(input).every((component: number) => component === 0);
 }
 
-/** Turns the eye by angles in radians, to the right and upwards, at most up to the zenith. */
-export function lookedAround(pose: Pose, right: number, upwards: number): Pose {
+/** Turns the eye by angles in radians, to the right and upwards, but not beyond the zenith or the nadir. */
+export function turnEye(pose: Pose, right: number, upwards: number): Pose {
   const orientation = boundedRotation(pose, right, -upwards).multiply(pose.orientation).normalize();
   const distance = pose.position.distanceTo(pose.center);
   return { ...pose, orientation, center: pose.position.clone().addScaledVector(forwardOf({ orientation }), distance) };
 }
 
 /** Moves eye and center by lengths in scene units. Walking keeps the level, wherever the camera looks. */
-export function moved(pose: Pose, forward: number, right: number, up: number, isWalking: boolean): Pose {
+export function moveEye(pose: Pose, forward: number, right: number, up: number, isWalking: boolean): Pose {
   const ahead = forwardOf(pose);
   if (isWalking) {
     ahead.projectOnPlane(pose.up);
@@ -48,8 +48,14 @@ export function moved(pose: Pose, forward: number, right: number, up: number, is
 }
 
 /** The pose after some seconds of this movement at `speed`, in scene units per second. */
-export function movedFor(pose: Pose, input: MovementInput, seconds: number, speed: number, isWalking: boolean): Pose {
+export function applyMovement(
+  pose: Pose,
+  input: MovementInput,
+  seconds: number,
+  speed: number,
+  isWalking: boolean,
+): Pose {
   const distance = speed * seconds;
-  const facing = lookedAround(pose, input.turn * turnRate * seconds, input.look * lookRate * seconds);
-  return moved(facing, input.forward * distance, input.right * distance, input.up * distance, isWalking);
+  const facing = turnEye(pose, input.turn * turnRate * seconds, input.look * lookRate * seconds);
+  return moveEye(facing, input.forward * distance, input.right * distance, input.up * distance, isWalking);
 }

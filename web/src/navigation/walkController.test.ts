@@ -27,23 +27,23 @@ function standing(x: number, y: number, z: number): Pose {
   };
 }
 
-/** One frame: walks on what is known, then looks around if that is asked for. */
-function step(controller: WalkController, pose: Pose, boxes: readonly WorldBox[], way?: Vector3): Pose {
-  if (way) controller.push(way.clone().multiplyScalar(speed * frame), speed);
+/** One frame: walks on the known ground, then adds ground samples if the controller requests them. */
+function step(controller: WalkController, pose: Pose, boxes: readonly WorldBox[], direction?: Vector3): Pose {
+  if (direction) controller.push(direction.clone().multiplyScalar(speed * frame), speed);
   const next = controller.walk(pose, frame);
   const camera = controller.depthCameraFor(next, avatar, speed);
   if (camera) controller.addGroundSamples(camera, sampleGround(camera, boxes));
   return next;
 }
 
-/** So many seconds towards `way`, then until nothing moves; the eye of every frame. */
-function walk(start: Pose, way: Vector3, seconds: number, boxes: readonly WorldBox[]): Vector3[] {
+/** Walks in `direction` for `seconds`, then until the avatar rests; returns the eye position of every frame. */
+function walk(start: Pose, direction: Vector3, seconds: number, boxes: readonly WorldBox[]): Vector3[] {
   const controller = new WalkController();
   const eyes: Vector3[] = [];
   let pose = start;
-  for (let at = 0; at < seconds || controller.isMoving; at += frame) {
-    assert.ok(at < seconds + 20, "it never comes to rest");
-    pose = step(controller, pose, boxes, at < seconds ? way : undefined);
+  for (let elapsed = 0; elapsed < seconds || controller.isMoving; elapsed += frame) {
+    assert.ok(elapsed < seconds + 20, "it never comes to rest");
+    pose = step(controller, pose, boxes, elapsed < seconds ? direction : undefined);
     eyes.push(pose.position);
   }
   return eyes;
@@ -130,7 +130,7 @@ describe("a walking avatar", () => {
     const eyes = walk(standing(0, 2, 4), ahead, 4, [platform]);
     assert.ok(
       eyes.every(({ y, z }) => z < -1.7 || y === 2),
-      "sinks where nothing is",
+      "sinks where there is no floor",
     );
     near(last(eyes).y, 1.6);
     near(last(eyes).z, -4, 0.1);
@@ -211,35 +211,38 @@ describe("ground samples", () => {
   });
 });
 
-test("a long walk at random among walls, stairs and holes does not end in one of them", () => {
+test("a long random walk among walls, stairs and holes never enters one of them", () => {
   let seed = 7;
   const random = (): number => {
     seed = (seed * 48271) % 2147483647;
     return seed / 2147483647;
   };
-  const plates = [box([-6, -1, -6], [6, 0, 2]), box([-6, -1, 3], [6, 0, 6])]; // between them nothing
-  const things = Array.from({ length: 25 }, () => {
+  const plates = [box([-6, -1, -6], [6, 0, 2]), box([-6, -1, 3], [6, 0, 6])]; // with a gap between them
+  const obstacles = Array.from({ length: 25 }, () => {
     const [x, z] = [12 * random() - 6, 12 * random() - 6];
     return box([x, 0, z], [x + 0.2 + random(), [0.2, 0.35, 0.9, 3][Math.floor(4 * random())] ?? 1, z + 0.2 + random()]);
   });
-  const boxes = [...plates, ...things];
+  const boxes = [...plates, ...obstacles];
   const controller = new WalkController();
   let pose = standing(0, 2, 0);
-  let way = ahead;
-  let gone = 0;
+  let direction = ahead;
+  let distance = 0;
   for (let count = 0; count < 4000; ++count) {
-    if (count % 40 === 0) way = new Vector3(Math.sin(count * 1.7), 0, Math.cos(count * 1.7));
+    if (count % 40 === 0) direction = new Vector3(Math.sin(count * 1.7), 0, Math.cos(count * 1.7));
     const before = pose.position;
-    pose = step(controller, pose, boxes, way);
+    pose = step(controller, pose, boxes, direction);
     const { x, y, z } = pose.position;
-    gone += before.distanceTo(pose.position);
+    distance += before.distanceTo(pose.position);
     const inside = boxes.find(({ min, max }) =>
       [x, y, z].every((value, axis) => value > (min[axis] ?? 0) && value < (max[axis] ?? 0)),
     );
-    assert.equal(inside, undefined, `frame ${count}: at ${x} ${y} ${z} he is in a wall`);
+    assert.equal(inside, undefined, `frame ${count}: at ${x} ${y} ${z} the eye is in a box`);
     const beside = [-0.3, 0, 0.3].flatMap((dx) => [-0.3, 0, 0.3].map((dz) => highestBelow(boxes, x + dx, y, z + dz)));
     assert.ok(Math.max(...beside) > -Infinity, `frame ${count}: at ${x} ${y} ${z} there is no floor`);
-    assert.ok(y > highestBelow(boxes, x, y, z) + 0.9, `frame ${count}: at ${x} ${y} ${z} he sinks in`);
+    assert.ok(
+      y > highestBelow(boxes, x, y, z) + 0.9,
+      `frame ${count}: at ${x} ${y} ${z} the eye is too near to the floor`,
+    );
   }
-  assert.ok(gone > 20, `he has gone ${gone}`);
+  assert.ok(distance > 20, `the avatar has walked ${distance}`);
 });

@@ -111,7 +111,7 @@ export class WalkController {
 
   /** The height of the eye: the avatar climbs at a constant rate and falls with acceleration. */
   #eyeHeightAt(point: GroundPoint, from: number, ground: WalkableGround, seconds: number): number {
-    if (!ground.isKnown(point)) return from;
+    if (!ground.isCovered(point)) return from;
     const { height, step } = this.#avatar;
     const target = (ground.floorAt(point) ?? from - height) + height;
     this.#isSettled = Math.abs(target - from) < height * 1e-4;
@@ -134,11 +134,11 @@ function nextPoint(
   const clearance = Math.min(ground.clearanceAt(from), radius * 0.99);
   for (const move of [step, { x: step.x, z: 0 }, { x: 0, z: step.z }]) {
     const target = { x: from.x + move.x, z: from.z + move.z };
-    if (!ground.isKnown(target)) return "unknown";
+    if (!ground.isCovered(target)) return "unknown";
     const point = ground.clearOf(ground.clearOf(target));
     const isFloor = ground.isHovering || ground.floorAt(point) !== undefined;
     const advance = (point.x - from.x) * step.x + (point.z - from.z) * step.z;
-    if (isFloor && advance > 0 && ground.isKnown(point) && ground.clearanceAt(point) >= clearance) return point;
+    if (isFloor && advance > 0 && ground.isCovered(point) && ground.clearanceAt(point) >= clearance) return point;
   }
   return from;
 }

@@ -72,8 +72,8 @@ export class WalkableGround {
     return { x, z };
   }
 
-  /** Whether the point is so far from the map's edges that the map covers everything around it. */
-  isKnown({ x, z }: GroundPoint): boolean {
+  /** Whether the map covers everything within the avatar's radius of the point. */
+  isCovered({ x, z }: GroundPoint): boolean {
     return Math.max(Math.abs(x), Math.abs(z)) <= this.#range - this.#radius;
   }
 

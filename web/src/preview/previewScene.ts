@@ -62,7 +62,7 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   const { viewpoints, lods, billboards } = instances;
   if (lods.length > 0 || billboards.length > 0 || instances.lights.length > maxLights) return undefined;
   const visible = instances.shapes.filter(
-    ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.isUnread),
+    ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.hasUnreadableGeometry),
   );
   const shapes = visible.slice(0, maxShapes + 1).flatMap((instance) => previewShapeOf(instance) ?? []);
   if (shapes.length === 0 || shapes.length < visible.length || shapes.length > maxShapes) return undefined;

@@ -13,10 +13,10 @@ import { emptySummary, NodeInstance } from "./nodeInstance.ts";
 import { mergeSummaries } from "./subtreeSummary.ts";
 import { matrixOf } from "./transforms.ts";
 
-/** Is told what happens to each node, to a parent before its children. */
+/** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
   onEnter(node: NodeInstance): void;
-  /** Its description or inherited state has changed; `hasMoved`: its transform too. */
+  /** The node's description or inherited state has changed; `hasMoved`: so has its transform. */
   onChange(node: NodeInstance, hasMoved: boolean, previous: NodeDescription): void;
   onLeave(node: NodeInstance): void;
 }
@@ -33,7 +33,7 @@ export class InstanceTree {
     );
   }
 
-  /** Makes the tree that of this description. */
+  /** Updates the tree to this description of the scene. */
   update(root: GroupDescription): this {
     this.#updateNode(this.root, root, {
       sceneFromNode: this.root.inherited?.sceneFromNode ?? new Matrix4(),
@@ -46,7 +46,8 @@ export class InstanceTree {
 
   #updateNode(node: NodeInstance, description: NodeDescription, inherited: InheritedState): void {
     const { description: previous, inherited: previouslyInherited } = node;
-    if (previous === description && previouslyInherited !== undefined && isSame(previouslyInherited, inherited)) return;
+    if (previous === description && previouslyInherited !== undefined && isSameState(previouslyInherited, inherited))
+      return;
     const hasMoved =
       previouslyInherited?.sceneFromNode !== inherited.sceneFromNode ||
       !deepEqual(transformOf(previous), transformOf(description));
@@ -97,7 +98,7 @@ export class InstanceTree {
   }
 }
 
-function isSame(a: InheritedState, b: InheritedState): boolean {
+function isSameState(a: InheritedState, b: InheritedState): boolean {
   return (
     a.sceneFromNode === b.sceneFromNode &&
     a.isVisible === b.isVisible &&

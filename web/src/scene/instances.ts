@@ -13,14 +13,14 @@ import type { LightScope } from "./lightScope.ts";
 export interface ShapeInstance {
   readonly shape: ShapeDescription;
   readonly sceneFromShape: Matrix4;
-  /** The innermost one around it. */
+  /** The innermost scope that contains the shape. */
   readonly lightScope: LightScope;
 }
 
 export interface LightInstance {
   readonly light: LightDescription;
   readonly sceneFromLight: Matrix4;
-  /** It lights what stands in this scope. */
+  /** The light illuminates the shapes in this scope. */
   readonly scope: LightScope;
 }
 

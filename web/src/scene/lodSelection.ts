@@ -15,7 +15,7 @@ export class LodSelection {
   }
 
   /**
-   * Selects levels anew and returns the LODs whose level changes. A LOD with several instances shows the level that the
+   * Selects levels anew and returns the LODs whose level changes. A LOD with several instances displays the level that the
    * nearest one needs.
    */
   update(lods: readonly LodInstance[], viewer: Vector3): readonly SceneElement[] {
@@ -29,7 +29,7 @@ export class LodSelection {
       const { range, levelCount } = lod;
       const previous = this.#levels.get(element);
       const level = lodLevelAt(distance, range, levelCount, previous);
-      // A LOD that has not been selected for shows its last level.
+      // A LOD displays its last level until a level is selected.
       if (level !== (previous ?? levelCount - 1)) changed.push(element);
       this.#levels.set(element, level);
     }

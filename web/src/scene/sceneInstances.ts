@@ -1,5 +1,5 @@
-// The instances of a scene's nodes with their transforms, and the scene's bounds: what cameras and renderers start
-// from.
+// The instances of a scene's nodes with their transforms, and the scene's bounds: the input of cameras and
+// renderers.
 
 import { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
@@ -23,8 +23,8 @@ export interface SceneInstances {
 /** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
-  const { box, lights, viewpoints, lods: levels, billboards } = root.summary;
-  return { box: box ?? new Box3(), shapes: Array.from(shapesIn(root)), lights, viewpoints, lods: levels, billboards };
+  const { box, lights, viewpoints, lods, billboards } = root.summary;
+  return { box: box ?? new Box3(), shapes: Array.from(shapesIn(root)), lights, viewpoints, lods, billboards };
 }
 
 function* shapesIn({ description, sceneFromNode, lightScope, children }: NodeInstance): Generator<ShapeInstance> {

@@ -3,30 +3,30 @@ import { describe, test } from "node:test";
 import type { BudgetRequest } from "./budget.ts";
 import { grantedRequests } from "./budget.ts";
 
-interface TestClaim extends BudgetRequest {
+interface TestRequest extends BudgetRequest {
   readonly name: string;
   isAllocated: boolean;
 }
 
-function claim(name: string, bytes: number, priority: number, isHeld = false, key: unknown = name): TestClaim {
-  return { name, key, bytes, priority, isAllocated: isHeld };
+function request(name: string, bytes: number, priority: number, isAllocated = false, key: unknown = name): TestRequest {
+  return { name, key, bytes, priority, isAllocated };
 }
 
-function namesOf(chains: readonly (readonly TestClaim[])[], mostBytes: number): string {
-  return Array.from(grantedRequests(chains, mostBytes), (granted) => (granted as TestClaim).name)
+function namesOf(chains: readonly (readonly TestRequest[])[], maxBytes: number): string {
+  return Array.from(grantedRequests(chains, maxBytes), (granted) => (granted as TestRequest).name)
     .sort()
     .join(" ");
 }
 
 describe("within a budget", () => {
   test("all is granted where all fits", () => {
-    assert.equal(namesOf([[claim("a", 5, 1), claim("b", 5, 1)], [claim("c", 5, 0)]], 15), "a b c");
+    assert.equal(namesOf([[request("a", 5, 1), request("b", 5, 1)], [request("c", 5, 0)]], 15), "a b c");
   });
 
-  test("the finer part of the less important goes first, then all of it", () => {
-    const near = [claim("near coarse", 10, 1000), claim("near fine", 10, 40)];
-    const far = [claim("far coarse", 10, 100), claim("far fine", 10, 4)];
-    const behind = [claim("behind coarse", 10, 1), claim("behind fine", 10, 0.01)];
+  test("the fine stage of the least important shape is dropped first, then its coarse stage", () => {
+    const near = [request("near coarse", 10, 1000), request("near fine", 10, 40)];
+    const far = [request("far coarse", 10, 100), request("far fine", 10, 4)];
+    const behind = [request("behind coarse", 10, 1), request("behind fine", 10, 0.01)];
     const scene = [near, far, behind];
     assert.equal(namesOf(scene, 50), "behind coarse far coarse far fine near coarse near fine");
     assert.equal(namesOf(scene, 40), "far coarse far fine near coarse near fine");
@@ -36,51 +36,54 @@ describe("within a budget", () => {
     assert.equal(namesOf(scene, 9), "");
   });
 
-  test("nothing is granted without what it builds upon, even if an author wants it first", () => {
-    assert.equal(namesOf([[claim("points", 10, 1), claim("index", 10, 500)], [claim("other", 10, 2)]], 15), "other");
-    assert.equal(namesOf([[claim("points", 20, 1), claim("index", 5, 500)]], 15), "");
+  test("nothing is granted without the requests before it in its chain, even if its own priority is larger", () => {
+    assert.equal(
+      namesOf([[request("points", 10, 1), request("index", 10, 500)], [request("other", 10, 2)]], 15),
+      "other",
+    );
+    assert.equal(namesOf([[request("points", 20, 1), request("index", 5, 500)]], 15), "");
   });
 
-  test("what does not fit is passed over for what does", () => {
-    assert.equal(namesOf([[claim("large", 100, 9)], [claim("small", 10, 1)]], 50), "small");
+  test("a request that does not fit is skipped for one that does", () => {
+    assert.equal(namesOf([[request("large", 100, 9)], [request("small", 10, 1)]], 50), "small");
   });
 
-  test("a file that several patches use takes its room once", () => {
-    const patches = [1, 2, 3].map((n) => [claim(`patch ${n}`, 10, 1, false, "file")]);
+  test("a file that several patches use counts once", () => {
+    const patches = [1, 2, 3].map((n) => [request(`patch ${n}`, 10, 1, false, "file")]);
     assert.equal(namesOf(patches, 10), "patch 1 patch 2 patch 3");
   });
 
-  test("what nobody wants now is the first to go, and stays while there is room", () => {
-    const scene = [[claim("unwanted", 10, 0, true)], [claim("wanted", 10, 0.001)]];
-    assert.equal(namesOf(scene, 20), "unwanted wanted");
-    assert.equal(namesOf(scene, 10), "wanted");
+  test("a request of priority 0 is granted while there is room, and dropped first", () => {
+    const scene = [[request("unused", 10, 0, true)], [request("used", 10, 0.001)]];
+    assert.equal(namesOf(scene, 20), "unused used");
+    assert.equal(namesOf(scene, 10), "used");
   });
 
-  test("what is held gives way only to what matters twice as much", () => {
-    assert.equal(namesOf([[claim("held", 10, 10, true)], [claim("other", 10, 19)]], 10), "held");
-    assert.equal(namesOf([[claim("held", 10, 10, true)], [claim("other", 10, 21)]], 10), "other");
+  test("an allocated request yields only to one of twice its priority", () => {
+    assert.equal(namesOf([[request("allocated", 10, 10, true)], [request("other", 10, 19)]], 10), "allocated");
+    assert.equal(namesOf([[request("allocated", 10, 10, true)], [request("other", 10, 21)]], 10), "other");
   });
 
-  test("a view that stands still comes to rest: what has been granted stays", () => {
+  test("while the view does not change, granted requests stay granted", () => {
     let state = 1;
     const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
     for (let scene = 0; scene < 200; ++scene) {
       const chains = Array.from({ length: 1 + Math.floor(20 * random()) }, (_, chain) =>
-        Array.from({ length: 1 + Math.floor(4 * random()) }, (_, part) =>
-          claim(`${chain}.${part}`, Math.floor(20 * random()), Math.floor(50 * random()), random() < 0.4),
+        Array.from({ length: 1 + Math.floor(4 * random()) }, (_, index) =>
+          request(`${chain}.${index}`, Math.floor(20 * random()), Math.floor(50 * random()), random() < 0.4),
         ),
       );
-      const mostBytes = 300 * random();
-      let before = grantedRequests(chains, mostBytes);
+      const maxBytes = 300 * random();
+      let before = grantedRequests(chains, maxBytes);
       for (let turn = 0; turn < 5; ++turn) {
         for (const each of chains.flat()) each.isAllocated = before.has(each);
-        const now = grantedRequests(chains, mostBytes);
+        const now = grantedRequests(chains, maxBytes);
         for (const each of before)
-          assert.ok(now.has(each), `scene ${scene}, turn ${turn}: ${(each as TestClaim).name} goes to and fro`);
+          assert.ok(now.has(each), `scene ${scene}, turn ${turn}: ${(each as TestRequest).name} is not granted again`);
         before = now;
       }
       const bytes = Array.from(before).reduce((sum, each) => sum + each.bytes, 0);
-      assert.ok(bytes <= mostBytes);
+      assert.ok(bytes <= maxBytes);
     }
   });
 });

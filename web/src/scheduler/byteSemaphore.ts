@@ -1,10 +1,10 @@
 // A semaphore that counts bytes: limits the downloaded bytes that wait for decoding and upload. When downloads are faster
 // than both, they wait, so that memory stays small.
 
-import type { Prioritised } from "./priorityQueue.ts";
+import type { Prioritized } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";
 
-interface Waiting extends Prioritised {
+interface Waiting extends Prioritized {
   readonly bytes: number;
   readonly admit: () => void;
 }

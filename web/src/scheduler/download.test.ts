@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { DownloadOptions, DownloadState } from "./download.ts";
 import { downloadInSlot, RequestError } from "./download.ts";
-import { answering, decoded, listener, ok, silent, subject, url } from "./download.testing.ts";
+import { optionsWithFetch, decoded, listener, ok, unanswered, subject, url } from "./download.testing.ts";
 import { maxRetryAfterMs, retryDelayMs } from "./retry.ts";
 import { Scheduler } from "./scheduler.ts";
 import { slotCountFor, http1SlotCount, http2SlotCount } from "./downloadSlots.ts";
@@ -15,7 +15,7 @@ describe("a download", () => {
     let asked = 0;
     return {
       options: {
-        ...answering(() => {
+        ...optionsWithFetch(() => {
           const code = codes[Math.min(asked, codes.length - 1)] ?? 200;
           asked += 1;
           return code === 0
@@ -63,12 +63,12 @@ describe("a download", () => {
   test("of which no byte comes is given up as one that has fallen silent, and tried again", async () => {
     let asked = 0;
     const options: DownloadOptions = {
-      ...silent,
+      ...unanswered,
       idleTimeoutMs: 5,
       retries: 1,
       fetch: (input, init) => {
         asked += 1;
-        return silent.fetch(input, init);
+        return unanswered.fetch(input, init);
       },
     };
     await assert.rejects(
@@ -114,7 +114,7 @@ describe("a download", () => {
   test("waits as long as the server asks for", async () => {
     const times: number[] = [];
     const options = {
-      ...answering(() => {
+      ...optionsWithFetch(() => {
         times.push(performance.now());
         return Promise.resolve(
           times.length > 1
@@ -157,7 +157,7 @@ describe("a download", () => {
         controller.close();
       },
     });
-    const options = answering(() => Promise.resolve(new Response(body, { headers: { "content-length": "7" } })));
+    const options = optionsWithFetch(() => Promise.resolve(new Response(body, { headers: { "content-length": "7" } })));
     await downloadInSlot(
       new Scheduler(1),
       subject,
@@ -176,7 +176,7 @@ describe("a download", () => {
 
   test("does not take the length of a compressed body for its own", async () => {
     const totals = new Set<number | undefined>();
-    const options = answering(() =>
+    const options = optionsWithFetch(() =>
       Promise.resolve(new Response("bytes", { headers: { "content-length": "3", "content-encoding": "br" } })),
     );
     await downloadInSlot(

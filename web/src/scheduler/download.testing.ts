@@ -1,4 +1,4 @@
-// Servers of a few words, for tests of what happens to a download.
+// Fake servers for tests of downloads.
 
 import type { DownloadListener, DownloadOptions } from "./download.ts";
 
@@ -6,15 +6,15 @@ export const url = "https://example.org/file.png";
 export const subject = { priority: 1 };
 export const listener: DownloadListener = { onState: () => undefined, onBytes: () => undefined };
 
-export function answering(fetch: typeof globalThis.fetch): DownloadOptions {
+export function optionsWithFetch(fetch: typeof globalThis.fetch): DownloadOptions {
   return { fetch, idleTimeoutMs: 1000, retries: 0, backoffMs: 1 };
 }
 
-export const status = (code: number) => answering(() => Promise.resolve(new Response("no", { status: code })));
-export const ok = answering(() => Promise.resolve(new Response("bytes")));
+export const status = (code: number) => optionsWithFetch(() => Promise.resolve(new Response("no", { status: code })));
+export const ok = optionsWithFetch(() => Promise.resolve(new Response("bytes")));
 
-/** Answers only to an abort, as a slow server's connection does. */
-export const silent = answering(
+/** Sends no response and rejects when the request is aborted, like the connection to a stalled server. */
+export const unanswered = optionsWithFetch(
   (_, init) =>
     new Promise((_resolve, reject) => {
       init?.signal?.addEventListener("abort", () => {

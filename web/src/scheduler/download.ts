@@ -1,6 +1,6 @@
 // Downloads a URL: counts the bytes as they arrive, times out when none arrive, and retries where that can help.
 
-import type { Prioritised } from "./priorityQueue.ts";
+import type { Prioritized } from "./priorityQueue.ts";
 import { retryDelayMs } from "./retry.ts";
 import type { Scheduler } from "./scheduler.ts";
 
@@ -60,7 +60,7 @@ export interface DownloadListener {
  */
 export async function downloadInSlot<Result>(
   scheduler: Scheduler,
-  subject: Prioritised,
+  subject: Prioritized,
   url: string,
   signal: AbortSignal,
   options: DownloadOptions,

@@ -13,7 +13,7 @@ export interface FrameTaskQueueOptions {
 /** Each call of `next` runs one step and yields the bytes that it moved. */
 export type Steps = Iterator<number, void, void>;
 
-interface Work {
+interface Task {
   readonly steps: Steps;
   readonly signal: AbortSignal;
   readonly resolve: () => void;
@@ -22,8 +22,8 @@ interface Work {
 
 export class FrameTaskQueue {
   readonly #options: FrameTaskQueueOptions;
-  /** In order of arrival, which is the order of requests: the most important first. */
-  readonly #queue: Work[] = [];
+  /** First in, first out. Files are requested by priority, so that the most important ones mostly come first. */
+  readonly #queue: Task[] = [];
   #frameIsDue = false;
 
   constructor(options: FrameTaskQueueOptions) {
@@ -37,11 +37,11 @@ export class FrameTaskQueue {
   run(steps: Steps, signal: AbortSignal): Promise<void> {
     return new Promise((resolve, reject) => {
       this.#queue.push({ steps, signal, resolve, reject });
-      this.#frameSoon();
+      this.#requestFrame();
     });
   }
 
-  #frameSoon(): void {
+  #requestFrame(): void {
     if (this.#frameIsDue) return;
     this.#frameIsDue = true;
     this.#options.requestFrame((isHidden = false) => {
@@ -50,7 +50,7 @@ export class FrameTaskQueue {
         isHidden ? Infinity : this.#options.bytesPerFrame,
         isHidden ? Infinity : this.#options.millisecondsPerFrame,
       );
-      if (this.#queue.length > 0) this.#frameSoon();
+      if (this.#queue.length > 0) this.#requestFrame();
     });
   }
 
@@ -59,9 +59,9 @@ export class FrameTaskQueue {
     const end = now() + milliseconds;
     let bytes = 0;
     do {
-      const work = this.#queue[0];
-      if (work === undefined) return;
-      const moved = step(work);
+      const task = this.#queue[0];
+      if (task === undefined) return;
+      const moved = step(task);
       if (moved === undefined) this.#queue.shift();
       bytes += moved ?? 0;
     } while (bytes < maxBytes && now() < end);
@@ -69,7 +69,7 @@ export class FrameTaskQueue {
 }
 
 /** The bytes that one step moved; undefined when there are no more steps. */
-function step({ steps, signal, resolve, reject }: Work): number | undefined {
+function step({ steps, signal, resolve, reject }: Task): number | undefined {
   try {
     signal.throwIfAborted();
     const { done, value } = steps.next();

@@ -2,13 +2,13 @@
 // the keys that it read last, and reads all priorities again when `reorder` is called.
 
 /** Something with a priority that its owner may change while it waits. */
-export interface Prioritised {
+export interface Prioritized {
   /** Larger goes first. */
   readonly priority: number;
 }
 
 /** An item in a queue; `remove` takes it out. */
-export interface QueueEntry<Item extends Prioritised> {
+export interface QueueEntry<Item extends Prioritized> {
   readonly item: Item;
   /** The item's priority when the queue last read it. */
   key: number;
@@ -18,7 +18,7 @@ export interface QueueEntry<Item extends Prioritised> {
   heapIndex: number;
 }
 
-export class PriorityQueue<Item extends Prioritised> {
+export class PriorityQueue<Item extends Prioritized> {
   readonly #heap: QueueEntry<Item>[] = [];
   #nextSequence = 0;
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { downloadInSlot } from "./download.ts";
-import { answering, decoded, listener, ok, silent, status, subject, url } from "./download.testing.ts";
+import { optionsWithFetch, decoded, listener, ok, unanswered, status, subject, url } from "./download.testing.ts";
 import { Scheduler } from "./scheduler.ts";
 
 /** Every way in which a job can end: what is asked, and what becomes of it. */
@@ -18,7 +18,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
       subject,
       url,
       signal,
-      answering(() => Promise.reject(new TypeError("fetch failed"))),
+      optionsWithFetch(() => Promise.reject(new TypeError("fetch failed"))),
       listener,
       decoded,
     ),
@@ -34,13 +34,13 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
       subject,
       url,
       signal,
-      answering(() => Promise.resolve(new Response(body))),
+      optionsWithFetch(() => Promise.resolve(new Response(body))),
       listener,
       decoded,
     );
   },
   silence: (scheduler, { signal }) =>
-    downloadInSlot(scheduler, subject, url, signal, { ...silent, idleTimeoutMs: 5 }, listener, decoded),
+    downloadInSlot(scheduler, subject, url, signal, { ...unanswered, idleTimeoutMs: 5 }, listener, decoded),
   "abort before asking": (scheduler, aborter) => {
     aborter.abort();
     return downloadInSlot(scheduler, subject, url, aborter.signal, ok, listener, decoded);
@@ -51,7 +51,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
     return result;
   },
   "abort while running": (scheduler, aborter) => {
-    const result = downloadInSlot(scheduler, subject, url, aborter.signal, silent, listener, decoded);
+    const result = downloadInSlot(scheduler, subject, url, aborter.signal, unanswered, listener, decoded);
     setTimeout(() => {
       aborter.abort();
     }, 2);
@@ -73,7 +73,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
     return result;
   },
   "abort twice": (scheduler, aborter) => {
-    const result = downloadInSlot(scheduler, subject, url, aborter.signal, silent, listener, decoded);
+    const result = downloadInSlot(scheduler, subject, url, aborter.signal, unanswered, listener, decoded);
     setTimeout(() => {
       aborter.abort();
       aborter.abort();
@@ -90,7 +90,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
       subject,
       url,
       signal,
-      answering(() => {
+      optionsWithFetch(() => {
         throw new Error("at once");
       }),
       listener,
@@ -145,8 +145,8 @@ describe("a slot comes back exactly once", () => {
       const scheduler = new Scheduler(2);
       const results = await Promise.allSettled([1, 2, 3, 4].map(() => run(scheduler, new AbortController())));
       assert.ok(results.every((result) => result.status === (name === "ok" ? "fulfilled" : "rejected")));
-      assert.equal(scheduler.running, 0);
-      assert.equal(scheduler.waiting, 0);
+      assert.equal(scheduler.runningCount, 0);
+      assert.equal(scheduler.waitingCount, 0);
       assert.equal(await freeSlots(scheduler), 2);
     });
   }
@@ -158,7 +158,7 @@ describe("a slot comes back exactly once", () => {
         .flatMap((run) => [run, run])
         .map((run) => run(scheduler, new AbortController())),
     );
-    assert.equal(scheduler.running, 0);
+    assert.equal(scheduler.runningCount, 0);
     assert.equal(await freeSlots(scheduler), 3);
   });
 });
@@ -210,13 +210,13 @@ describe("jobs", () => {
     await Promise.all(
       Array.from({ length: 20 }, () =>
         scheduler.run(subject, signal, async () => {
-          most = Math.max(most, scheduler.running);
+          most = Math.max(most, scheduler.runningCount);
           await new Promise((resolve) => setTimeout(resolve, 1));
         }),
       ),
     );
     assert.equal(most, 3);
-    assert.equal(scheduler.started, 20);
+    assert.equal(scheduler.startedCount, 20);
   });
 
   test("get further slots at once, and lose them when they end", async () => {
@@ -226,11 +226,11 @@ describe("jobs", () => {
     await Promise.resolve();
     scheduler.slotCount = 4;
     await Promise.resolve();
-    assert.equal(scheduler.running, 4);
+    assert.equal(scheduler.runningCount, 4);
     scheduler.slotCount = 2;
-    assert.equal(scheduler.running, 4);
+    assert.equal(scheduler.runningCount, 4);
     await jobs[4];
-    assert.equal(scheduler.running, 2);
+    assert.equal(scheduler.runningCount, 2);
     await Promise.all(jobs);
     assert.equal(await freeSlots(scheduler), 2);
   });

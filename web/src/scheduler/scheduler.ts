@@ -1,21 +1,21 @@
-// Runs jobs from one priority queue in a few slots. A job frees its slot in one `finally`, whatever becomes of it:
+// Runs jobs from one priority queue in a limited number of slots. A job frees its slot whether it succeeds or fails:
 // X3DOM's download manager stopped after six network errors because an error kept its slot.
 
-import type { Prioritised } from "./priorityQueue.ts";
+import type { Prioritized } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";
 
-/** `signal` tells it to stop. Its slot is free once the promise settles. */
+/** Stops when `signal` aborts. Its slot becomes free when the promise settles. */
 export type Job<Result> = (signal: AbortSignal) => Promise<Result>;
 
-interface Waiting extends Prioritised {
+interface WaitingJob extends Prioritized {
   readonly start: () => void;
 }
 
 export class Scheduler {
-  readonly #queue = new PriorityQueue<Waiting>();
+  readonly #queue = new PriorityQueue<WaitingJob>();
   #slotCount: number;
-  #running = 0;
-  #started = 0;
+  #runningCount = 0;
+  #startedCount = 0;
   #pumpIsDue = false;
   #orderIsStale = false;
 
@@ -34,18 +34,18 @@ export class Scheduler {
   }
 
   /** Number of jobs that hold a slot. */
-  get running(): number {
-    return this.#running;
+  get runningCount(): number {
+    return this.#runningCount;
   }
 
   /** Number of jobs in the queue. */
-  get waiting(): number {
+  get waitingCount(): number {
     return this.#queue.size;
   }
 
   /** Number of jobs that ever got a slot. */
-  get started(): number {
-    return this.#started;
+  get startedCount(): number {
+    return this.#startedCount;
   }
 
   /**
@@ -54,13 +54,13 @@ export class Scheduler {
    * waiting; a running job gets the signal. No job starts before the caller's microtask has ended, so that jobs that
    * are enqueued together are ordered together.
    */
-  run<Result>(subject: Prioritised, signal: AbortSignal, job: Job<Result>): Promise<Result> {
+  run<Result>(subject: Prioritized, signal: AbortSignal, job: Job<Result>): Promise<Result> {
     return new Promise((resolve, reject) => {
       if (signal.aborted) {
         reject(signal.reason as Error);
         return;
       }
-      const leave = () => {
+      const cancel = () => {
         this.#queue.remove(entry);
         reject(signal.reason as Error);
       };
@@ -69,11 +69,11 @@ export class Scheduler {
           return subject.priority;
         },
         start: () => {
-          signal.removeEventListener("abort", leave);
+          signal.removeEventListener("abort", cancel);
           void this.#occupySlot(job, signal).then(resolve, reject);
         },
       });
-      signal.addEventListener("abort", leave, { once: true });
+      signal.addEventListener("abort", cancel, { once: true });
       this.#pumpSoon();
     });
   }
@@ -84,12 +84,12 @@ export class Scheduler {
   }
 
   async #occupySlot<Result>(job: Job<Result>, signal: AbortSignal): Promise<Result> {
-    this.#running += 1;
-    this.#started += 1;
+    this.#runningCount += 1;
+    this.#startedCount += 1;
     try {
       return await job(signal); // a synchronous throw of `job` is caught here like a rejection
     } finally {
-      this.#running -= 1;
+      this.#runningCount -= 1;
       this.#pump();
     }
   }
@@ -104,7 +104,7 @@ export class Scheduler {
   }
 
   #pump(): void {
-    while (this.#running < this.#slotCount && this.#queue.size > 0) {
+    while (this.#runningCount < this.#slotCount && this.#queue.size > 0) {
       if (this.#orderIsStale) this.#queue.reorder();
       this.#orderIsStale = false;
       this.#queue.pop()?.start();

@@ -1,6 +1,6 @@
 // Triangulates polygons by ear clipping. An ear is a convex corner whose triangle contains no other corner (Meisters,
 // "Polygons have ears", 1975), and only reflex corners can lie in it (Eberly, "Triangulation by ear clipping", 2002).
-// triangulate() in src/import cuts the same triangles: vectors/tessellation/earClipping.json holds both to that.
+// triangulate() in src/import cuts the same triangles: vectors/tessellation/earClipping.json tests both.
 
 import type { Vec3 } from "./vectors.ts";
 import { cross, minus } from "./vectors.ts";

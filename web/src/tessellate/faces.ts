@@ -1,5 +1,5 @@
 // Polygons, lines and points with indexed attributes, as X3D's geometry nodes have them, become vertex arrays.
-// Crease normals are those of src/import/x3d/faces.cpp: vectors/tessellation/creaseNormals.json holds both to that.
+// Crease normals are those of src/import/x3d/faces.cpp: vectors/tessellation/creaseNormals.json tests both.
 
 import { triangulate } from "./earClipping.ts";
 import type { Vec3 } from "./vectors.ts";
@@ -36,7 +36,7 @@ export interface VertexArrays {
   readonly colorComponents: 3 | 4;
 }
 
-/** The corners of triangles that cut each polygon into a fan about its first corner; right for convex polygons only. */
+/** Cuts each polygon into a fan about its first corner, which is correct for convex polygons, and returns the triangles' corners. */
 export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
   return faces.flatMap((face) =>
     face.slice(2).flatMap((corner, i) => {
@@ -46,7 +46,7 @@ export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
   );
 }
 
-/** The corners of triangles that cut polygons, concave ones included. */
+/** Triangulates polygons, concave ones included, and returns the triangles' corners. */
 export function trianglesOf(positions: readonly number[], faces: readonly (readonly Corner[])[]): Corner[] {
   return faces.flatMap((face) => {
     const ring = face.map(({ position }) => vectorAt(positions, position));
@@ -55,10 +55,10 @@ export function trianglesOf(positions: readonly number[], faces: readonly (reado
 }
 
 /** The two ends of each segment of polylines. */
-export function linesOf(runs: readonly (readonly Corner[])[]): Corner[] {
-  return runs.flatMap((run) =>
-    run.slice(1).flatMap((corner, i) => {
-      const before = run[i];
+export function linesOf(polylines: readonly (readonly Corner[])[]): Corner[] {
+  return polylines.flatMap((polyline) =>
+    polyline.slice(1).flatMap((corner, i) => {
+      const before = polyline[i];
       return before ? [before, corner] : [];
     }),
   );

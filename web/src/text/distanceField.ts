@@ -1,17 +1,18 @@
 // Converts a coverage image to a signed distance field, which keeps edges sharp under magnification (Green 2007,
 // "Improved Alpha-Tested Magnification"). In a partly covered texel, the coverage and its gradient give the nearest
-// point of the edge (Gustavson and Strand 2011, "Anti-aliased Euclidean distance transform"). Other texels search for
-// theirs along columns, then along rows, within the range of the field.
+// point of the edge (Gustavson and Strand 2011, "Anti-aliased Euclidean distance transform"). Other texels search
+// for the nearest edge point along columns, then along rows, within the range of the field.
 
 /**
- * The edge in texels that it crosses: a point on it, in texels from the first texel's center, and the inward normal.
+ * Edge points, by texel that the edge crosses: a point on the edge, in texels from the first texel's center, and the
+ * inward normal.
  */
-interface Edges {
+interface EdgePoints {
   readonly x: Float32Array;
   readonly y: Float32Array;
   readonly normalX: Float32Array;
   readonly normalY: Float32Array;
-  /** By texel: its own index, or `none`. */
+  /** By texel: its own index where the edge crosses it, else `none`. */
   readonly texels: Int32Array;
 }
 
@@ -43,7 +44,7 @@ export function distanceField(
 }
 
 /** The distance to an edge that is assumed to be straight within half a texel of its point. */
-function distanceTo({ x, y, normalX, normalY }: Edges, edge: number, column: number, row: number): number {
+function distanceTo({ x, y, normalX, normalY }: EdgePoints, edge: number, column: number, row: number): number {
   if (edge === none) return Infinity;
   const dx = column - (x[edge] ?? 0),
     dy = row - (y[edge] ?? 0);
@@ -53,13 +54,13 @@ function distanceTo({ x, y, normalX, normalY }: Edges, edge: number, column: num
 }
 
 /** Finds the edge in the texels that it crosses or touches. */
-function edgesOf(coverage: Uint8Array, width: number, height: number): Edges {
-  const numbers = () => new Float32Array(width * height);
-  const edges: Edges = {
-    x: numbers(),
-    y: numbers(),
-    normalX: numbers(),
-    normalY: numbers(),
+function edgesOf(coverage: Uint8Array, width: number, height: number): EdgePoints {
+  const floats = () => new Float32Array(width * height);
+  const edges: EdgePoints = {
+    x: floats(),
+    y: floats(),
+    normalX: floats(),
+    normalY: floats(),
     texels: new Int32Array(width * height).fill(none),
   };
   const clamped = (index: number, length: number) => (index < 0 ? 0 : index < length ? index : length - 1);
@@ -100,16 +101,18 @@ function edgesOf(coverage: Uint8Array, width: number, height: number): Edges {
  */
 function distanceToEdge(share: number, normalX: number, normalY: number): number {
   const [long, short] = [Math.max(normalX, normalY), Math.min(normalX, normalY)];
-  const lesser = Math.min(share, 1 - share);
+  const smallerShare = Math.min(share, 1 - share);
   // The covered area is a triangle at a corner, or a trapezoid.
   const distance =
-    2 * long * lesser < short ? (long + short) / 2 - Math.sqrt(2 * long * short * lesser) : (0.5 - lesser) * long;
+    2 * long * smallerShare < short
+      ? (long + short) / 2 - Math.sqrt(2 * long * short * smallerShare)
+      : (0.5 - smallerShare) * long;
   return share > 0.5 ? -distance : distance;
 }
 
 /** By texel: the nearest of the edges known to the texels of its row or column, which are `stride` apart. */
 function nearestAlong(
-  { x, y }: Edges,
+  { x, y }: EdgePoints,
   known: Int32Array,
   width: number,
   height: number,
@@ -131,9 +134,9 @@ function nearestAlong(
         nearest[texel] = edge;
       };
       // An edge point is less than a texel from the center of its texel.
-      for (let away = 0; away <= spread && (away < 2 || (away - 1) * (away - 1) < minSquare); ++away) {
-        const left = away <= before ? (known[texel - away * stride] ?? none) : none,
-          right = away <= after ? (known[texel + away * stride] ?? none) : none;
+      for (let offset = 0; offset <= spread && (offset < 2 || (offset - 1) * (offset - 1) < minSquare); ++offset) {
+        const left = offset <= before ? (known[texel - offset * stride] ?? none) : none,
+          right = offset <= after ? (known[texel + offset * stride] ?? none) : none;
         if (left !== none) consider(left);
         if (right !== none) consider(right);
       }

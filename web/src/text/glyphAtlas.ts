@@ -38,7 +38,7 @@ export interface GlyphAtlas {
 export function glyphAtlasOf(runs: readonly PositionedRun[]): GlyphAtlas | undefined {
   const inked = new Map(runs.filter(hasInk).map((run) => [run.text, run]));
   for (const texelsPerEm of resolutions) {
-    const atlas = packed(Array.from(inked.values()), texelsPerEm);
+    const atlas = pack(Array.from(inked.values()), texelsPerEm);
     if (atlas.width <= maxEdge && atlas.height <= maxEdge && atlas.width * atlas.height <= maxTexels) return atlas;
   }
   return undefined;
@@ -49,7 +49,7 @@ export function hasInk({ metrics: { ink } }: PositionedRun): boolean {
 }
 
 /** Packs runs into rows of about the width of a square atlas. */
-function packed(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas {
+function pack(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas {
   const sizes = runs.map(({ text, metrics: { ink } }) => ({
     text,
     penX: Math.ceil(ink.left * texelsPerEm) + fieldSpread,
@@ -71,7 +71,7 @@ function packed(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas
   return { width, height: Math.max(top + rowHeight, 1), texelsPerEm, cells };
 }
 
-/** The data: URL that `drawGlyphAtlas` reads. `edition` only makes the URL another one when a font has loaded. */
+/** The data: URL that `drawGlyphAtlas` reads. Only the URL depends on `edition`, which changes when a font has loaded. */
 export function glyphAtlasUrl(
   { width, height, texelsPerEm, cells }: GlyphAtlas,
   { family, isBold, isItalic }: Font,

@@ -21,7 +21,7 @@ export interface RunMetrics {
 
 export type MeasureRun = (font: Font, text: string) => RunMetrics;
 
-/** The line of a text that lies at the origin. FIRST is the baseline of the first line. */
+/** Which edge or line of a text lies at the origin. FIRST is the baseline of the first line. */
 export const alignments = ["FIRST", "BEGIN", "MIDDLE", "END"] as const;
 export type Alignment = (typeof alignments)[number];
 
@@ -48,7 +48,10 @@ export interface PositionedRun {
   readonly stretchY: number;
 }
 
-/** Positions all runs. `lengths`, by string, and `maxExtent` are in em; 0: the natural length. */
+/**
+ * Positions all runs. `lengths` has one entry a string. All lengths are in em; a length of 0 keeps the natural length, a
+ * `maxExtent` of 0 sets no limit.
+ */
 export function layOut(
   strings: readonly string[],
   lengths: readonly number[],
@@ -57,14 +60,15 @@ export function layOut(
   measure: MeasureRun,
 ): PositionedRun[] {
   return style.horizontal
-    ? inLines(strings, lengths, maxExtent, style, measure)
-    : inColumns(strings, lengths, maxExtent, style, measure);
+    ? layOutLines(strings, lengths, maxExtent, style, measure)
+    : layOutColumns(strings, lengths, maxExtent, style, measure);
 }
 
 /**
- * The scale of each string along its direction. Where the longest exceeds `maxExtent`, all shrink by the same factor.
+ * The scale of each string along its direction. Where the longest exceeds `maxExtent`, all strings shrink by the same
+ * factor.
  */
-function stretches(natural: readonly number[], lengths: readonly number[], maxExtent: number): number[] {
+function stretchesOf(natural: readonly number[], lengths: readonly number[], maxExtent: number): number[] {
   const requested = natural.map((length, i) => Math.max(lengths[i] ?? 0, 0) || length);
   const longest = Math.max(...requested);
   const factor = maxExtent > 0 && longest > maxExtent ? maxExtent / longest : 1;
@@ -75,12 +79,12 @@ function stretches(natural: readonly number[], lengths: readonly number[], maxEx
  * The offset that brings the aligned end or the middle of an interval 0 … `extent` to the origin; the text begins at 0
  * or at `extent`.
  */
-function aligned(alignment: Alignment, extent: number, beginsAtZero: boolean): number {
+function alignmentOffset(alignment: Alignment, extent: number, beginsAtZero: boolean): number {
   if (alignment === "MIDDLE") return -extent / 2;
   return (alignment === "END") === beginsAtZero ? -extent : 0;
 }
 
-function inLines(
+function layOutLines(
   strings: readonly string[],
   lengths: readonly number[],
   maxExtent: number,
@@ -92,7 +96,7 @@ function inLines(
   const metrics = lines.map((line) => measure(font, line));
   const [first] = metrics;
   if (first === undefined) return [];
-  const stretched = stretches(
+  const stretched = stretchesOf(
     metrics.map(({ advance }) => advance),
     lengths,
     maxExtent,
@@ -100,8 +104,8 @@ function inLines(
   const { ascent, descent } = first;
   const height = (lines.length - 1) * spacing + ascent + descent;
   // The position of the lower edge of the lowest line.
-  const toBaseline =
-    minor === "FIRST" ? -(topToBottom ? height - ascent : descent) : aligned(minor, height, !topToBottom);
+  const bottom =
+    minor === "FIRST" ? -(topToBottom ? height - ascent : descent) : alignmentOffset(minor, height, !topToBottom);
   return lines.map((text, i) => {
     const { advance } = metrics[i] ?? first;
     const stretchX = stretched[i] ?? 1;
@@ -111,14 +115,14 @@ function inLines(
       metrics: metrics[i] ?? first,
       stretchX,
       stretchY: 1,
-      x: aligned(major, advance * stretchX, leftToRight),
-      y: toBaseline + descent + countBelow * spacing,
+      x: alignmentOffset(major, advance * stretchX, leftToRight),
+      y: bottom + descent + countBelow * spacing,
     };
   });
 }
 
 /** Each glyph occupies a square of one em. */
-function inColumns(
+function layOutColumns(
   strings: readonly string[],
   lengths: readonly number[],
   maxExtent: number,
@@ -127,16 +131,16 @@ function inColumns(
 ): PositionedRun[] {
   const { font, spacing, leftToRight, topToBottom, major, minor } = style;
   const columns = strings.map(graphemesOf);
-  const stretched = stretches(
+  const stretched = stretchesOf(
     columns.map(({ length }) => length),
     lengths,
     maxExtent,
   );
   const width = (columns.length - 1) * spacing + 1;
-  const left = aligned(minor, width, leftToRight);
+  const left = alignmentOffset(minor, width, leftToRight);
   return columns.flatMap((graphemes, i) => {
     const stretchY = stretched[i] ?? 1;
-    const bottom = aligned(major, graphemes.length * stretchY, !topToBottom);
+    const bottom = alignmentOffset(major, graphemes.length * stretchY, !topToBottom);
     const countBefore = leftToRight ? i : columns.length - 1 - i;
     return graphemes.map((text, k) => {
       const metrics = measure(font, text);

@@ -20,18 +20,18 @@ export function pageWorkers(url: string | URL = workerUrl()): WorkerPool {
       throw error;
     }));
   return new WorkerPool({
-    // One core is left to the page; but at least two workers run, since the page often waits for them.
+    // Leaves one core to the page. There are at least two workers, since the page often waits for them.
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
     runOnMainThread: async (message) => (await load()).runJob(message),
     prepareMainThread: () => {
-      load().catch(() => undefined);
-    }, // `runOnMainThread` reports the error
+      load().catch(() => undefined); // `runOnMainThread` reports the error
+    },
   });
 }
 
-/** Rejects with a DecodeError that says where the file was looked for. */
+/** Rejects with a DecodeError that names the URL of the file. */
 async function importedFrom(url: string): Promise<WorkerModule> {
   try {
     return (await import(/* webpackIgnore: true */ /* @vite-ignore */ url)) as WorkerModule;
