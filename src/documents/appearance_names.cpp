@@ -32,17 +32,17 @@ void setMagnificationFilter(Texture& texture, std::string_view name) {
 
 void setMinificationFilter(Texture& texture, std::string_view name) {
   for (const bool nearest : {true, false}) {
-    const std::string_view pixel = nearest ? nearestPixel : averagePixel;
-    if (name.size() < pixel.size() || !equalIgnoringCase(name.substr(0, pixel.size()), pixel))
+    const std::string_view prefix = nearest ? nearestPixel : averagePixel;
+    if (name.size() < prefix.size() || !equalIgnoringCase(name.substr(0, prefix.size()), prefix))
       continue;
-    const std::string_view mipMap = name.substr(pixel.size());
-    const bool betweenNearest = equalIgnoringCase(mipMap, nearestMipMap),
-               betweenAverage = equalIgnoringCase(mipMap, averageMipMap);
-    if (!mipMap.empty() && !betweenNearest && !betweenAverage)
+    const std::string_view suffix = name.substr(prefix.size());
+    const bool isBetweenNearest = equalIgnoringCase(suffix, nearestMipMap),
+               isBetweenAverage = equalIgnoringCase(suffix, averageMipMap);
+    if (!suffix.empty() && !isBetweenNearest && !isBetweenAverage)
       continue;
     texture.minification = nearest ? Filter::nearest : Filter::linear;
-    texture.mipMaps = !mipMap.empty();
-    texture.betweenMipMaps = betweenNearest ? Filter::nearest : betweenAverage ? Filter::linear : Filter::standard;
+    texture.mipMaps = !suffix.empty();
+    texture.betweenMipMaps = isBetweenNearest ? Filter::nearest : isBetweenAverage ? Filter::linear : Filter::standard;
   }
 }
 

@@ -1,4 +1,5 @@
-// Golden documents of format version 1, which later readers must still read. IMGEO_REWRITE_GOLDEN=1 writes them anew.
+// Golden documents of format version 1, which later readers must still read. IMGEO_REWRITE_GOLDEN=1 rewrites them.
+
 #include "base/file.h"
 #include "documents/documents.h"
 
@@ -57,9 +58,9 @@ SceneDocument goldenDocument() {
   return document;
 }
 
-std::string goldenText(const std::string& name, const std::string& now) {
+std::string goldenText(const std::string& name, const std::string& written) {
   if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)
-    writeFile(golden / name, asBytes(now));
+    writeFile(golden / name, asBytes(written));
   return std::string(asText(readFile(golden / name)));
 }
 

@@ -11,13 +11,13 @@ const char* nameOf(MeshFormat format) {
 }
 
 std::optional<MeshFormat> meshFormatOf(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  if (ending == ".ply")
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  if (extension == ".ply")
     return MeshFormat::ply;
-  if (ending == ".obj")
+  if (extension == ".obj")
     return MeshFormat::obj;
-  if (ending == ".glb")
+  if (extension == ".glb")
     return MeshFormat::glb;
   return {};
 }

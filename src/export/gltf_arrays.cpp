@@ -42,7 +42,7 @@ std::size_t addTexCoords(GltfArrays& arrays, const Mesh& mesh) {
   arrays.begin();
   for (const Vec2f& texCoord : mesh.texCoords) {
     appendLittle(arrays.bytes, texCoord.x);
-    appendLittle(arrays.bytes, 1 - texCoord.y);
+    appendLittle(arrays.bytes, 1 - texCoord.y); // in glTF the origin is the upper left corner of an image
   }
   return arrays.end(arrayBuffer, floatType, "VEC2", mesh.wedgeCount());
 }
@@ -70,17 +70,18 @@ std::size_t addNamedAttribute(GltfArrays& arrays, const NamedAttribute& attribut
   return arrays.end(arrayBuffer, floatType, types[attribute.components - 1], attribute.count());
 }
 
-/// Indices have 16 bits for at most 65,535 vertices: the index 65,535 would restart primitives.
+/// Adds indices of 16 bits if there are at most 65,535 vertices, of 32 bits otherwise. The 16-bit index 65,535 would
+/// restart primitives.
 std::size_t addIndices(GltfArrays& arrays, const Mesh& mesh) {
-  const bool shorts = mesh.wedgeCount() <= 65535;
+  const bool are16Bit = mesh.wedgeCount() <= 65535;
   arrays.begin();
   for (const std::uint32_t corner : mesh.corners) {
-    if (shorts)
+    if (are16Bit)
       appendLittle(arrays.bytes, static_cast<std::uint16_t>(corner));
     else
       appendLittle(arrays.bytes, corner);
   }
-  return arrays.end(elementArrayBuffer, shorts ? unsignedShort : unsignedInt, "SCALAR", mesh.corners.size());
+  return arrays.end(elementArrayBuffer, are16Bit ? unsignedShort : unsignedInt, "SCALAR", mesh.corners.size());
 }
 
 } // namespace

@@ -16,11 +16,11 @@ namespace imgeo {
 
 namespace {
 
-/// The properties of the vertex element, which are those that any shape has, and the number of each element.
+/// The properties of vertices, namely all that at least one shape has, and the number of elements of each kind.
 struct PlyLayout {
-  bool normals = false, texCoords = false, colors = false, alpha = false;
-  std::map<std::string, std::uint32_t> named; ///< components of further attributes, by name
-  std::uint64_t vertices = 0, faces = 0, edges = 0;
+  bool hasNormals = false, hasTexCoords = false, hasColors = false, hasAlpha = false;
+  std::map<std::string, std::uint32_t> componentsByName; ///< number of components of each further attribute
+  std::uint64_t vertexCount = 0, faceCount = 0, edgeCount = 0;
 };
 
 /// Calls `visit` for the mesh of every instance of a shape, in local coordinates.
@@ -32,17 +32,17 @@ template <typename Visit> void forEachMesh(const Scene& scene, Visit visit) {
 PlyLayout layoutOf(const Scene& scene) {
   PlyLayout layout;
   forEachMesh(scene, [&](const Mesh& mesh) {
-    layout.normals |= !mesh.normals.empty();
-    layout.texCoords |= !mesh.texCoords.empty();
-    layout.colors |= !mesh.colors.empty();
-    layout.alpha |= !mesh.colors.empty() && mesh.colorComponents == 4;
+    layout.hasNormals |= !mesh.normals.empty();
+    layout.hasTexCoords |= !mesh.texCoords.empty();
+    layout.hasColors |= !mesh.colors.empty();
+    layout.hasAlpha |= !mesh.colors.empty() && mesh.colorComponents == 4;
     for (const NamedAttribute& attribute : mesh.namedAttributes)
-      layout.named.emplace(attribute.name, attribute.components);
-    layout.vertices += mesh.wedgeCount();
+      layout.componentsByName.emplace(attribute.name, attribute.components);
+    layout.vertexCount += mesh.wedgeCount();
     if (mesh.topology == Topology::triangles)
-      layout.faces += mesh.elementCount();
+      layout.faceCount += mesh.elementCount();
     if (mesh.topology == Topology::lines)
-      layout.edges += mesh.elementCount();
+      layout.edgeCount += mesh.elementCount();
   });
   return layout;
 }
@@ -53,26 +53,26 @@ std::string headerOf(const PlyLayout& layout) {
     for (const char* name : names)
       header += fmt::format("property {} {}\n", type, name);
   };
-  header += fmt::format("element vertex {}\n", layout.vertices);
+  header += fmt::format("element vertex {}\n", layout.vertexCount);
   properties("float", {"x", "y", "z"});
-  if (layout.normals)
+  if (layout.hasNormals)
     properties("float", {"nx", "ny", "nz"});
-  if (layout.texCoords)
+  if (layout.hasTexCoords)
     properties("float", {"s", "t"});
-  if (layout.colors)
+  if (layout.hasColors)
     properties("uchar", {"red", "green", "blue"});
-  if (layout.alpha)
+  if (layout.hasAlpha)
     properties("uchar", {"alpha"});
-  for (const auto& [name, components] : layout.named)
+  for (const auto& [name, components] : layout.componentsByName)
     for (std::uint32_t c = 0; c < components; ++c)
       header +=
           components == 1 ? fmt::format("property float {}\n", name) : fmt::format("property float {}_{}\n", name, c);
-  if (layout.faces > 0) {
-    header += fmt::format("element face {}\n", layout.faces);
+  if (layout.faceCount > 0) {
+    header += fmt::format("element face {}\n", layout.faceCount);
     properties("list uchar int", {"vertex_indices"});
   }
-  if (layout.edges > 0) {
-    header += fmt::format("element edge {}\n", layout.edges);
+  if (layout.edgeCount > 0) {
+    header += fmt::format("element edge {}\n", layout.edgeCount);
     properties("int", {"vertex1", "vertex2"});
   }
   return header + "end_header\n";
@@ -86,8 +86,8 @@ Rgba8 diffuseColorOf(const Material& material) {
 }
 
 /// A component of a further attribute; 0 if the mesh does not have it.
-float numberOf(const Mesh& mesh, const std::string& name, std::uint32_t components, std::size_t wedge,
-               std::uint32_t component) {
+float valueOf(const Mesh& mesh, const std::string& name, std::uint32_t components, std::size_t wedge,
+              std::uint32_t component) {
   const auto found = std::ranges::find(mesh.namedAttributes, name, &NamedAttribute::name);
   const bool isPresent = found != mesh.namedAttributes.end() && found->components == components;
   return isPresent ? found->values[wedge * components + component] : 0;
@@ -101,22 +101,22 @@ void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, 
         appendLittle(out, v[axis]);
     };
     append(mesh.positions[mesh.wedgePositions[wedge]]);
-    if (layout.normals)
+    if (layout.hasNormals)
       append(mesh.normals.empty() ? Vec3f{} : mesh.normals[wedge]);
-    if (layout.texCoords) {
+    if (layout.hasTexCoords) {
       const Vec2f texCoord = mesh.texCoords.empty() ? Vec2f{} : mesh.texCoords[wedge];
       appendLittle(out, texCoord.x);
       appendLittle(out, texCoord.y);
     }
-    if (layout.colors) {
+    if (layout.hasColors) {
       const Rgba8 color = mesh.colors.empty() ? defaultColor : mesh.colors[wedge];
       out.insert(out.end(), {color.r, color.g, color.b});
-      if (layout.alpha)
+      if (layout.hasAlpha)
         out.push_back(color.a);
     }
-    for (const auto& [name, components] : layout.named)
+    for (const auto& [name, components] : layout.componentsByName)
       for (std::uint32_t c = 0; c < components; ++c)
-        appendLittle(out, numberOf(mesh, name, components, wedge, c));
+        appendLittle(out, valueOf(mesh, name, components, wedge, c));
   }
 }
 
@@ -133,8 +133,9 @@ void appendElements(Bytes& out, const Mesh& mesh, std::uint64_t firstVertex) {
 
 Bytes writePly(const Scene& scene) {
   const PlyLayout layout = layoutOf(scene);
-  if (layout.vertices > INT32_MAX)
-    throw Error(ErrorKind::limit, "", fmt::format("{} vertices are more than a PLY file can count", layout.vertices));
+  if (layout.vertexCount > INT32_MAX)
+    throw Error(ErrorKind::limit, "",
+                fmt::format("{} vertices are more than a PLY file can count", layout.vertexCount));
   const std::string header = headerOf(layout);
   Bytes out(header.begin(), header.end()), faces, edges;
   std::uint64_t firstVertex = 0;

@@ -152,7 +152,7 @@ private:
 struct Segment {
   std::vector<Vec3u> positions;
   SimplifiedWedges wedges;
-  double area = 0, areaBefore = 0;
+  double area = 0, inputArea = 0;
   std::size_t triangleCountBefore = 0;
 };
 
@@ -180,7 +180,7 @@ Segment segmentOf(const Patch& patch, const std::vector<bool>& isFixed, double p
   const double minimum = requested / 2 + static_cast<double>(countFixedEdges(corners, isFixed));
   SimplifiedTriangles triangles =
       simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(requested, minimum)));
-  segment.areaBefore = triangles.areaBefore;
+  segment.inputArea = triangles.inputArea;
   segment.area = areaOf(triangles.positions, triangles.corners);
   segment.wedges = wedgesOf(triangles, patch, triangleIndices);
   segment.positions = std::move(triangles.positions);
@@ -289,9 +289,9 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
   const std::vector<std::vector<bool>> isFixed = sharedPositions(mesh.patches);
   std::vector<Segment> segments(mesh.patches.size());
   parallelFor(segments.size(), [&](std::size_t i) { segments[i] = segmentOf(mesh.patches[i], isFixed[i], percent); });
-  double areaBefore = 0, area = 0;
+  double inputArea = 0, area = 0;
   for (const Segment& segment : segments) {
-    areaBefore += segment.areaBefore;
+    inputArea += segment.inputArea;
     area += segment.area;
   }
   SegmentJoiner joiner(segments);
@@ -299,7 +299,7 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
     joiner.add(segments[i], mesh.patches[i], i);
   BaseMesh base = joiner.finish();
   dropUnused(base);
-  if (4 * base.triangleCount() > elementCount || 2 * area < areaBefore || base.corners.empty())
+  if (4 * base.triangleCount() > elementCount || 2 * area < inputArea || base.corners.empty())
     return std::nullopt;
   return base;
 }

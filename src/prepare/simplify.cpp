@@ -202,7 +202,7 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
         vertex.position = vertex.quadric.minimizerNear(vertex.position);
   collapseEdges(surface, triangleCount);
   SimplifiedTriangles result = resultOf(surface, frame, positions, clusters);
-  result.areaBefore = frame.latticeArea(area);
+  result.inputArea = frame.latticeArea(area);
   return result;
 }
 

@@ -14,16 +14,16 @@ struct SimplifiedTriangles {
   static constexpr std::uint32_t none = UINT32_MAX;
 
   std::vector<Vec3u> positions;
-  std::vector<std::uint32_t> corners;       ///< three positions for each triangle
+  std::vector<std::uint32_t> corners;       ///< three indices of positions for each triangle
   std::vector<std::uint32_t> triangles;     ///< by triangle: its index in the input
-  std::vector<std::uint32_t> vertexOfInput; ///< position of the input -> position here; none if no triangle
-                                            ///< remains there
-  double areaBefore = 0;                    ///< of the input, in squared lattice steps
+  std::vector<std::uint32_t> vertexOfInput; ///< by position of the input: index in `positions`, or none if no
+                                            ///< remaining triangle has it as a corner
+  double inputArea = 0;                     ///< of the input, in squared lattice steps
 };
 
 /// Simplifies triangles over positions on a lattice to about `triangleCount`, or to the minimum that the topology
 /// allows. Positions with `isFixed` keep their position and are not merged with each other. The others move to the
-/// positions of minimum quadric error, within the box of all positions. Where there are many more positions than
+/// positions of minimum quadric error, within the box of all positions. If there are many more positions than
 /// requested triangles, vertices are clustered before edges are collapsed. Deterministic.
 SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const std::uint32_t> corners,
                              const std::vector<bool>& isFixed, std::size_t triangleCount);

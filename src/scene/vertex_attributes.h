@@ -29,17 +29,17 @@ struct VertexAttributes {
   std::vector<NamedAttribute> namedAttributes; ///< with unique names
 };
 
-/// values[from[0]], values[from[1]], ...; empty for an absent attribute.
-template <typename T> std::vector<T> gather(const std::vector<T>& values, std::span<const std::uint32_t> from) {
+/// The values at the given indices; empty for an absent attribute.
+template <typename T> std::vector<T> gather(const std::vector<T>& values, std::span<const std::uint32_t> indices) {
   std::vector<T> result;
   if (values.empty())
     return result;
-  result.reserve(from.size());
-  for (const std::uint32_t i : from)
+  result.reserve(indices.size());
+  for (const std::uint32_t i : indices)
     result.push_back(values[i]);
   return result;
 }
-VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> from);
+VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> indices);
 
 /// Appends the attributes of `moreCount` vertices to those of `count` vertices. Where one side lacks an attribute that
 /// the other has, its values are the normal (0, 0, 1), white or zeros.

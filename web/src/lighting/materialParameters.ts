@@ -1,7 +1,7 @@
 // The parameters of the lighting equations, from a material's fields.
 
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
-import { displayedOf } from "./physicalLighting.ts";
+import { srgbOf } from "./physicalLighting.ts";
 
 /** `hasAlpha`: vertex colours or a texture have alpha. */
 export function isBlended(
@@ -27,7 +27,7 @@ export function unlitColorOf(description: MaterialDescription, hasColors: boolea
     case "phong":
       return isDark ? description.diffuseColor : emissiveColor;
     case "physical":
-      return displayedOf(isDark ? description.baseColor : emissiveColor);
+      return srgbOf(isDark ? description.baseColor : emissiveColor);
     case "unlit":
       return emissiveColor;
   }

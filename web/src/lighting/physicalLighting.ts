@@ -1,5 +1,5 @@
-// PhysicalMaterial: the metallic-roughness model of glTF 2.0, appendix B (Lambert below Schlick's
-// Fresnel term and the GGX distribution, Walter et al. 2007), with height-correlated Smith
+// GLSL of PhysicalMaterial: the metallic-roughness model of glTF 2.0, appendix B (Lambertian diffuse
+// reflection, Schlick's Fresnel term, the GGX distribution, Walter et al. 2007), with height-correlated Smith
 // visibility (Heitz 2014). Colours and light are linear; the result is encoded for the display.
 //
 // A light of intensity 1 makes a white, rough surface that faces it white, as with X3D's Material,
@@ -9,9 +9,10 @@
 
 import type { Vec3 } from "../document/description.ts";
 
+/** Defined in physical materials. */
 export const physicalDefine = "PHYSICAL";
 
-/** The functions directX3d and ambientX3d of this model. */
+/** The GLSL functions directX3d and ambientX3d of this model. */
 export const physicalLighting = /* glsl */ `
 const float environmentRadiance = 0.3;
 
@@ -29,8 +30,8 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
   float VH = max(dot(viewDirection, halfway), 0.0);
   float alpha = max(material.roughness * material.roughness, 1e-3);
   float alpha2 = alpha * alpha;
-  float spread = (NH * alpha2 - NH) * NH + 1.0;
-  float distribution = alpha2 / (spread * spread);
+  float denominator = (NH * alpha2 - NH) * NH + 1.0;
+  float distribution = alpha2 / (denominator * denominator);
   float visibility =
     0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
   vec3 fresnel = mix(normalReflectance(material), vec3(1.0), pow(1.0 - VH, 5.0));
@@ -61,24 +62,24 @@ export const physicalOutput = /* glsl */ `
 #include <colorspace_fragment>
 #ifdef ${physicalDefine}
   gl_FragColor.rgb = clamp(gl_FragColor.rgb, 0.0, 1.0);
-  ${toDisplayedChunk("gl_FragColor.rgb")}
+  ${toSrgbChunk("gl_FragColor.rgb")}
 #endif
 `;
 
-/** Linear to display colours (IEC 61966-2-1). */
-export function displayedOf(linear: Vec3): Vec3 {
+/** The sRGB colour of a linear colour (IEC 61966-2-1). */
+export function srgbOf(linear: Vec3): Vec3 {
   const [red, green, blue] = linear.map((channel) =>
     channel <= 0.0031308 ? 12.92 * channel : 1.055 * channel ** (1 / 2.4) - 0.055,
   );
   return [red ?? 0, green ?? 0, blue ?? 0];
 }
 
-/** GLSL that makes an sRGB colour variable linear (IEC 61966-2-1). */
+/** GLSL that converts a colour variable from sRGB to linear (IEC 61966-2-1). */
 export function toLinearChunk(color: string): string {
   return `${color} = mix(pow((${color} + 0.055) / 1.055, vec3(2.4)), ${color} / 12.92, vec3(lessThanEqual(${color}, vec3(0.04045))));`;
 }
 
-/** The inverse, for a colour in 0 … 1. */
-export function toDisplayedChunk(color: string): string {
+/** GLSL that converts a colour variable, whose channels are 0 … 1, from linear to sRGB (IEC 61966-2-1). */
+export function toSrgbChunk(color: string): string {
   return `${color} = mix(pow(${color}, vec3(1.0 / 2.4)) * 1.055 - 0.055, ${color} * 12.92, vec3(lessThanEqual(${color}, vec3(0.0031308))));`;
 }

@@ -2,7 +2,7 @@
 // lighting model by the same GLSL as the runtime's (lighting/).
 
 import { falloffChunk } from "../lighting/falloff.ts";
-import { physicalDefine, toDisplayedChunk, toLinearChunk } from "../lighting/physicalLighting.ts";
+import { physicalDefine, toSrgbChunk, toLinearChunk } from "../lighting/physicalLighting.ts";
 import { x3dLighting } from "../lighting/x3dLighting.ts";
 import type { LightKind } from "./previewLights.ts";
 
@@ -115,7 +115,7 @@ void main() {
   #endif
   pixel = vec4(clamp(exposure * radiance, 0.0, 1.0), 1.0);
   #ifdef ${physicalDefine}
-    ${toDisplayedChunk("pixel.rgb")}
+    ${toSrgbChunk("pixel.rgb")}
   #endif
 }
 `;

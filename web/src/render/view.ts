@@ -1,4 +1,4 @@
-// The camera, between its controllers and the renderer.
+// Interfaces between the camera controller and the renderer.
 
 import type { Pose } from "../navigation/cameraPose.ts";
 import type { DepthCamera, GroundSamples } from "../navigation/groundSamples.ts";
@@ -10,19 +10,20 @@ export interface View {
   readonly clipFromScene: readonly number[];
   /** Device pixels that a length of 1 covers at distance 1, in the middle of the view. */
   readonly pixelsPerUnit: number;
+  /** Distance of the near plane. */
   readonly near: number;
 }
 
 /** Controls the camera. */
 export interface CameraController {
   readonly pose: Pose;
-  /** Nearer objects need not be drawn. */
+  /** Objects nearer to the camera than this distance need not be drawn. */
   readonly clearance: number;
   /** The pose at a time in milliseconds, as of `performance.now()`. */
   advance(nowMs: number): Pose;
-  /** Another frame is needed after this one. */
+  /** Whether another frame is needed after this one. */
   readonly isMoving: boolean;
-  /** Where to sample the surroundings; undefined: nowhere. */
+  /** The camera of the depth images that the controller needs; undefined if it needs none. */
   readonly depthCamera: DepthCamera | undefined;
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void;
 }

@@ -9,7 +9,7 @@ export class LightScope {
   readonly parent: LightScope | undefined;
   /** Its number, 0 for the whole scene; named `value` because shaders take the object as their uniform. */
   value = 0;
-  /** The number of the last scope inside it; its own where there is none. */
+  /** The number of the last scope inside it; its own number if there is none. */
   last = 0;
 
   constructor(parent: LightScope | undefined) {
@@ -24,7 +24,7 @@ export class LightScope {
   }
 }
 
-/** The scope of global lights, and of objects that stand in no other scope. */
+/** The scope of global lights, and of objects that are in no other scope. */
 export const sceneScope = new LightScope(undefined);
 sceneScope.last = Infinity;
 

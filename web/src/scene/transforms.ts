@@ -18,17 +18,17 @@ export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDes
 /** The matrix of an X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
 export function matrixOf(transform: TransformDescription): Matrix4 {
   const { translation, center, rotation, scaleOrientation, scale } = transform;
-  const turn = rotationOf(rotation);
-  const axes = rotationOf(scaleOrientation);
-  const move = (vector: readonly [number, number, number], sign: number) =>
+  const rotationMatrix = rotationOf(rotation);
+  const scaleAxes = rotationOf(scaleOrientation);
+  const translate = (vector: readonly [number, number, number], sign: number) =>
     new Matrix4().makeTranslation(vector[0] * sign, vector[1] * sign, vector[2] * sign);
-  return move(translation, 1)
-    .multiply(move(center, 1))
-    .multiply(turn)
-    .multiply(axes)
+  return translate(translation, 1)
+    .multiply(translate(center, 1))
+    .multiply(rotationMatrix)
+    .multiply(scaleAxes)
     .multiply(new Matrix4().makeScale(...scale))
-    .multiply(axes.clone().invert())
-    .multiply(move(center, -1));
+    .multiply(scaleAxes.clone().invert())
+    .multiply(translate(center, -1));
 }
 
 function rotationOf([x, y, z, angle]: Rotation): Matrix4 {

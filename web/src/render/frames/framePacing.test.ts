@@ -3,13 +3,13 @@ import { afterEach, beforeEach, describe, mock, test } from "node:test";
 import { FramePacer } from "./framePacing.ts";
 
 /** A simulated GPU that needs `frameMs` for each frame, and a renderer that draws on request. */
-function renderer(frameMs: number): { pacer: FramePacer; frames: number[]; draw: () => void; request: () => void } {
-  const begun: number[] = [];
+function makeRenderer(frameMs: number): { pacer: FramePacer; frames: number[]; draw: () => void; request: () => void } {
+  const fenceTimes: number[] = [];
   const gl = {
     TIMEOUT_EXPIRED: 1,
     SYNC_GPU_COMMANDS_COMPLETE: 2,
-    fenceSync: () => begun.push(performance.now()) - 1,
-    clientWaitSync: (fence: number) => (performance.now() - (begun[fence] ?? 0) < frameMs ? 1 : 3),
+    fenceSync: () => fenceTimes.push(performance.now()) - 1,
+    clientWaitSync: (fence: number) => (performance.now() - (fenceTimes[fence] ?? 0) < frameMs ? 1 : 3),
     flush: () => undefined,
     deleteSync: () => undefined,
     isContextLost: () => false,
@@ -34,7 +34,7 @@ function renderer(frameMs: number): { pacer: FramePacer; frames: number[]; draw:
 
 let now = 0;
 
-async function pass(milliseconds: number): Promise<void> {
+async function passTime(milliseconds: number): Promise<void> {
   for (let ms = 0; ms < milliseconds; ++ms) {
     now += 1;
     mock.timers.tick(1);
@@ -52,11 +52,11 @@ describe("frames that only refine the picture", () => {
     mock.restoreAll();
   });
 
-  test("leave a slow GPU idle for two thirds of the time, and lose no change", async () => {
-    const { frames, request } = renderer(100);
+  test("leave a slow GPU idle for two thirds of the time, and draw every change", async () => {
+    const { frames, request } = makeRenderer(100);
     for (let ms = 0; ms < 1000; ms += 10) {
       request();
-      await pass(10);
+      await passTime(10);
     }
     assert.ok(frames.length >= 3 && frames.length <= 4, `${frames.length} frames in a second`);
     frames.slice(1).forEach((at, i) => {
@@ -64,27 +64,27 @@ describe("frames that only refine the picture", () => {
     });
     const before = frames.length;
     request();
-    await pass(1000);
+    await passTime(1000);
     assert.equal(frames.length, before + 1);
   });
 
-  test("are drawn at every request where the GPU is fast", async () => {
-    const { frames, request } = renderer(4);
+  test("are drawn at every request if the GPU is fast", async () => {
+    const { frames, request } = makeRenderer(4);
     for (let ms = 0; ms < 1000; ms += 20) {
       request();
-      await pass(20);
+      await passTime(20);
     }
     assert.equal(frames.length, 50);
   });
 
   test("do not delay other frames, and are skipped when another frame has shown their changes", async () => {
-    const { frames, request, draw } = renderer(100);
+    const { frames, request, draw } = makeRenderer(100);
     request();
     request(); // is delayed
     draw();
     draw();
     assert.equal(frames.length, 3);
-    await pass(1000);
+    await passTime(1000);
     assert.equal(frames.length, 3);
   });
 });

@@ -140,7 +140,7 @@ float valueAt(int end) {
 
 float readValue() {
   #ifdef ${wideLinesDefine}
-    return mix(valueAt(0), valueAt(1), lineShare);
+    return mix(valueAt(0), valueAt(1), linePosition);
   #else
     return valueAt(0);
   #endif

@@ -72,7 +72,7 @@ void main() {
   cornerWeights = vec3(1.0, 0.0, 0.0);
   #ifdef ${wideLinesDefine}
     element = gl_InstanceID;
-    cornerWeights = vec3(1.0 - lineShare, lineShare, 0.0);
+    cornerWeights = vec3(1.0 - linePosition, linePosition, 0.0);
   #endif
   facePoint = transformed;
   faceNormal = vec3(0.0);

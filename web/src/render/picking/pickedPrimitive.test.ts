@@ -3,7 +3,7 @@ import { describe, test } from "node:test";
 import { Vector3 } from "three";
 import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
 
-/** A bent strip of four triangles: three squares' corners along x, the last square folded up. */
+/** Two squares with a common edge, in the planes z = 0 and x = 1. */
 const positions = [
   [0, 0, 0],
   [0, 1, 0],
@@ -13,10 +13,11 @@ const positions = [
   [1, 1, 1],
 ].map((position) => new Vector3(...position));
 const positionOf = (n: number) => positions[n] ?? new Vector3();
+/** Two triangles for each square; then the third triangle again, reversed. */
 const index = Uint16Array.from([0, 2, 1, 1, 2, 3, 3, 2, 4, 3, 4, 5, 4, 2, 3]);
 
 describe("the hit primitive", () => {
-  test("is, among those that end in the given vertex, the one on which the point lies", () => {
+  test("is the one that contains the point, of those that end in the given vertex", () => {
     for (const [number, [a = 0, b = 0, c = 0]] of [
       [0, 2, 1],
       [1, 2, 3],
@@ -33,19 +34,19 @@ describe("the hit primitive", () => {
     }
   });
 
-  test("is undefined where no primitive ends in the vertex", () => {
+  test("is undefined if no primitive ends in the vertex", () => {
     assert.equal(primitiveIn(index, "triangles", 0, new Vector3(), positionOf), undefined);
     assert.equal(primitiveIn(new Uint16Array(), "triangles", 0, new Vector3(), positionOf), undefined);
   });
 
-  test("is the nearest of several lines, and its nearer end is reported", () => {
+  test("is the nearest of several lines, whose nearer end is the nearest vertex", () => {
     const lines = Uint32Array.from([0, 1, 2, 1, 3, 1]);
     const point = new Vector3(0.3, 0.7, 0);
     assert.deepEqual(primitiveIn(lines, "lines", 1, point, positionOf), { number: 1, vertices: [2, 1] });
     assert.equal(nearestVertex([2, 1], point, positionOf), 1);
   });
 
-  test("ends in each vertex of a line strip but the first", () => {
+  test("is found by its last vertex in strips and in draws without an index", () => {
     const strip = Uint16Array.from([0, 1, 3, 2]);
     assert.deepEqual(primitiveIn(strip, "lineStrip", 3, new Vector3(0.5, 1, 0), positionOf), {
       number: 1,
@@ -71,7 +72,7 @@ describe("the hit primitive", () => {
     });
   });
 
-  test("has no normal but a nearest vertex where it has no area", () => {
+  test("has a nearest vertex but no normal if it has no area", () => {
     assert.equal(faceOf([2, 2, 3], positionOf).normal.length(), 0);
     assert.equal(nearestVertex([2, 2, 3], positionOf(2), positionOf), 2);
     assert.deepEqual(faceOf([2, 1, 0], positionOf), { point: positionOf(2), normal: new Vector3(0, 0, 1) });

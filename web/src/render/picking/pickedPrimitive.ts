@@ -1,6 +1,6 @@
-// Finds the primitive that was hit. For indexed primitives the picking pass knows the last vertex
-// and the hit point; of the few primitives that end in this vertex, the one nearest to the point
-// was hit.
+// Finds the primitive that was hit. Of an indexed primitive, the picking pass knows only the last
+// vertex and the hit point; of the few primitives that end in this vertex, the one nearest to the
+// point was hit.
 
 import { Line3, Triangle, Vector3 } from "three";
 import type { IndexArray } from "../../stage/vertexArray.ts";
@@ -16,7 +16,7 @@ export interface PickedPrimitive {
 /** The position of the vertex with this index. */
 export type PositionOf = (vertex: number) => Vector3;
 
-/** The primitive of the index that ends in vertex `last` and is nearest to `point`; undefined where none ends in it. */
+/** The primitive that ends in vertex `last` and is nearest to `point`; undefined if none ends in it. */
 export function primitiveIn(
   index: IndexArray,
   primitive: DrawRange["primitive"],
@@ -44,7 +44,7 @@ export function primitiveEndingAt(last: number, range: DrawRange): PickedPrimiti
   return primitiveAt((last - corners + 1) / step, range, undefined);
 }
 
-/** The primitive with this index. `index`: that of the draw, where it has one. */
+/** The primitive with this number; `index` is the index buffer of the draw, if it has one. */
 export function primitiveAt(
   number: number,
   { primitive, first }: DrawRange,
@@ -55,7 +55,7 @@ export function primitiveAt(
   return { number, vertices: Array.from({ length: corners }, (_, corner) => vertexAt(corner)) };
 }
 
-/** Corners per primitive, and the distance in elements from one primitive to the next. */
+/** Corners per primitive, and the number of elements from the start of one primitive to the next. */
 function layoutOf(primitive: DrawRange["primitive"]): { corners: number; step: number } {
   switch (primitive) {
     case "points":
@@ -73,8 +73,8 @@ function layoutOf(primitive: DrawRange["primitive"]): { corners: number; step: n
 
 /** The vertex with the largest barycentric coordinate at the point. */
 export function nearestVertex(vertices: readonly number[], point: Vector3, positionOf: PositionOf): number {
-  const shares = sharesOf(vertices.map(positionOf), point);
-  return vertices[shares.indexOf(Math.max(...shares))] ?? 0;
+  const weights = barycentricCoordinates(vertices.map(positionOf), point);
+  return vertices[weights.indexOf(Math.max(...weights))] ?? 0;
 }
 
 /**
@@ -101,7 +101,7 @@ function distanceTo(corners: readonly Vector3[], point: Vector3): number {
   return nearest.distanceTo(point);
 }
 
-function sharesOf(corners: readonly Vector3[], point: Vector3): number[] {
+function barycentricCoordinates(corners: readonly Vector3[], point: Vector3): number[] {
   const [a, b, c] = corners;
   if (a === undefined || b === undefined) return [1];
   if (c === undefined) {

@@ -1,5 +1,5 @@
-// Tests whether this browser's GPU reads vertices from images. An image of four texels takes the
-// usual path (browser decoder, upload, vertex chunk), and the result is compared with the input.
+// Tests whether browser and GPU read vertices from images correctly. An image of four texels takes
+// the usual path (browser decoder, upload, vertex chunk), and the result is compared with the input.
 // Some browsers premultiply alpha or convert colours although told not to, and some drivers
 // miscompile the texel fetch; without this test they would silently draw wrong shapes.
 
@@ -29,7 +29,7 @@ export const testTexels = [1, 128, 255, 0, 254, 3, 64, 7, 0, 0, 0, 255, 255, 0, 
 export const testPng =
   "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAHElEQVR4AQERAO7/AAGA/wD+A0AHAAAA//8AMwEtuQT7j87v0AAAAABJRU5ErkJggg==";
 
-/** Resolves to whether vertices may be read from textures. Never rejects. */
+/** Resolves to whether vertices can be read from textures. Never rejects. */
 export async function testVertexTextures(renderer: WebGLRenderer, textures: TextureStore): Promise<boolean> {
   try {
     const words = await readTestVertex(renderer, textures);
@@ -38,18 +38,18 @@ export async function testVertexTextures(renderer: WebGLRenderer, textures: Text
     const expected = [256 * hx + lx, 256 * hy + ly, 256 * hz + lz];
     const stored = [1, -1, 51 / 127.5 - 1];
     const normal = stored.map((value) => value / Math.hypot(...stored)); // as the picking pass returns it
-    const isPosition = expected.every((value, axis) => floats[pickedWordOffsets.position + axis] === value);
-    const isNormal = normal.every(
+    const isPositionCorrect = expected.every((value, axis) => floats[pickedWordOffsets.position + axis] === value);
+    const isNormalCorrect = normal.every(
       (value, axis) => Math.abs((floats[pickedWordOffsets.normal + axis] ?? NaN) - value) < 1e-6,
     );
-    return words[pickedWordOffsets.pickId] === 1 && isPosition && isNormal;
+    return words[pickedWordOffsets.pickId] === 1 && isPositionCorrect && isNormalCorrect;
   } catch {
     return false;
   }
 }
 
 async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): Promise<Uint32Array> {
-  const bitmap = await decodeWithBrowser(Uint8Array.from(atob(testPng), (letter) => letter.charCodeAt(0)));
+  const bitmap = await decodeWithBrowser(Uint8Array.from(atob(testPng), (character) => character.charCodeAt(0)));
   const { image, steps } = textures.begin(bitmap, renderer);
   while (steps.next().done !== true);
   bitmap.close();
@@ -105,7 +105,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   const target = makePickTarget();
   try {
     renderer.setRenderTarget(target);
-    renderer.render(sceneOf(new Points(geometry, material)), wideCamera);
+    renderer.render(sceneOf(new Points(geometry, material)), camera);
     const reading = readPixelAsync(renderer.getContext() as WebGL2RenderingContext, pickTargetCount);
     renderer.setRenderTarget(null);
     return await reading;
@@ -117,7 +117,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   }
 }
 
-/** Scales the vertex so that it falls into the pixel whatever its position. */
+/** A scene with the point, scaled so that it falls into the target's only pixel whatever its position. */
 function sceneOf(point: Points): Scene {
   point.frustumCulled = false;
   point.matrixAutoUpdate = false;
@@ -125,4 +125,4 @@ function sceneOf(point: Points): Scene {
   return new Scene().add(point);
 }
 
-const wideCamera = new OrthographicCamera(-1, 1, 1, -1, -1, 1);
+const camera = new OrthographicCamera(-1, 1, 1, -1, -1, 1);

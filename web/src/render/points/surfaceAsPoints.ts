@@ -1,25 +1,28 @@
-// A surface drawn as its vertices: the same buffers and images, with points as the primitive.
+// Draws the vertices of a surface as points, from the same buffers and images.
 
 import type { Stage } from "../../stage/stage.ts";
 import { isSurface } from "../primitives/primitives.ts";
 
-/** By the original stage, so that all shapes that show it share one derived stage and its geometry. */
-const made = new WeakMap<Stage, Stage>();
+/** Results by the original stage, so that all shapes with this stage share one derived stage and its geometry. */
+const pointStages = new WeakMap<Stage, Stage>();
 
-/** The same stage where it has no surface. `vertexCount`: the number of vertex records, 0 where unknown. */
+/**
+ * The stage with points in place of surfaces; the same stage if it has none. `vertexCount` is the number of vertex
+ * records, 0 if unknown.
+ */
 export function surfaceAsPoints(stage: Stage, vertexCount: number): Stage {
   if (!stage.draws.some(isSurface)) return stage;
-  const known = made.get(stage) ?? pointsOf(stage, vertexCount);
-  made.set(stage, known);
-  return known;
+  const pointStage = pointStages.get(stage) ?? pointsOf(stage, vertexCount);
+  pointStages.set(stage, pointStage);
+  return pointStage;
 }
 
 function pointsOf(stage: Stage, vertexCount: number): Stage {
-  const isAllSurface = stage.draws.every(isSurface);
-  // A base stage also has vertices of other patches, and a grid has no index: their draws stay as
-  // they are.
-  const isOwn = stage.name !== "base" && stage.index !== undefined && vertexCount > 0;
-  if (!isAllSurface || !isOwn)
+  const areAllSurfaces = stage.draws.every(isSurface);
+  // A base stage also has vertices of other patches, and a grid has no index: their draws keep their
+  // ranges and change the primitive only.
+  const canDrawEachVertexOnce = stage.name !== "base" && stage.index !== undefined && vertexCount > 0;
+  if (!areAllSurfaces || !canDrawEachVertexOnce)
     return { ...stage, draws: stage.draws.map((draw) => (isSurface(draw) ? { ...draw, primitive: "points" } : draw)) };
   const draws = [{ primitive: "points", first: 0, count: vertexCount }] as const;
   if (stage.kind === "buffers") return { ...stage, draws, index: undefined };

@@ -1,19 +1,19 @@
-// Lines wider than a pixel, which WebGL lacks. Each line is an instance of one outline, a strip
-// with a half disc at either end, which is laid out on the screen around the projected ends. So the
-// joints of polylines are round, and edges are antialiased like those of surfaces.
+// GLSL for lines wider than a pixel, which WebGL lacks. Each line is an instance of one outline, a
+// strip with a half disc at either end, which the vertex shader places around the line's ends on the
+// screen. So the joints of polylines are round, and edges are antialiased like those of surfaces.
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { instanceFields, instancesDefine } from "./instanceRecord.ts";
 
-/** Defined in materials of wide lines, as the distance in vertices from one line to the next. */
+/** Defined in materials of wide lines; its value is the number of vertices from the start of one line to the next. */
 export const wideLinesDefine = "WIDE_LINES";
 
 /** Sides of a half disc: for lines of up to 20 pixels it deviates from the circle by less than a fifth of a pixel. */
 const capSides = 8;
 
 /**
- * Triangles of the outline, all counter-clockwise. Vertices 0 … capSides surround the line's begin, the others its
+ * Triangles of the outline, all counter-clockwise. Vertices 0 … capSides surround the line's start, the others its
  * end.
  */
 export const outlineTriangles: readonly number[] = [
@@ -31,7 +31,7 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Included after `vertexAt` and `instancePosition`. */
+/** Replaces `readVertex` in vertex shaders. Included after `vertexAt` and `instancePosition`. */
 export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
@@ -43,50 +43,50 @@ uniform vec4 viewport;
 #endif
 // The screen axis along which dashes are measured, and their origin, in line widths.
 flat varying vec3 dashAxis;
-// Position along the line (0 … 1), and offset from the line on the screen.
-float lineShare;
-vec2 besideLine;
+// Position along the line (0 … 1), and offset from the line in normalized device coordinates.
+float linePosition;
+vec2 lineOffset;
 
-vec2 onScreen(vec4 clip) {
+vec2 screenPosition(vec4 clip) {
   return viewport.xy + (clip.xy / clip.w * 0.5 + 0.5) * viewport.zw;
 }
 
-// In front of the near plane a line has no screen position; it is cut there.
-vec2 sharesSeen(vec4 begin, vec4 end) {
+// The range of a line (0 … 1) beyond the near plane. Nearer points have no position on the screen.
+vec2 visibleRange(vec4 begin, vec4 end) {
   vec2 ahead = vec2(begin.z + begin.w, end.z + end.w);
   float cut = ahead.x / (ahead.x - ahead.y);
   return vec2(ahead.x < 0.0 && ahead.y > 0.0 ? cut : 0.0, ahead.y < 0.0 && ahead.x > 0.0 ? cut : 1.0);
 }
 
-void layLine(vec3 from, vec3 to) {
+void placeOutline(vec3 from, vec3 to) {
   mat4 clipFromObject = projectionMatrix * modelViewMatrix;
   vec4 begin = clipFromObject * vec4(instancePosition(from), 1.0);
   vec4 end = clipFromObject * vec4(instancePosition(to), 1.0);
-  vec2 shares = sharesSeen(begin, end);
-  vec2 way = onScreen(mix(begin, end, shares.y)) - onScreen(mix(begin, end, shares.x));
-  vec2 along = dot(way, way) > 1e-12 ? normalize(way) : vec2(1.0, 0.0);
+  vec2 range = visibleRange(begin, end);
+  vec2 direction = screenPosition(mix(begin, end, range.y)) - screenPosition(mix(begin, end, range.x));
+  vec2 along = dot(direction, direction) > 1e-12 ? normalize(direction) : vec2(1.0, 0.0);
   bool isEnd = gl_VertexID > ${capSides};
-  lineShare = isEnd ? shares.y : shares.x;
+  linePosition = isEnd ? range.y : range.x;
   float angle = PI * (0.5 + float(isEnd ? gl_VertexID - 1 : gl_VertexID) / ${capSides}.0);
-  vec2 away = cos(angle) * along + sin(angle) * vec2(-along.y, along.x);
+  vec2 offsetDirection = cos(angle) * along + sin(angle) * vec2(-along.y, along.x);
   float width = lineWidth * pixelRatio;
-  besideLine = away * width / viewport.zw;
+  lineOffset = offsetDirection * width / viewport.zw;
   // As with OpenGL's line stipple, dashes continue over adjacent short lines. They move with the
   // shape.
   vec4 origin = clipFromObject * vec4(instancePosition(vec3(0.0)), 1.0);
-  vec2 start = origin.w > 0.0 ? onScreen(origin) : vec2(0.0);
+  vec2 start = origin.w > 0.0 ? screenPosition(origin) : vec2(0.0);
   dashAxis = abs(along.x) >= abs(along.y) ? vec3(1.0, 0.0, start.x) / width : vec3(0.0, 1.0, start.y) / width;
 }
 
 void widenLine() {
-  gl_Position.xy += besideLine * gl_Position.w;
+  gl_Position.xy += lineOffset * gl_Position.w;
 }
 
 Vertex readVertex() {
   Vertex begin = vertexAt(0), end = vertexAt(1);
-  layLine(begin.position, end.position);
-  return Vertex(mix(begin.position, end.position, lineShare), mix(begin.normal, end.normal, lineShare),
-                mix(begin.color, end.color, lineShare), mix(begin.texCoord, end.texCoord, lineShare));
+  placeOutline(begin.position, end.position);
+  return Vertex(mix(begin.position, end.position, linePosition), mix(begin.normal, end.normal, linePosition),
+                mix(begin.color, end.color, linePosition), mix(begin.texCoord, end.texCoord, linePosition));
 }
 
 #else
@@ -100,7 +100,7 @@ Vertex readVertex() {
 #endif
 `;
 
-/** Inserted before the fragment shader. */
+/** Declarations at the head of a fragment shader. */
 export const dashChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
@@ -111,10 +111,10 @@ flat varying vec3 dashAxis;
 bool isBetweenDashes() {
   float period = 0.0;
   for (int i = 0; i < dashCount; ++i) period += dashes[i];
-  float left = mod(dot(gl_FragCoord.xy, dashAxis.xy) - dashAxis.z, period);
+  float distanceLeft = mod(dot(gl_FragCoord.xy, dashAxis.xy) - dashAxis.z, period);
   for (int i = 0; i < dashCount; ++i) {
-    left -= dashes[i];
-    if (left < 0.0) return (i & 1) == 1;
+    distanceLeft -= dashes[i];
+    if (distanceLeft < 0.0) return (i & 1) == 1;
   }
   return dashCount > 0;
 }
@@ -122,7 +122,7 @@ bool isBetweenDashes() {
 #endif
 `;
 
-/** Replaces the beginning of a fragment shader. */
+/** Replaces `void main() {` of a fragment shader. */
 export const discardGapsChunk = /* glsl */ `void main() {
 #ifdef ${wideLinesDefine}
   if (isBetweenDashes()) discard;
@@ -131,7 +131,7 @@ export const discardGapsChunk = /* glsl */ `void main() {
 
 /** Updates the viewport uniform before a material of wide lines is drawn. */
 export function followViewport(material: Material, viewport: { readonly value: Vector4 }): void {
-  const own = material.onBeforeRender.bind(material);
+  const originalCallback = material.onBeforeRender.bind(material);
   material.onBeforeRender = (
     renderer: WebGLRenderer,
     scene: Scene,
@@ -140,7 +140,7 @@ export function followViewport(material: Material, viewport: { readonly value: V
     object,
     group,
   ) => {
-    own(renderer, scene, camera, geometry, object, group);
+    originalCallback(renderer, scene, camera, geometry, object, group);
     renderer.getCurrentViewport(viewport.value);
   };
 }

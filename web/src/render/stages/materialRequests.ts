@@ -1,4 +1,4 @@
-// What a draw of a stage requests of its material.
+// Makes the requests for the materials of a stage's draws.
 
 import type { Side } from "three";
 import type { AppearanceDescription, GeometryDescription } from "../../document/description.ts";
@@ -22,7 +22,7 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   isInstanced = false,
 ): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
   return {
-    ...vertexFormOf(stage, range),
+    ...vertexFormatOf(stage, range),
     isInstanced,
     primitive: range.primitive,
     shading: shadingOf(stage, range),
@@ -45,10 +45,10 @@ export function pickRequestOf(
 ): Omit<PickMaterialRequest, "primitive"> {
   const texture = stage.texCoord === undefined ? undefined : surfaceTextures.get("color")?.texture;
   const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
-  return { ...vertexFormOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
+  return { ...vertexFormatOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
-function vertexFormOf(stage: Stage, range: DrawRange): VertexFormat {
+function vertexFormatOf(stage: Stage, range: DrawRange): VertexFormat {
   const isFromImages = stage.kind === "textures";
   return {
     isFromImages,
@@ -73,7 +73,7 @@ function shadingOf(stage: Stage, draw: DrawRange): Shading {
   return hasNormals(stage) ? "smooth" : "flat";
 }
 
-/** Stored normals, or those of a grid's slope. */
+/** Whether a stage has normals, either stored ones or those of a grid's slope. */
 export function hasNormals(stage: Stage): boolean {
   return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
 }
