@@ -54,7 +54,9 @@ async function glyphsIn(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
 
 const [pngColorType, grayWithAlpha, rgba] = [25, 4, 6];
 
-/** Told by the format: PNG's header (or a colour that is see-through), WebP's flags; no JPEG has any. Anything else may. */
+/**
+ * Told by the format: PNG's header (or a colour that is see-through), WebP's flags; no JPEG has any. Anything else may.
+ */
 export function mayHaveAlpha(bytes: Uint8Array): boolean {
   const text = (from: number, length: number) => String.fromCharCode(...bytes.subarray(from, from + length));
   if (text(1, 3) === "PNG") {

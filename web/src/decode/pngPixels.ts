@@ -145,7 +145,9 @@ async function feed(stream: WritableStream<BufferSource>, parts: readonly Uint8A
   await writer.close();
 }
 
-/** Undoes the five filters of PNG, row by row: a byte is told relative to those left of it, above it, and left above it. */
+/**
+ * Undoes the five filters of PNG, row by row: a byte is told relative to those left of it, above it, and left above it.
+ */
 function unfiltered(
   filtered: Uint8Array,
   rows: number,

@@ -1,5 +1,5 @@
-// Which files of a geometry a view needs, and with which priority (paper section 5.4). Byte planes too fine to be seen are
-// not needed.
+// Which files of a geometry a view needs, and with which priority (paper section 5.4). Byte planes too fine to be seen
+// are not needed.
 
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { boxAround, isUnbounded } from "../document/geometry.ts";
@@ -75,7 +75,10 @@ export function filePriorityFor(instances: Iterable<GeometryInstance>, view: Vie
   };
 }
 
-/** The priority of a texture, or of its preview, on these visible instances of a geometry; undefined where there are none. */
+/**
+ * The priority of a texture, or of its preview, on these visible instances of a geometry; undefined where there are
+ * none.
+ */
 export function texturePriorityFor(
   instances: Iterable<GeometryInstance>,
   type: TextureChunk,

@@ -1,4 +1,5 @@
-// The deliveries of all geometries, one each: a geometry that several shapes USE is downloaded, decoded and stored once.
+// The deliveries of all geometries, one each: a geometry that several shapes USE is downloaded, decoded and stored
+// once.
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription } from "../document/description.ts";

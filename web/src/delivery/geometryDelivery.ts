@@ -19,7 +19,9 @@ export interface DeliveryListener {
   onStage(patchIndex: number, stage: Stage | undefined): void;
   /** Called once for each URL that fails. */
   onError(error: DeliveryError): void;
-  /** Every requested file is ready or has failed. Called again when a later `request` that asked for more has settled. */
+  /**
+   * Every requested file is ready or has failed. Called again when a later `request` that asked for more has settled.
+   */
   onSettled(): void;
 }
 

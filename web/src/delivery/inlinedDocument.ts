@@ -1,5 +1,5 @@
-// Parses the bytes of an X3D document to its elements. A document that DOMParser makes has no window, so that nothing in
-// it runs or loads.
+// Parses the bytes of an X3D document to its elements. A document that DOMParser makes has no window, so that nothing
+// in it runs or loads.
 
 import { DecodeError } from "../decode/decodeError.ts";
 import { absoluteUrls } from "../document/absoluteUrls.ts";

@@ -4,7 +4,10 @@ import type { PatchDescription, Reference } from "../document/description.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 import type { ContentTarget } from "./resourcePool.ts";
 
-/** The arrays of a patch, in the order in which they become useful. PatchDescription and stages have a member of each name. */
+/**
+ * The arrays of a patch, in the order in which they become useful. PatchDescription and stages have a member of each
+ * name.
+ */
 export const attributeRoles = ["coord", "index", "normal", "texCoord", "color", "value"] as const;
 export type AttributeRole = (typeof attributeRoles)[number];
 
@@ -37,7 +40,10 @@ export function cornerCountOf({ draws }: Pick<PatchDescription, "draws">): numbe
 
 type FileSizes = Pick<PatchFile, "expectedBytes" | "storedBytes">;
 
-/** The files of a patch that has one or more for each attribute; `sizesOf` estimates one that holds `elementCount` elements. */
+/**
+ * The files of a patch that has one or more for each attribute; `sizesOf` estimates one that holds `elementCount`
+ * elements.
+ */
 export function attributeFilesOf(
   patch: PatchDescription,
   target: ContentTarget,

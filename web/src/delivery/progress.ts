@@ -29,8 +29,9 @@ export interface Progress {
 export const noProgress: Progress = { totalProgress: 0, loadedBytes: 0, totalBytes: 0 };
 
 /**
- * The progress of some transfers. Sizes of files that have not begun are estimates, so the plain quotient would decrease
- * when a server states a larger one; the result is the largest quotient so far, and 1 only once all are settled.
+ * The progress of some transfers. Sizes of files that have not begun are estimates, so the plain quotient would
+ * decrease when a server states a larger one; the result is the largest quotient so far, and 1 only once all are
+ * settled.
  */
 export function progressOf(
   transfers: readonly Pick<Transfer, "state" | "loadedBytes" | "totalBytes">[],

@@ -1,5 +1,5 @@
-// One download per URL, however many patches and shapes use it. A resource lives while there is a handle to it: with the
-// last handle its download is aborted, or its image freed. Downloaded bytes are freed sooner: once all handles have
+// One download per URL, however many patches and shapes use it. A resource lives while there is a handle to it: with
+// the last handle its download is aborted, or its image freed. Downloaded bytes are freed sooner: once all handles have
 // taken what they need.
 
 import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
@@ -221,7 +221,9 @@ class Resource {
     return this.#handles.size === 0;
   }
 
-  /** Call when a handle's priority has changed. It is recomputed when the scheduler reads it: there may be thousands. */
+  /**
+   * Call when a handle's priority has changed. It is recomputed when the scheduler reads it: there may be thousands.
+   */
   reconsider(): void {
     this.#priority = undefined;
   }
@@ -293,7 +295,9 @@ class Resource {
     }
   }
 
-  /** Takes over a download that began before the runtime; undefined where it failed: the file is then requested again. */
+  /**
+   * Takes over a download that began before the runtime; undefined where it failed: the file is then requested again.
+   */
   async #takeOver(file: Promise<PrefetchedBases>): Promise<Content | undefined> {
     const { transfer } = this;
     transfer.state = "loading";

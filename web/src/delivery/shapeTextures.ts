@@ -38,7 +38,9 @@ export class ShapeTextures {
     return Array.from(this.#followed.values()).every(({ joined }) => joined.isSettled);
   }
 
-  /** Replaces the textures. New ones are joined before old ones are left, so that shared files are not fetched again. */
+  /**
+   * Replaces the textures. New ones are joined before old ones are left, so that shared files are not fetched again.
+   */
   follow(textures: readonly TextureDescription[]): void {
     const before = this.#followed;
     this.#followed = new Map(

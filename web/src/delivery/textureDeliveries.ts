@@ -73,7 +73,9 @@ export class TextureDeliveries {
     this.#pool = pool;
   }
 
-  /** Requests nothing before `request`. Never calls the listener before it returns. Ends when the last member cancels. */
+  /**
+   * Requests nothing before `request`. Never calls the listener before it returns. Ends when the last member cancels.
+   */
   join(texture: TextureDescription, listener: TextureListener): JoinedTexture {
     const key = pictureKeyOf(texture);
     const shared = this.#shared.get(key) ?? sharedOf(texture);

@@ -1,5 +1,5 @@
-// A semaphore that counts bytes: limits the downloaded bytes that wait for decoding and upload. When downloads are faster
-// than both, they wait, so that memory stays small.
+// A semaphore that counts bytes: limits the downloaded bytes that wait for decoding and upload. When downloads are
+// faster than both, they wait, so that memory stays small.
 
 import type { Prioritized } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";

@@ -1,5 +1,5 @@
-// How many downloads run at a time: few, so that the most important ones get the whole bandwidth and the order can still
-// change (paper section 5.4), but enough that the connection is never idle while a response is on its way.
+// How many downloads run at a time: few, so that the most important ones get the whole bandwidth and the order can
+// still change (paper section 5.4), but enough that the connection is never idle while a response is on its way.
 
 /**
  * HTTP/1.1: browsers open six connections to a host, each for one request at a time. Further requests would wait in

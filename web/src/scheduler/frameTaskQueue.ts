@@ -1,12 +1,14 @@
-// Runs long work in small steps before frames, within limits of bytes and milliseconds, so that no frame is late while a
-// scene loads.
+// Runs long work in small steps before frames, within limits of bytes and milliseconds, so that no frame is late while
+// a scene loads.
 
 export interface FrameTaskQueueOptions {
   /** Before each frame at least one step runs, and none begins once a limit is reached. */
   readonly bytesPerFrame: number;
   readonly millisecondsPerFrame: number;
   readonly now: () => number;
-  /** Calls back before the next frame; or soon, and with `true`, where the page is hidden: all work then runs at once. */
+  /**
+   * Calls back before the next frame; or soon, and with `true`, where the page is hidden: all work then runs at once.
+   */
   readonly requestFrame: (callback: (isHidden?: boolean) => void) => void;
 }
 

@@ -1,5 +1,5 @@
-// The priority of a request (paper section 5.4, "Priority Controlled Rendering"): the author's factor, times the weight of
-// what the file holds, times a weight of its size on the screen. Larger goes first. docs/formats/nodes.md, "Order of
+// The priority of a request (paper section 5.4, "Priority Controlled Rendering"): the author's factor, times the weight
+// of what the file holds, times a weight of its size on the screen. Larger goes first. docs/formats/nodes.md, "Order of
 // requests", is its description for authors.
 
 import type { ViewMetrics } from "./viewMetrics.ts";
@@ -69,7 +69,10 @@ export function priorityOf(
   return authorPriority * type * weightOfView(view);
 }
 
-/** Grows with the square root of the diameter: diameters differ by factors of thousands, and must not outweigh the other factors. */
+/**
+ * Grows with the square root of the diameter: diameters differ by factors of thousands, and must not outweigh the other
+ * factors.
+ */
 export function weightOfView({ pixels, isInView }: ViewMetrics): number {
   const size = Math.sqrt(Math.min(Math.max(pixels, minPixels), maxPixels));
   return isInView ? size : size * outOfViewFactor;

@@ -11,7 +11,9 @@ export interface Failure {
 /** Where a server asks to wait longer than this, the file has failed. */
 export const maxRetryAfterMs = 60_000;
 
-/** Whether the status is temporary: the server is busy or has an internal error (RFC 9110, 15.5.9, 15.6; RFC 6585, 4). */
+/**
+ * Whether the status is temporary: the server is busy or has an internal error (RFC 9110, 15.5.9, 15.6; RFC 6585, 4).
+ */
 function isTemporary(status: number): boolean {
   return status === 408 || status === 425 || status === 429 || (status >= 500 && status !== 501 && status !== 505);
 }

@@ -5,7 +5,9 @@ import type { Bounds, VertexArray } from "./vertexArray.ts";
 import type { ElementType } from "./elementType.ts";
 import type { DecodedImage } from "./decodedImage.ts";
 
-/** Elements first .. first + count - 1 (indices, or vertices where there is no index) drawn as one kind of primitive. */
+/**
+ * Elements first .. first + count - 1 (indices, or vertices where there is no index) drawn as one kind of primitive.
+ */
 export interface DrawRange {
   readonly primitive: "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
   readonly first: number;
@@ -46,8 +48,8 @@ export function isPairCode(code: NormalCode): code is PairCode {
 }
 
 /**
- * A surface over a grid of texels, without an index: heights over a plane; points of a sheet; or points of a sheet whose
- * last column is joined to its first.
+ * A surface over a grid of texels, without an index: heights over a plane; points of a sheet; or points of a sheet
+ * whose last column is joined to its first.
  */
 export interface Grid {
   readonly kind: "heightMap" | "geometryImage" | "sculpt";
@@ -109,7 +111,10 @@ export interface StoredVertices extends Omit<VertexArray, "array"> {
 
 /** Values of the attribute that colours a geometry. */
 export interface StoredValues extends StoredVertices {
-  /** The stored integer for the upper end of the attribute's range, as 0 for the lower end; undefined: numbers are stored as they are. */
+  /**
+   * The stored integer for the upper end of the attribute's range, as 0 for the lower end; undefined: numbers are
+   * stored as they are.
+   */
   readonly maxStored: number | undefined;
 }
 
@@ -118,7 +123,10 @@ export interface StoredIndex {
   readonly type: ElementType;
 }
 
-/** A stage whose vertices are in buffers. Coordinates are stored integers (or floats), other attributes are normalized to their range. */
+/**
+ * A stage whose vertices are in buffers. Coordinates are stored integers (or floats), other attributes are normalized
+ * to their range.
+ */
 export interface BufferStage extends StageHead {
   readonly kind: "buffers";
   /** Records of the patch in `coord`, whose file may hold more; 0: unknown. */

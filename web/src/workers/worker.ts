@@ -1,5 +1,5 @@
-// The entry module of workers, a file of its own next to the runtime. A page that cannot start workers imports it and runs
-// the jobs on its main thread.
+// The entry module of workers, a file of its own next to the runtime. A page that cannot start workers imports it and
+// runs the jobs on its main thread.
 
 import { jobs } from "../decode/jobs.ts";
 import type { JobMessage } from "./protocol.ts";

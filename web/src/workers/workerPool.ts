@@ -1,6 +1,6 @@
-// A pool of workers that run one job each at a time. Workers are started when there are jobs, and ended when they have been
-// idle for a while. Where none can be started (a runtime from another origin, a content security policy) jobs run on the
-// main thread.
+// A pool of workers that run one job each at a time. Workers are started when there are jobs, and ended when they have
+// been idle for a while. Where none can be started (a runtime from another origin, a content security policy) jobs run
+// on the main thread.
 
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
 import type { AnswerMessage, JobMessage } from "./protocol.ts";

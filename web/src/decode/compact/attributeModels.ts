@@ -1,4 +1,5 @@
-// Indices of the models that the stream of every attribute begins with: docs/formats/compact.md, end of "Attributes".
+// The layout of the models of an attribute's stream, the same for every kind: the index of the first model of each
+// group (docs/formats/compact.md, end of "Attributes").
 
 import { numberModelCount } from "./rangeDecoder.ts";
 

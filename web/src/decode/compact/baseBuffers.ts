@@ -1,5 +1,5 @@
-// Converts a decoded base mesh to arrays for the GPU: whole for the preview, and by segment for the runtime, which replaces
-// each segment when its patch arrives.
+// Converts a decoded base mesh to arrays for the GPU: whole for the preview, and by segment for the runtime, which
+// replaces each segment when its patch arrives.
 
 import type { ElementArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
@@ -14,78 +14,78 @@ export class Base {
   readonly segmentCount: number;
   /** All segments in one. */
   readonly whole: PatchBuffers;
-  readonly #part: Int32Array;
+  readonly #segment: Int32Array;
   readonly #wedge: Int32Array;
-  #parts: BaseBuffers | undefined;
+  #buffers: BaseBuffers | undefined;
 
   /** Throws DecodeError for a patch that is no base mesh. */
   constructor(patch: CompactPatch) {
     const {
       header,
-      segments: parts,
+      segments,
       wedges: { wedge },
     } = patch;
-    if (parts === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
+    if (segments === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
     this.segmentCount = header.segmentCount;
     this.whole = { ...verticesOf(patch), index: indexOf(wedge, header.wedgeCount) };
-    this.#part = parts.segment;
+    this.#segment = segments.segment;
     this.#wedge = wedge;
   }
 
   /** The buffers of each segment, computed on first use. */
   get segments(): BaseBuffers {
-    return (this.#parts ??= segmentsOf(this.whole, this.#wedge, this.#part, this.segmentCount));
+    return (this.#buffers ??= segmentsOf(this.whole, this.#wedge, this.#segment, this.segmentCount));
   }
 }
 
-function segmentsOf(whole: PatchBuffers, wedge: Int32Array, part: Int32Array, partCount: number): BaseBuffers {
-  const { firsts, triangles } = trianglesBySegment(part, partCount);
-  const numbers = new Int32Array(whole.vertexCount).fill(-1);
-  return Array.from({ length: partCount }, (_, p) => {
-    const corners = new Int32Array(3 * (firsts[p + 1]! - firsts[p]!));
+function segmentsOf(whole: PatchBuffers, wedge: Int32Array, segment: Int32Array, segmentCount: number): BaseBuffers {
+  const { firsts, triangles } = trianglesBySegment(segment, segmentCount);
+  const newIndices = new Int32Array(whole.vertexCount).fill(-1);
+  return Array.from({ length: segmentCount }, (_, s) => {
+    const corners = new Int32Array(3 * (firsts[s + 1]! - firsts[s]!));
     if (corners.length === 0) return undefined;
     const used: number[] = [];
     for (let c = 0; c < corners.length; ++c) {
-      const w = wedge[3 * triangles[firsts[p]! + Math.floor(c / 3)]! + (c % 3)]!;
-      if (numbers[w]! < 0) numbers[w] = used.push(w) - 1;
-      corners[c] = numbers[w]!;
+      const w = wedge[3 * triangles[firsts[s]! + Math.floor(c / 3)]! + (c % 3)]!;
+      if (newIndices[w]! < 0) newIndices[w] = used.push(w) - 1;
+      corners[c] = newIndices[w]!;
     }
-    for (const w of used) numbers[w] = -1;
-    const some = (all: VertexArray | undefined) => all && gather(all, used);
+    for (const w of used) newIndices[w] = -1;
+    const gathered = (all: VertexArray | undefined) => all && gather(all, used);
     return {
       ...whole,
       vertexCount: used.length,
       index: indexOf(corners, used.length),
       coord: gather(whole.coord, used),
-      normal: some(whole.normal),
-      color: some(whole.color),
-      texCoord: some(whole.texCoord),
+      normal: gathered(whole.normal),
+      color: gathered(whole.color),
+      texCoord: gathered(whole.texCoord),
       others: whole.others.map((other) => ({ ...other, vertices: gather(other.vertices, used) })),
     };
   });
 }
 
 /** Triangle indices by segment: those of segment s from firsts[s] up to firsts[s + 1]. */
-function trianglesBySegment(part: Int32Array, partCount: number): { firsts: Int32Array; triangles: Int32Array } {
-  const firsts = new Int32Array(partCount + 1);
-  for (const p of part) firsts[p + 1] = firsts[p + 1]! + 1;
-  for (let p = 0; p < partCount; ++p) firsts[p + 1] = firsts[p + 1]! + firsts[p]!;
+function trianglesBySegment(segment: Int32Array, segmentCount: number): { firsts: Int32Array; triangles: Int32Array } {
+  const firsts = new Int32Array(segmentCount + 1);
+  for (const s of segment) firsts[s + 1] = firsts[s + 1]! + 1;
+  for (let s = 0; s < segmentCount; ++s) firsts[s + 1] = firsts[s + 1]! + firsts[s]!;
   const next = firsts.slice();
-  const triangles = new Int32Array(part.length);
-  for (let t = 0; t < part.length; ++t) {
-    const p = part[t]!;
-    triangles[next[p]!] = t;
-    next[p] = next[p]! + 1;
+  const triangles = new Int32Array(segment.length);
+  for (let t = 0; t < segment.length; ++t) {
+    const s = segment[t]!;
+    triangles[next[s]!] = t;
+    next[s] = next[s]! + 1;
   }
   return { firsts, triangles };
 }
 
 /** The records with these indices. */
-function gather(all: VertexArray, numbers: readonly number[]): VertexArray {
+function gather(all: VertexArray, indices: readonly number[]): VertexArray {
   const { array, stride } = all;
-  const some = new (array.constructor as new (length: number) => ElementArray)(numbers.length * stride);
-  numbers.forEach((from, to) => {
-    for (let i = 0; i < stride; ++i) some[to * stride + i] = array[from * stride + i]!;
+  const gathered = new (array.constructor as new (length: number) => ElementArray)(indices.length * stride);
+  indices.forEach((from, to) => {
+    for (let i = 0; i < stride; ++i) gathered[to * stride + i] = array[from * stride + i]!;
   });
-  return { ...all, array: some };
+  return { ...all, array: gathered };
 }

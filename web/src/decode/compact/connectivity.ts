@@ -4,43 +4,46 @@
 export interface Connectivity {
   /** Per corner. */
   readonly vertex: Int32Array;
-  /** Per triangle: the corner opposite of its first edge, in the neighbour there. */
+  /** Per triangle: the corner opposite of its first edge, in the triangle across that edge. */
   readonly across: Int32Array;
-  /** Per triangle: the same for the second edge that it closes. */
+  /** Per triangle: the same for its second edge, where it closes onto an existing triangle there. */
   readonly closing: Int32Array;
-  /** Per vertex: those next to it on the boundary when it came. */
+  /**
+   * Per vertex: the vertices after the next and before the previous one on the boundary, when the vertex was decoded.
+   */
   readonly ahead: Int32Array;
   readonly behind: Int32Array;
-  /** Per vertex: the corner opposite of the edge on its other side. */
+  /** Per vertex: the corner opposite of the boundary edge on its other side. */
   readonly second: Int32Array;
   /**
-   * Triangles only: for each node of the boundary, in the order of creation, the numbers of triangles and
-   * nodes when all triangles around it were decoded. Those between two entries are the later node's own.
+   * Triangles only: for each node of the boundary, in the order of creation, the counts of triangles and of nodes when
+   * all triangles around it were decoded. The fan of a node is the triangles from the entry before it to its own.
    */
   readonly fans: Int32Array;
-  /** Per vertex, lines: the other end of the line that brought it. */
+  /** Lines only, per vertex: the other end of the line that it was decoded with. */
   readonly from: Int32Array;
 }
 
-const nothing = new Int32Array();
+const empty = new Int32Array();
 
 /** The connectivity of points. */
 export const unconnected: Connectivity = {
-  vertex: nothing,
-  across: nothing,
-  closing: nothing,
-  ahead: nothing,
-  behind: nothing,
-  second: nothing,
-  fans: nothing,
-  from: nothing,
+  vertex: empty,
+  across: empty,
+  closing: empty,
+  ahead: empty,
+  behind: empty,
+  second: empty,
+  fans: empty,
+  from: empty,
 };
 
-/** The corners of a corner's triangle after and before it, in its orientation. */
+/** The next corner of the same triangle, in its orientation. */
 export function after(corner: number): number {
   return corner % 3 === 2 ? corner - 2 : corner + 1;
 }
 
+/** The previous corner of the same triangle, in its orientation. */
 export function before(corner: number): number {
   return corner % 3 === 0 ? corner + 2 : corner - 1;
 }

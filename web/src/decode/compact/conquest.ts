@@ -1,7 +1,6 @@
-// Triangles grow from a boundary: the cut-border machine of Gumhold and Straßer,
-// "Real time compression of triangle mesh connectivity", 1998, with vertices
-// processed in the order of their discovery (docs/formats/compact.md,
-// "Connectivity of triangles").
+// Decodes the connectivity of triangles, which grow from a boundary: the cut-border machine of Gumhold and Straßer,
+// "Real time compression of triangle mesh connectivity", 1998, with vertices processed in the order of their discovery
+// (docs/formats/compact.md, "Connectivity of triangles").
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
@@ -20,12 +19,12 @@ const nodeModels = oldModels + 3;
 const vertexModels = nodeModels + numberModelCount;
 export const triangleModelCount = vertexModels + numberModelCount;
 
-// A node is a vertex on the boundary and stands for the edge from the node before
-// to it. A node's number is where its four fields begin.
+// A node is an occurrence of a vertex on the boundary. It also stands for the edge from the previous node to it. A node
+// is known by the index of the first of its four fields in `#nodes`.
 const nodeSize = 4;
-const previousField = 1; // field 0 is its vertex
+const previousField = 1; // field 0 is the vertex
 const nextField = 2;
-const apexField = 3; // the corner opposite of its edge, in the triangle behind
+const apexField = 3; // the corner opposite of its edge, in the decoded triangle
 
 /** Safe for untrusted bytes. Throws DecodeError. */
 export function decodeTriangles(decoder: RangeDecoder, triangleCount: number, vertexCount: number): Connectivity {
@@ -40,7 +39,7 @@ class Conquest {
   readonly #vertex: Int32Array;
   readonly #nodes: Int32Array;
   readonly #degrees: Int32Array;
-  /** What comes next. */
+  /** The indices of the next node (times `nodeSize`), triangle and vertex. */
   #node = 0;
   #triangle = 0;
   #newVertex = 0;
@@ -70,7 +69,7 @@ class Conquest {
     let pivot = 0;
     let fanOffset = 0;
     while (this.#triangle < this.#triangleCount) {
-      this.#takeRoot();
+      this.#decodeRoot();
       for (; pivot < this.#node; pivot += nodeSize) {
         while (this.#triangle < this.#triangleCount && nodes[pivot + previousField]! >= 0) this.#crossEdgeTo(pivot);
         fans[fanOffset++] = this.#triangle;
@@ -82,8 +81,8 @@ class Conquest {
     return { ...this.#out, fans: fans.subarray(0, fanOffset) };
   }
 
-  /** A triangle that shares no edge with the boundary. */
-  #takeRoot(): void {
+  /** Decodes a triangle that shares no edge with the boundary. */
+  #decodeRoot(): void {
     const corner = 3 * this.#triangle;
     const node = this.#node;
     const decoder = this.#decoder;
@@ -99,7 +98,7 @@ class Conquest {
     }
   }
 
-  /** What lies across the edge to a node? */
+  /** Decodes what lies across the edge to node k: a triangle or a border. */
   #crossEdgeTo(k: number): void {
     const nodes = this.#nodes;
     const decoder = this.#decoder;
@@ -131,7 +130,7 @@ class Conquest {
     }
   }
 
-  /** A triangle whose third vertex becomes a new node between p and k. */
+  /** Adds a triangle whose third vertex becomes a new node between p and k. */
   #insert(k: number, p: number, x: number): void {
     const nodes = this.#nodes;
     const t = this.#triangle;
@@ -144,7 +143,7 @@ class Conquest {
     nodes[k + apexField] = corner + 1;
   }
 
-  /** A triangle with the next node's vertex: k is done. */
+  /** Adds a triangle with the vertex of the next node; k leaves the boundary. */
   #close(k: number, p: number, next: number, behind: number): void {
     const nodes = this.#nodes;
     const t = this.#triangle;
@@ -170,7 +169,7 @@ class Conquest {
     nodes[next + apexField] = corner;
   }
 
-  /** A triangle with the vertex before p: p is done. */
+  /** Adds a triangle with the vertex of the node before p; p leaves the boundary. */
   #back(k: number, p: number, behind: number): void {
     const nodes = this.#nodes;
     const t = this.#triangle;
@@ -185,15 +184,16 @@ class Conquest {
   }
 
   /**
-   * A triangle with a node elsewhere: its loop splits, or two become one. The node
-   * stands for what follows it, a new one for what came before.
+   * Adds a triangle with the vertex of a node elsewhere: a loop splits, or two loops become one. That node keeps the
+   * boundary after it, a new node of the same vertex takes the boundary before it.
    */
   #join(k: number, p: number): void {
     const nodes = this.#nodes;
     const t = this.#triangle;
     const corner = 3 * t;
     const target = k + nodeSize * (1 + this.#decoder.number(nodeModels));
-    if (target >= this.#node) throw new DecodeError("malformed", "names a node of the boundary that has not come");
+    if (target >= this.#node)
+      throw new DecodeError("malformed", "names a node of the boundary that is not decoded yet");
     this.#out.across[t] = nodes[k + apexField]!;
     this.#addTriangle(nodes[k]!, nodes[p]!, nodes[target]!);
     const beforeTarget = nodes[target + previousField]!;
@@ -237,7 +237,7 @@ class Conquest {
 
   #oldVertex(): number {
     const vertex = this.#newVertex - 1 - this.#decoder.number(vertexModels);
-    if (vertex < 0) throw new DecodeError("malformed", "names a vertex that has not come");
+    if (vertex < 0) throw new DecodeError("malformed", "names a vertex that is not decoded yet");
     return vertex;
   }
 }

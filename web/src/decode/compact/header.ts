@@ -12,13 +12,16 @@ export interface AttributeType {
   readonly kind: AttributeKind;
   readonly components: number;
   readonly bits: number;
-  /** Normals only: predicted from triangles that count alike, whatever their area. */
+  /**
+   * Normals only: predicted from triangle normals that all have the same weight, instead of one proportional to their
+   * area.
+   */
   readonly isUniform: boolean;
-  /** Normals only: the prediction is the normal. */
+  /** Normals only: nothing is stored, the prediction is the normal. */
   readonly isDerived: boolean;
 }
 
-/** What several patches of a file have in common. */
+/** Properties that several patches of a file share. */
 export interface PatchType {
   readonly topology: Topology;
   readonly positionBits: number;
@@ -33,7 +36,10 @@ export interface FileHeader {
   readonly patchCount: number;
 }
 
-/** Views of the payload; each holds what it is for of one patch after the other, and is empty where none has any of it. */
+/**
+ * Views of the payload. Each stream holds its data of all patches, one patch after the other; it is empty where no
+ * patch has such data.
+ */
 export interface FileStreams {
   readonly sizes: Uint8Array;
   readonly connectivity: Uint8Array;
@@ -87,7 +93,7 @@ function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
   const topology = topologies[within("topology", reader.byte(), 1, 3)] ?? "points";
   const positionBits = within("bits of a position", reader.byte(), 1, 30);
   const isBase = within("flags", reader.byte(), 0, 1) === 1;
-  if (isBase && topology !== "triangles") throw new DecodeError("malformed", `holds parts of ${topology}`);
+  if (isBase && topology !== "triangles") throw new DecodeError("malformed", `holds segments of ${topology}`);
   const count = within("number of attributes", reader.byte(), 0, maxPatchAttributeCount);
   const indices: number[] = [];
   while (indices.length < count) {
@@ -111,10 +117,10 @@ function readAttributeType(reader: FieldReader): AttributeType {
 
 function readStreams(reader: FieldReader, attributeCount: number): FileStreams {
   const lengths = Array.from({ length: 5 + attributeCount }, () => reader.number());
-  const [sizes, connectivity, parts, positions, wedges, ...attributes] = lengths.map((length) =>
+  const [sizes, connectivity, segments, positions, wedges, ...attributes] = lengths.map((length) =>
     reader.bytes(length),
   ) as [Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array, ...Uint8Array[]];
-  return { sizes, connectivity, segments: parts, positions, wedges, attributes };
+  return { sizes, connectivity, segments, positions, wedges, attributes };
 }
 
 /** Returns the value. Throws DecodeError where it is outside min .. max. */

@@ -1,4 +1,4 @@
-// Lines, one behind the other: docs/formats/compact.md, "Lines".
+// Decodes the connectivity of lines: docs/formats/compact.md, "Lines".
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
@@ -7,7 +7,7 @@ import { triangleModelCount } from "./conquest.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
 import { numberModelCount } from "./rangeDecoder.ts";
 
-// Behind those of triangles, in the same stream.
+// These models follow those of triangles in the same stream.
 const chainModel = triangleModelCount;
 const oldModels = chainModel + 1;
 const vertexModels = oldModels + 2;
@@ -17,27 +17,28 @@ export const connectivityModelCount = vertexModels + numberModelCount;
 export function decodeLines(decoder: RangeDecoder, lineCount: number, vertexCount: number): Connectivity {
   const vertex = new Int32Array(2 * lineCount);
   const from = new Int32Array(vertexCount).fill(-1);
-  let vertices = 0;
+  let decodedCount = 0;
 
+  /** Decodes one end of a line. */
   const end = (model: number): number => {
     if (decoder.bit(model) === 1) {
-      const known = vertices - 1 - decoder.number(vertexModels);
-      if (known < 0) throw new DecodeError("malformed", "names a vertex that has not come");
+      const known = decodedCount - 1 - decoder.number(vertexModels);
+      if (known < 0) throw new DecodeError("malformed", "names a vertex that is not decoded yet");
       return known;
     }
-    if (vertices === vertexCount) throw new DecodeError("malformed", "holds more vertices than its header states");
-    return vertices++;
+    if (decodedCount === vertexCount) throw new DecodeError("malformed", "holds more vertices than its header states");
+    return decodedCount++;
   };
 
   let b = -1;
   for (let line = 0; line < lineCount; ++line) {
     const a = line > 0 && decoder.bit(chainModel) === 1 ? b : end(oldModels);
-    const known = vertices;
+    const newVertex = decodedCount;
     b = end(oldModels + 1);
-    if (b === known) from[b] = a;
+    if (b === newVertex) from[b] = a;
     vertex[2 * line] = a;
     vertex[2 * line + 1] = b;
   }
-  if (vertices < vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
+  if (decodedCount < vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
   return { ...unconnected, vertex, from };
 }

@@ -1,4 +1,4 @@
-// The neighbouring wedges that attribute values are predicted from: docs/formats/compact.md, "Attributes".
+// Finds the neighbouring wedges that attribute values are predicted from: docs/formats/compact.md, "Attributes".
 
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
@@ -8,16 +8,16 @@ import type { RangeDecoder } from "./rangeDecoder.ts";
 import type { PatchHeader } from "./sizes.ts";
 import type { Wedges } from "./wedges.ts";
 
-/** What is decoded of a patch before its attributes. */
+/** A patch without its attributes, which are decoded last. */
 export interface DecodedShape extends Positions {
   readonly header: PatchHeader;
   readonly connectivity: Connectivity;
   readonly wedges: Wedges;
 }
 
-/** Wedges around one, or -1. */
+/** The wedges around a wedge that are decoded before it, -1 where there is none. `find` sets them. */
 export class Neighbours {
-  /** At the corners after and before, where they came before it; `a` alone in lines. */
+  /** At the next and the previous corner of its first triangle. In lines, `a` is the other end and `b` is -1. */
   a = -1;
   b = -1;
   /** Opposite of a and b, in the triangle across their edge. */
@@ -25,7 +25,7 @@ export class Neighbours {
   readonly #topology: Topology;
   readonly #wedge: Int32Array;
   readonly #across: Int32Array;
-  /** Per wedge: the corner that it came with. */
+  /** Per wedge: the first corner that has it. */
   readonly #corner: Int32Array;
 
   constructor({ header, connectivity, wedges: { wedge, seams } }: DecodedShape) {
@@ -35,6 +35,7 @@ export class Neighbours {
     this.#corner = seams?.corner ?? firstCornersOf(wedge, header.vertexCount);
   }
 
+  /** Finds the neighbours of wedge w. */
   find(w: number): void {
     const wedge = this.#wedge;
     this.a = this.b = this.o = -1;
@@ -54,7 +55,7 @@ export class Neighbours {
   }
 }
 
-/** Which wedges have the value of the one before at their vertex, 1 each; empty where vertices are wedges. */
+/** Per wedge: 1 where it has the value of the previous wedge of its vertex. Empty where every vertex is one wedge. */
 export function decodeRepeats(decoder: RangeDecoder, model: number, { seams }: Wedges): Uint8Array {
   if (seams === undefined) return new Uint8Array();
   const repeats = new Uint8Array(seams.previous.length);
@@ -62,7 +63,7 @@ export function decodeRepeats(decoder: RangeDecoder, model: number, { seams }: W
   return repeats;
 }
 
-/** The corners that vertices came with: their first ones, since they are numbered as they come. */
+/** The first corner of each vertex; vertices are numbered in the order of their first corners. */
 function firstCornersOf(vertex: Int32Array, vertexCount: number): Int32Array {
   const corner = new Int32Array(vertex.length > 0 ? vertexCount : 0);
   let next = 0;

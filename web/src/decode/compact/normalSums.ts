@@ -1,5 +1,5 @@
-// Sums of triangle normals, in 32 wrapping bits, for positions and normals to be
-// predicted from: docs/formats/compact.md, the end of "Positions".
+// Sums of triangle normals, in 32 wrapping bits, from which positions and normals are predicted:
+// docs/formats/compact.md, the end of "Positions".
 
 /** `count` sums: x, y, z of each. */
 export class NormalSums {
@@ -15,7 +15,7 @@ export class NormalSums {
     this.#isUniform = isUniform;
   }
 
-  /** Adds the normal of a triangle of three vertices to three of the sums. */
+  /** Adds the normal of the triangle of vertices va, vb, vc to the sums a, b, c. */
   add(va: number, vb: number, vc: number, a: number, b: number, c: number): void {
     const coordinates = this.#coordinates;
     const shift = this.#shift;

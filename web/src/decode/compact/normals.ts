@@ -1,5 +1,5 @@
-// Normals: points of an octahedron, predicted from the triangles around
-// (docs/formats/compact.md, "Normals").
+// Decodes normals: points of an octahedron, each predicted from the triangles around it (docs/formats/compact.md,
+// "Normals").
 
 import { DecodeError } from "../decodeError.ts";
 import { exactModels, firstModels, flipModel, repeatModel, secondModels } from "./attributeModels.ts";
@@ -15,7 +15,10 @@ export function decodeNormals(decoder: RangeDecoder, type: AttributeType, shape:
   return new NormalDecoder(decoder, type, shape, decodeRepeats(decoder, repeatModel, shape.wedges)).run();
 }
 
-/** The same of what is not stored: normals are what is predicted, in a base of all triangles around a vertex. */
+/**
+ * The same for normals that are not stored: each is its prediction. In a base mesh all wedges of a vertex share one
+ * normal, predicted from all triangles around the vertex.
+ */
 export function deriveNormals(type: AttributeType, shape: DecodedShape): Int32Array {
   const previous = shape.header.segmentCount > 0 ? shape.wedges.seams?.previous : undefined;
   return new NormalDecoder(
@@ -27,16 +30,19 @@ export function deriveNormals(type: AttributeType, shape: DecodedShape): Int32Ar
 }
 
 class NormalDecoder {
-  /** Undefined: normals are what is predicted. */
+  /** Undefined: each normal is its prediction. */
   readonly #decoder: RangeDecoder | undefined;
   readonly #radius: number;
   readonly #repeats: Uint8Array;
   readonly #previous: Int32Array | undefined;
   readonly #normals: Int32Array;
-  /** Undefined in points and lines: a normal is expected to be the one before. */
+  /**
+   * x, y, z of the predicted direction of each wedge. Undefined in points and lines, where the previous normal is the
+   * prediction.
+   */
   readonly #sums: Int32Array | undefined;
-  /** 1 where the one before was where it was expected. */
-  #isExact: 0 | 1 = 0;
+  /** 1 if the previous normal was its prediction. */
+  #wasExact: 0 | 1 = 0;
 
   constructor(decoder: RangeDecoder | undefined, type: AttributeType, shape: DecodedShape, repeats: Uint8Array) {
     this.#decoder = decoder;
@@ -66,24 +72,24 @@ class NormalDecoder {
     return normals;
   }
 
-  /** A normal that is expected in a direction, in whatever length. */
+  /** Decodes the normal of wedge w, predicted in the direction x, y, z of any length. */
   #decode(w: number, x: number, y: number, z: number): void {
     const decoder = this.#decoder;
     const normals = this.#normals;
     const axis = dominantAxis(x, y, z);
     let length = Math.abs(x) + Math.abs(y) + Math.abs(z);
     if (length === 0) length = z = 1;
-    // u, v, d are x, y, z turned until the dominant one is last.
+    // u, v are the two components after the dominant one, in cyclic order.
     let u = this.#project(axis === 0 ? y : axis === 1 ? z : x, length);
     let v = this.#project(axis === 0 ? z : axis === 1 ? x : y, length);
     const isNegative = (axis === 0 ? x : axis === 1 ? y : z) < 0;
     let isFlipped = false;
-    if (decoder && !this.#isExpected(decoder)) {
+    if (decoder && !this.#readIsExact(decoder)) {
       const residual = decoder.small(firstModels);
       u += residual;
       v += decoder.small(secondModels + numberModelCount * Math.min(bitLength(Math.abs(residual)), 7));
       const left = this.#radius - Math.abs(u) - Math.abs(v);
-      if (left < 0) throw new DecodeError("malformed", "holds a normal beside its octahedron");
+      if (left < 0) throw new DecodeError("malformed", "holds a normal outside of its octahedron");
       isFlipped = left > 0 && decoder.bit(flipModel) === 1;
     }
     const rest = this.#radius - Math.abs(u) - Math.abs(v);
@@ -93,20 +99,23 @@ class NormalDecoder {
     normals[first + axis] = isNegative !== isFlipped ? -rest : rest;
   }
 
-  /** Most normals are. */
-  #isExpected(decoder: RangeDecoder): boolean {
-    this.#isExact = decoder.bit(exactModels + this.#isExact);
-    return this.#isExact === 1;
+  /** Reads whether the normal is its prediction. */
+  #readIsExact(decoder: RangeDecoder): boolean {
+    this.#wasExact = decoder.bit(exactModels + this.#wasExact);
+    return this.#wasExact === 1;
   }
 
-  /** A component on the octahedron, rounded to the nearest. */
+  /** Projects a component of a vector with this L1 norm to the octahedron, rounded to the nearest integer. */
   #project(component: number, length: number): number {
     const magnitude = Math.floor((2 * this.#radius * Math.abs(component) + length) / (2 * length));
     return component < 0 ? -magnitude : magnitude;
   }
 }
 
-/** The sum of the triangle normals around each wedge; those that repeat add to the one that they repeat. */
+/**
+ * The sum of the triangle normals around each wedge. Triangles of a wedge that repeats another one add to that one's
+ * sum.
+ */
 function sumsOf(type: AttributeType, shape: DecodedShape, repeats: Uint8Array): Int32Array {
   const {
     header,
@@ -119,7 +128,7 @@ function sumsOf(type: AttributeType, shape: DecodedShape, repeats: Uint8Array): 
   const sums = new NormalSums(header.wedgeCount, coordinates, header.normalShift, type.isUniform);
   const target = new Int32Array(header.wedgeCount);
   for (let w = 0; w < target.length; ++w) target[w] = repeats[w] === 1 ? target[seams!.previous[w]!]! : w;
-  // Without a split and without other weights a wedge has what its vertex has.
+  // With weights by area, the sum of a wedge that is the only one of its vertex is that of the vertex.
   const isSplit = type.isUniform ? undefined : seams?.isSplit;
   for (let c = 0; c < vertex.length; c += 3) {
     const va = vertex[c]!;

@@ -40,8 +40,8 @@ export function decodePatches<Taken>(payload: Uint8Array, take: (patch: CompactP
 
 function decodePatch({ header, type }: SizedPatch, streams: StreamDecoders): CompactPatch {
   const connectivity = connectivityOf(header, streams);
-  const parts = type.isBase ? decodeSegments(streams.segments, header, connectivity) : undefined;
-  const positions = decodePositions(streams.positions, header, connectivity, parts);
+  const segments = type.isBase ? decodeSegments(streams.segments, header, connectivity) : undefined;
+  const positions = decodePositions(streams.positions, header, connectivity, segments);
   const wedges: Wedges =
     header.wedgeCount > header.vertexCount
       ? decodeWedges(streams.wedges, header, connectivity)
@@ -50,7 +50,7 @@ function decodePatch({ header, type }: SizedPatch, streams: StreamDecoders): Com
   return {
     ...shape,
     attributes: type.attributes.map((fileIndex, i) => decodeAttribute(fileIndex, i, shape, streams)),
-    segments: parts,
+    segments,
   };
 }
 

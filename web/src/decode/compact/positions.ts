@@ -1,6 +1,5 @@
-// Where vertices are, each predicted by the best of several parallelograms, which
-// the encoder chose, and its last coordinate by the plane of the surface so far:
-// docs/formats/compact.md, "Positions".
+// Decodes vertex positions. The encoder chose one of several parallelograms to predict each position from; the last
+// coordinate is predicted from the plane of the surface decoded so far: docs/formats/compact.md, "Positions".
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
@@ -15,14 +14,14 @@ const choiceModels = 0;
 const firstModels = choiceModels + 8 * 16 * 4;
 const secondModels = firstModels + 16 * numberModelCount;
 const thirdModels = secondModels + 31 * numberModelCount;
-// Of patches with a grid:
+// Patches with a grid only:
 const loneModels = thirdModels + 31 * numberModelCount;
 const gridModels = loneModels + 8 * numberModelCount;
 const maskModels = gridModels + 96 * numberModelCount;
 export const positionModelCount = maskModels + 512 * 8;
 
 export interface Positions {
-  /** x, y, z of each vertex; what follows them means nothing. */
+  /** x, y, z of each vertex, and one further element that is no vertex. */
   readonly coordinates: Int32Array;
   /** x, y, z of the sum of the triangle normals around each vertex; 0 in points and lines. */
   readonly normalSums: Int32Array;
@@ -33,12 +32,12 @@ export function decodePositions(
   decoder: RangeDecoder,
   header: PatchHeader,
   connectivity: Connectivity,
-  parts: Segments | undefined,
+  segments: Segments | undefined,
 ): Positions {
-  return new PositionDecoder(decoder, header, connectivity, parts).run();
+  return new PositionDecoder(decoder, header, connectivity, segments).run();
 }
 
-/** The order in which coordinates come: axis number j, by 3 (3 mask + dominant axis) + j. */
+/** The order in which coordinates are decoded: element 3 (3 mask + dominant axis) + j is the j-th axis. */
 const orders = Uint8Array.from({ length: 8 }, (_, mask) => mask).reduce<number[]>((all, mask) => {
   for (const dominant of [0, 1, 2]) {
     const onGrid = [0, 1, 2].filter((axis) => (mask & (1 << axis)) !== 0);
@@ -52,34 +51,39 @@ class PositionDecoder {
   readonly #decoder: RangeDecoder;
   readonly #connectivity: Connectivity;
   readonly #vertexCount: number;
-  readonly #largest: number;
+  readonly #maxCoordinate: number;
   readonly #grid: Grid | undefined;
   readonly #masks: Uint8Array;
-  /** In a base: the vertices whose residuals are of steps of the lattice, and what others' are multiplied by. */
+  /**
+   * Base meshes only, per vertex: 1 where residuals are in lattice steps, 0 where they are in multiples of
+   * `#residualStep`.
+   */
   readonly #isExact: Uint8Array | undefined;
   readonly #residualStep: number;
-  /** With one vertex more, the middle of the lattice, that the first one is predicted from. */
+  /** x, y, z of each vertex; then the middle of the lattice, from which the first vertex is predicted. */
   readonly #coordinates: Int32Array;
   readonly #sums: NormalSums;
   /** x, y, z of each candidate. */
   readonly #candidates = new Int32Array(3 * 4);
   #candidateCount = 0;
   #candidateSet = 0;
-  /** How far the first two candidates are apart, 0 where there is one. */
+  /**
+   * Context: 1 + the bit length of the distance between the first two candidates (at most 15); 0 where there is one.
+   */
   #agreement = 0;
-  /** The candidate that was chosen, and the slope of the surface there. */
+  /** The chosen candidate, and the normal of the surface there, of any length. */
   readonly #guess = new Int32Array(3);
   readonly #slope = new Int32Array(3);
 
-  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, parts: Segments | undefined) {
+  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, segments: Segments | undefined) {
     const { vertexCount, positionBits, grid } = header;
     this.#decoder = decoder;
     this.#connectivity = connectivity;
     this.#vertexCount = vertexCount;
-    this.#largest = 2 ** positionBits - 1;
+    this.#maxCoordinate = 2 ** positionBits - 1;
     this.#grid = grid;
     this.#masks = new Uint8Array(grid ? vertexCount : 0);
-    this.#isExact = parts?.isShared;
+    this.#isExact = segments?.isShared;
     this.#residualStep = 2 ** header.residualShift;
     this.#coordinates = new Int32Array(3 * (vertexCount + 1));
     this.#coordinates.fill(2 ** (positionBits - 1), 3 * vertexCount);
@@ -97,9 +101,9 @@ class PositionDecoder {
     let next = 0;
     for (let t = 0; t < across.length; ++t) {
       const c = 3 * t;
-      if (vertex[c] === next) this.#decodeAlone(next++);
-      if (vertex[c + 1] === next) this.#decodeAlone(next++);
-      if (vertex[c + 2] === next) this.#decodeBeyond(next++, across[t]!);
+      if (vertex[c] === next) this.#decodeFromPrevious(next++);
+      if (vertex[c + 1] === next) this.#decodeFromPrevious(next++);
+      if (vertex[c + 2] === next) this.#decodeAcrossEdge(next++, across[t]!);
       const va = vertex[c]!;
       const vb = vertex[c + 1]!;
       const vc = vertex[c + 2]!;
@@ -108,19 +112,20 @@ class PositionDecoder {
     for (; next < this.#vertexCount; ++next) {
       // points and lines
       if (from.length > 0 && from[next]! >= 0) this.#decodeOnLine(next, from);
-      else this.#decodeAlone(next);
+      else this.#decodeFromPrevious(next);
     }
     return { coordinates: this.#coordinates, normalSums: sums.sums };
   }
 
-  /** A vertex that nothing but the one before it speaks for. */
-  #decodeAlone(x: number): void {
+  /** A vertex that is predicted from the vertex before it in the order of decoding. */
+  #decodeFromPrevious(x: number): void {
     const last = x > 0 ? x - 1 : this.#vertexCount;
     this.#beginCandidates(last, last, last);
     this.#slope.fill(0);
     this.#decode(x, 2, 0);
   }
 
+  /** A vertex of a line, predicted from the lines that lead to it. */
   #decodeOnLine(x: number, from: Int32Array): void {
     const last = from[x]!;
     const further = from[last]!;
@@ -130,10 +135,13 @@ class PositionDecoder {
     this.#decode(x, 2, 0);
   }
 
-  /** A vertex that a triangle brought, whose first edge's other side is known; or one of a root. */
-  #decodeBeyond(x: number, across: number): void {
+  /**
+   * The third vertex of a triangle; `across` is the corner opposite of its first edge in the neighbour there, or -1 for
+   * a root.
+   */
+  #decodeAcrossEdge(x: number, across: number): void {
     if (across < 0) {
-      this.#decodeAlone(x);
+      this.#decodeFromPrevious(x);
       return;
     }
     const { vertex, ahead, behind, second } = this.#connectivity;
@@ -156,7 +164,7 @@ class PositionDecoder {
     this.#addCandidate(a, b, c, 0);
   }
 
-  /** a + b - c. */
+  /** Adds the parallelogram a + b - c. */
   #addCandidate(a: number, b: number, c: number, flag: number): void {
     const coordinates = this.#coordinates;
     const candidates = this.#candidates;
@@ -167,7 +175,10 @@ class PositionDecoder {
     this.#candidateSet += flag;
   }
 
-  /** The surface's normal at an edge, small enough to multiply with; gives its dominant axis. */
+  /**
+   * Sets the slope to the surface's normal at an edge, shortened to 15 bits so that products are exact; returns its
+   * dominant axis.
+   */
   #setSlope(k: number, p: number): 0 | 1 | 2 {
     const sums = this.#sums.sums;
     const slope = this.#slope;
@@ -181,6 +192,7 @@ class PositionDecoder {
     return dominantAxis(x, y, z);
   }
 
+  /** Reads which candidate the encoder chose, and makes it the guess. */
   #choose(): void {
     const decoder = this.#decoder;
     const candidates = this.#candidates;
@@ -203,6 +215,7 @@ class PositionDecoder {
     guess[2] = candidates[3 * chosen + 2]!;
   }
 
+  /** Reads the residuals of a vertex, with the candidates and the slope that were set. */
   #decode(x: number, dominant: 0 | 1 | 2, maskContext: number): void {
     const decoder = this.#decoder;
     const coordinates = this.#coordinates;
@@ -213,8 +226,8 @@ class PositionDecoder {
     if (grid) this.#masks[x] = mask = decoder.tree(maskModels + 8 * maskContext, 3);
     this.#choose();
     let steps = 0;
-    let largest = 0;
-    let length = -1; // of the residual before, off the grid
+    let maxLength = 0;
+    let length = -1; // bit length of the previous residual off the grid
     for (let j = 0; j < 3; ++j) {
       const axis = orders[3 * (3 * mask + dominant) + j]!;
       let value: number;
@@ -223,7 +236,7 @@ class PositionDecoder {
           gridModels + numberModelCount * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)),
         );
         steps += Math.abs(residual);
-        value = lineOf(grid, axis, nearestLine(grid, axis, this.#clamp(guess[axis]!)) + residual);
+        value = planeCoordinate(grid, axis, nearestPlane(grid, axis, this.#clamp(guess[axis]!)) + residual);
       } else {
         const expected = j === 2 ? this.#height(x, dominant, mask, axis) : guess[axis]!;
         const models =
@@ -232,19 +245,20 @@ class PositionDecoder {
               ? loneModels + numberModelCount * Math.min(steps, 7)
               : firstModels + numberModelCount * this.#agreement
             : j === 2 && mask === 0
-              ? thirdModels + numberModelCount * largest
+              ? thirdModels + numberModelCount * maxLength
               : secondModels + numberModelCount * length;
         const residual = decoder.signed(models);
         length = bitLength(Math.abs(residual));
-        largest = Math.max(largest, length);
+        maxLength = Math.max(maxLength, length);
         value = this.#clamp(expected) + residual * step;
       }
-      if (value < 0 || value > this.#largest) throw new DecodeError("malformed", "holds a vertex beside its lattice");
+      if (value < 0 || value > this.#maxCoordinate)
+        throw new DecodeError("malformed", "holds a vertex outside of its lattice");
       coordinates[3 * x + axis] = value;
     }
   }
 
-  /** The last coordinate, where the surface's plane has it over the two others. */
+  /** Predicts the last coordinate: that of the surface's plane at the two other coordinates. */
   #height(x: number, dominant: number, mask: number, axis: number): number {
     const slope = this.#slope;
     const guess = this.#guess;
@@ -257,16 +271,16 @@ class PositionDecoder {
   }
 
   #clamp(coordinate: number): number {
-    return Math.min(Math.max(coordinate, 0), this.#largest);
+    return Math.min(Math.max(coordinate, 0), this.#maxCoordinate);
   }
 }
 
-/** Coordinate number i of an axis. */
-function lineOf({ origin, step }: Grid, axis: number, i: number): number {
+/** The coordinate of the grid's plane i along an axis. */
+function planeCoordinate({ origin, step }: Grid, axis: number, i: number): number {
   return Math.floor((origin[axis]! + i * step[axis]! + 32768) / 65536);
 }
 
-/** The number of the coordinate that is nearest. */
-function nearestLine({ origin, step }: Grid, axis: number, coordinate: number): number {
+/** The index of the grid's plane that is nearest to a coordinate. */
+function nearestPlane({ origin, step }: Grid, axis: number, coordinate: number): number {
   return Math.floor((65536 * coordinate - origin[axis]! + Math.trunc(step[axis]! / 2)) / step[axis]!);
 }

@@ -1,34 +1,33 @@
-// One stream of a patch: adaptive bits from its front, raw bits from its back
-// (docs/formats/compact.md, "Stream"; Martin, "Range encoding", 1979; the two
-// ends as in Opus, RFC 6716). Its state are fields of a class and not captured
-// variables, which measured a third slower.
+// Decodes one stream of a file: adaptive bits from its front, raw bits from its back (docs/formats/compact.md,
+// "Stream"; Martin, "Range encoding", 1979; the two ends as in Opus, RFC 6716). The state is in fields of a class
+// because captured variables measured a third slower.
 
 import { DecodeError } from "../decodeError.ts";
 
-/** Models that a number takes. */
+/** Number of models that `number`, `signed` and `small` use. */
 export const numberModelCount = 32;
 
 /** Safe for untrusted bytes: every call returns or throws DecodeError. */
 export class RangeDecoder {
-  /** The probability that a bit is 1, in 1/65536, times 32, plus how often it was asked, up to 31. */
+  /** Per model: 32 times the probability of a 1 in 1/65536, plus the number of bits decoded with it, up to 31. */
   readonly #models: Int32Array;
   readonly #bytes: Uint8Array;
-  #at = 3;
-  #end: number;
+  #front = 3;
+  #back: number;
   #range = 0xffffff;
   #code: number;
-  #hold = 0;
-  #held = 0;
+  #rawBits = 0;
+  #rawBitCount = 0;
 
   constructor(bytes: Uint8Array, modelCount: number) {
     if (bytes.length < 3) throw crossed();
     this.#models = new Int32Array(modelCount).fill(1 << 20);
     this.#bytes = bytes;
-    this.#end = bytes.length;
+    this.#back = bytes.length;
     this.#code = (bytes[0]! << 16) | (bytes[1]! << 8) | bytes[2]!;
   }
 
-  /** One adaptive bit. */
+  /** Reads one adaptive bit. */
   bit(model: number): 0 | 1 {
     const models = this.#models;
     const state = models[model]!;
@@ -51,24 +50,24 @@ export class RangeDecoder {
     return 0;
   }
 
-  /** `count` raw bits, 0 … 30. */
+  /** Reads `count` raw bits, 0 … 30. */
   raw(count: number): number {
     if (count > 16) return this.raw(16) | (this.raw(count - 16) << 16);
-    while (this.#held < count) {
-      if (this.#end <= this.#at) throw crossed();
-      this.#end -= 1;
-      this.#hold |= this.#bytes[this.#end]! << this.#held;
-      this.#held += 8;
+    while (this.#rawBitCount < count) {
+      if (this.#back <= this.#front) throw crossed();
+      this.#back -= 1;
+      this.#rawBits |= this.#bytes[this.#back]! << this.#rawBitCount;
+      this.#rawBitCount += 8;
     }
-    const value = this.#hold & ((1 << count) - 1);
-    this.#hold >>>= count;
-    this.#held -= count;
+    const value = this.#rawBits & ((1 << count) - 1);
+    this.#rawBits >>>= count;
+    this.#rawBitCount -= count;
     return value;
   }
 
-  /** 0 … 2^depth - 1, in the models from `models` + 1 on. */
+  /** Reads a number 0 … 2^depth - 1 with the models from `models` + 1 on. */
   tree(models: number, depth: number): number {
-    // As in `bit`, with what changes at every level where no call can see it: half of the time.
+    // The same as in `bit`, with the state in local variables: this takes half of the time.
     const states = this.#models;
     const leaves = 1 << depth;
     let range = this.#range;
@@ -105,27 +104,28 @@ export class RangeDecoder {
     return node - leaves;
   }
 
-  /** 0 … 2^30 - 1. */
+  /** Reads a number 0 … 2^30 - 1. */
   number(models: number): number {
     const length = this.#length(models);
     return length === 0 ? 0 : (1 << (length - 1)) | this.raw(length - 1);
   }
 
-  /** -(2^30 - 1) … 2^30 - 1. */
+  /** Reads a number -(2^30 - 1) … 2^30 - 1. */
   signed(models: number): number {
     return this.#rest(this.#length(models));
   }
 
-  /** The same of a number that is 0 more often than not. */
+  /** The same range, in fewer bits for a number that is mostly 0. */
   small(models: number): number {
     let length = 0;
     while (length < 30 && this.bit(models + length) === 0) ++length;
     return this.#rest(length);
   }
 
-  /** To be called when all is read: a stream is exactly as long as what it holds. */
+  /** To be called when everything is read. Throws DecodeError where bytes are left. */
   finish(): void {
-    if (this.#at !== this.#end) throw new DecodeError("malformed", "holds a stream that is longer than what is in it");
+    if (this.#front !== this.#back)
+      throw new DecodeError("malformed", "holds a stream that is longer than what is in it");
   }
 
   /** Reads the bit length of a number. */
@@ -134,7 +134,7 @@ export class RangeDecoder {
     return length < 15 ? length : 15 + this.tree(models + 16, 4);
   }
 
-  /** A number of so many bits. */
+  /** Reads the bits after the first of a number of this bit length, and its sign. */
   #rest(length: number): number {
     if (length === 0) return 0;
     const rest = this.raw(length);
@@ -144,15 +144,15 @@ export class RangeDecoder {
 
   #shiftIn(): void {
     do {
-      if (this.#at >= this.#end) throw crossed();
+      if (this.#front >= this.#back) throw crossed();
       this.#range <<= 8;
-      this.#code = (this.#code << 8) | this.#bytes[this.#at]!;
-      this.#at += 1;
+      this.#code = (this.#code << 8) | this.#bytes[this.#front]!;
+      this.#front += 1;
     } while (this.#range < 65536);
   }
 }
 
-/** What was read from the front met what was read from the back. */
+/** The error for a front end that meets the back end. */
 function crossed(): DecodeError {
   return new DecodeError("malformed", "holds a stream that is shorter than what is in it");
 }

@@ -1,5 +1,5 @@
-// Decodes the segment of a base mesh that each triangle belongs to, that is, the patch for which it stands in:
-// docs/formats/compact.md.
+// Decodes the segment of a base mesh that each triangle belongs to, that is, which patch it stands in for:
+// docs/formats/compact.md, "Base".
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
@@ -21,13 +21,13 @@ export interface Segments {
 
 /** Safe for untrusted bytes. Throws DecodeError. */
 export function decodeSegments(decoder: RangeDecoder, header: PatchHeader, { vertex, across }: Connectivity): Segments {
-  const part = new Int32Array(header.elementCount);
+  const segment = new Int32Array(header.elementCount);
   const isShared = new Uint8Array(header.vertexCount);
   const latest = new Int32Array(header.vertexCount).fill(-1);
-  for (let t = 0; t < part.length; ++t) {
+  for (let t = 0; t < segment.length; ++t) {
     const c = 3 * t;
     const o = across[t]!;
-    const guess = o >= 0 ? part[Math.floor(o / 3)]! : t > 0 ? part[t - 1]! : 0;
+    const guess = o >= 0 ? segment[Math.floor(o / 3)]! : t > 0 ? segment[t - 1]! : 0;
     let other = -1;
     let differing = 0;
     for (let i = 2; i >= 0; --i) {
@@ -39,14 +39,14 @@ export function decodeSegments(decoder: RangeDecoder, header: PatchHeader, { ver
     let here = guess;
     if (decoder.bit(sameModels + differing) === 0) {
       here = other >= 0 && decoder.bit(otherModels + differing) === 1 ? other : decoder.number(segmentModels);
-      if (here >= header.segmentCount) throw new DecodeError("malformed", "names a part that there is not");
+      if (here >= header.segmentCount) throw new DecodeError("malformed", "names a segment that does not exist");
     }
-    part[t] = here;
+    segment[t] = here;
     for (let i = 0; i < 3; ++i) {
       const v = vertex[c + i]!;
       if (latest[v]! >= 0 && latest[v] !== here) isShared[v] = 1;
       latest[v] = here;
     }
   }
-  return { segment: part, isShared };
+  return { segment, isShared };
 }

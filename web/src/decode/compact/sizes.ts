@@ -1,5 +1,5 @@
-// Decodes the sizes of each patch from the first stream of a file: docs/formats/compact.md, "Sizes". All counts are checked
-// here, before anything is allocated for them.
+// Decodes the sizes of each patch from the first stream of a file: docs/formats/compact.md, "Sizes". All counts are
+// checked here, before anything is allocated for them.
 
 import { DecodeError } from "../decodeError.ts";
 import type { AttributeType, FileHeader, PatchType, Topology } from "./header.ts";
@@ -83,10 +83,10 @@ function decodeHeader(
   }
   const normalShift = topology === "triangles" ? within("shift of normals", decoder.number(shiftModels), 0, 30) : 0;
   const grid = positionBits <= 16 && decoder.bit(gridModel) === 1 ? decodeGrid(decoder) : undefined;
-  const partCount = isBase ? 1 + decoder.number(segmentModels) : 0;
+  const segmentCount = isBase ? 1 + decoder.number(segmentModels) : 0;
   const residualShift = isBase ? decoder.number(residualModels) : 0;
   if (isBase) {
-    within("number of parts", partCount, 1, elementCount);
+    within("number of segments", segmentCount, 1, elementCount);
     within("shift of residuals", residualShift, 0, positionBits - 1);
   }
   return {
@@ -98,7 +98,7 @@ function decodeHeader(
     wedgeCount,
     elementCount,
     attributes,
-    segmentCount: partCount,
+    segmentCount,
     residualShift,
   };
 }

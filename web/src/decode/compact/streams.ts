@@ -32,14 +32,14 @@ class Stream {
 /** The decoders of all streams except that of the sizes. */
 export class StreamDecoders {
   readonly #connectivity: Stream;
-  readonly #parts: Stream;
+  readonly #segments: Stream;
   readonly #positions: Stream;
   readonly #wedges: Stream;
   readonly #attributes: readonly Stream[];
 
-  constructor({ connectivity, segments: parts, positions, wedges, attributes }: FileStreams) {
+  constructor({ connectivity, segments, positions, wedges, attributes }: FileStreams) {
     this.#connectivity = new Stream(connectivity, connectivityModelCount);
-    this.#parts = new Stream(parts, segmentModelCount);
+    this.#segments = new Stream(segments, segmentModelCount);
     this.#positions = new Stream(positions, positionModelCount);
     this.#wedges = new Stream(wedges, wedgeModelCount);
     this.#attributes = attributes.map((stream) => new Stream(stream, attributeModelCount));
@@ -49,7 +49,7 @@ export class StreamDecoders {
     return this.#connectivity.decoder;
   }
   get segments(): RangeDecoder {
-    return this.#parts.decoder;
+    return this.#segments.decoder;
   }
   get positions(): RangeDecoder {
     return this.#positions.decoder;
@@ -65,7 +65,7 @@ export class StreamDecoders {
 
   /** To be called when all patches are decoded. Throws DecodeError where a stream holds unread bytes. */
   finish(): void {
-    for (const stream of [this.#connectivity, this.#parts, this.#positions, this.#wedges, ...this.#attributes])
+    for (const stream of [this.#connectivity, this.#segments, this.#positions, this.#wedges, ...this.#attributes])
       stream.finish();
   }
 }

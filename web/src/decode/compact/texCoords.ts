@@ -1,5 +1,5 @@
-// Texture coordinates: a triangle is laid out beside the edge that is known, in
-// its own shape (docs/formats/compact.md, "Texture coordinates").
+// Decodes texture coordinates. Each is predicted by laying out its triangle, in its shape in space, beside the edge
+// that is known (docs/formats/compact.md, "Texture coordinates").
 
 import { DecodeError } from "../decodeError.ts";
 import { choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
@@ -9,21 +9,21 @@ import { decodeRepeats, Neighbours } from "./neighbours.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
 import { bitLength, numberModelCount } from "./rangeDecoder.ts";
 
-/** Edges are shortened to so many bits, so that products stay exact. */
-const edgeBits = 12;
+/** Maximum bits of an edge's components; longer edges are shortened, so that products stay exact. */
+const maxEdgeBits = 12;
 
 /** u, v of each wedge, each 0 … 2^bits - 1. Safe for untrusted bytes. Throws DecodeError. */
 export function decodeTexCoords(decoder: RangeDecoder, type: AttributeType, shape: DecodedShape): Int32Array {
   const repeats = decodeRepeats(decoder, repeatModel, shape.wedges);
   const previous = shape.wedges.seams?.previous;
   const texCoords = new Int32Array(2 * shape.header.wedgeCount);
-  const one = new TexCoordDecoder(decoder, type, shape, texCoords);
+  const texCoordDecoder = new TexCoordDecoder(decoder, type, shape, texCoords);
   for (let w = 0; w < shape.header.wedgeCount; ++w) {
     if (repeats.length > 0 && repeats[w] === 1) {
       texCoords[2 * w] = texCoords[2 * previous![w]!]!;
       texCoords[2 * w + 1] = texCoords[2 * previous![w]! + 1]!;
     } else {
-      one.decode(w);
+      texCoordDecoder.decode(w);
     }
   }
   return texCoords;
@@ -31,18 +31,18 @@ export function decodeTexCoords(decoder: RangeDecoder, type: AttributeType, shap
 
 class TexCoordDecoder {
   readonly #decoder: RangeDecoder;
-  readonly #largest: number;
+  readonly #maxStored: number;
   readonly #shape: DecodedShape;
   readonly #texCoords: Int32Array;
   readonly #neighbours: Neighbours;
-  /** Where the value is expected. */
+  /** The predicted value. */
   #u = 0;
   #v = 0;
   #lastChoice = 0;
 
   constructor(decoder: RangeDecoder, { bits }: AttributeType, shape: DecodedShape, texCoords: Int32Array) {
     this.#decoder = decoder;
-    this.#largest = 2 ** bits - 1;
+    this.#maxStored = 2 ** bits - 1;
     this.#shape = shape;
     this.#texCoords = texCoords;
     this.#neighbours = new Neighbours(shape);
@@ -50,19 +50,19 @@ class TexCoordDecoder {
 
   decode(w: number): void {
     const decoder = this.#decoder;
-    this.#expect(w);
+    this.#predict(w);
     const first = decoder.signed(firstModels);
     const second = decoder.signed(secondModels + numberModelCount * bitLength(Math.abs(first)));
-    const u = Math.min(Math.max(this.#u, 0), this.#largest) + first;
-    const v = Math.min(Math.max(this.#v, 0), this.#largest) + second;
-    if (u < 0 || v < 0 || u > this.#largest || v > this.#largest) {
-      throw new DecodeError("malformed", "holds a texture coordinate that its bits cannot");
+    const u = Math.min(Math.max(this.#u, 0), this.#maxStored) + first;
+    const v = Math.min(Math.max(this.#v, 0), this.#maxStored) + second;
+    if (u < 0 || v < 0 || u > this.#maxStored || v > this.#maxStored) {
+      throw new DecodeError("malformed", "holds a texture coordinate that its bits cannot hold");
     }
     this.#texCoords[2 * w] = u;
     this.#texCoords[2 * w + 1] = v;
   }
 
-  #expect(w: number): void {
+  #predict(w: number): void {
     const texCoords = this.#texCoords;
     const neighbours = this.#neighbours;
     neighbours.find(w);
@@ -80,11 +80,11 @@ class TexCoordDecoder {
     }
     this.#lastChoice = 0;
     const known = a >= 0 ? a : b >= 0 ? b : w - 1;
-    this.#u = known >= 0 ? texCoords[2 * known]! : (this.#largest + 1) / 2;
-    this.#v = known >= 0 ? texCoords[2 * known + 1]! : (this.#largest + 1) / 2;
+    this.#u = known >= 0 ? texCoords[2 * known]! : (this.#maxStored + 1) / 2;
+    this.#v = known >= 0 ? texCoords[2 * known + 1]! : (this.#maxStored + 1) / 2;
   }
 
-  /** Of `set` + 1 candidates. */
+  /** Reads which of `set` + 1 candidates the encoder chose. */
   #choose(set: 1 | 2): number {
     const models = choiceModels + (set * 4 + this.#lastChoice) * 2;
     let choice = 0;
@@ -92,7 +92,7 @@ class TexCoordDecoder {
     return choice;
   }
 
-  /** Beside the edge from a to b, on one side or the other, where the triangle's third corner falls. */
+  /** Predicts the third corner of the triangle that is laid out on one side of the edge from a to b. */
   #layOut(w: number, side: 1 | -1): void {
     const { coordinates } = this.#shape;
     const { a, b } = this.#neighbours;
@@ -107,7 +107,7 @@ class TexCoordDecoder {
     let fy = coordinates[xw + 1]! - coordinates[xa + 1]!;
     let fz = coordinates[xw + 2]! - coordinates[xa + 2]!;
     const largest = Math.max(Math.abs(ex), Math.abs(ey), Math.abs(ez), Math.abs(fx), Math.abs(fy), Math.abs(fz));
-    const shift = Math.max(0, bitLength(largest) - edgeBits);
+    const shift = Math.max(0, bitLength(largest) - maxEdgeBits);
     ex >>= shift;
     ey >>= shift;
     ez >>= shift;

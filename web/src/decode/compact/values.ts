@@ -1,5 +1,5 @@
-// Colours and other values: the middle of two neighbours or a parallelogram, as
-// the encoder chose (docs/formats/compact.md, "Colours and others").
+// Decodes colours and other values. Each is predicted from the mean of two neighbours or a parallelogram, as the
+// encoder chose (docs/formats/compact.md, "Colours and others").
 
 import { DecodeError } from "../decodeError.ts";
 import { choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
@@ -15,13 +15,13 @@ export function decodeValues(decoder: RangeDecoder, type: AttributeType, shape: 
   const previous = shape.wedges.seams?.previous;
   const { components } = type;
   const values = new Int32Array(components * shape.header.wedgeCount);
-  const one = new ValueDecoder(decoder, type, shape, values);
+  const valueDecoder = new ValueDecoder(decoder, type, shape, values);
   for (let w = 0; w < shape.header.wedgeCount; ++w) {
     if (repeats.length > 0 && repeats[w] === 1) {
       const first = components * previous![w]!;
       values.copyWithin(components * w, first, first + components);
     } else {
-      one.decode(w);
+      valueDecoder.decode(w);
     }
   }
   return values;
@@ -31,7 +31,7 @@ class ValueDecoder {
   readonly #decoder: RangeDecoder;
   readonly #isColor: boolean;
   readonly #components: number;
-  readonly #largest: number;
+  readonly #maxStored: number;
   readonly #values: Int32Array;
   readonly #neighbours: Neighbours;
   #lastChoice = 0;
@@ -45,7 +45,7 @@ class ValueDecoder {
     this.#decoder = decoder;
     this.#isColor = kind === "color";
     this.#components = components;
-    this.#largest = 2 ** bits - 1;
+    this.#maxStored = 2 ** bits - 1;
     this.#values = values;
     this.#neighbours = new Neighbours(shape);
   }
@@ -54,32 +54,33 @@ class ValueDecoder {
     const decoder = this.#decoder;
     const neighbours = this.#neighbours;
     neighbours.find(w);
-    // The second of two candidates, where there are two.
+    // The encoder chooses between two candidates only where both exist.
     const isParallelogram = neighbours.o >= 0 && decoder.bit(choiceModels + (2 * 4 + this.#lastChoice) * 2) === 0;
     this.#lastChoice = Number(isParallelogram);
     let first = 0;
     let length = 0;
     for (let j = 0; j < this.#components; ++j) {
-      // Green first: red and blue follow it.
+      // Green is decoded first; the predictions of red and blue include its residual.
       const component = this.#isColor && j < 2 ? 1 - j : j;
-      const expected = Math.min(Math.max(this.#expect(w, component, isParallelogram), 0), this.#largest);
+      const expected = Math.min(Math.max(this.#predict(w, component, isParallelogram), 0), this.#maxStored);
       const residual = decoder.signed(
         j === 0 ? firstModels : secondModels + numberModelCount * (31 * (j - 1) + length),
       );
       length = bitLength(Math.abs(residual));
       if (j === 0) first = residual;
       const value = expected + residual + (this.#isColor && (j === 1 || j === 2) ? first : 0);
-      if (value < 0 || value > this.#largest) throw new DecodeError("malformed", "holds a value that its bits cannot");
+      if (value < 0 || value > this.#maxStored)
+        throw new DecodeError("malformed", "holds a value that its bits cannot hold");
       this.#values[this.#components * w + component] = value;
     }
   }
 
-  #expect(w: number, component: number, isParallelogram: boolean): number {
+  #predict(w: number, component: number, isParallelogram: boolean): number {
     const { a, b, o } = this.#neighbours;
     const values = this.#values;
     const at = (wedge: number) => values[this.#components * wedge + component]!;
     if (a >= 0 && b >= 0) return isParallelogram ? at(a) + at(b) - at(o) : (at(a) + at(b)) >> 1;
     if (a >= 0 || b >= 0) return at(a >= 0 ? a : b);
-    return w > 0 ? at(w - 1) : (this.#largest + 1) / 2;
+    return w > 0 ? at(w - 1) : (this.#maxStored + 1) / 2;
   }
 }

@@ -1,29 +1,30 @@
-// Triangles in an order in which the GPU finds most of their vertices transformed
-// already. They come in fans around the nodes of a boundary, one ring after the
-// other, so that a GPU would transform each vertex twice: with the ring inside of
-// it, and again with the one outside, since rings are longer than its cache. Drawn
-// in columns across several rings it does so for the vertices between columns of
-// rings alone.
+// Orders triangles so that the GPU finds most of their vertices in its cache of transformed vertices. Triangles are
+// decoded in fans around the nodes of a boundary, ring by ring. In that order the GPU would transform each vertex
+// twice: for the ring inside of it and for the ring outside, since rings are longer than the cache. Drawn in columns
+// that cross several rings, only the vertices between two columns are transformed twice.
 
 import type { IndexArray } from "../../stage/vertexArray.ts";
 
-/** Rings that a column crosses: with more of them, columns beside each other no longer meet in a cache of 16 vertices. */
-const rings = 4;
+/** Number of rings that a column crosses. With more rings, neighbouring columns share no vertices in a cache of 16. */
+const ringCount = 4;
 
-/** Corners of triangles into `ordered`, which is as long; `fans` are those of a Connectivity. Each triangle keeps its turn. */
+/**
+ * Writes the corners of all triangles to `ordered`, which has the same length, and returns it. `fans` are those of a
+ * Connectivity. Each triangle keeps the order of its corners.
+ */
 export function orderForVertexCache<Index extends IndexArray>(
   corners: Int32Array,
   fans: Int32Array,
   ordered: Index,
 ): Index {
   const isDone = new Uint8Array(fans.length / 2);
-  // Per ring of the column: the next node, and the end of its nodes.
-  const next = new Int32Array(rings);
-  const end = new Int32Array(rings);
+  // Per ring of the column: the next node, and the end of the range of nodes.
+  const next = new Int32Array(ringCount);
+  const end = new Int32Array(ringCount);
   let written = 0;
-  for (let foot = 0; foot < isDone.length; ++foot) {
-    next[0] = foot;
-    end[0] = foot + 1;
+  for (let columnStart = 0; columnStart < isDone.length; ++columnStart) {
+    next[0] = columnStart;
+    end[0] = columnStart + 1;
     for (let ring = 0; ring >= 0;) {
       const node = next[ring]!;
       if (node === end[ring]) {
@@ -36,7 +37,7 @@ export function orderForVertexCache<Index extends IndexArray>(
       const first = node > 0 ? 3 * fans[2 * node - 2]! : 0;
       const last = 3 * fans[2 * node]!;
       for (let c = first; c < last; ++c) ordered[written++] = corners[c]!;
-      if (ring + 1 === rings) continue;
+      if (ring + 1 === ringCount) continue;
       ++ring;
       next[ring] = node > 0 ? fans[2 * node - 1]! : 0;
       end[ring] = fans[2 * node + 1]!;

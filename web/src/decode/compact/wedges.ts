@@ -1,6 +1,5 @@
-// Wedges: positions with their attributes, the vertices of the GPU
-// (docs/formats/compact.md, "Wedges"). Only where attributes have seams is there
-// anything to decode.
+// Decodes the wedge of each corner. A wedge is a vertex with its attributes, that is, a vertex of the GPU
+// (docs/formats/compact.md, "Wedges"). Only patches whose attributes have seams store wedges.
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
@@ -15,21 +14,21 @@ const madeModels = sameModels + 9;
 const stepModels = madeModels + 3;
 const wedgeModels = stepModels + 16;
 export const wedgeModelCount = wedgeModels + numberModelCount;
-const farSteps = 15; // the wedge is named by its number
+const maxStepCount = 15; // the wedge is coded by its index instead
 
 export interface Wedges {
-  /** Per corner. In points there are no corners. */
+  /** Per corner; empty for points. */
   readonly wedge: Int32Array;
-  /** Undefined where each vertex is one wedge. */
+  /** Undefined if every vertex is one wedge. */
   readonly seams: Seams | undefined;
 }
 
 export interface Seams {
-  /** Per wedge: the corner that it came with. */
+  /** Per wedge: the first corner that has it. */
   readonly corner: Int32Array;
-  /** Per wedge: the one made before it at its vertex, or -1. */
+  /** Per wedge: the previous new wedge of its vertex, or -1. */
   readonly previous: Int32Array;
-  /** Per vertex: 1 where it may have several. */
+  /** Per vertex: 1 where it may have several wedges. */
   readonly isSplit: Uint8Array;
 }
 
@@ -45,11 +44,11 @@ class WedgeDecoder {
   readonly #across: Int32Array;
   readonly #closing: Int32Array;
   readonly #wedge: Int32Array;
-  /** Per wedge. `ring` links those of a vertex in a circle. */
+  /** Per wedge; `ring` links the wedges of each vertex in a circle. */
   readonly #corner: Int32Array;
   readonly #previous: Int32Array;
   readonly #ring: Int32Array;
-  /** Per vertex: its first wedge, the one made last, the one met last, and how many there are beyond the first. */
+  /** Per vertex: its first wedge, the newest one, the one of the latest corner, and the count beyond the first. */
   readonly #first: Int32Array;
   readonly #newest: Int32Array;
   readonly #latest: Int32Array;
@@ -85,8 +84,8 @@ class WedgeDecoder {
     const isSplit = this.#isSplit;
     const corners = this.#isTriangles ? 3 : 2;
     for (let element = 0; element < vertex.length; element += corners) {
-      let splits = 0; // of this element's corners so far
-      let differ = 0; // those that their guess was wrong for
+      let splits = 0; // split vertices of this element so far
+      let differ = 0; // corners of this element whose guess was wrong
       for (let i = 0; i < corners; ++i) {
         const c = element + i;
         const v = vertex[c]!;
@@ -110,7 +109,7 @@ class WedgeDecoder {
     return { wedge: this.#wedge, seams: { corner: this.#corner, previous: this.#previous, isSplit } };
   }
 
-  /** The wedge that the neighbour across an edge has here. */
+  /** Predicts the wedge of corner c: the one that the triangle across an edge has at the vertex. */
   #guess(c: number, i: number, v: number): number {
     const wedge = this.#wedge;
     if (this.#isTriangles) {
@@ -123,7 +122,7 @@ class WedgeDecoder {
     return this.#latest[v]!;
   }
 
-  /** Another wedge of a vertex than the one that was guessed. */
+  /** Decodes the wedge of corner c where it is not the guess. */
   #differing(c: number, v: number, guess: number): number {
     const decoder = this.#decoder;
     const ring = this.#ring;
@@ -132,16 +131,17 @@ class WedgeDecoder {
     if (extra === 0) throw new DecodeError("malformed", "names another wedge of a vertex that has one");
     const steps = extra === 1 ? 0 : decoder.tree(stepModels, 4);
     let w = guess;
-    if (steps < farSteps) {
+    if (steps < maxStepCount) {
       for (let step = 0; step <= steps; ++step) w = ring[w]!;
       return w;
     }
     w = this.#count - 1 - decoder.number(wedgeModels);
     if (w < 0 || this.#vertex[this.#corner[w]!] !== v)
-      throw new DecodeError("malformed", "names a wedge that its vertex has not");
+      throw new DecodeError("malformed", "names a wedge that its vertex does not have");
     return w;
   }
 
+  /** Adds a wedge of vertex v, first used at corner c. */
   #make(c: number, v: number): number {
     const w = this.#count++;
     if (w >= this.#corner.length) throw new DecodeError("malformed", "holds more wedges than its header states");

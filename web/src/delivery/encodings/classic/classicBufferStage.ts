@@ -226,7 +226,10 @@ class BufferStageBuilder implements StageBuilder {
     available.value = await this.#uploads.storeVertices(values, signal);
   }
 
-  /** The draws of a patch without an index file: a grid, or records in their order. Undefined where there is a file, or they are known. */
+  /**
+   * The draws of a patch without an index file: a grid, or records in their order. Undefined where there is a file, or
+   * they are known.
+   */
   async #drawsWithoutFile(
     available: AvailableArrays,
     gridIndex: IndexArray | undefined,

@@ -17,7 +17,10 @@ export const classicDelivery: EncodingDelivery = {
   needsWorkers: ({ decode }) => decode === "cpu",
 };
 
-/** Bytes in an image for a vertex (a corner, for the index), roughly: only for the progress bar before servers tell sizes. */
+/**
+ * Bytes in an image for a vertex (a corner, for the index), roughly: only for the progress bar before servers tell
+ * sizes.
+ */
 const bytesPerElement = { index: 0.7, coord: 2, normal: 2.2, texCoord: 3, color: 2, value: 0.7 } as const;
 
 /** Texels of an image as our writer lays it out: records in a power of two of rows of 256. */

@@ -1,5 +1,5 @@
-// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Images on the GPU become stages that the
-// shader reads; images that stay files are decoded by workers (classicBufferStage.ts).
+// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Images on the GPU become stages that
+// the shader reads; images that stay files are decoded by workers (classicBufferStage.ts).
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";

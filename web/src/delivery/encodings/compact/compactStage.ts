@@ -1,5 +1,5 @@
-// Stages of SIG compact. One file holds patches of one or more geometries, which a worker decodes together; another holds
-// base meshes, whose segments stand in for the patches until they are there.
+// Stages of SIG compact. One file holds patches of one or more geometries, which a worker decodes together; another
+// holds base meshes, whose segments stand in for the patches until they are there.
 
 import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
 import type { VertexArray } from "../../../stage/vertexArray.ts";
