@@ -4,54 +4,54 @@
 export const sameMean = 1;
 
 const otherDiagonal =
-  "X3D leaves open along which diagonal a quad is split; X_ITE takes the other. X3DOM's npm package does not have the node";
+  "X3D does not specify the diagonal along which a quad is split; X_ITE uses the other one. X3DOM's npm package lacks the node";
 const otherFonts = "glyphs come from the browser's fonts; X_ITE brings its own fonts";
-const noFans = "X3DOM's npm package does not draw it";
-const noTexturesInMaterials = "X3DOM does not know X3D 4's textures of materials";
+const noFans = "X3DOM's npm package does not draw the node";
+const noTexturesInMaterials = "X3DOM does not support X3D 4's textures of materials";
 const withoutPi =
-  "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM does not know the node";
+  "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM lacks the node";
 
-const allLightsAreGlobal = "X3DOM's lights shine on everything, whatever their `global`";
+const allLightsAreGlobal = "X3DOM's lights ignore `global` and light everything";
 
 export const explanations: Readonly<Record<string, string>> = {
-  "Appearance-alphaMode-MASK": "X3DOM does not know `alphaMode`",
+  "Appearance-alphaMode-MASK": "X3DOM does not support `alphaMode`",
   "DirectionalLight-of-its-group": allLightsAreGlobal,
   ElevationGrid: otherDiagonal,
   "ElevationGrid-ccw": otherDiagonal,
   "ElevationGrid-colorPerFace": otherDiagonal,
   "ElevationGrid-creaseAngle": otherDiagonal,
   "ElevationGrid-texture": otherDiagonal,
-  Extrusion: "X3DOM's npm package does not have the node",
-  "Extrusion-twist": "X3DOM's npm package does not have the node",
+  Extrusion: "X3DOM's npm package lacks the node",
+  "Extrusion-twist": "X3DOM's npm package lacks the node",
   "FontStyle-family": otherFonts,
   "FontStyle-justify": otherFonts,
-  "FontStyle-vertical": `${otherFonts}; X3DOM does not know \`horizontal\``,
-  Grouping: "X3DOM shows nothing of a document that has a `StaticGroup`",
+  "FontStyle-vertical": `${otherFonts}; X3DOM does not support \`horizontal\``,
+  Grouping: "X3DOM does not display a document that contains a `StaticGroup`",
   "ImageTexture-colored-material":
-    "a texture is multiplied by the diffuse colour (X3D 4); in X3DOM it stands in for it",
+    "the texture is multiplied by the diffuse colour (X3D 4); in X3DOM it replaces the diffuse colour",
   "IndexedFaceSet-creaseAngle-between":
-    "edges of up to `creaseAngle` are smooth, others sharp; X3DOM makes all of them smooth",
+    "edges with angles up to `creaseAngle` are smooth, others sharp; X3DOM makes all edges smooth",
   IndexedTriangleFanSet: noFans,
   IndexedTriangleStripSet: "X3DOM does not share normals between strips",
   LineProperties: "X3DOM draws all lines one pixel wide",
-  "LineProperties-dashed": "X_ITE's line is solid here, X3DOM's one pixel wide as well",
+  "LineProperties-dashed": "X_ITE draws a solid line here; X3DOM draws all lines one pixel wide",
   "Material-diffuseTexture": noTexturesInMaterials,
   "Material-emissiveTexture": noTexturesInMaterials,
-  "Material-normalTexture": `green points up in the picture, as in glTF; in X_ITE down. ${noTexturesInMaterials}`,
-  MultiTexture: "of several textures the first is shown; the runtimes mix them differently",
-  PixelTexture: "X_ITE shows the squares of pictures of few pixels; X3D leaves the filter open",
+  "Material-normalTexture": `green points up in the normal map, as in glTF; in X_ITE it points down. ${noTexturesInMaterials}`,
+  MultiTexture: "imgeo displays the first of several textures; the other runtimes blend them in different ways",
+  PixelTexture: "X_ITE uses nearest filtering for small images; X3D does not specify the filter",
   "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
   "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
-  "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,
+  "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal reflects a grey room in imgeo and nothing in X_ITE`,
   "PointLight-of-its-group": allLightsAreGlobal,
-  "PointLight-scaled": "what scales a light scales its radius and its falloff; not in X3DOM",
+  "PointLight-scaled": "scaling a light scales its radius and its attenuation; not in X3DOM",
   Text: otherFonts,
-  "Text-length": `${otherFonts}. Glyphs are stretched; X_ITE changes the space between them; X3DOM does not support \`length\` and squeezes one string alone`,
-  "Text-no-material": `${otherFonts}; in X3DOM MIDDLE is a little higher`,
-  TextureTransform: "textures seen small are filtered otherwise",
-  "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",
+  "Text-length": `${otherFonts}. Glyphs are stretched; X_ITE changes the space between them; X3DOM does not support \`length\` and compresses only one string`,
+  "Text-no-material": `${otherFonts}; in X3DOM MIDDLE is slightly higher`,
+  TextureTransform: "minified textures are filtered differently",
+  "Transform-mirror": "a mirroring transform reverses the orientation of triangles, which imgeo corrects; X3DOM displays their backs",
   TriangleFanSet: noFans,
   TriangleStripSet: noFans,
-  "UnlitMaterial-emissiveTexture": "X3DOM does not know the node",
-  UnlitMaterial: "X3DOM does not know the node",
+  "UnlitMaterial-emissiveTexture": "X3DOM lacks the node",
+  UnlitMaterial: "X3DOM lacks the node",
 };

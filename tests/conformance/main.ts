@@ -104,7 +104,7 @@ try {
     const head = readFileSync(table, "utf8").split(/^\| document/m)[0] ?? "";
     writeFileSync(
       table,
-      `${head}| document | X_ITE | X3DOM | where ours differs |\n|---|--:|--:|---|\n${lines.map(({ text }) => text).join("\n")}\n`,
+      `${head}| document | X_ITE | X3DOM | why imgeo differs |\n|---|--:|--:|---|\n${lines.map(({ text }) => text).join("\n")}\n`,
     );
   }
   const open = rows.filter((_, i) => lines[i]?.isExplained === false).map(({ name }) => name);
