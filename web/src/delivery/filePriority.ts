@@ -8,6 +8,8 @@ import type { ChunkWeights } from "../scheduler/priority.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import type { Camera, Matrix, Sphere, ViewMetrics } from "../scheduler/viewMetrics.ts";
 import { scaleOf, sphereOf, unknownViewMetrics, viewMetricsOf } from "../scheduler/viewMetrics.ts";
+import type { VertexRole } from "../stage/attributeRows.ts";
+import { attributeRows } from "../stage/attributeRows.ts";
 import type { FilePriority } from "./geometryDelivery.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import type { TextureChunk } from "./textureDeliveries.ts";
@@ -95,7 +97,7 @@ export function texturePriorityFor(
 function filePriorityAt(instance: GeometryInstance, { camera, weights }: ViewState): FilePriority {
   let views: readonly ViewMetrics[] | undefined;
   return (patchIndex, file) => {
-    if (file.chunk.type === "texCoord" && !instance.isTextured) return undefined;
+    if (isForTextures(file) && !instance.isTextured) return undefined;
     views ??= instance.spheres.map((sphere) => (camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics));
     const view = views[patchIndex] ?? unknownViewMetrics;
     const patch = instance.geometry.patches[patchIndex];
@@ -103,6 +105,10 @@ function filePriorityAt(instance: GeometryInstance, { camera, weights }: ViewSta
     if (patch !== undefined && isTooFine(file, patch, coarseStep, view)) return undefined;
     return priorityOf(instance.authorPriority, file.chunk, view, weights);
   };
+}
+
+function isForTextures({ role }: PatchFile): boolean {
+  return role in attributeRows && attributeRows[role as VertexRole].isForTextures;
 }
 
 /**

@@ -2,13 +2,11 @@
 
 import type { PatchDescription, Reference } from "../document/description.ts";
 import type { Chunk } from "../scheduler/priority.ts";
+import { vertexRoles } from "../stage/attributeRows.ts";
 import type { ContentTarget } from "./resourcePool.ts";
 
-/**
- * The arrays of a patch, in the order in which they become useful. PatchDescription and stages have a member of each
- * name.
- */
-export const attributeRoles = ["coord", "index", "normal", "texCoord", "color", "value"] as const;
+/** The arrays of a patch, in the order in which they become useful. PatchDescription has a member of each name. */
+export const attributeRoles = ["coord", "index", ...vertexRoles, "value"] as const;
 export type AttributeRole = (typeof attributeRoles)[number];
 
 /** What a file holds of a patch: a base mesh that stands in for it, all of it, or one attribute. */

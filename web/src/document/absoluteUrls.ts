@@ -1,5 +1,6 @@
 // Makes the relative URLs of a document absolute before the document is inlined into another one.
 
+import { vertexRoles } from "../stage/attributeRows.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 
@@ -8,7 +9,7 @@ export interface WritableElement extends SceneElement {
 }
 
 /** URL fields by element; for geometry nodes all reference fields. */
-const references = ["index", "coord", "normal", "texcoord", "color", "data", "base", "attrib"];
+const references = ["index", "coord", ...vertexRoles.map((role) => role.toLowerCase()), "data", "base", "attrib"];
 const urlFields: Readonly<Record<string, readonly string[]>> = {
   imagegeometry: references,
   binarygeometry: references,

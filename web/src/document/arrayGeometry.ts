@@ -1,5 +1,7 @@
 // Describes vertex arrays as BG geometry in data: URLs, so that delivery treats them like files.
 
+import type { ByVertexRole } from "../stage/attributeRows.ts";
+import { byVertexRole, byVertexRoleWith } from "../stage/attributeRows.ts";
 import { dataUrl } from "./dataUrl.ts";
 import type { Box3, GeometryDescription, Reference } from "./description.ts";
 import type { VertexArrays } from "../tessellate/faces.ts";
@@ -10,6 +12,7 @@ export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolea
   if (arrays === undefined || arrays.positions.length === 0) return undefined;
   const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
   const count = positions.length / 3;
+  const array: ByVertexRole<Float32Array | Uint8Array> = { normal: normals, texCoord: texCoords, color: colors };
   return {
     encoding: "bg",
     position: [0, 0, 0],
@@ -26,9 +29,7 @@ export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolea
     value: undefined,
     indexType: "Uint32",
     coordType: "Float32",
-    normalType: "Float32",
-    texCoordType: "Float32",
-    colorType: "Uint8",
+    ...byVertexRoleWith("Type", (role) => (role === "color" ? "Uint8" : "Float32")),
     patches: [
       {
         box: boxAroundAll(positions),
@@ -39,9 +40,7 @@ export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolea
         grid: undefined,
         index: undefined,
         coord: [dataReference(positions)],
-        normal: normals && dataReference(normals),
-        texCoord: texCoords && dataReference(texCoords),
-        color: colors && dataReference(colors),
+        ...byVertexRole((role) => array[role] && dataReference(array[role])),
         attributes: [],
         value: [],
         data: undefined,

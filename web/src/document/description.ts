@@ -1,5 +1,6 @@
 // A scene as plain data: the fields of a document's nodes with every default filled in. Descriptions are immutable.
 
+import type { VertexRole } from "../stage/attributeRows.ts";
 import type { SceneElement } from "./element.ts";
 import type { Rotation, Vec2, Vec3 } from "./fieldTypes.ts";
 import type { nodeFields, Values, Warning } from "./nodes.ts";
@@ -50,7 +51,7 @@ export interface GridDescription {
   readonly rows: number;
 }
 
-export interface PatchDescription {
+export interface PatchDescription extends Readonly<Record<VertexRole, Reference | undefined>> {
   /** The tight bounding box; undefined where the document has none. */
   readonly box: Box3 | undefined;
   /** Vertices in coord, normal, …; 0: as many as the data has. */
@@ -65,9 +66,6 @@ export interface PatchDescription {
   readonly index: Reference | undefined;
   /** Images: byte planes, most significant first. Typed arrays: one. */
   readonly coord: readonly Reference[];
-  readonly normal: Reference | undefined;
-  readonly texCoord: Reference | undefined;
-  readonly color: Reference | undefined;
   /** Compact only: all of the patch. */
   readonly data: Reference | undefined;
   /** The files of all further attributes, one after the other, `fileCount` each. */
@@ -121,7 +119,7 @@ export type ImageProfile = (typeof imageProfiles)[number];
 export const decodeModes = ["auto", "gpu", "cpu"] as const;
 export type DecodeMode = (typeof decodeModes)[number];
 
-export interface GeometryDescription {
+export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`, ElementType>> {
   readonly encoding: Encoding;
   /** Center and size of the box that stored integers are quantized over. */
   readonly position: Vec3;
@@ -138,11 +136,8 @@ export interface GeometryDescription {
   readonly decode: DecodeMode;
   /** In images Uint16: the vertex's column and row, or Uint32: its index. */
   readonly indexType: ElementType;
-  /** This and the types below: typed arrays only. */
+  /** Typed arrays only, as the types of other attributes. */
   readonly coordType: ElementType;
-  readonly normalType: ElementType;
-  readonly texCoordType: ElementType;
-  readonly colorType: ElementType;
   readonly attributes: readonly AttributeDescription[];
   /** The attribute whose values color the vertices. */
   readonly value: AttributeDescription | undefined;

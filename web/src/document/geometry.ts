@@ -16,6 +16,8 @@ import type {
   Warning,
 } from "./description.ts";
 import { decodeModes, elementTypes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
+import type { VertexRole } from "../stage/attributeRows.ts";
+import { byVertexRole, byVertexRoleWith, vertexRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
@@ -42,16 +44,14 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
     // Images store bytes; an index consists of two or three of them.
     coordType: "Uint8",
-    normalType: "Uint8",
-    texCoordType: "Uint8",
-    colorType: "Uint8",
+    ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
     patches: readPatches(element, encoding, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
 }
 
 export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
-  const typeOf = (field: "coordType" | "normalType" | "texCoordType" | "colorType"): ElementType =>
+  const typeOf = (field: "coordType" | `${VertexRole}Type`): ElementType =>
     choiceOf(
       element,
       field,
@@ -67,9 +67,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     colorComponents: values.rgbaColors ? 4 : 3,
     decode: "auto",
     coordType: typeOf("coordType"),
-    normalType: typeOf("normalType"),
-    texCoordType: typeOf("texCoordType"),
-    colorType: typeOf("colorType"),
+    ...byVertexRoleWith("Type", (role) => typeOf(`${role}Type`)),
     patches: readPatches(element, "bg", warnings),
     base: undefined,
   };
@@ -190,7 +188,7 @@ function readPatches(element: SceneElement, encoding: Encoding, warnings: Warnin
 /** References given by ImageTexture children; `coord` children count in document order. */
 function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchValues> {
   const coord: string[] = [];
-  const single: { index?: string; normal?: string; texCoord?: string; color?: string } = {};
+  const single: Partial<Record<"index" | VertexRole, string>> = {};
   for (const child of childrenOf(element)) {
     if (lowerNameOf(child) !== "imagetexture") continue;
     const { containerField, url } = readFields(child, nodeFields.ImageTexture, warnings);
@@ -198,16 +196,14 @@ function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchVa
     if (first === undefined) continue;
     // X3DOM matches these values by their exact case.
     if (containerField === "coord") coord.push(first);
-    else if (
-      containerField === "index" ||
-      containerField === "normal" ||
-      containerField === "texCoord" ||
-      containerField === "color"
-    )
-      single[containerField] = first;
+    else if (isOneOf(["index", ...vertexRoles] as const, containerField)) single[containerField] = first;
     else warnings.push({ element: child, message: `containerField="${containerField}" names no part of a geometry` });
   }
   return coord.length > 0 ? { ...single, coord } : single;
+}
+
+function isOneOf<Choice extends string>(choices: readonly Choice[], text: string): text is Choice {
+  return (choices as readonly string[]).includes(text);
 }
 
 function patchOf(
@@ -230,9 +226,7 @@ function patchOf(
     grid: undefined,
     index: reference(values.index),
     coord: coord.map((url) => referenceOf(url, encoding)),
-    normal: reference(values.normal),
-    texCoord: reference(values.texCoord),
-    color: reference(values.color),
+    ...byVertexRole((role) => reference(values[role])),
     data: reference(values.data),
     attributes: values.attrib.map((url) => referenceOf(url, encoding)),
     value: [],

@@ -2,6 +2,7 @@
 // of what the file holds, times a weight of its size on the screen. Larger goes first. docs/formats/nodes.md, "Order of
 // requests", is its description for authors.
 
+import { attributeRows, byVertexRole, vertexRoles } from "../stage/attributeRows.ts";
 import type { ViewMetrics } from "./viewMetrics.ts";
 
 /**
@@ -14,9 +15,7 @@ export const chunkTypes = [
   "coord",
   "preview",
   "index",
-  "normal",
-  "texCoord",
-  "color",
+  ...vertexRoles,
   "refinement",
   "texture",
 ] as const;
@@ -34,9 +33,7 @@ export const defaultChunkWeights: ChunkWeights = {
   coord: 1024,
   preview: 512,
   index: 256,
-  normal: 64,
-  texCoord: 32,
-  color: 16,
+  ...byVertexRole((role) => attributeRows[role].chunkWeight),
   refinement: 4,
   texture: 1,
 };

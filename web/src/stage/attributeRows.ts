@@ -1,0 +1,84 @@
+// The table of vertex attributes whose meaning formats and shaders know: one row for each. Documents, delivery, decoders
+// and the renderer loop over the rows. Positions, indices and further attributes (FloatVertexAttribute) are not in it.
+
+export interface AttributeRow {
+  /** Numbers of an element, where the document states no other number. */
+  readonly components: 2 | 3 | 4;
+  /** The largest number of components. */
+  readonly maxComponents: 2 | 3 | 4;
+  /** Its name in vertex buffers, which is three.js' name. */
+  readonly bufferName: string;
+  /** The #define of materials whose vertices have it; undefined: three.js has one, or shaders read zeros instead. */
+  readonly define?: string;
+  /** Its files are requested only for shapes with a texture. */
+  readonly isForTextures: boolean;
+  /** Default weight of its files in the order of requests. */
+  readonly chunkWeight: number;
+  /** The name of a patch's stage while the attribute is missing; undefined: it makes no difference. */
+  readonly stageWithout: "surface" | "shaded" | undefined;
+  /** Its image in SIG classic: channels, and bytes of the file for each vertex (an estimate). */
+  readonly classic: { readonly channels: 1 | 2 | 3 | 4; readonly bytesPerVertex: number };
+}
+
+// In the order in which they become useful.
+const rows = {
+  normal: {
+    components: 3,
+    maxComponents: 3,
+    bufferName: "normal",
+    isForTextures: false,
+    chunkWeight: 64,
+    stageWithout: "surface",
+    classic: { channels: 3, bytesPerVertex: 2.2 },
+  },
+  texCoord: {
+    components: 2,
+    maxComponents: 2,
+    bufferName: "uv",
+    define: "HAS_TEX_COORDS",
+    isForTextures: true,
+    chunkWeight: 32,
+    stageWithout: undefined,
+    classic: { channels: 4, bytesPerVertex: 3 },
+  },
+  color: {
+    components: 3,
+    maxComponents: 4,
+    bufferName: "color",
+    isForTextures: false,
+    chunkWeight: 16,
+    stageWithout: "shaded",
+    classic: { channels: 3, bytesPerVertex: 2 },
+  },
+} as const satisfies Record<string, AttributeRow>;
+
+/** The name of a row. Fields of documents, members of descriptions and members of the shaders' `Vertex` have it too. */
+export type VertexRole = keyof typeof rows;
+
+export const attributeRows: Readonly<Record<VertexRole, AttributeRow>> = rows;
+
+/** In the order in which the attributes become useful. */
+export const vertexRoles = Object.keys(rows) as readonly VertexRole[];
+
+/** What is known of some attributes; others are undefined. */
+export type ByVertexRole<Value> = Readonly<Partial<Record<VertexRole, Value | undefined>>>;
+
+/** A member for each attribute. */
+export function byVertexRole<Value>(valueOf: (role: VertexRole) => Value): Record<VertexRole, Value> {
+  return withRoleKeys((role) => role, valueOf);
+}
+
+/** A member for each attribute, with the role's name before a suffix as its key: "normalType". */
+export function byVertexRoleWith<Suffix extends string, Value>(
+  suffix: Suffix,
+  valueOf: (role: VertexRole) => Value,
+): Record<`${VertexRole}${Suffix}`, Value> {
+  return withRoleKeys((role) => `${role}${suffix}` as const, valueOf);
+}
+
+function withRoleKeys<Key extends string, Value>(
+  keyOf: (role: VertexRole) => Key,
+  valueOf: (role: VertexRole) => Value,
+): Record<Key, Value> {
+  return Object.fromEntries(vertexRoles.map((role) => [keyOf(role), valueOf(role)])) as Record<Key, Value>;
+}
