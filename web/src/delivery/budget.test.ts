@@ -4,7 +4,7 @@ import { pngWithTexels } from "../decode/png.testing.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import type { FilePriority } from "./geometryDelivery.ts";
-import { everything, geometryOf, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
+import { everything, geometryOf, sigFiles, sigGeometry, siteOf, shortDelay } from "./delivery.testing.ts";
 import { requestWithinBudget } from "./requestWithinBudget.ts";
 import { TextureDeliveries } from "./textureDeliveries.ts";
 import { GeometryDeliveries } from "./geometryDeliveries.ts";
@@ -22,7 +22,7 @@ function shownFrom(geometry: GeometryDescription, site: Site) {
     onSettled: () => undefined,
   });
   const rest = async () => {
-    do await soon();
+    do await shortDelay();
     while (!joined.isSettled);
   };
   /** Steers a few times, as a view that stands still does. */
@@ -56,7 +56,7 @@ describe("images within a budget", () => {
   test("all come where there is room", async () => {
     const site = siteOf(sigFiles(3));
     assert.equal(await shownFrom(sigGeometry(3), site).demand(seenFrom([0, 1, 2]), 3 * patch), "full full full");
-    assert.deepEqual([site.images.open, site.asked.length], [12, 12]);
+    assert.deepEqual([site.images.open, site.requested.length], [12, 12]);
   });
 
   test("give up the finest of what is behind and far first, then all of what is behind", async () => {
@@ -72,7 +72,7 @@ describe("images within a budget", () => {
     assert.equal(await demand(view, patch), "shaded points none");
     assert.equal(await demand(view, 0), "none none none");
     assert.equal(site.images.open, 0);
-    assert.equal(site.asked.length, 12); // nothing was asked for twice on the way down
+    assert.equal(site.requested.length, 12); // no file is requested again while the budget shrinks
   });
 
   test("are fetched again when the camera comes to them, and the others go", async () => {
@@ -80,9 +80,9 @@ describe("images within a budget", () => {
     const { demand } = shownFrom(sigGeometry(3), site);
     assert.equal(await demand(seenFrom([0, 1, 2]), 2 * patch), "full full none");
     assert.equal(await demand(seenFrom([2, 1, 0]), 2 * patch), "none full full");
-    const asked = site.asked.length;
+    const requestedCount = site.requested.length;
     assert.equal(await demand(seenFrom([2, 1, 0]), 2 * patch), "none full full");
-    assert.equal(site.asked.length, asked); // and not to and fro
+    assert.equal(site.requested.length, requestedCount); // no file is dropped and requested again in turns
     assert.equal(await demand(seenFrom([0, 1, 2]), Infinity), "full full full");
   });
 
@@ -94,7 +94,7 @@ describe("images within a budget", () => {
     assert.equal(await demand(everything, normalIsDenied), "full surface");
     assert.equal(await demand(everything, rest), "full surface");
     // It was fetched once, to find out.
-    assert.equal(site.asked.filter((name) => name === "n1.png").length, 1);
+    assert.equal(site.requested.filter((name) => name === "n1.png").length, 1);
     assert.equal(await demand(everything, 2 * patch + 256 * 256 * 4), "full full");
   });
 
@@ -147,7 +147,7 @@ describe("arrays within a budget", () => {
     );
     assert.equal(await demand(near(1), Infinity), "full full");
     joined.cancel();
-    await soon();
+    await shortDelay();
     assert.equal(site.arrays.size, 0);
   });
 });

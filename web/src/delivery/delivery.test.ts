@@ -3,7 +3,7 @@ import { describe, test } from "node:test";
 import { pngOf } from "../decode/png.testing.ts";
 import {
   geometryOf,
-  held,
+  deferredFile,
   indices,
   record,
   records,
@@ -11,7 +11,7 @@ import {
   sigGeometry,
   sigPatch,
   siteOf,
-  soon,
+  shortDelay,
 } from "./delivery.testing.ts";
 import type { Transfer } from "./progress.ts";
 import { noProgress, progressOf } from "./progress.ts";
@@ -21,7 +21,7 @@ describe("the order of requests", () => {
     const site = siteOf(sigFiles(3), 1);
     await record(sigGeometry(3), site.pool).settled;
     assert.deepEqual(
-      site.asked,
+      site.requested,
       ["a0", "a1", "a2", "i0", "i1", "i2", "n0", "n1", "n2", "b0", "b1", "b2"].map((name) => `${name}.png`),
     );
   });
@@ -32,7 +32,7 @@ describe("the order of requests", () => {
       record(geometryOf(`<ImageGeometry>${sigPatch(n)}</ImageGeometry>`), site.pool),
     );
     await Promise.all([first?.settled, second?.settled]);
-    assert.deepEqual(site.asked.slice(0, 2), ["a0.png", "a1.png"]);
+    assert.deepEqual(site.requested.slice(0, 2), ["a0.png", "a1.png"]);
   });
 
   test("asks once for a file that several patches and shapes use", async () => {
@@ -40,7 +40,7 @@ describe("the order of requests", () => {
     const twice = geometryOf(`<ImageGeometry>${sigPatch(0)}${sigPatch(0)}</ImageGeometry>`);
     const all = [record(twice, site.pool), record(sigGeometry(1), site.pool)];
     await Promise.all(all.map(({ settled }) => settled));
-    assert.equal(site.asked.length, 4);
+    assert.equal(site.requested.length, 4);
     assert.deepEqual(
       all.map(({ stages }) => stages.at(-1)?.stage.name),
       ["full", "full"],
@@ -73,10 +73,10 @@ describe("the stages of a patch of images", () => {
   });
 
   test("use what came when files come in another order", async () => {
-    const first = held(records);
+    const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "a0.png": first.promise });
     const { stages, settled } = record(sigGeometry(1), site.pool);
-    await soon();
+    await shortDelay();
     assert.equal(stages.length, 0); // without the first byte nothing can be shown
     first.release();
     await settled;
@@ -287,7 +287,7 @@ describe("typed arrays", () => {
     assert.deepEqual([full.coord.bytes, full.coord.bytes.byteLength, full.coord.offset], [full.normal.bytes, 80, 0]);
     assert.equal(full.normal.offset, 4);
     assert.equal(site.arrays.size, 1);
-    assert.equal(site.asked.length, 1);
+    assert.equal(site.requested.length, 1);
   });
 
   test("take all indices where vertexCount is 0, as X3DOM does", async () => {
@@ -319,15 +319,15 @@ describe("typed arrays", () => {
 
 describe("a cancelled delivery", () => {
   test("aborts its requests, says nothing more, and closes its images", async () => {
-    const late = held(records);
+    const late = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
     const { stages, errors, delivery } = record(sigGeometry(1), site.pool);
-    await soon();
+    await shortDelay();
     assert.equal(site.images.open, 3);
     const before = stages.length;
     delivery.cancel();
     late.release();
-    await soon();
+    await shortDelay();
     assert.equal(stages.length, before);
     assert.deepEqual(errors, []);
     assert.ok(site.aborted.includes("b0.png"));
@@ -338,8 +338,8 @@ describe("a cancelled delivery", () => {
   test("before anything was sent sends nothing", async () => {
     const site = siteOf(sigFiles(1));
     record(sigGeometry(1), site.pool).delivery.cancel();
-    await soon();
-    assert.deepEqual(site.asked, []);
+    await shortDelay();
+    assert.deepEqual(site.requested, []);
   });
 
   test("leaves files alone that another one uses", async () => {

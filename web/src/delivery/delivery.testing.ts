@@ -1,4 +1,4 @@
-// Sites in memory, for tests of what is asked of them and what comes of it.
+// Sites in memory, for tests of requests and of the stages that are delivered.
 
 import assert from "node:assert/strict";
 import type { ElementArray } from "../stage/vertexArray.ts";
@@ -20,20 +20,21 @@ import { deliverGeometry } from "./geometryDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { ResourcePool } from "./resourcePool.ts";
 
+/** A file's bytes, at once or later, or an HTTP status. */
 export type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;
 
-/** A site in memory: its files, what was asked for in order, and what was delivered. */
+/** A site in memory: its files by name, and a pool that records requests in order, jobs, and the resources it has open. */
 export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures = true) {
-  const asked: string[] = [];
+  const requested: string[] = [];
   const aborted: string[] = [];
-  const done: string[] = [];
+  const jobNames: string[] = [];
   const images = { open: 0 };
   const pictures = { open: 0 };
   const arrays = new Map<StoredBytes, ElementArray>();
   const scheduler = new Scheduler(slots);
   const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
     const name = url.replace("https://site/", "");
-    asked.push(name);
+    requested.push(name);
     signal.addEventListener("abort", () => aborted.push(name));
     const file = files[name] ?? 404;
     if (typeof file === "number") return new Response("no", { status: file });
@@ -62,7 +63,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     readsTextures: () => Promise.resolve(readsTextures),
     maxTextureSize: 4096,
     runJob: (name, input) => {
-      done.push(name);
+      jobNames.push(name);
       return (jobs[name] as (input: unknown) => Promise<never>)(input);
     },
     runOnMainThread: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
@@ -98,36 +99,36 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     resolve: (url) => new URL(url, "https://site/").href,
     onTransfer: () => undefined,
   });
-  /** What has been stored. */
+  /** The array that was stored under a handle. */
   const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) =>
-    arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
-  return { asked, aborted, jobs: done, images, pictures, arrays, arrayOf, scheduler, pool };
+    arrays.get(stored?.bytes ?? assert.fail("no array was delivered")) ?? assert.fail("closed");
+  return { requested, aborted, jobs: jobNames, images, pictures, arrays, arrayOf, scheduler, pool };
 }
 
 export interface Recording {
-  /** Those that were shown. */
+  /** All delivered stages, in order. */
   readonly stages: { patch: number; stage: Stage }[];
-  /** What each patch shows now. */
-  readonly shown: Map<number, Stage | undefined>;
+  /** The stage that each patch displays now. */
+  readonly displayed: Map<number, Stage | undefined>;
   readonly errors: DeliveryError[];
   readonly delivery: Delivery;
   readonly settled: Promise<void>;
 }
 
-/** Everything, in the order of what files hold. */
-export const everything: FilePriority = (_, part) => priorityOf(1, part.chunk, unknownViewMetrics);
+/** Requests all files, in the order of their content. */
+export const everything: FilePriority = (_, file) => priorityOf(1, file.chunk, unknownViewMetrics);
 
 export function record(geometry: GeometryDescription, pool: ResourcePool, demand = everything): Recording {
   const stages: Recording["stages"] = [];
   const errors: DeliveryError[] = [];
-  const shown: Recording["shown"] = new Map();
+  const displayed: Recording["displayed"] = new Map();
   let resolve: () => void = () => undefined;
-  const settled = new Promise<void>((done) => {
-    resolve = done;
+  const settled = new Promise<void>((resolveSettled) => {
+    resolve = resolveSettled;
   });
   const delivery = deliverGeometry(geometry, pool, {
     onStage: (patch, stage) => {
-      shown.set(patch, stage);
+      displayed.set(patch, stage);
       if (stage !== undefined) stages.push({ patch, stage });
     },
     onError: (error) => errors.push(error),
@@ -136,7 +137,7 @@ export function record(geometry: GeometryDescription, pool: ResourcePool, demand
     },
   });
   delivery.request(demand);
-  return { stages, shown, errors, delivery, settled };
+  return { stages, displayed, errors, delivery, settled };
 }
 
 export function geometryOf(markup: string): GeometryDescription {
@@ -165,8 +166,8 @@ export function sigFiles(patches: number): Record<string, Answer> {
   return files;
 }
 
-/** A promise and the function that fulfils it. */
-export function held(bytes: Uint8Array<ArrayBuffer>) {
+/** A file that arrives when `release` is called. */
+export function deferredFile(bytes: Uint8Array<ArrayBuffer>) {
   let release: () => void = () => undefined;
   const promise = new Promise<Uint8Array<ArrayBuffer>>((resolve) => {
     release = () => {
@@ -176,4 +177,5 @@ export function held(bytes: Uint8Array<ArrayBuffer>) {
   return { promise, release };
 }
 
-export const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
+/** Long enough for pending microtasks and requests. */
+export const shortDelay = () => new Promise((resolve) => setTimeout(resolve, 5));

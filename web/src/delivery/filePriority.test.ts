@@ -9,13 +9,13 @@ import { filePriorityFor, geometryInstance } from "./filePriority.ts";
 import {
   everything,
   geometryOf,
-  held,
+  deferredFile,
   record,
   records,
   sigFiles,
   sigGeometry,
   siteOf,
-  soon,
+  shortDelay,
 } from "./delivery.testing.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import { deliveryOf } from "./encodings/encodings.ts";
@@ -134,12 +134,12 @@ describe("a delivery", () => {
   test("asks for nothing before it is told to, and then for what is wanted", async () => {
     const site = siteOf(sigFiles(1));
     const { delivery, settled, stages } = record(sigGeometry(1), site.pool, () => undefined);
-    await soon();
-    assert.deepEqual(site.asked, []);
+    await shortDelay();
+    assert.deepEqual(site.requested, []);
     assert.equal(delivery.isExhausted, false);
     delivery.request(withoutSecondByte);
     await settled;
-    assert.deepEqual(site.asked.toSorted(), ["a0.png", "i0.png", "n0.png"]);
+    assert.deepEqual(site.requested.toSorted(), ["a0.png", "i0.png", "n0.png"]);
     assert.equal(stages.at(-1)?.stage.name, "shaded");
     assert.deepEqual([delivery.isSettled, delivery.isExhausted], [true, false]);
   });
@@ -150,16 +150,16 @@ describe("a delivery", () => {
     await settled;
     delivery.request(everything);
     assert.equal(delivery.isSettled, false);
-    await soon();
+    await shortDelay();
     assert.equal(stages.at(-1)?.stage.name, "full");
     assert.deepEqual([delivery.isSettled, delivery.isExhausted], [true, true]);
   });
 
   test("aborts what is no longer wanted, keeps what has come, and can want it again", async () => {
-    const late = held(records);
+    const late = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
     const { delivery, errors, stages } = record(sigGeometry(1), site.pool);
-    await soon();
+    await shortDelay();
     delivery.request(() => undefined);
     assert.deepEqual(
       site.aborted.filter((name) => name === "b0.png"),
@@ -168,48 +168,48 @@ describe("a delivery", () => {
     assert.equal(delivery.isSettled, true);
     assert.equal(site.images.open, 3);
     late.release();
-    await soon();
+    await shortDelay();
     assert.equal(stages.at(-1)?.stage.name, "shaded");
     delivery.request(everything);
-    await soon();
+    await shortDelay();
     assert.equal(stages.at(-1)?.stage.name, "full");
     assert.deepEqual(errors, []);
-    assert.equal(site.asked.filter((name) => name === "b0.png").length, 2);
+    assert.equal(site.requested.filter((name) => name === "b0.png").length, 2);
     assert.equal(site.scheduler.runningCount, 0);
   });
 
   test("that is no longer wanted while it waits never asks", async () => {
-    const first = held(records);
+    const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "a0.png": first.promise }, 1);
     const { delivery } = record(sigGeometry(1), site.pool);
-    await soon();
+    await shortDelay();
     delivery.request((place, part) => (part.role === "coord" ? everything(place, part) : undefined));
     first.release();
-    await soon();
-    assert.deepEqual(site.asked, ["a0.png", "b0.png"]);
+    await shortDelay();
+    assert.deepEqual(site.requested, ["a0.png", "b0.png"]);
   });
 
   test("sends what waits in its newest order", async () => {
-    const first = held(records);
+    const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(3), "a0.png": first.promise }, 1);
     const { delivery } = record(sigGeometry(3), site.pool);
-    await soon();
+    await shortDelay();
     delivery.request((place, part) => (everything(place, part) ?? 0) * (place === 2 ? 1000 : 1));
     first.release();
-    await soon();
+    await shortDelay();
     assert.deepEqual(
-      site.asked,
+      site.requested,
       ["a0", "a2", "i2", "n2", "b2", "a1", "i0", "i1", "n0", "n1", "b0", "b1"].map((name) => `${name}.png`),
     );
   });
 
   test("shares a file with another at the larger of both priorities", async () => {
-    const first = held(records);
+    const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(2), "a0.png": first.promise }, 1);
     const files = (names: string) =>
       geometryOf(`<ImageGeometry recordCount="500" vertexCount="500" implicitMeshSize="256 2" coord='${names}'/>`);
     record(files('"a0.png"'), site.pool, () => 99);
-    await soon();
+    await shortDelay();
     record(files('"b1.png"'), site.pool, () => 5);
     const low = record(files('"a1.png"'), site.pool, () => 1);
     const high = record(files('"a1.png"'), site.pool, () => 9);
@@ -217,8 +217,8 @@ describe("a delivery", () => {
     low.delivery.request(() => 2);
     first.release();
     await high.settled;
-    await soon();
-    assert.deepEqual(site.asked, ["a0.png", "a1.png", "b0.png", "b1.png"]);
+    await shortDelay();
+    assert.deepEqual(site.requested, ["a0.png", "a1.png", "b0.png", "b1.png"]);
   });
 
   test("gives back the room of what waits for its decoder, whatever becomes of it", async () => {

@@ -16,11 +16,11 @@ const [geometry] = shapesOf(
 /** Deliveries from a server that has coordinates but no normals, and what it was asked for. */
 function deliveriesOf() {
   assert.ok(geometry);
-  const asked: string[] = [];
+  const requested: string[] = [];
   let aborted = 0;
   const answer = Promise.withResolvers<undefined>();
   const fetchFile = async (url: string, signal: AbortSignal): Promise<Response> => {
-    asked.push(url);
+    requested.push(url);
     signal.addEventListener("abort", () => {
       aborted += 1;
       answer.reject(signal.reason as Error);
@@ -55,7 +55,7 @@ function deliveriesOf() {
     geometry,
     deliveries,
     demand,
-    asked,
+    requested,
     aborted: () => aborted,
     open: () => {
       answer.resolve(undefined);
@@ -85,7 +85,7 @@ function logged() {
 
 describe("a geometry that several shapes show", () => {
   test("is asked for once, and tells those who come late what the others know", async () => {
-    const { geometry, deliveries, demand, asked, open } = deliveriesOf();
+    const { geometry, deliveries, demand, requested, open } = deliveriesOf();
     const [early, alsoEarly, late] = [logged(), logged(), logged()];
     deliveries.join(geometry, early.listener);
     deliveries.join(geometry, alsoEarly.listener);
@@ -98,17 +98,17 @@ describe("a geometry that several shapes show", () => {
     assert.deepEqual(late.log, ["surface", "n.bin", "settled"]);
     for (const { log } of [early, alsoEarly]) assert.deepEqual(log.toSorted(), late.log.toSorted());
     assert.equal(late.stages[0], early.stages[0]); // the same object: it is stored once
-    assert.deepEqual(asked, ["c.bin", "n.bin"]);
+    assert.deepEqual(requested, ["c.bin", "n.bin"]);
   });
 
   test("is given up with the last of them, who hears nothing more", async () => {
-    const { geometry, deliveries, demand, asked, aborted } = deliveriesOf();
+    const { geometry, deliveries, demand, requested, aborted } = deliveriesOf();
     const [first, second] = [logged(), logged()];
     const one = deliveries.join(geometry, first.listener);
     const other = deliveries.join(geometry, second.listener);
     demand();
     await new Promise((resolve) => setTimeout(resolve));
-    assert.equal(asked.length, 2);
+    assert.equal(requested.length, 2);
     one.cancel();
     one.cancel();
     assert.equal(aborted(), 0);

@@ -5,7 +5,7 @@ import { elementsOf } from "../document/elements.testing.ts";
 import type { SceneElement } from "../document/element.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { shapesOf } from "../document/description.ts";
-import { held, siteOf, soon, type Answer } from "./delivery.testing.ts";
+import { deferredFile, siteOf, shortDelay, type Answer } from "./delivery.testing.ts";
 import { Inlines } from "./inlines.ts";
 
 const bytesOf = (text: string) => new TextEncoder().encode(text);
@@ -13,7 +13,7 @@ const shape = bytesOf("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>");
 
 /** A document, read again whenever one of its Inlines has come. */
 function sceneOf(markup: string, files: Record<string, Answer>) {
-  const { pool, asked, aborted } = siteOf(files);
+  const { pool, requested, aborted } = siteOf(files);
   const log: string[] = [];
   const nameOf = (inline: SceneElement) => inline.getAttribute("DEF") ?? "";
   const x3d = elementsOf(markup);
@@ -41,12 +41,12 @@ function sceneOf(markup: string, files: Record<string, Answer>) {
   const reader = new SceneReader(x3d, { url, inlined: (inline) => inlines.documentOf(inline) });
   inlines.follow(reader.read().inlines);
   const settled = async () => {
-    while (!inlines.isSettled) await soon();
+    while (!inlines.isSettled) await shortDelay();
   };
   return {
     inlines,
     log,
-    asked,
+    requested,
     aborted,
     settled,
     shapes: () => shapesOf(reader.read().root).length,
@@ -68,7 +68,7 @@ describe("documents that Inlines name", () => {
     );
     assert.ok(!scene.inlines.isSettled);
     await scene.settled();
-    assert.deepEqual(scene.asked, ["part.x3d", "deep.x3d"]);
+    assert.deepEqual(scene.requested, ["part.x3d", "deep.x3d"]);
     assert.deepEqual(scene.log, ["begin a", "begin b", "end a", "begin inner", "end b", "end inner"]);
     assert.ok(scene.inlines.isSettled);
     assert.equal(scene.shapes(), 2);
@@ -98,7 +98,7 @@ describe("documents that Inlines name", () => {
     });
     await scene.settled();
     assert.equal(scene.shapes(), 1);
-    assert.deepEqual(scene.asked, ["circle.x3d"]);
+    assert.deepEqual(scene.requested, ["circle.x3d"]);
     assert.deepEqual(scene.warnings(), [
       "names https://site/circle.x3d, which it stands in itself",
       "names https://site/main.x3d, which it stands in itself",
@@ -106,10 +106,10 @@ describe("documents that Inlines name", () => {
   });
 
   test("are given up when nobody is left to follow them", async () => {
-    const scene = sceneOf(x3d('<Inline DEF="a" url="part.x3d"/>'), { "part.x3d": held(shape).promise });
-    while (scene.asked.length === 0) await soon();
+    const scene = sceneOf(x3d('<Inline DEF="a" url="part.x3d"/>'), { "part.x3d": deferredFile(shape).promise });
+    while (scene.requested.length === 0) await shortDelay();
     scene.inlines.dispose();
-    while (scene.aborted.length === 0) await soon();
+    while (scene.aborted.length === 0) await shortDelay();
     assert.deepEqual(scene.aborted, ["part.x3d"]);
     assert.deepEqual(scene.log, ["begin a", "leave a"]);
     assert.deepEqual(scene.inlines.transfers, []);

@@ -5,7 +5,7 @@ import type { TextureDescription } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import { unknownViewMetrics } from "../scheduler/viewMetrics.ts";
 import type { Answer } from "./delivery.testing.ts";
-import { held, record, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
+import { deferredFile, record, sigFiles, sigGeometry, siteOf, shortDelay } from "./delivery.testing.ts";
 import { requestWithinBudget } from "./requestWithinBudget.ts";
 import { GeometryDeliveries } from "./geometryDeliveries.ts";
 import { ShapeTextures } from "./shapeTextures.ts";
@@ -42,9 +42,9 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
   shape.follow(textures);
   const demand = async (mostBytes = Infinity, priority = wanted) => {
     for (let turn = 0; turn < 3; ++turn) {
-      await soon(); // who has joined is told in the next microtask
+      await shortDelay(); // who has joined is told in the next microtask
       requestWithinBudget(deliveries, () => () => undefined, priority, mostBytes);
-      do await soon();
+      do await shortDelay();
       while (!shape.isSettled);
     }
     return told.splice(0);
@@ -54,18 +54,18 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
 
 describe("a texture", () => {
   test("shows its preview until it is there itself", async () => {
-    const { promise, release } = held(large);
+    const { promise, release } = deferredFile(large);
     const { site, shape, demand } = shapeWith([textureOf("full.png", "small.png")], {
       "full.png": promise,
       "small.png": small,
     });
     const end = demand();
-    while (site.pictures.open === 0) await soon();
-    assert.deepEqual(site.asked, ["small.png", "full.png"]);
+    while (site.pictures.open === 0) await shortDelay();
+    assert.deepEqual(site.requested, ["small.png", "full.png"]);
     release();
     assert.deepEqual(await end, ["color 8", "color 256"]);
     shape.cancel();
-    await soon();
+    await shortDelay();
     assert.equal(site.pictures.open, 0);
   });
 
@@ -91,7 +91,7 @@ describe("a texture", () => {
   test("of a shape that is not seen is not asked for; what is here stays", async () => {
     const { site, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": large, "small.png": small });
     assert.deepEqual(await demand(Infinity, () => undefined), []);
-    assert.deepEqual(site.asked, []);
+    assert.deepEqual(site.requested, []);
     await demand();
     assert.deepEqual(await demand(Infinity, () => undefined), []);
     assert.equal(site.pictures.open, 2);
@@ -106,9 +106,9 @@ describe("a texture", () => {
     assert.deepEqual(await demand(), ["occlusion 256", "metallicRoughness 256"]);
     shape.follow([textureOf("a.png", "", "occlusion"), textureOf("b.png", "", "metallicRoughness")]);
     assert.deepEqual(await demand(), ["metallicRoughness none", "metallicRoughness 256"]);
-    assert.deepEqual(site.asked, ["a.png", "b.png"]);
+    assert.deepEqual(site.requested, ["a.png", "b.png"]);
     shape.follow([]);
-    await soon();
+    await shortDelay();
     assert.equal(site.pictures.open, 0);
   });
 });
@@ -122,8 +122,8 @@ test("textures are the last files that a scene asks for, and their previews come
   const { settled } = record(sigGeometry(2), site.pool);
   deliveries.textures.request(wanted);
   await settled;
-  while (!shape.isSettled) await soon();
-  const kinds = site.asked.map(
+  while (!shape.isSettled) await shortDelay();
+  const kinds = site.requested.map(
     (name) => ({ a: "coord", s: "preview", i: "index", n: "normal", b: "refinement", f: "texture" })[name[0] ?? ""],
   );
   assert.deepEqual(kinds, [

@@ -1,5 +1,5 @@
-// The shapes of a scene in an app's own three.js scene while they load: what of each
-// is displayed, in a group for each of its instances.
+// The shapes of a scene in an app's own three.js scene. Each shape's object holds the stages loaded so far and draws them
+// in a group for each instance of the shape.
 
 import type { Group } from "three";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
@@ -22,24 +22,24 @@ import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import type { LoadState } from "./sceneLod.ts";
 
 export interface AppShapesListener {
-  /** Something looks different. */
+  /** The picture has changed. */
   onChange(): void;
-  /** A file is of no use. */
+  /** A file could not be fetched or decoded. */
   onError(error: DeliveryError): void;
-  /** Something has come, or nothing more will. */
+  /** A patch displays a new stage, or no further file of a shape is being loaded. */
   onAdvance(): void;
 }
 
-/** A shape's object, from when the shape first has an instance. */
+/** A shape's object, made for the shape's first instance. */
 interface InstancedObject {
   readonly object: ShapeObject;
-  /** The shape as described for each of its instances. */
+  /** The shape's description by instance: each has its own visibility and light scope. */
   readonly instances: Map<NodeInstance, ShapeDescription>;
 }
 
 export class AppShape extends LoadingShape {
   readonly object: ShapeObject;
-  /** Patches that display nothing yet, but will. */
+  /** Indices of patches that display nothing yet and whose files may still load. */
   readonly missingPatches: Set<number>;
   readonly #context: ShapeContext;
   readonly #listener: AppShapesListener;
@@ -87,7 +87,7 @@ export class AppShape extends LoadingShape {
     this.object.clear();
   }
 
-  /** Expects nothing more of patches whose files have failed. Files of a hidden shape may be requested again. */
+  /** Empties `missingPatches` if the shape is visible and has no file left to load. Files of a hidden shape may still be requested. */
   forgetMissing(): void {
     if (this.isVisible && this.isGeometrySettled) this.missingPatches.clear();
   }
@@ -126,12 +126,12 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
   /** Never called: documents that are read once only gain nodes. */
   readonly onLeave = (): void => undefined;
 
-  /** The changes since this was last called. */
+  /** Returns the changes since the last call. */
   takeChanges(): SceneChanges {
     const { shapes, instances } = this.#changes;
     this.#changes = new ShapeChanges();
-    const merged = Array.from(shapes.values(), (shape) => ({ ...shape, visible: this.#isVisible(shape) }));
-    return { shapes: new Map(merged.map((shape) => [shape.element, shape])), removed: [], instances };
+    const mergedShapes = Array.from(shapes.values(), (shape) => ({ ...shape, visible: this.#isVisible(shape) }));
+    return { shapes: new Map(mergedShapes.map((shape) => [shape.element, shape])), removed: [], instances };
   }
 
   /** Whether any patch displays something. */
@@ -139,7 +139,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     return Array.from(this).some(({ object }) => !object.isEmpty);
   }
 
-  /** Whether each patch of a visible shape displays something, unless nothing will come of it. */
+  /** Whether each patch of a visible shape displays something or has failed. */
   get areDisplayed(): boolean {
     return this.#areAllVisible(({ missingPatches }) => missingPatches.size === 0);
   }
@@ -149,7 +149,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     return this.#areAllVisible(({ isSettled }) => isSettled);
   }
 
-  /** The state of the shape whose group this is; undefined where it is no shape's. */
+  /** The state of the shape that a group belongs to; undefined for a group of no shape. */
   loadStateOf(group: object): LoadState | undefined {
     const element = this.#elementOf.get(group);
     const shape = element && this.get(element);
@@ -158,7 +158,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     return !shape.object.isEmpty ? "displayed" : shape.geometry === undefined ? "empty" : "failed";
   }
 
-  /** Width of the widest point or line in CSS pixels; 0 where no shape says. */
+  /** Width of the widest point or line in CSS pixels; 0 where no shape sets one. */
   get maxWidth(): number {
     return Array.from(this).reduce((max, { object }) => Math.max(max, object.maxWidth), 0);
   }
@@ -170,7 +170,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     }
   }
 
-  /** Expects nothing more of visible shapes of which no file has been requested. */
+  /** Empties `missingPatches` of visible shapes that have no file left to load. */
   forgetMissing(): void {
     for (const shape of this) shape.forgetMissing();
   }
@@ -182,7 +182,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
   }
 
   protected override get isSuspended(): boolean {
-    return false; // three.js uploads again by itself what it has lost
+    return false; // after a context loss, three.js uploads everything again by itself
   }
 
   protected override makeShape(described: ShapeDescription): AppShape {

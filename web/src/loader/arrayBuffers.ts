@@ -9,32 +9,32 @@ import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
 import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 
-interface Kept {
+interface StoredArray {
   readonly array: ElementArray;
   /** One three.js buffer per element type and stride. */
   readonly records: Map<string, InterleavedBuffer>;
 }
 
 export class ArrayBuffers implements BufferProvider {
-  readonly #kept = new WeakMap<StoredBytes, Kept>();
+  readonly #arrays = new WeakMap<StoredBytes, StoredArray>();
 
   store(array: ElementArray): StoredBytes {
     const bytes = {
       byteLength: array.byteLength,
       close: () => {
-        this.#kept.delete(bytes);
+        this.#arrays.delete(bytes);
       },
     };
-    this.#kept.set(bytes, { array, records: new Map() });
+    this.#arrays.set(bytes, { array, records: new Map() });
     return bytes;
   }
 
   recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer {
-    const { records } = this.#keptOf(bytes);
+    const { records } = this.#arrayOf(bytes);
     const key = `${type} ${stride}`;
-    const known = records.get(key) ?? new InterleavedBuffer(this.#viewOf(bytes, type), stride);
-    records.set(key, known);
-    return known;
+    const buffer = records.get(key) ?? new InterleavedBuffer(this.#viewOf(bytes, type), stride);
+    records.set(key, buffer);
+    return buffer;
   }
 
   indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
@@ -50,13 +50,13 @@ export class ArrayBuffers implements BufferProvider {
   }
 
   #viewOf(bytes: StoredBytes, type: ElementType): ElementArray {
-    const { array } = this.#keptOf(bytes);
+    const { array } = this.#arrayOf(bytes);
     return new (arrayTypeOf(type))(array.buffer, array.byteOffset, array.byteLength / byteSizeOf(type));
   }
 
-  #keptOf(bytes: StoredBytes): Kept {
-    const kept = this.#kept.get(bytes);
-    if (kept === undefined) throw new RangeError("the array is closed");
-    return kept;
+  #arrayOf(bytes: StoredBytes): StoredArray {
+    const stored = this.#arrays.get(bytes);
+    if (stored === undefined) throw new RangeError("the array is closed");
+    return stored;
   }
 }

@@ -2,8 +2,8 @@ import type { Camera } from "three";
 import { Object3D } from "three";
 
 /**
- * Is called with each camera before a renderer visits the objects after it in the scene.
- * It passes for a LOD: three.js updates nothing else that draws nothing.
+ * Calls back with each camera before a renderer visits the objects that follow this one in the scene. It poses as a
+ * three.js LOD: the renderer calls no other object that draws nothing.
  */
 export class CameraObserver extends Object3D {
   readonly autoUpdate = true;

@@ -1,4 +1,4 @@
-// A scene as an Object3D, to which objects are added and refined while files come.
+// A scene as an Object3D, to which objects are added and refined while files arrive.
 
 import type { Box3, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
 import { Group, Sphere, Vector2, Vector4 } from "three";
@@ -26,13 +26,13 @@ import type { SceneHit } from "./scenePicking.ts";
 import { ScenePicker } from "./scenePicking.ts";
 
 export interface ImgeoSceneEventMap extends Object3DEventMap {
-  /** The scene looks different: apps that draw on demand draw again. */
+  /** The picture has changed: an app that draws on demand draws again. */
   change: object;
-  /** `abort` or `dispose` has been called: no more files come. */
+  /** `abort` or `dispose` has been called: nothing more is loaded. */
   abort: object;
-  /** Bytes have come. */
+  /** Bytes have arrived. */
   progress: { readonly progress: Progress };
-  /** A file has failed; the rest of the scene goes on loading. */
+  /** A file could not be fetched or decoded; the rest of the scene continues to load. */
   error: { readonly url: string; readonly error: Error };
 }
 
@@ -43,7 +43,7 @@ export interface SceneSources {
   readonly url: string;
   /** Makes a URL of the document absolute. */
   readonly urlOf: (url: string) => string;
-  /** Gives the URL to request instead of an absolute one. */
+  /** Maps an absolute URL to the URL to request. */
   readonly resolve: (url: string) => string;
   readonly fetch: typeof fetch;
   /** Orders downloads; shared with other scenes. */
@@ -70,8 +70,8 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   constructor({ x3d, url, urlOf, resolve, fetch, scheduler, keepsVertices, makeMaterial, runJob }: SceneSources) {
     super();
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // a rejection may go unhandled
-    const admission = new UploadThrottle();
-    const textures = new BitmapTextures(admission);
+    const uploadThrottle = new UploadThrottle();
+    const textures = new BitmapTextures(uploadThrottle);
     const buffers = new ArrayBuffers();
     const pool = new ResourcePool({
       scheduler,
@@ -81,11 +81,11 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       runJob,
       makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
       storeBytes: async (array, _, signal) => {
-        await admission.waitForFrame(array.byteLength, signal);
+        await uploadThrottle.waitForFrame(array.byteLength, signal);
         return buffers.store(array);
       },
       download: { ...defaultDownloadOptions, fetch },
-      resolve: (named) => resolve(urlOf(named)),
+      resolve: (url) => resolve(urlOf(url)),
       onTransfer: () => {
         this.#progressEvents.request();
       },
@@ -93,7 +93,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#contents = new SceneContents(
       { x3d, url, urlOf, pool },
       {
-        materialFactory: makeStandardMaterials(makeMaterial, surroundingsOf(this)),
+        materialFactory: makeStandardMaterials(makeMaterial, shadowOptionsOf(this)),
         geometries: new GeometryPool(buffers),
         buffers,
         textures,
@@ -124,22 +124,22 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#advance();
   }
 
-  /** The documents that have come, with their lights and viewpoints, which the app may use. */
+  /** The document with all Inlines loaded so far. Its lights and viewpoints are not in the three.js scene; the app may use them. */
   get description(): SceneDescription {
     return this.#contents.description;
   }
 
-  /** Bounds of all visible shapes in all levels, by the documents that have come, in this object's coordinates. */
+  /** Bounds of all visible shapes in all levels of the documents loaded so far, in this object's coordinates. */
   get box(): Box3 {
     return this.#contents.box;
   }
 
-  /** Resolves when every visible patch displays something; rejects with the first error where none will. */
+  /** Resolves when every visible patch displays something; rejects with the first error if nothing could be displayed. */
   get firstImage(): Promise<undefined> {
     return this.#firstImage.promise;
   }
 
-  /** Resolves when every file has come or failed. `abort` and `dispose` reject both promises with an AbortError, unless they have resolved. */
+  /** Resolves when every file has loaded or failed. `abort` and `dispose` reject both promises with an AbortError, unless they have resolved. */
   get complete(): Promise<undefined> {
     return this.#complete.promise;
   }
@@ -195,7 +195,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.dispatchEvent({ type: "error", url: error.url, error });
   }
 
-  /** Settles the promises that can be settled. */
+  /** Settles the promises whose condition holds now. */
   #advance(): void {
     if (!this.#contents.isDisplayed) return;
     if (this.#error !== undefined && !this.#contents.shapes.hasPicture) this.#firstImage.reject(this.#error);
@@ -206,7 +206,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   }
 }
 
-function surroundingsOf(scene: ImgeoScene): SceneShadowOptions {
+function shadowOptionsOf(scene: ImgeoScene): SceneShadowOptions {
   return {
     get castShadow() {
       return scene.castShadow;
@@ -220,7 +220,7 @@ function surroundingsOf(scene: ImgeoScene): SceneShadowOptions {
   };
 }
 
-/** Passes `castShadow` and `receiveShadow` of a scene on to all objects in it, now and later: each stage has new objects. */
+/** Passes `castShadow` and `receiveShadow` of a scene on to its present objects. Objects of later stages read the values when they are made. */
 function passOnShadows(scene: ImgeoScene): void {
   for (const name of ["castShadow", "receiveShadow"] as const) {
     let flag = false;

@@ -13,7 +13,7 @@ import {
 import { arrayTypeOf } from "../stage/elementType.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
-import { held, siteOf, soon, type Answer } from "../delivery/delivery.testing.ts";
+import { deferredFile, siteOf, shortDelay, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
@@ -24,9 +24,9 @@ import { SceneContents } from "./sceneContents.ts";
 const shape = (name: string) => `<Shape DEF="${name}"><BinaryGeometry vertexCount="3" coord="${name}.bin"/></Shape>`;
 const triangle = () => new Uint8Array(36);
 
-/** A scene in an app that has no GPU, drawn as three.js does. */
+/** The contents of a scene in an app without a GPU. */
 function appOf(markup: string, files: Record<string, Answer>) {
-  const { pool, asked: requested, aborted, arrayOf } = siteOf(files);
+  const { pool, requested, aborted, arrayOf } = siteOf(files);
   const viewOf = (bytes: StoredBytes, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
   const buffers: BufferProvider = {
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
@@ -74,19 +74,19 @@ function appOf(markup: string, files: Record<string, Answer>) {
     },
   );
   contents.start();
-  /** Draws a frame from a position, and gives the names of the shapes that it draws. */
-  const namesDrawnFrom = async (...from: [number, number, number]) => {
+  /** Visits the scene as a frame of three.js from a camera position does, and returns the names of the shapes that it draws. */
+  const namesDrawnFrom = async (...eye: [number, number, number]) => {
     const camera = new PerspectiveCamera();
-    camera.position.set(...from);
+    camera.position.set(...eye);
     camera.updateMatrixWorld();
     contents.root.updateMatrixWorld();
-    const seen = drawnIn(contents.root, camera);
-    await soon();
-    return seen;
+    const names = namesDrawnIn(contents.root, camera);
+    await shortDelay();
+    return names;
   };
-  /** Waits until everything requested is here. */
+  /** Waits until all requested files have loaded. */
   const settled = async () => {
-    while (!contents.isSettled) await soon();
+    while (!contents.isSettled) await shortDelay();
   };
   return { contents, requested, aborted, namesDrawnFrom, settled };
 }
@@ -95,18 +95,18 @@ function isLod(object: object): object is Pick<LOD, "autoUpdate" | "update"> {
   return "isLOD" in object;
 }
 
-/** As WebGLRenderer goes through a scene. */
-function drawnIn(object: Object3D, camera: PerspectiveCamera): string[] {
+/** Visits objects in the order of WebGLRenderer, and returns the names of the shapes that it would draw. */
+function namesDrawnIn(object: Object3D, camera: PerspectiveCamera): string[] {
   if (!object.visible) return [];
   if (isLod(object) && object.autoUpdate) object.update(camera);
   return [
     ...(object.type === "Mesh" ? [object.parent?.name ?? ""] : []),
-    ...object.children.flatMap((child) => drawnIn(child, camera)),
+    ...object.children.flatMap((child) => namesDrawnIn(child, camera)),
   ];
 }
 
 describe("the contents of a scene in a three.js app", () => {
-  test("are requested where any instance of them is visible", async () => {
+  test("are requested if any of their instances is visible", async () => {
     const files = { "a.bin": triangle(), "b.bin": triangle() };
     const { contents, requested, namesDrawnFrom, settled } = appOf(
       `<X3D><Group visible="false"><Transform DEF="t">${shape("a")}</Transform>${shape("b")}</Group>
@@ -118,8 +118,8 @@ describe("the contents of a scene in a three.js app", () => {
     assert.deepEqual([requested, await namesDrawnFrom(0, 0, 5), contents.isDisplayed], [["a.bin"], ["a"], true]);
   });
 
-  test("display of a LOD the level for the nearest camera, and the level before until that has come", async () => {
-    const near = held(triangle());
+  test("display the level of a LOD that the nearest camera requires, and the previous level until that has loaded", async () => {
+    const near = deferredFile(triangle());
     const { contents, requested, aborted, namesDrawnFrom, settled } = appOf(
       `<X3D><LOD DEF="lod" range="10">${shape("near")}${shape("far")}</LOD>
       <Transform translation="100 0 0"><LOD USE="lod"/></Transform></X3D>`,
@@ -128,22 +128,22 @@ describe("the contents of a scene in a three.js app", () => {
     await settled();
     assert.deepEqual(requested, ["far.bin"]);
     assert.deepEqual(await namesDrawnFrom(0, 0, 50), ["far", "far"]);
-    assert.deepEqual(await namesDrawnFrom(100, 0, 5), ["far", "far"]); // near to one of its instances
-    while (requested.length < 2) await soon();
+    assert.deepEqual(await namesDrawnFrom(100, 0, 5), ["far", "far"]); // near one of the LOD's instances
+    while (requested.length < 2) await shortDelay();
     assert.deepEqual([contents.isDisplayed, requested[1]], [false, "near.bin"]);
     await namesDrawnFrom(0, 0, 50);
-    while (aborted.length === 0) await soon(); // it is not needed any more
+    while (aborted.length === 0) await shortDelay(); // no camera requires the near level any more
     assert.ok(contents.isDisplayed);
     await namesDrawnFrom(0, 0, 5);
     near.release();
-    while (requested.length < 3) await soon();
+    while (requested.length < 3) await shortDelay();
     await settled();
     assert.deepEqual(await namesDrawnFrom(0, 0, 5), ["near", "far"]);
     assert.deepEqual(await namesDrawnFrom(0, 0, 50), ["far", "far"]);
     assert.deepEqual(requested, ["far.bin", "near.bin", "near.bin"]);
   });
 
-  test("turn billboards to the camera, and observe no camera where there are none", async () => {
+  test("turn billboards to the camera, and observe no camera in a scene without billboards", async () => {
     const plain = appOf(`<X3D>${shape("a")}</X3D>`, { "a.bin": triangle() });
     assert.equal(plain.contents.root.getObjectByProperty("isLOD", true), undefined);
     const { contents, namesDrawnFrom, settled } = appOf(
@@ -156,7 +156,7 @@ describe("the contents of a scene in a three.js app", () => {
         .setFromMatrixPosition(contents.root.getObjectByName("a")?.matrixWorld ?? contents.root.matrixWorld)
         .round()
         .toArray();
-    contents.root.position.set(10, 0, 0); // the app's business
+    contents.root.position.set(10, 0, 0); // as an app moves the scene
     await namesDrawnFrom(20, 0, 0);
     assert.deepEqual(positionOf(), [11, 0, 0]);
     await namesDrawnFrom(10, 0, -9);
@@ -166,7 +166,7 @@ describe("the contents of a scene in a three.js app", () => {
     );
   });
 
-  test("request nothing more once stopped, and remain displayed", async () => {
+  test("request nothing after they were stopped, and remain displayed", async () => {
     const { contents, requested, namesDrawnFrom, settled } = appOf(
       `<X3D><LOD range="10">${shape("near")}${shape("far")}</LOD></X3D>`,
       { "near.bin": triangle(), "far.bin": triangle() },

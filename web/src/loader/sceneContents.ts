@@ -1,6 +1,6 @@
 // The contents of a scene in an app's own three.js scene: its groups, lights aside, with
 // LODs and billboards that follow the app's cameras. Reads its document again when
-// that of an Inline has come, and when a camera needs another level of a LOD.
+// the document of an Inline has loaded, and when a camera needs another level of a LOD.
 
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
@@ -25,16 +25,16 @@ export interface SceneSource {
   readonly x3d: SceneElement;
   /** The document's absolute URL. */
   readonly url: string;
-  /** Gives the absolute URL of one that the document names. */
+  /** Makes a URL of the document absolute. */
   readonly urlOf: (url: string) => string;
   readonly pool: ResourcePool;
 }
 
 export class SceneContents {
-  /** Around all shapes, as documents describe them. */
+  /** Bounds of all visible shapes, as the documents describe them. */
   readonly box = new Box3();
   readonly shapes: AppShapes;
-  /** The parent of everything. */
+  /** The parent of all objects of the scene. */
   readonly root = new Group();
   readonly #core: ViewerCore<AppShape>;
   readonly #groups: SceneGroups;
@@ -42,17 +42,17 @@ export class SceneContents {
     this.#groups.turnBillboards(camera);
   });
   readonly #lods: SceneLod[] = [];
-  /** The level that cameras need of each LOD. */
+  /** The level that cameras need, by LOD. */
   readonly #levels = new Map<SceneElement, number>();
   readonly #inlineOf = new WeakMap<object, SceneElement>();
   readonly #lodOwner: SceneLodOwner = {
     loadStateOf: (level) => this.#loadStateOf(level),
-    onCamera: () => {
-      this.#onCamera();
+    onCameraUpdate: () => {
+      this.#onCameraUpdate();
     },
   };
-  /** Whether LODs are to be followed after this frame. */
-  #isFrameDue = false;
+  /** Whether a microtask will choose the levels of LODs after this frame. */
+  #isLevelUpdateDue = false;
   #isStopped = false;
 
   /** Requests nothing, and does not call the listener, before `start`. */
@@ -106,7 +106,7 @@ export class SceneContents {
     return this.#core.transfers;
   }
 
-  /** Whether all that is visible displays something, unless nothing will come of it. */
+  /** Whether every visible shape displays something or has failed. */
   get isDisplayed(): boolean {
     return this.#core.inlines.isSettled && this.shapes.areDisplayed;
   }
@@ -136,7 +136,7 @@ export class SceneContents {
     this.#groups.follow(withoutLights(root));
     this.box.copy(this.#groups.box);
     if (this.#groups.hasBillboards && this.#billboards.parent === null)
-      this.root.add(this.#billboards, this.#groups.root); // the observer before what it turns
+      this.root.add(this.#billboards, this.#groups.root); // three.js visits children in order: the observer before the billboards that it turns
     return this.shapes.takeChanges();
   }
 
@@ -155,21 +155,21 @@ export class SceneContents {
     const inline = this.#inlineOf.get(object);
     if (inline !== undefined && this.#core.inlines.documentOf(inline) === undefined)
       return this.#core.inlines.isEnded(inline) ? "failed" : "loading";
-    const found = new Set<LoadState>();
+    const states = new Set<LoadState>();
     for (const child of visibleChildrenOf(object)) {
       const state = this.shapes.loadStateOf(child) ?? this.#loadStateOf(child);
       if (state === "loading") return state;
-      found.add(state);
+      states.add(state);
     }
-    return loadStates.find((state) => found.has(state)) ?? "empty";
+    return loadStates.find((state) => states.has(state)) ?? "empty";
   }
 
   /** A camera has updated a LOD in the middle of a frame. The levels that the frame's cameras need are requested after it. */
-  #onCamera(): void {
-    if (this.#isFrameDue || this.#isStopped) return;
-    this.#isFrameDue = true;
+  #onCameraUpdate(): void {
+    if (this.#isLevelUpdateDue || this.#isStopped) return;
+    this.#isLevelUpdateDue = true;
     queueMicrotask(() => {
-      this.#isFrameDue = false;
+      this.#isLevelUpdateDue = false;
       if (!this.#isStopped && this.#updateLevels()) this.#core.read();
     });
   }
@@ -206,7 +206,7 @@ function visibleChildrenOf(object: Object3D): readonly Object3D[] {
 
 const groupsWithoutLights = new WeakMap<GroupDescription, GroupDescription>();
 
-/** A group without its lights: the app has its own. The same object for the same description, so that what has not changed is passed over. */
+/** A group without its lights: the app has its own. The same object for the same description, so that unchanged groups are skipped. */
 function withoutLights(group: GroupDescription): GroupDescription {
   const known = groupsWithoutLights.get(group);
   if (known !== undefined) return known;

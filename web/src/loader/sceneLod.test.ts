@@ -6,15 +6,21 @@ import { SceneLod } from "./sceneLod.ts";
 
 const element = { localName: "LOD", children: [], getAttribute: () => null, getAttributeNames: () => [] };
 
-/** Levels of a box each, around (1, 0, 0), of which those are here that are in `here`. */
-function levelsOf(range: readonly number[], here: Set<number>, empty?: number, others: LoadState = "loading") {
+/** A LOD with center (1, 0, 0) whose levels hold a box each, except `emptyLevel`. Levels outside of `loadedLevels` have the state `otherState`. */
+function lodOf(
+  range: readonly number[],
+  loadedLevels: Set<number>,
+  emptyLevel?: number,
+  otherState: LoadState = "loading",
+) {
   const updates = { count: 0 };
   const indexOf = (level: Object3D) => Number(level.name);
-  const levels = new SceneLod(
+  const lod = new SceneLod(
     { element, center: [1, 0, 0], range, levelCount: range.length + 1 },
     {
-      loadStateOf: (level) => (!here.has(indexOf(level)) ? others : indexOf(level) === empty ? "empty" : "displayed"),
-      onCamera: () => {
+      loadStateOf: (level) =>
+        !loadedLevels.has(indexOf(level)) ? otherState : indexOf(level) === emptyLevel ? "empty" : "displayed",
+      onCameraUpdate: () => {
         updates.count += 1;
       },
     },
@@ -22,11 +28,11 @@ function levelsOf(range: readonly number[], here: Set<number>, empty?: number, o
   for (let index = 0; index <= range.length; ++index) {
     const group = new Group();
     group.name = String(index);
-    if (index !== empty) group.add(new Mesh(new BoxGeometry()));
-    levels.add(group);
+    if (index !== emptyLevel) group.add(new Mesh(new BoxGeometry()));
+    lod.add(group);
   }
-  levels.fill();
-  return { levels, updates };
+  lod.fill();
+  return { lod, updates };
 }
 
 function cameraAt(x: number, y = 0, z = 0): PerspectiveCamera {
@@ -41,85 +47,85 @@ function displayedLevelsOf({ children }: LOD): number[] {
 }
 
 describe("a LOD in a three.js app", () => {
-  test("is a three.js LOD, and displays its last level until a camera has updated it", () => {
-    const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
-    assert.ok(levels instanceof LOD && levels.autoUpdate);
+  test("is a three.js LOD that displays its last level until a camera has updated it", () => {
+    const { lod } = lodOf([10, 20], new Set([0, 1, 2]));
+    assert.ok(lod instanceof LOD && lod.autoUpdate);
     assert.deepEqual(
-      levels.levels.map(({ distance }) => distance),
+      lod.levels.map(({ distance }) => distance),
       [0, 10, 20],
     );
-    assert.deepEqual([displayedLevelsOf(levels), levels.getCurrentLevel()], [[2], 2]);
-    assert.equal(levels.takeDistance(), Infinity);
+    assert.deepEqual([displayedLevelsOf(lod), lod.getCurrentLevel()], [[2], 2]);
+    assert.equal(lod.takeDistance(), Infinity);
   });
 
-  test("displays the level for each camera, by the distance from its centre in its own units", () => {
-    const { levels, updates } = levelsOf([10, 20], new Set([0, 1, 2]));
-    const around = new Group();
-    around.scale.setScalar(2);
-    around.position.set(100, 0, 0);
-    around.add(levels);
-    around.updateMatrixWorld(true);
+  test("displays the level for each camera by the distance from its center in its own units", () => {
+    const { lod, updates } = lodOf([10, 20], new Set([0, 1, 2]));
+    const parent = new Group();
+    parent.scale.setScalar(2);
+    parent.position.set(100, 0, 0);
+    parent.add(lod);
+    parent.updateMatrixWorld(true);
     for (const [x, level] of [
       [102 + 18, 0],
       [102 + 30, 1],
       [102 + 50, 2],
       [102 - 18, 0],
     ] as const) {
-      levels.update(cameraAt(x));
-      assert.deepEqual([displayedLevelsOf(levels), levels.getCurrentLevel()], [[level], level], `from ${x}`);
+      lod.update(cameraAt(x));
+      assert.deepEqual([displayedLevelsOf(lod), lod.getCurrentLevel()], [[level], level], `from ${x}`);
     }
     assert.equal(updates.count, 4);
-    assert.equal(levels.takeDistance(), 9); // the nearest of all that have looked
-    assert.equal(levels.takeDistance(), Infinity);
+    assert.equal(lod.takeDistance(), 9); // of the nearest camera
+    assert.equal(lod.takeDistance(), Infinity);
   });
 
-  test("keeps its level until all of another displays something", () => {
-    const here = new Set([2]);
-    const { levels } = levelsOf([10, 20], here);
+  test("keeps its level until every shape of the required level displays something", () => {
+    const loadedLevels = new Set([2]);
+    const { lod } = lodOf([10, 20], loadedLevels);
     const near = cameraAt(1, 5);
-    levels.update(near);
-    assert.deepEqual(displayedLevelsOf(levels), [2]);
-    here.add(1);
-    levels.update(near);
-    assert.deepEqual(displayedLevelsOf(levels), [2]);
-    here.add(0);
-    levels.update(near);
-    assert.deepEqual(displayedLevelsOf(levels), [0]);
-    here.clear(); // what has been displayed stays
-    levels.update(near);
-    assert.deepEqual(displayedLevelsOf(levels), [0]);
+    lod.update(near);
+    assert.deepEqual(displayedLevelsOf(lod), [2]);
+    loadedLevels.add(1);
+    lod.update(near);
+    assert.deepEqual(displayedLevelsOf(lod), [2]);
+    loadedLevels.add(0);
+    lod.update(near);
+    assert.deepEqual(displayedLevelsOf(lod), [0]);
+    loadedLevels.clear(); // a level that has been displayed counts as loaded
+    lod.update(near);
+    assert.deepEqual(displayedLevelsOf(lod), [0]);
   });
 
-  test("displays the required level while it loads where no other can stand in", () => {
-    const { levels } = levelsOf([10], new Set([1]), 1);
-    assert.deepEqual(displayedLevelsOf(levels), [1]);
-    levels.update(cameraAt(1, 5));
-    assert.deepEqual(displayedLevelsOf(levels), [0]);
+  test("displays the required level while it loads if every other level is empty or loading", () => {
+    const { lod } = lodOf([10], new Set([1]), 1);
+    assert.deepEqual(displayedLevelsOf(lod), [1]);
+    lod.update(cameraAt(1, 5));
+    assert.deepEqual(displayedLevelsOf(lod), [0]);
   });
 
-  test("keeps its level where nothing of another has come", () => {
-    const { levels } = levelsOf([10, 20], new Set([2]), undefined, "failed");
-    levels.update(cameraAt(1, 5));
-    assert.deepEqual([displayedLevelsOf(levels), levels.getCurrentLevel()], [[2], 2]);
+  test("keeps its level if the required one has failed", () => {
+    const { lod } = lodOf([10, 20], new Set([2]), undefined, "failed");
+    lod.update(cameraAt(1, 5));
+    assert.deepEqual([displayedLevelsOf(lod), lod.getCurrentLevel()], [[2], 2]);
   });
 
-  test("is intersected by rays in its displayed level only", () => {
-    const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
-    const scene = new Group().add(levels);
-    levels.update(cameraAt(1, 15));
+  test("intersects rays with its displayed level only", () => {
+    const { lod } = lodOf([10, 20], new Set([0, 1, 2]));
+    const scene = new Group().add(lod);
+    lod.update(cameraAt(1, 15));
     scene.updateMatrixWorld(true);
     const hits = new Raycaster(new Vector3(0, 0, 50), new Vector3(0, 0, -1)).intersectObject(scene);
     assert.deepEqual(
       hits.map(({ object }) => object.parent?.name),
       ["1", "1"],
-    ); // in and out of one box
+    ); // the ray enters and leaves one box
   });
 
-  test("without extent is infinitely far", () => {
-    const { levels } = levelsOf([10], new Set([0, 1]));
-    levels.scale.setScalar(0);
-    levels.updateMatrixWorld(true);
-    levels.update(cameraAt(1));
-    assert.deepEqual(displayedLevelsOf(levels), [1]);
+  test("is infinitely far if it is scaled to nothing", () => {
+    const { lod } = lodOf([10], new Set([0, 1]));
+    lod.scale.setScalar(0);
+    lod.updateMatrixWorld(true);
+    lod.update(cameraAt(1));
+    assert.deepEqual(displayedLevelsOf(lod), [1]);
   });
 });

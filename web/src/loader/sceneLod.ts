@@ -8,18 +8,18 @@ import type { LodDescription } from "../document/description.ts";
 import { lodLevelAt } from "../scene/lodLevel.ts";
 
 /**
- * The state of an object's shapes: some still load; all display something; nothing of
- * them has come, or will; or there are none. The state of a group is the first of these
- * that any of its children has.
+ * The state of an object's shapes. `loading`: some are still being loaded; `displayed`: all have loaded or failed, and at
+ * least one displays something; `failed`: none displays anything, because files have failed; `empty`: there are none. The state of a group is the first of
+ * these that any of its children has.
  */
 export const loadStates = ["loading", "displayed", "failed", "empty"] as const;
 export type LoadState = (typeof loadStates)[number];
 
-/** Loads what levels display. */
+/** Knows how far the levels of a LOD have loaded, and requests the level that cameras need. */
 export interface SceneLodOwner {
   loadStateOf(level: Object3D): LoadState;
   /** A camera has updated a LOD: `takeDistance` gives its distance. */
-  onCamera(): void;
+  onCameraUpdate(): void;
 }
 
 // Reused: a scene may have thousands of LODs, which are updated in every frame.
@@ -36,10 +36,10 @@ export class SceneLod extends LOD {
   readonly #readyLevels = new Set<number>();
   #minDistance = Infinity;
 
-  constructor(description: LodDescription, keeper: SceneLodOwner) {
+  constructor(description: LodDescription, owner: SceneLodOwner) {
     super();
     this.description = description;
-    this.#owner = keeper;
+    this.#owner = owner;
     this.#level = description.levelCount - 1;
   }
 
@@ -65,7 +65,7 @@ export class SceneLod extends LOD {
     return distance;
   }
 
-  /** The displayed level. */
+  /** Index of the displayed level. */
   override getCurrentLevel(): number {
     return this.#displayedLevel ?? this.#level;
   }
@@ -77,7 +77,7 @@ export class SceneLod extends LOD {
     this.#minDistance = Math.min(this.#minDistance, distance);
     this.#level = lodLevelAt(distance, range, levelCount, this.#level);
     this.#updateVisibility();
-    this.#owner.onCamera();
+    this.#owner.onCameraUpdate();
   }
 
   /** Intersects the displayed level only. */
@@ -99,7 +99,7 @@ export class SceneLod extends LOD {
     if (level === undefined || this.#readyLevels.has(index)) return true;
     const state = this.#owner.loadStateOf(level.object);
     const isReady = state === "displayed" || state === "empty";
-    if (isReady) this.#readyLevels.add(index); // for good: what has been displayed stays
+    if (isReady) this.#readyLevels.add(index); // for good: a level that has been displayed stays displayed
     return isReady;
   }
 

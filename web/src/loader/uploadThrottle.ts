@@ -1,22 +1,22 @@
 // Spreads the upload of images and arrays over frames. three.js uploads everything that a frame
-// shows for the first time before that frame, so each frame gets only a few of them.
+// displays for the first time before that frame, so this class limits what can be new in a frame.
 
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
-import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
-
-/** The same limit as of the element (viewer/uploadPipeline.ts). A larger array or image is passed on alone. */
-const bytesPerFrame = 4 * 2 ** 20;
+import { FrameTaskQueue, uploadBytesPerFrame } from "../scheduler/frameTaskQueue.ts";
 
 export class UploadThrottle {
-  readonly #work = new FrameTaskQueue({
-    bytesPerFrame,
-    millisecondsPerFrame: Infinity,
+  readonly #queue = new FrameTaskQueue({
+    bytesPerFrame: uploadBytesPerFrame,
+    millisecondsPerFrame: Infinity, // three.js uploads later, so the time cannot be measured here
     now: () => performance.now(),
     requestFrame: beforeNextFrame,
   });
 
-  /** Resolves before a frame that may upload this many more bytes. Rejects with the signal's reason. */
+  /**
+   * Resolves before a frame that may upload this many more bytes. An array or image larger than the limit waits for a
+   * frame that uploads nothing after it. Rejects with the signal's reason.
+   */
   waitForFrame(bytes: number, signal: AbortSignal): Promise<void> {
-    return this.#work.run([bytes].values(), signal);
+    return this.#queue.run([bytes].values(), signal);
   }
 }

@@ -6,10 +6,10 @@ import { physicalDefine, toSrgbChunk, toLinearChunk } from "../lighting/physical
 import { x3dLighting } from "../lighting/x3dLighting.ts";
 import type { LightKind } from "./previewLights.ts";
 
-/** Attribute locations in every program. A base without vertex colours is drawn with white. */
+/** Attribute locations in every program. A base mesh without vertex colours is drawn with the constant attribute white. */
 export const attributeLocations = { position: 0, normal: 1, color: 2 } as const;
 
-/** What a program is compiled for. */
+/** The properties of a shape that its program is compiled for. */
 export interface PreviewProgramKind {
   readonly material: "phong" | "physical" | "unlit";
   readonly hasNormals: boolean;
@@ -143,19 +143,19 @@ export function makePreviewProgram(gl: WebGL2RenderingContext, kind: PreviewProg
     [gl.FRAGMENT_SHADER, fragmentShader(lights)],
   ] as const) {
     const shader = gl.createShader(type);
-    if (shader === null) continue; // the context is lost: the preview ends
+    if (shader === null) continue; // the context is lost, which ends the preview
     gl.shaderSource(shader, head + text);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
-    gl.deleteShader(shader); // takes effect when the program is deleted
+    gl.deleteShader(shader); // the GPU keeps it until the program is deleted
   }
   gl.linkProgram(program);
   const locations = new Map<string, WebGLUniformLocation | null>();
   return {
     program,
     uniform: (name) => {
-      const known = locations.get(name);
-      if (known !== undefined) return known;
+      const cached = locations.get(name);
+      if (cached !== undefined) return cached;
       const location = gl.getUniformLocation(program, name);
       locations.set(name, location);
       return location;

@@ -1,6 +1,9 @@
 // Runs long work in small steps before frames, within limits of bytes and milliseconds, so that no frame is late while
 // a scene loads.
 
+/** Limit of what the element, or a scene in a three.js app, uploads to the GPU before a frame: 240 MiB a second at 60 Hz. */
+export const uploadBytesPerFrame = 4 * 2 ** 20;
+
 export interface FrameTaskQueueOptions {
   /** Before each frame at least one step runs, and none begins once a limit is reached. */
   readonly bytesPerFrame: number;

@@ -1,5 +1,5 @@
 // Uploads images and arrays to the GPU. The browser decodes images outside of the main
-// thread; both are uploaded in pieces before frames, and kept nowhere else.
+// thread. Images and arrays are uploaded in pieces before frames; no copy remains in JavaScript.
 
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DataImage } from "../decode/image.ts";
@@ -12,19 +12,18 @@ import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { Steps } from "../scheduler/frameTaskQueue.ts";
-import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
+import { FrameTaskQueue, uploadBytesPerFrame } from "../scheduler/frameTaskQueue.ts";
 
-/** Limits of one frame: 240 MB a second at 60 frames, and time that leaves most of a frame to drawing. */
-const bytesPerFrame = 4 * 2 ** 20;
-const millisecondsPerFrame = 4;
+/** Leaves most of a frame's 16 ms to drawing. */
+const uploadMillisecondsPerFrame = 4;
 
 export class UploadPipeline {
   readonly #renderer: SceneRenderer;
-  readonly #work = new FrameTaskQueue({
-    bytesPerFrame,
-    millisecondsPerFrame,
+  readonly #queue = new FrameTaskQueue({
+    bytesPerFrame: uploadBytesPerFrame,
+    millisecondsPerFrame: uploadMillisecondsPerFrame,
     now: () => performance.now(),
-    // Without a picture there are no frames that uploads could delay.
+    // An empty scene is not animated: there are no frames that uploads could delay.
     requestFrame: (callback) => {
       if (this.#renderer.isEmpty) setTimeout(callback);
       else beforeNextFrame(callback);
@@ -74,11 +73,11 @@ export class UploadPipeline {
     return image;
   }
 
-  async #finish(steps: Steps, what: { close(): void }, signal: AbortSignal): Promise<void> {
+  async #finish(steps: Steps, resource: { close(): void }, signal: AbortSignal): Promise<void> {
     try {
-      await this.#work.run(steps, signal);
+      await this.#queue.run(steps, signal);
     } catch (error) {
-      what.close();
+      resource.close();
       throw error;
     }
   }

@@ -3,7 +3,7 @@ import { describe, test } from "node:test";
 import { pngWithTexels } from "../../../decode/png.testing.ts";
 import { deliveryOf } from "../encodings.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
-import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "../../delivery.testing.ts";
+import { geometryOf, deferredFile, record, records, sigPatch, siteOf, shortDelay } from "../../delivery.testing.ts";
 
 describe("images that are decoded on the CPU", () => {
   const coordAt = (first: number) => pngWithTexels(256, 2, 3, (n, channel) => first + ((n + channel) % 100));
@@ -66,13 +66,13 @@ describe("images that are decoded on the CPU", () => {
   test("grow from points to a surface in whatever order their files come", async () => {
     for (const late of ["a0.png", "i0.png", "b0.png"] as const) {
       const all = files();
-      const { promise, release } = held(all[late]);
+      const { promise, release } = deferredFile(all[late]);
       const site = siteOf({ ...all, [late]: promise });
       const { stages, errors, settled } = record(
         geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`),
         site.pool,
       );
-      while (stages.length < (late === "a0.png" ? 0 : 2)) await soon();
+      while (stages.length < (late === "a0.png" ? 0 : 2)) await shortDelay();
       const names = stages.map(({ stage }) => stage.name);
       assert.equal(names.at(-1), { "a0.png": undefined, "i0.png": "points", "b0.png": "shaded" }[late]);
       release();
@@ -91,7 +91,7 @@ describe("images that are decoded on the CPU", () => {
     const patch = geometry.patches[0] ?? assert.fail("no patch");
     const bytesOf = async (order: readonly number[]): Promise<unknown> => {
       const site = siteOf({});
-      const gates = files.map(() => held(new Uint8Array(0)));
+      const gates = files.map(() => deferredFile(new Uint8Array(0)));
       let begun = 0;
       const builder = bufferStageBuilder(geometry, patch, {
         storeBytes: site.pool.storeBytes,

@@ -1,4 +1,4 @@
-// What both stage builders of classic read in the description of a geometry.
+// Fields of a geometry description that both stage builders of classic read.
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { GeometryDescription, Reference } from "../../../document/description.ts";

@@ -5,7 +5,7 @@ import { buffersOf } from "../../../decode/compact/patchBuffers.ts";
 import { decodeVector, readVectorFile, vectorNames } from "../../../decode/compact/vectors.testing.ts";
 import { pngWithTexels } from "../../../decode/png.testing.ts";
 import { dequantizationOf } from "../../../document/dequantization.ts";
-import { everything, geometryOf, held, record, siteOf, soon } from "../../delivery.testing.ts";
+import { everything, geometryOf, deferredFile, record, siteOf, shortDelay } from "../../delivery.testing.ts";
 
 /** A geometry of patches of files, as documents describe them. */
 function geometryFor(
@@ -37,7 +37,7 @@ const hasParts = (name: string) => decodeVector(name).some(({ segments: parts })
 const filesOf = (...names: string[]) => Object.fromEntries(names.map((name) => [`${name}.png`, readVectorFile(name)]));
 
 async function until(condition: () => boolean): Promise<void> {
-  while (!condition()) await soon();
+  while (!condition()) await shortDelay();
 }
 
 describe("a geometry of compact", () => {
@@ -67,7 +67,7 @@ describe("a geometry of compact", () => {
     const numbers = [3, 0, 8];
     const recordings = numbers.map((number) => record(geometryFor([["alike", number]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
-    assert.deepEqual([site.asked, site.jobs], [["alike.png"], ["compactPatches"]]);
+    assert.deepEqual([site.requested, site.jobs], [["alike.png"], ["compactPatches"]]);
     const patches = decodeVector("alike");
     for (const [
       place,
@@ -114,7 +114,7 @@ describe("a geometry of compact", () => {
     delivery.request(everything);
     await until(() => stages.length === 2);
     assert.deepEqual([stored(), recordings.map(({ stages: shown }) => shown.length)], [all, [1, 2, 1]]);
-    assert.deepEqual(site.asked, ["alike.png", "alike.png"]);
+    assert.deepEqual(site.requested, ["alike.png", "alike.png"]);
     for (const { delivery: one } of recordings) one.cancel();
     assert.equal(site.arrays.size, 0);
   });
@@ -130,11 +130,11 @@ describe("a geometry of compact", () => {
         [1, "alike.png", "http", 0],
       ],
     );
-    assert.deepEqual(site.asked, ["alike.png"]);
+    assert.deepEqual(site.requested, ["alike.png"]);
   });
 
   test("is asked for as soon as any who share its file want it, and given up with the last of them", async () => {
-    const { promise, release } = held(readVectorFile("sphere"));
+    const { promise, release } = deferredFile(readVectorFile("sphere"));
     const site = siteOf({ ...filesOf("alike", "torus"), "sphere.png": promise }, 1);
     const wanted = (priority: number) => () => priority;
     const first = record(geometryFor([["sphere", 0]]), site.pool, wanted(9));
@@ -147,10 +147,10 @@ describe("a geometry of compact", () => {
     low.delivery.request(wanted(8));
     release();
     await Promise.all([first.settled, low.settled, middle.settled]);
-    assert.deepEqual(site.asked, ["sphere.png", "alike.png", "torus.png"]);
+    assert.deepEqual(site.requested, ["sphere.png", "alike.png", "torus.png"]);
     const gone = siteOf({ "alike.png": new Promise(() => undefined) });
     const both = [1, 2].map((number) => record(geometryFor([["alike", number]]), gone.pool));
-    await until(() => gone.asked.length === 1);
+    await until(() => gone.requested.length === 1);
     both[0]?.delivery.cancel();
     assert.deepEqual(gone.aborted, []);
     both[1]?.delivery.cancel();
@@ -247,8 +247,8 @@ describe("a geometry of compact", () => {
   });
 
   test("is shown by its base, of one file, part by part until the patches are there", async () => {
-    const sphere = held(readVectorFile("sphere"));
-    const soup = held(readVectorFile("soup"));
+    const sphere = deferredFile(readVectorFile("sphere"));
+    const soup = deferredFile(readVectorFile("soup"));
     const site = siteOf({ ...filesOf("base"), "sphere.png": sphere.promise, "soup.png": soup.promise });
     const { stages, errors, settled } = record(
       geometryFor(
@@ -268,7 +268,7 @@ describe("a geometry of compact", () => {
     sphere.release();
     await settled;
     assert.deepEqual(errors, []);
-    assert.deepEqual(site.asked, ["base.png", "sphere.png", "soup.png"]);
+    assert.deepEqual(site.requested, ["base.png", "sphere.png", "soup.png"]);
     const parts = new Base(decodeVector("base")[0] ?? assert.fail()).segments;
     for (const patch of [0, 1, 2]) {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
@@ -354,7 +354,7 @@ describe("a geometry of compact", () => {
   });
 
   test("does not go back to a base that comes late", async () => {
-    const { promise, release } = held(readVectorFile("base"));
+    const { promise, release } = deferredFile(readVectorFile("base"));
     const site = siteOf({ ...filesOf("sphere"), "base.png": promise });
     const { stages, settled } = record(
       geometryFor(
@@ -409,12 +409,12 @@ describe("a geometry of compact", () => {
   });
 
   test("says nothing more once it is cancelled", async () => {
-    const { promise, release } = held(readVectorFile("torus"));
+    const { promise, release } = deferredFile(readVectorFile("torus"));
     const { stages, errors, delivery } = record(geometryFor([["torus", 0]]), siteOf({ "torus.png": promise }).pool);
-    await soon();
+    await shortDelay();
     delivery.cancel();
     release();
-    await soon();
+    await shortDelay();
     assert.deepEqual([stages, errors], [[], []]);
   });
 
