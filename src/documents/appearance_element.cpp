@@ -9,23 +9,23 @@ namespace imgeo {
 
 namespace {
 
-/// Textures of one material need a name for their transform where it is not the
-/// same for all (X3D 4, 18.4: the `mapping` fields).
+/// Whether the textures of a material have different transforms, each of which then needs a name (X3D 4, 18.4: the
+/// `mapping` fields).
 bool transformsDiffer(const std::vector<TextureUse>& uses) {
   return std::ranges::any_of(uses, [&](const TextureUse& use) { return use.transform != uses[0].transform; });
 }
 
-void writeTransforms(ElementWriter& writer, const std::vector<TextureUse>& uses, bool named) {
-  if (!named) {
+void writeTransforms(ElementWriter& writer, const std::vector<TextureUse>& uses, bool hasMappings) {
+  if (!hasMappings) {
     if (!uses.empty() && uses[0].transform != TextureTransform{})
       writer.leaf(nodeElement("TextureTransform", uses[0].transform));
     return;
   }
-  const Element all{"MultiTextureTransform", {}};
-  writer.open(all);
+  const Element multiTransform{"MultiTextureTransform", {}};
+  writer.open(multiTransform);
   for (const TextureUse& use : uses)
     writer.leaf(nodeElement("TextureTransform", use.transform, {{"mapping", nameOf(use.role)}}));
-  writer.close(all);
+  writer.close(multiTransform);
 }
 
 Element propertiesElement(const Texture& texture) {
@@ -86,33 +86,33 @@ void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appea
     element.groups[0].push_back({"alphaMode", nameOf(appearance.alphaMode)});
   if (appearance.alphaMode == AlphaMode::mask)
     addUnless(element.groups[0], "alphaCutoff", appearance.alphaCutoff, 0.5f, number(appearance.alphaCutoff));
-  const bool named = transformsDiffer(appearance.textures);
+  const bool hasMappings = transformsDiffer(appearance.textures);
   Element material = materialElement(appearance.material);
-  std::vector<const TextureUse*> inMaterial;
+  std::vector<const TextureUse*> materialTextures;
   for (const TextureUse& use : appearance.textures) {
     const std::string field = textureField(appearance.material, use.role);
-    if (field.empty() || (use.role == TextureRole::color && !named))
+    if (field.empty() || (use.role == TextureRole::color && !hasMappings))
       continue;
-    if (named)
+    if (hasMappings)
       material.groups[0].push_back({field + "Mapping", nameOf(use.role)});
-    inMaterial.push_back(&use);
+    materialTextures.push_back(&use);
   }
 
   writer.open(element);
-  if (inMaterial.empty()) {
+  if (materialTextures.empty()) {
     writer.leaf(material);
   } else {
     writer.open(material);
-    for (const TextureUse* use : inMaterial)
+    for (const TextureUse* use : materialTextures)
       writeTexture(writer, graph, use->texture, textureField(appearance.material, use->role),
                    textureNames(use->texture));
     writer.close(material);
   }
-  // The texture of the main colour is a child of the Appearance, as since X3D 3.
+  // Without mappings, the texture of the main colour is a child of the Appearance, as in X3D 3.
   for (const TextureUse& use : appearance.textures)
-    if (use.role == TextureRole::color && !named)
+    if (use.role == TextureRole::color && !hasMappings)
       writeTexture(writer, graph, use.texture, "", textureNames(use.texture));
-  writeTransforms(writer, appearance.textures, named);
+  writeTransforms(writer, appearance.textures, hasMappings);
   writer.close(element);
 }
 

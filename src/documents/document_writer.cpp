@@ -11,20 +11,19 @@ namespace imgeo {
 
 namespace {
 
-/// Maximum number of preload hints; more would compete with each other.
+/// Maximum number of preload hints; more would compete with each generic.
 constexpr std::size_t maxPreloads = 16;
 
-/// Collects the Shapes that are visible at the start. Children of LOD and Switch are left out, since the runtime
-/// chooses among them.
-void addVisibleShapes(const SceneGraph& graph, std::size_t node, std::set<std::size_t>& seen,
-                      std::vector<std::size_t>& shapes) {
-  const GenericNode* other = std::get_if<GenericNode>(&graph.nodes[node].content);
-  if (!seen.insert(node).second || (other && (other->element == "LOD" || other->element == "Switch")))
+/// Collects the Shapes outside of LOD and Switch, whose children the runtime chooses among.
+void addUnconditionalShapes(const SceneGraph& graph, std::size_t node, std::set<std::size_t>& seen,
+                            std::vector<std::size_t>& shapes) {
+  const GenericNode* generic = std::get_if<GenericNode>(&graph.nodes[node].content);
+  if (!seen.insert(node).second || (generic && (generic->element == "LOD" || generic->element == "Switch")))
     return;
   if (std::holds_alternative<Shape>(graph.nodes[node].content))
     shapes.push_back(node);
   for (const std::size_t child : graph.nodes[node].children)
-    addVisibleShapes(graph, child, seen, shapes);
+    addUnconditionalShapes(graph, child, seen, shapes);
 }
 
 /// The urls that the runtime requests first, in its order: base meshes; for geometries without one, the files of
@@ -39,7 +38,7 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::size_t> shapes;
   std::set<std::size_t> seen;
   for (const std::size_t root : document.graph.roots)
-    addVisibleShapes(document.graph, root, seen, shapes);
+    addUnconditionalShapes(document.graph, root, seen, shapes);
   const auto forEachGeometry = [&](auto visit) {
     for (const std::size_t node : shapes)
       visit(document.geometries.at(shapeOf(document.graph, node).mesh));
@@ -68,11 +67,11 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
   return urls;
 }
 
-std::string link(const char* relation, const std::string& url, const std::string& more = "") {
-  return std::string("    <link rel=\"") + relation + "\"" + more + " href=" + quoteAttribute(url) + ">\n";
+std::string link(const char* relation, const std::string& url, const std::string& attributes = "") {
+  return std::string("    <link rel=\"") + relation + "\"" + attributes + " href=" + quoteAttribute(url) + ">\n";
 }
 
-/// The page's text. `head` and `x3d` are whole lines.
+/// The text of a page. `head` and `x3d` are whole lines.
 std::string page(const SceneDocument& document, const std::string& head, const std::string& x3d) {
   return "<!doctype html>\n"
          "<html lang=\"en\">\n"
@@ -102,13 +101,13 @@ std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNod
 }
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
-  // In the order in which they are needed, the largest first: with HTTP/1.1 the first request is sent on the page's own
-  // connection, a round trip before all others.
+  // Modules that are needed at once come first: with HTTP/1.1 the first request is sent on the page's own connection, a
+  // round trip before all others.
   std::string head;
   for (const std::string& url : options.eagerModuleUrls)
     head += link("modulepreload", url);
   head += link("modulepreload", options.runtimeUrl) + link("stylesheet", options.stylesheetUrl);
-  // A base mesh is shown without these modules, which would compete with it for bandwidth.
+  // A base mesh is displayed without these modules, which would compete with it for bandwidth.
   const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
   if (std::ranges::none_of(document.geometries, hasBase))
     for (const std::string& url : options.deferredModuleUrls)
@@ -128,12 +127,12 @@ std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inli
 }
 
 std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl) {
-  const auto checked = [](const std::string& sum) {
+  const auto integrityAttributes = [](const std::string& sum) {
     return sum.empty() ? "" : " integrity=" + quoteAttribute(sum) + " crossorigin=\"anonymous\"";
   };
-  const std::string head = link("stylesheet", x3dom.stylesheetUrl, checked(x3dom.stylesheetIntegrity)) +
+  const std::string head = link("stylesheet", x3dom.stylesheetUrl, integrityAttributes(x3dom.stylesheetIntegrity)) +
                            link("stylesheet", stylesheetUrl) + "    <script src=" + quoteAttribute(x3dom.scriptUrl) +
-                           checked(x3dom.scriptIntegrity) + "></script>\n";
+                           integrityAttributes(x3dom.scriptIntegrity) + "></script>\n";
   return page(document, head, x3domElement(document, 2, DocumentKind::page));
 }
 

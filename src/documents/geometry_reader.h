@@ -1,5 +1,5 @@
 #pragma once
-// ImageGeometry and BinaryGeometry elements -> descriptions.
+// Reads ImageGeometry and BinaryGeometry elements into descriptions.
 
 #include "containers/geometry_description.h"
 #include "documents/field_reader.h"
@@ -9,9 +9,9 @@ namespace imgeo {
 /// Whether a node of this name holds a geometry of one of our encodings.
 bool isGeometryNode(const char* name);
 
-/// Reads a geometry node with its patches, in either form of docs/formats/nodes.md:
-/// GeometryPatch children, or the node as its own only patch with url fields or
-/// ImageTexture children. Throws Error for geometry that cannot be expressed by a Lattice.
+/// Reads a geometry node with its patches, in either form of docs/formats/nodes.md: GeometryPatch children, or one
+/// patch in url fields or ImageTexture children of the node itself. Throws Error for geometry that a Lattice cannot
+/// express.
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node);
 
 } // namespace imgeo

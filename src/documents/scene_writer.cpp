@@ -69,7 +69,7 @@ SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, Docum
   chooseNames();
 }
 
-/// Nodes choose first, and so keep the names that scripts refer to.
+/// Chooses DEF names. Nodes come first, and so keep the names that scripts refer to.
 void SceneWriter::chooseNames() {
   const SceneGraph& graph = document_.graph;
   std::vector<std::size_t> nodeUses(graph.nodes.size()), appearanceUses(graph.appearances.size()),
@@ -90,15 +90,15 @@ void SceneWriter::chooseNames() {
   }
   for (const std::size_t index : order) {
     const Node& node = graph.nodes[index];
-    nodeNames_[index] = table_.take(requestedName(node.name, nodeUses[index], "shared"));
+    nodeNames_[index] = defNames_.take(requestedName(node.name, nodeUses[index], "shared"));
   }
   for (std::size_t i = 0; i < appearanceUses.size(); ++i)
     if (appearanceUses[i] > 0)
-      appearanceNames_[i] = table_.take(requestedName(graph.appearances[i].name, appearanceUses[i], "look"));
+      appearanceNames_[i] = defNames_.take(requestedName(graph.appearances[i].name, appearanceUses[i], "look"));
   for (std::size_t i = 0; i < textureUses.size(); ++i)
-    textureNames_[i] = textureUses[i] < 2 ? "" : table_.take(requestedName(graph.textures[i].name, 2, "texture"));
+    textureNames_[i] = textureUses[i] < 2 ? "" : defNames_.take(requestedName(graph.textures[i].name, 2, "texture"));
   for (std::size_t i = 0; i < geometryUses.size(); ++i)
-    geometryNames_[i] = geometryUses[i] < 2 ? "" : table_.take("geometry");
+    geometryNames_[i] = geometryUses[i] < 2 ? "" : defNames_.take("geometry");
 }
 
 /// Whether the source has an element of this name.
@@ -109,7 +109,7 @@ bool SceneWriter::hasGenericNode(std::string_view element) const {
   });
 }
 
-void SceneWriter::writeHead() {
+void SceneWriter::writeSceneSettings() {
   const SceneGraph& graph = document_.graph;
   if (graph.isComplete)
     return;
@@ -125,8 +125,8 @@ void SceneWriter::writeHead() {
     writer_.leaf({"Background", {{{"skyColor", numbers(graph.background->skyColor)}}}});
 }
 
-/// Writes the head of an X3D file; in a page it would collide with HTML's head.
-void SceneWriter::writeHeader() {
+/// Writes the <head> of an X3D file; in a page it would collide with HTML's <head>.
+void SceneWriter::writeFileHead() {
   if (head_.header.empty() || kind_ == DocumentKind::page)
     return;
   const Element head{"head", {}};
@@ -142,9 +142,9 @@ std::string SceneWriter::write() {
     x3d.groups = {allowedFields(head_.fields)};
   const Element scene{"Scene", {}};
   writer_.open(x3d);
-  writeHeader();
+  writeFileHead();
   writer_.open(scene);
-  writeHead();
+  writeSceneSettings();
   for (const std::size_t root : roots_)
     writeNode(root);
   writer_.close(scene);
@@ -168,9 +168,9 @@ Attributes SceneWriter::furtherFields(const Node& node) const {
   return allowedFields(node.fields);
 }
 
-Attributes SceneWriter::allowedFields(const std::vector<FieldText>& all) const {
+Attributes SceneWriter::allowedFields(const std::vector<FieldText>& candidates) const {
   Attributes fields;
-  for (const FieldText& field : all) {
+  for (const FieldText& field : candidates) {
     if (kind_ == DocumentKind::file) {
       fields.push_back({field.name, field.value});
       continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the <X3D> element of pages and X3D files. A subclass writes shapes for another runtime.
+// Writes the <X3D> element of pages and X3D files. A subclass writes shapes for X3DOM (x3dom_writer.cpp).
 
 #include "documents/documents.h"
 #include "documents/element_writer.h"
@@ -38,14 +38,15 @@ protected:
   void writeChildren(const Node& node);
   /// The further fields of a node's element that are allowed in this kind of document.
   Attributes furtherFields(const Node& node) const;
-  Attributes allowedFields(const std::vector<FieldText>& all) const;
+  /// The given fields without those that are not allowed in this kind of document.
+  Attributes allowedFields(const std::vector<FieldText>& candidates) const;
 
   /// The DEF names of elements, and which of the elements have been written.
   class Names {
   public:
     Names(std::size_t count) : names_(count), written_(count) {}
     std::string& operator[](std::size_t index) { return names_[index]; }
-    /// The DEF at the first call, the USE from then on; nothing without a name.
+    /// At the first call for an element its DEF, from then on its USE; nothing for an element without a name.
     Attributes defOrUse(std::size_t index);
 
   private:
@@ -55,17 +56,18 @@ protected:
 
   const SceneDocument& document_;
   ElementWriter writer_;
-  DefNames table_;
+  DefNames defNames_;
   Names nodeNames_, appearanceNames_, textureNames_;
 
 private:
   void chooseNames();
-  void writeHeader();
+  void writeFileHead();
   void writeComment(const GenericNode& comment);
   Element elementOf(const Node& node, const Attributes& names) const;
-  Element genericElement(const GenericNode& other, const Node& node, const Attributes& names) const;
+  Element genericElement(const GenericNode& generic, const Node& node, const Attributes& names) const;
   bool hasGenericNode(std::string_view element) const;
-  void writeHead();
+  /// Writes WorldInfo, NavigationInfo and Background, unless the source has them.
+  void writeSceneSettings();
   void writeNode(std::size_t index);
   void writeAppearanceOf(const Shape& shape);
   void writeGeometryOf(const Shape& shape);
@@ -73,10 +75,10 @@ private:
   const std::vector<std::size_t>& roots_;
   const DocumentHead& head_;
   const DocumentKind kind_;
-  Names geometryNames_; ///< two for each geometry: solid and not solid
+  Names geometryNames_; ///< by 2 * mesh + !solid
 };
 
-/// Whether attributes are a USE.
+/// Whether the attributes are a USE instead of a DEF.
 bool isUse(const Attributes& names);
 
 } // namespace imgeo

@@ -30,7 +30,7 @@ class X3domWriter : public SceneWriter {
 public:
   X3domWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
               std::optional<std::size_t> inlineNode)
-      : SceneWriter(document, level, kind, inlineNode), sampling_(table_.take("exactTexels")),
+      : SceneWriter(document, level, kind, inlineNode), sampling_(defNames_.take("exactTexels")),
         emissiveNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
@@ -42,7 +42,7 @@ private:
     if (shape.appearance) { // needs a DEF, which all patches but the first USE
       std::string& name = appearanceNames(isEmissive(geometry.patches[0]))[*shape.appearance];
       if (name.empty())
-        name = table_.take(names.empty() ? "look" : names[0].value + "-look");
+        name = defNames_.take(names.empty() ? "look" : names[0].value + "-look");
     }
     const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
     writer_.open(group);

@@ -1,6 +1,6 @@
-// Weights of the triangles around a vertex: Gouraud, "Continuous shading of
-// curved surfaces", 1971 (uniform); Thürmer and Wüthrich, "Computing vertex
-// normals from polygonal facets", 1998 (angle).
+// Normals of vertices are weighted sums of those of the triangles around them. Weights: Gouraud, "Continuous shading of
+// curved surfaces", 1971 (uniform); Thürmer and Wüthrich, "Computing vertex normals from polygonal facets", 1998
+// (angle).
 
 #include "prepare/normals.h"
 
@@ -34,7 +34,7 @@ void computeNormals(Mesh& mesh, NormalWeighting weighting) {
     return mesh.wedgePositions[mesh.corners[corner]];
   });
 
-  // Gathered by position, not scattered by triangle, so that the order of each sum, and with it the last bit, does not
+  // Each sum is gathered by position, not scattered by triangle, so that its order, and with it its last bit, does not
   // depend on threads.
   std::vector<Vec3f> normals(mesh.positions.size());
   parallelForBlocks(normals.size(), [&](std::size_t begin, std::size_t end) {

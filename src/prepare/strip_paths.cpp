@@ -1,4 +1,4 @@
-// Simulated annealing (Kirkpatrick et al. 1983) of the cost of the strip: docs/decisions/strips.md.
+// Finds the paths of a strip of low cost by simulated annealing (Kirkpatrick et al. 1983): docs/decisions/strips.md.
 
 #include "prepare/strip_paths.h"
 
@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// Number of sweeps by effort. Time is proportional to it.
+/// Number of sweeps by effort 0 .. 9. The running time is proportional to it.
 constexpr int sweepCounts[] = {2, 3, 4, 5, 6, 8, 16, 32, 64, 128};
 
 /// Cools from a state in which paths change freely to one in which hardly any higher cost is accepted. A short search
@@ -43,25 +43,25 @@ private:
     return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
   }
 
-  /// The linked half-edge of a triangle that is not `entered`, or noHalfEdge.
-  std::uint32_t otherLink(std::uint32_t triangle, std::uint32_t entered) const {
+  /// The linked half-edge of a triangle besides `entryHalfEdge`, or noHalfEdge.
+  std::uint32_t otherLink(std::uint32_t triangle, std::uint32_t entryHalfEdge) const {
     for (std::uint32_t i = 0; i < 3; ++i)
-      if (3 * triangle + i != entered && links_.isLinked(triangle, i))
+      if (3 * triangle + i != entryHalfEdge && links_.isLinked(triangle, i))
         return 3 * triangle + i;
     return noHalfEdge;
   }
 
   void readFrom(std::uint32_t triangle) {
-    for (std::uint32_t entered = noHalfEdge;;) {
+    for (std::uint32_t entryHalfEdge = noHalfEdge;;) {
       isRead_[triangle] = true;
-      const std::uint32_t left = otherLink(triangle, entered);
-      paths_.halfEdges.push_back(left != noHalfEdge      ? left
-                                 : entered != noHalfEdge ? nextHalfEdge(entered)
-                                                         : 3 * triangle);
-      if (left == noHalfEdge)
+      const std::uint32_t exitHalfEdge = otherLink(triangle, entryHalfEdge);
+      paths_.halfEdges.push_back(exitHalfEdge != noHalfEdge    ? exitHalfEdge
+                                 : entryHalfEdge != noHalfEdge ? nextHalfEdge(entryHalfEdge)
+                                                               : 3 * triangle);
+      if (exitHalfEdge == noHalfEdge)
         break;
-      entered = opposites_[left];
-      triangle = entered / 3;
+      entryHalfEdge = opposites_[exitHalfEdge];
+      triangle = entryHalfEdge / 3;
     }
     paths_.ends.push_back(static_cast<std::uint32_t>(paths_.halfEdges.size()));
   }

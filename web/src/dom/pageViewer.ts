@@ -75,7 +75,7 @@ export class PageViewer {
   #textureTest: "needless" | "due" | "running" | "ended" = "needless";
   #loading: LoadingEvents;
   #isLoading = false;
-  #displayed: (NavigatedScene & { readonly levels: readonly LodInstance[] }) | undefined;
+  #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
   #hasAnchors = false;
   /** Depth of the current `read` of the core, each caused by LODs that the one before has changed. */
   #nestedReads = 0;
@@ -302,7 +302,7 @@ export class PageViewer {
   /** Reads the scene again where the camera's distance to a LOD asks for another level. */
   #followLods(): void {
     if (this.#displayed === undefined || this.#nestedReads > maxNestedLods) return;
-    const changed = this.#lods.update(this.#displayed.levels, this.navigator.pose.position);
+    const changed = this.#lods.update(this.#displayed.lods, this.navigator.pose.position);
     if (changed.length === 0) return;
     for (const lod of changed) this.#core.reader.touch(lod);
     this.#nestedReads += 1;

@@ -39,7 +39,7 @@ export class SceneContents {
   readonly #core: ViewerCore<AppShape>;
   readonly #groups: SceneGroups;
   readonly #billboards = new CameraObserver((camera) => {
-    this.#groups.turnBillboards(camera);
+    this.#groups.rotateBillboards(camera);
   });
   readonly #lods: SceneLod[] = [];
   /** The level that cameras need, by LOD. */

@@ -126,9 +126,9 @@ export class Preview {
     await Promise.all(files.map(({ downloaded: arrival }) => arrival));
     if (this.#state === "waiting") this.#state = "decoding";
     for (const { url, decoded: content } of files) this.#bases.set(url, (await content).bases);
-    beforeNextFrame((isUnseen) => {
+    beforeNextFrame((isHidden) => {
       try {
-        if (!isUnseen) this.#drawFirstTime();
+        if (!isHidden) this.#drawFirstTime();
       } finally {
         if (this.#state !== "drawn") this.end();
       }

@@ -1,4 +1,4 @@
-/** The WebGL2 context of a canvas; null where the browser has none. */
+/** The WebGL2 context of a canvas; null if the browser has none. */
 export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
   return canvas.getContext("webgl2", { alpha: true, antialias: true, powerPreference: "high-performance" });
 }

@@ -12,7 +12,7 @@ function* stepsOf(bytes: number[], note: (number: number) => void): Generator<nu
 
 /** Frames that come when the test says, and a clock on which each step takes a millisecond. */
 function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
-  let due: ((isUnseen: boolean) => void) | undefined;
+  let due: ((isHidden: boolean) => void) | undefined;
   let clock = 0;
   const done: string[] = [];
   const work = new FrameTaskQueue({
@@ -33,11 +33,11 @@ function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
         done.push(`${name}${number}`);
       }),
     /** What is done before the next frame; undefined where none was asked for. */
-    frame: (isUnseen = false): string[] | undefined => {
+    frame: (isHidden = false): string[] | undefined => {
       const callback = due;
       due = undefined;
       const before = done.length;
-      callback?.(isUnseen);
+      callback?.(isHidden);
       return callback && done.slice(before);
     },
   };

@@ -1,4 +1,4 @@
-// The attributes of a stage in vertex buffers, under the names that three.js gives them.
+// The vertex attributes of a stage in buffers, under three.js' names; three.js has no `vertexValue`.
 
 import type { BufferStage, StoredVertices } from "../../stage/stage.ts";
 import { isPairCode } from "../../stage/stage.ts";
@@ -7,7 +7,7 @@ import { isPairCode } from "../../stage/stage.ts";
 export interface VertexAttribute {
   readonly name: string;
   readonly vertices: StoredVertices;
-  /** Shaders read integers as 0 … 1 or -1 … 1, as three.js' `BufferAttribute.normalized` says. */
+  /** Whether shaders read integers as 0 … 1 or -1 … 1: three.js' `BufferAttribute.normalized`. */
   readonly isNormalized: boolean;
 }
 

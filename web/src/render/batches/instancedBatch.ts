@@ -1,4 +1,5 @@
-// Instanced draws: one draw of a stage, with one instance per visible member.
+// A batch of members that have the same draw of a stage: it is drawn with one instance per visible
+// member.
 
 import type { BufferGeometry, Frustum } from "three";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
@@ -10,11 +11,11 @@ import { maxInstancesOf, InstancedGeometry } from "./instancedGeometry.ts";
 export class InstancedBatch implements Batch {
   readonly #resources: BatchResources;
   readonly #geometries: GeometryPool;
-  readonly #shape: BufferGeometry;
+  readonly #geometry: BufferGeometry;
   readonly #passes: readonly number[];
   readonly #maxInstances: number;
   readonly #members = new Set<Member>();
-  /** The first ones have been drawn in the last frame; the others are invisible. */
+  /** The last frame used the first ones; the others are invisible. */
   readonly #calls: InstancedCall[] = [];
 
   constructor(resources: BatchResources, geometries: GeometryPool) {
@@ -22,13 +23,13 @@ export class InstancedBatch implements Batch {
       stage,
       ranges: [range],
     } = resources.draw;
-    const shape = range && geometries.acquire(stage)[stage.draws.indexOf(range)];
-    if (shape === undefined) throw new RangeError("the draw is not one of its stage");
+    const geometry = range && geometries.acquire(stage)[stage.draws.indexOf(range)];
+    if (geometry === undefined) throw new RangeError("the stage does not have this draw");
     this.#resources = resources;
     this.#geometries = geometries;
-    this.#shape = shape;
+    this.#geometry = geometry;
     this.#passes = passesOf(resources.draw);
-    this.#maxInstances = maxInstancesOf(shape);
+    this.#maxInstances = maxInstancesOf(geometry);
   }
 
   get isEmpty(): boolean {
@@ -48,7 +49,7 @@ export class InstancedBatch implements Batch {
   }
 
   invalidateBounds(): void {
-    // Every frame culls all members.
+    // Nothing is cached: every frame culls by the members' current bounds.
   }
 
   update(frustum: Frustum): void {
@@ -64,7 +65,7 @@ export class InstancedBatch implements Batch {
       const instanceIndices = members.flatMap(({ instanceIndex }) => this.#passes.map((pass) => instanceIndex + pass));
       for (let first = 0; first < instanceIndices.length; first += this.#maxInstances) {
         const indices = instanceIndices.slice(first, first + this.#maxInstances);
-        const call = (this.#calls[count] ??= new InstancedCall(this.#shape, this.#resources, indices.length));
+        const call = (this.#calls[count] ??= new InstancedCall(this.#geometry, this.#resources, indices.length));
         call.show(indices, order);
         count += 1;
       }
@@ -82,12 +83,12 @@ export class InstancedBatch implements Batch {
 /** One draw call, with the indices of its instances. */
 class InstancedCall {
   readonly object: DrawnObject;
-  readonly #shape: BufferGeometry;
+  readonly #geometry: BufferGeometry;
   #instances: InstancedGeometry;
 
-  constructor(shape: BufferGeometry, { addObject }: BatchResources, instanceCount: number) {
-    this.#shape = shape;
-    this.#instances = new InstancedGeometry(shape, instanceCount);
+  constructor(geometry: BufferGeometry, { addObject }: BatchResources, instanceCount: number) {
+    this.#geometry = geometry;
+    this.#instances = new InstancedGeometry(geometry, instanceCount);
     this.object = addObject(this.#instances.geometry);
   }
 
@@ -95,8 +96,8 @@ class InstancedCall {
     if (instanceIndices.length > this.#instances.capacity) {
       this.#instances.dispose();
       this.#instances = new InstancedGeometry(
-        this.#shape,
-        Math.min(maxInstancesOf(this.#shape), 2 * instanceIndices.length),
+        this.#geometry,
+        Math.min(maxInstancesOf(this.#geometry), 2 * instanceIndices.length),
       );
       this.object.geometry = this.#instances.geometry;
     }

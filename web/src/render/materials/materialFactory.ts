@@ -1,6 +1,6 @@
-// The interface behind which materials are made: for pages with X3D's lighting (x3dMaterials.ts),
-// for three.js apps with three.js' own materials (loader/standardMaterials.ts). Both read vertices
-// with the same shader chunk (shaders/vertexChunk.ts).
+// The interface of material factories. Pages have materials with X3D's lighting (x3dMaterials.ts),
+// three.js apps have three.js' own materials (loader/standardMaterials.ts). Both read vertices with
+// the same shader chunk (shaders/vertexChunk.ts).
 
 import type { Material, Vector2, Vector4 } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
@@ -11,7 +11,7 @@ import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 
 export interface MaterialFactory {
-  /** Rules for drawing several shapes with one call; undefined: each instance is an object of its own. */
+  /** Rules for drawing several shapes with one call; if undefined, each instance is an object of its own. */
   readonly batching: BatchingRules | undefined;
   makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): Material;
   /** Updates a material that this factory has made. */
@@ -50,8 +50,8 @@ export interface BatchingRules {
 }
 
 /**
- * Fragments with less alpha are discarded: they are invisible but would write depth and hide what is drawn later, as a
- * cornea the eye behind it.
+ * Fragments with less alpha are discarded: they are invisible, but would write depth and hide what is drawn behind them
+ * later, as a cornea would hide the eye.
  */
 export const minAlpha = 1 / 512;
 
@@ -78,7 +78,7 @@ export interface MaterialRequest extends VertexFormat {
   readonly primitive: DrawRange["primitive"];
   readonly shading: Shading;
   readonly colors: VertexColors;
-  /** True: back faces are culled. */
+  /** Whether back faces are culled. */
   readonly solid: boolean;
   /** As valueDefinesOf returns them. */
   readonly valueDefines: Readonly<Record<string, string>>;

@@ -1,5 +1,5 @@
-// Which X3D appearances one batch can show, and which of their numbers go into the instance
-// records.
+// The BatchingRules of X3D materials: which appearances can share a batch, and which of their values
+// are in the instance records.
 
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isBlended, unlitColorOf, opacityOf, litParametersOf } from "../../lighting/materialParameters.ts";
@@ -7,7 +7,8 @@ import { isLine } from "../primitives/primitives.ts";
 import type { VertexColors, MaterialRequest, Shading } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 
-export function blends(
+/** Whether a draw is blended: by the material, vertex colours or the colour texture. */
+export function isDrawBlended(
   appearance: AppearanceDescription,
   colors: VertexColors,
   surfaceTextures: SurfaceTextures,
@@ -15,7 +16,8 @@ export function blends(
   return isBlended(appearance, colors === "rgba" || surfaceTextures.get("color")?.hasAlpha === true);
 }
 
-export function keyOf(
+/** BatchingRules.materialKeyOf for X3D materials. */
+export function materialKeyOf(
   { primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">,
   appearance: AppearanceDescription,
   surfaceTextures: SurfaceTextures,
@@ -23,7 +25,7 @@ export function keyOf(
   const { material, points, lines, colorMap, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !instanceFieldNames.has(name));
   return JSON.stringify([
-    blends(appearance, colors, surfaceTextures),
+    isDrawBlended(appearance, colors, surfaceTextures),
     rest,
     others,
     Array.from(surfaceTextures, ([role, { texture }]) => [role, texture.uuid]).sort(),
@@ -33,7 +35,7 @@ export function keyOf(
   ]);
 }
 
-/** The material fields that `numbersOf` returns; the batch key leaves them out. */
+/** The material fields that `instanceNumbersOf` returns; the material key leaves them out. */
 const instanceFieldNames = new Set([
   "diffuseColor",
   "baseColor",
@@ -45,7 +47,9 @@ const instanceFieldNames = new Set([
   "roughness",
   "transparency",
 ]);
-export function numbersOf(
+
+/** BatchingRules.instanceNumbersOf for X3D materials. */
+export function instanceNumbersOf(
   { shading, colors }: { shading: Shading; colors: VertexColors },
   appearance: AppearanceDescription,
 ): readonly number[] {
@@ -57,10 +61,11 @@ export function numbersOf(
     material,
     colors !== "none",
   );
-  const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
-  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity, ...range, width];
+  const reflection = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
+  return [...color, opacity, ...reflection, ...material.emissiveColor, ambientIntensity, ...range, width];
 }
 
+/** Whether light has no effect. */
 export function isUnlit(shading: Shading): boolean {
   return shading === "unlit" || shading === "distance";
 }

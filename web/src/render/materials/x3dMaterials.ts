@@ -27,7 +27,7 @@ import { followViewport } from "../shaders/wideLineChunk.ts";
 import type { ExtraMapUniforms } from "./x3dMaps.ts";
 import { setTextureMaps, makeExtraMapUniforms, textureMapChunks, x3dMaterialChunk, unlitDefine } from "./x3dMaps.ts";
 import { setColor } from "../lights/linearColor.ts";
-import { blends, isUnlit, keyOf, numbersOf } from "./x3dBatching.ts";
+import { instanceNumbersOf, isDrawBlended, isUnlit, materialKeyOf } from "./x3dBatching.ts";
 
 const x3dLightingChunk = /* glsl */ `
 varying vec3 vViewPosition;
@@ -55,9 +55,9 @@ export const x3dMaterials: MaterialFactory = {
   applyAppearance,
   prepareObject: () => undefined,
   batching: {
-    materialKeyOf: keyOf,
-    instanceNumbersOf: numbersOf,
-    isBlended: ({ colors }, appearance, surfaceTextures) => blends(appearance, colors, surfaceTextures),
+    materialKeyOf,
+    instanceNumbersOf,
+    isBlended: ({ colors }, appearance, surfaceTextures) => isDrawBlended(appearance, colors, surfaceTextures),
   },
 };
 
@@ -127,7 +127,7 @@ function applyAppearance(
   material.opacity = opacityOf(appearance);
   setTextureMaps(x3dMaterial, description, surfaceTextures, isLit ? x3dMaterial.userData.lit : undefined);
   setGlyphDefine(material, appearance);
-  const isTransparent = blends(appearance, colors, surfaceTextures);
+  const isTransparent = isDrawBlended(appearance, colors, surfaceTextures);
   if (material.transparent !== isTransparent) material.needsUpdate = true;
   material.transparent = isTransparent;
   material.alphaTest = isTransparent ? minAlpha : alphaTestOf(appearance);

@@ -93,7 +93,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       implicitWidth: { value: 4 },
       gridSize: { value: [0, 0] },
       isGridClosed: { value: false },
-      largestStored: { value: 65535 },
+      maxStoredValue: { value: 65535 },
       firstSequenceIndex: { value: 0 },
       isStrip: { value: false },
       colorHasAlpha: { value: false },

@@ -15,8 +15,8 @@ import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./w
 import { replaceChunks } from "./replaceChunks.ts";
 import { imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
 
-// three.js shades flat where a geometry has no normal attribute.
-const ownNormalsChunk = /* glsl */ `
+// three.js defines FLAT_SHADED if a geometry has no normal attribute, even if an image has normals.
+const imageNormalsChunk = /* glsl */ `
 #ifdef ${imageNormalsDefine}
 #undef FLAT_SHADED
 #endif
@@ -43,9 +43,9 @@ float pointSizeAt(float distance) {
 
 #if defined(OCTAHEDRAL_NORMALS)
 
-// Meyer et al. 2010; the largest number counts as the one before it, so that the axes are exact.
+// Octahedral encoding (Meyer et al. 2010). The maximum is treated as the number below it, so that the axes are exact.
 vec3 unitOf(vec2 pair) {
-  vec2 p = min(pair, NORMAL_LARGEST - 1.0) * (2.0 / (NORMAL_LARGEST - 1.0)) - 1.0;
+  vec2 p = min(pair, NORMAL_MAX - 1.0) * (2.0 / (NORMAL_MAX - 1.0)) - 1.0;
   vec3 unit = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   if (unit.z < 0.0) unit.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
   return normalize(unit);
@@ -54,7 +54,7 @@ vec3 unitOf(vec2 pair) {
 #elif defined(SPHERICAL_NORMALS)
 
 vec3 unitOf(vec2 pair) {
-  vec2 angles = PI * vec2(2.0, 1.0) * pair / NORMAL_LARGEST - vec2(PI, 0.0);
+  vec2 angles = PI * vec2(2.0, 1.0) * pair / NORMAL_MAX - vec2(PI, 0.0);
   return vec3(sin(angles.y) * cos(angles.x), sin(angles.y) * sin(angles.x), cos(angles.y));
 }
 
@@ -73,7 +73,7 @@ uniform bool isIndexWide;
 uniform int implicitWidth;
 uniform ivec2 gridSize;
 uniform bool isGridClosed;
-uniform float largestStored;
+uniform float maxStoredValue;
 uniform int firstSequenceIndex;
 uniform bool isStrip;
 uniform int lineCount;
@@ -81,22 +81,22 @@ uniform bool colorHasAlpha;
 
 #ifdef GRID
 
-// Two triangles per cell, counter-clockwise where columns run right and rows down. The last column
-// of a closed grid is followed by its first.
+// Two triangles per cell, counter-clockwise if columns run right and rows down. In a closed grid, the
+// first column follows the last.
 int gridVertex(int drawVertexIndex) {
   int cell = drawVertexIndex / 6;
   int corner = drawVertexIndex % 6;
   int cellsAcross = isGridClosed ? gridSize.x : gridSize.x - 1;
-  ivec2 away = corner == 0 ? ivec2(0, 0) : corner == 1 || corner == 3 ? ivec2(0, 1)
+  ivec2 offset = corner == 0 ? ivec2(0, 0) : corner == 1 || corner == 3 ? ivec2(0, 1)
     : corner == 2 || corner == 5 ? ivec2(1, 0) : ivec2(1, 1);
-  ivec2 at = ivec2(cell % cellsAcross, cell / cellsAcross) + away;
+  ivec2 at = ivec2(cell % cellsAcross, cell / cellsAcross) + offset;
   return at.y * gridSize.x + at.x % gridSize.x;
 }
 
 #endif
 
 // three.js draws no triangle strips, so they are drawn as separate triangles: triangle t is t, t +
-// 1, t + 2, with the first two exchanged where t is odd.
+// 1, t + 2, with the first two exchanged if t is odd.
 int sequenceIndex(int drawVertexIndex) {
   #ifdef GRID
     return gridVertex(drawVertexIndex);
@@ -113,7 +113,8 @@ vec4 texelOf(sampler2D image, int first, int n) {
   return texelFetch(image, ivec2((first + n) % width, (first + n) / width), 0);
 }
 
-// Sequence indices stand in rows of implicitWidth, which may be less than the image's width.
+// The texel of a sequence index. Sequence indices are stored in rows of implicitWidth, which may be
+// less than the image's width.
 int texelIndex(sampler2D image, int n) {
   return (n / implicitWidth) * textureSize(image, 0).x + n % implicitWidth;
 }
@@ -136,8 +137,7 @@ int recordIndex(int drawVertexIndex) {
   return texel.y * size.x + texel.x;
 }
 
-// The texel of a record that has one texel: without an index, records stand in rows of
-// implicitWidth.
+// The texel of a record. Without an index, records are stored in rows of implicitWidth.
 int recordTexelIndex(int record) {
   return hasIndex ? record : texelIndex(coordImage0, record);
 }
@@ -150,8 +150,8 @@ vec3 storedPosition(int record) {
   if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
   vec3 position = vec3(stored) + missingBytesMidpoint;
   #ifdef GRID_HEIGHTS
-    vec2 across = vec2(record % gridSize.x, record / gridSize.x) * largestStored / vec2(gridSize - 1);
-    return vec3(across.x, position.x, across.y);
+    vec2 xz = vec2(record % gridSize.x, record / gridSize.x) * maxStoredValue / vec2(gridSize - 1);
+    return vec3(xz.x, position.x, xz.y);
   #else
     return position;
   #endif
@@ -159,9 +159,9 @@ vec3 storedPosition(int record) {
 
 #ifdef GRID_NORMALS
 
-// Differences between the neighbours on both sides; at a border, the vertex itself is one of them.
-// Divided by the step because the caller multiplies by it.
-vec3 slopeAt(ivec2 at) {
+// The normal from differences between the neighbours on both sides; at a border, the vertex itself is
+// one of them. Divided by the step because the caller multiplies by it.
+vec3 differenceNormal(ivec2 at) {
   ivec2 last = gridSize - 1;
   int left = isGridClosed ? (at.x + last.x) % gridSize.x : max(at.x - 1, 0);
   int right = isGridClosed ? (at.x + 1) % gridSize.x : min(at.x + 1, last.x);
@@ -171,19 +171,19 @@ vec3 slopeAt(ivec2 at) {
   return cross(down, along) / latticeStep;
 }
 
-// At a pole all vertices of a row are one point; the normal comes from the next row.
-vec3 slopeNormal(int record) {
+// At a pole, where all vertices of a row are one point, the normal is that of the next row.
+vec3 gridNormal(int record) {
   ivec2 at = ivec2(record % gridSize.x, record / gridSize.x);
-  vec3 slope = slopeAt(at);
-  return slope != vec3(0.0) ? slope : slopeAt(ivec2(at.x, at.y == 0 ? 1 : at.y - 1));
+  vec3 normal = differenceNormal(at);
+  return normal != vec3(0.0) ? normal : differenceNormal(ivec2(at.x, at.y == 0 ? 1 : at.y - 1));
 }
 
 #endif
 
 vec3 readNormal(int record) {
   #ifdef GRID_NORMALS
-    return slopeNormal(record);
-  #elif defined(NORMAL_LARGEST)
+    return gridNormal(record);
+  #elif defined(NORMAL_MAX)
     ivec2 size = textureSize(normalImage, 0);
     int first = firstTexels.y;
     return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
@@ -193,7 +193,7 @@ vec3 readNormal(int record) {
   #endif
 }
 
-// 16-bit words: red and blue are the bytes of u, green and alpha those of v.
+// Two 16-bit words: red and blue are the bytes of u, green and alpha those of v.
 vec2 readTexCoord(int record) {
   #ifdef HAS_TEX_COORDS
     vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexelIndex(record)) * 255.0;
@@ -203,7 +203,7 @@ vec2 readTexCoord(int record) {
   #endif
 }
 
-// Index in the draw of a vertex, or of one end of a wide line.
+// Index of the vertex in its draw; of a wide line, that of its start (0) or end (1).
 int drawVertexIndex(int end) {
   #ifdef ${wideLinesDefine}
     return gl_InstanceID % lineCount * ${wideLinesDefine} + end;
@@ -225,7 +225,7 @@ vec3 unitNormal(vec3 normal) {
   #if defined(NORMAL_WORDS)
     float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's format, in records of Int16
     return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
-  #elif defined(NORMAL_LARGEST)
+  #elif defined(NORMAL_MAX)
     return unitOf(normal.xy);
   #elif defined(NORMAL_BYTES)
     return normal * 2.0 - 1.0;
@@ -287,7 +287,7 @@ export function addVertexReading(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
   shader.fragmentShader =
-    ownNormalsChunk +
+    imageNormalsChunk +
     instanceFragmentChunk +
     dashChunk +
     replaceChunks(shader.fragmentShader, [
@@ -295,14 +295,14 @@ export function addVertexReading(
       ["void main() {", discardFacesChunk],
     ]);
   shader.vertexShader =
-    ownNormalsChunk +
+    imageNormalsChunk +
     replaceChunks(shader.vertexShader, [
       ["#include <common>", `#include <common>\n${readVertexChunk}${instanceVertexChunk}${wideLineChunk}`],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],
       ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\napplyInstance();\nwidenLine();`],
       ["#include <color_vertex>", colorChunk],
-      // Normals are in the shape's coordinates.
+      // Normals are stored in the shape's coordinates, positions in those of the lattice.
       ["#include <beginnormal_vertex>", "vec3 objectNormal = instanceNormal(vertex.normal);"],
       ["#include <begin_vertex>", "vec3 transformed = instancePosition(vertex.position);"],
     ]);

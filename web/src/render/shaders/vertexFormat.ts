@@ -53,7 +53,7 @@ export interface ImageVertexUniforms extends VertexUniforms {
   gridSize: IUniform<[number, number]>;
   isGridClosed: IUniform<boolean>;
   /** The stored integer of the far side of the bounding box. */
-  largestStored: IUniform<number>;
+  maxStoredValue: IUniform<number>;
   /** The sequence index at which the draw begins, and whether it is a strip. */
   firstSequenceIndex: IUniform<number>;
   isStrip: IUniform<boolean>;
@@ -108,7 +108,7 @@ export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<strin
   if (!isPairCode(code)) return code.kind === "byteVector" ? { NORMAL_BYTES: "" } : {};
   return {
     [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
-    NORMAL_LARGEST: `${2 ** code.bits - 1}.0`,
+    NORMAL_MAX: `${2 ** code.bits - 1}.0`,
     ...(isWord && { NORMAL_WORDS: "" }),
   };
 }

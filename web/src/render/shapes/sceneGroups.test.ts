@@ -37,8 +37,8 @@ class Watched {
 
   /** Everything that a renderer can see. */
   get seen(): unknown {
-    this.graph.turnBillboards(viewer);
-    const { box, boundedGroups, viewpoints, levels, lightUniforms, root } = this.graph;
+    this.graph.rotateBillboards(viewer);
+    const { box, boundedGroups, viewpoints, lods, lightUniforms, root } = this.graph;
     const groups = (of: Object3D): string =>
       of.children
         .map((group) => [group.type, group.visible, group.matrixWorld.elements, groups(group)].join(" "))
@@ -51,7 +51,7 @@ class Watched {
       box,
       bounded: boundedGroups.map((each) => each.box),
       viewpoints,
-      levels,
+      lods,
       lightUniforms,
       shapes: shapes.sort(),
       groups: groups(root),
@@ -225,7 +225,7 @@ test("a billboard turns its z axis to the viewer, together with its content", ()
     const camera = new PerspectiveCamera();
     camera.position.set(...eye);
     camera.updateMatrixWorld();
-    watched.graph.turnBillboards(camera);
+    watched.graph.rotateBillboards(camera);
     const [{ group } = { group: undefined }] = watched.shapes.values();
     return new Vector3()
       .setFromMatrixPosition(group?.matrixWorld ?? viewer.matrixWorld)

@@ -21,17 +21,18 @@ import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
 
-/** Receives the shape instances of a scene. The world matrix of the given group is up to date. */
+/** Receives the shape instances of a scene. World matrices of the groups it gets are up to date. */
 export interface ShapeInstanceListener {
-  /** The shape has one more instance. */
+  /** Called for a new instance of a shape. */
   onEnter(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
-  /** The description, the transform or the light scope of the instance has changed. */
+  /** Called when the description, the transform or the light scope of an instance has changed. */
   onChange(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
+  /** Called when an instance has been removed. */
   onLeave(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
-  /** The object for a group of the scene; undefined: a plain Group. */
+  /** Makes the object for a group of the scene; if it returns undefined, a plain Group is made. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
-  /** The instance has turned with a billboard around it. */
-  onTurn?(shape: ShapeDescription, group: ShapeGroup): void;
+  /** Called when a billboard around the instance has rotated. */
+  onRotate?(shape: ShapeDescription, group: ShapeGroup): void;
 }
 
 /** A visible group with a bounding box, in scene coordinates. */
@@ -44,11 +45,11 @@ export class SceneGroups implements InstanceTreeListener {
   readonly root = new Group();
   readonly #tree = new InstanceTree(this);
   readonly #groups = new Map<NodeInstance, Object3D>();
-  /** Those of shape instances. */
+  /** The groups of shape instances. */
   readonly #shapeGroups = new Map<NodeInstance, ShapeGroup>();
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
   readonly #shapes: ShapeInstanceListener;
-  #placedLights: readonly LightInstance[] = [];
+  #lightInstances: readonly LightInstance[] = [];
   #lights: SceneLights = makeLights([]);
   #boundedGroups: readonly BoundedGroup[] = [];
 
@@ -73,11 +74,11 @@ export class SceneGroups implements InstanceTreeListener {
     return this.#tree.root.summary.viewpoints;
   }
 
-  get levels(): readonly LodInstance[] {
+  get lods(): readonly LodInstance[] {
     return this.#tree.root.summary.lods;
   }
 
-  /** Visible ones. */
+  /** Visible Anchors. */
   get anchors(): readonly AnchorDescription[] {
     return this.#tree.root.summary.anchors;
   }
@@ -96,22 +97,22 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   /**
-   * Follows a new description of the scene. Returns whether light scopes have been renumbered, also for instances that
-   * the listener gets no call for.
+   * Follows a new description of the scene. Returns whether light scopes have been renumbered, even of instances for
+   * which the listener is not called.
    */
   follow(root: GroupDescription): boolean {
-    const { summary: reach } = this.#tree.update(root).root;
-    this.#boundedGroups = reach.boundedGroups.flatMap((node) => {
+    const { summary } = this.#tree.update(root).root;
+    this.#boundedGroups = summary.boundedGroups.flatMap((node) => {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
     });
-    const areRenumbered = numberLightScopes(reach.lightScopes);
-    if (!areRenumbered && deepEqual(reach.lights, this.#placedLights)) return false;
-    this.#placedLights = reach.lights;
+    const areLightScopesRenumbered = numberLightScopes(summary.lightScopes);
+    if (!areLightScopesRenumbered && deepEqual(summary.lights, this.#lightInstances)) return false;
+    this.#lightInstances = summary.lights;
     this.#lights.root.removeFromParent();
-    this.#lights = makeLights(reach.lights);
+    this.#lights = makeLights(summary.lights);
     this.root.add(this.#lights.root);
-    return areRenumbered;
+    return areLightScopesRenumbered;
   }
 
   /** Whether the scene has billboards. */
@@ -120,26 +121,26 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   /** Call before a frame: turns billboards to the camera, whose matrix must be up to date. */
-  turnBillboards({ matrixWorld }: Camera): void {
+  rotateBillboards({ matrixWorld }: Camera): void {
     for (const node of this.#tree.root.summary.billboards) {
       const group = this.#groups.get(node);
       if (!group?.parent || node.description.kind !== "group") continue;
       const parentFromScene = group.parent.matrixWorld.clone().invert();
       const eye = new Vector3().setFromMatrixPosition(matrixWorld).applyMatrix4(parentFromScene);
       const up = new Vector3().setFromMatrixColumn(matrixWorld, 1).transformDirection(parentFromScene);
-      const turn = billboardRotation(node.description.billboardAxis ?? [0, 1, 0], eye, up);
-      if (turn.equals(group.matrix)) continue;
-      group.matrix.copy(turn);
+      const rotation = billboardRotation(node.description.billboardAxis ?? [0, 1, 0], eye, up);
+      if (rotation.equals(group.matrix)) continue;
+      group.matrix.copy(rotation);
       this.#updateMatrices(node);
     }
   }
 
-  /** A billboard around the node has turned. */
+  /** Updates world matrices of a node and its descendants, after a billboard around it has rotated. */
   #updateMatrices(node: NodeInstance): void {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup && node.description.kind === "shape") {
       shapeGroup.updateMatrixWorld(true);
-      this.#shapes.onTurn?.(node.description, shapeGroup);
+      this.#shapes.onRotate?.(node.description, shapeGroup);
       return;
     }
     const group = this.#groups.get(node);
@@ -163,7 +164,7 @@ export class SceneGroups implements InstanceTreeListener {
     const { description } = node;
     const group = this.#groups.get(node);
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
-    this.#describe(description, group, hasMoved);
+    this.#applyDescription(description, group, hasMoved);
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup) shapeGroup.lightScope = node.lightScope;
     if (shapeGroup && description.kind === "shape" && before.kind === "shape")
@@ -183,17 +184,17 @@ export class SceneGroups implements InstanceTreeListener {
     this.#groups.set(node, group);
     const parent = node.parent === undefined ? this.root : this.#groups.get(node.parent);
     parent?.add(group);
-    this.#describe(description, group, true);
+    this.#applyDescription(description, group, true);
   }
 
-  #describe(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+  #applyDescription(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
     if (description.kind === "group" && description.anchor) this.#anchors.set(group, description.anchor);
     else this.#anchors.delete(group);
-    describe(description, group, hasMoved);
+    applyDescription(description, group, hasMoved);
   }
 }
 
-function describe(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+function applyDescription(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
   group.visible = description.visible;
   if (!hasMoved) return;
   if (description.kind === "shape") {
@@ -202,6 +203,6 @@ function describe(description: GroupDescription | ShapeDescription, group: Objec
   }
   if (description.transform) group.matrix.copy(matrixOf(description.transform));
   else group.matrix.identity();
-  // Groups below it are visited next.
+  // Not those of groups below it, which are visited next.
   if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
 }

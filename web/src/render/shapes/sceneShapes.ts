@@ -1,4 +1,4 @@
-// The drawn shapes of a scene, by their elements, with their groups and bounds.
+// Holds the drawn shapes of a scene by their elements, with their groups and bounds.
 
 import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Material, Vector3 } from "three";
@@ -29,14 +29,14 @@ import { ShapeObject } from "./shapeObject.ts";
 import { isVisibleInScene } from "./visibility.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 
-/** What a scene contains, in scene coordinates. */
+/** The content of a scene, in scene coordinates. */
 export interface BuiltScene {
-  /** Around all visible shapes. */
+  /** The bounding sphere of all visible shapes. */
   readonly sphere: Sphere;
   /** In document order. */
   readonly viewpoints: readonly ViewpointInstance[];
-  readonly levels: readonly LodInstance[];
-  /** Visible ones. */
+  readonly lods: readonly LodInstance[];
+  /** Visible Anchors. */
   readonly anchors: readonly AnchorDescription[];
   readonly changes: SceneChanges;
 }
@@ -48,15 +48,16 @@ export class SceneShapes {
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #plan = new BatchingPlan();
   #changes = new ShapeChanges();
-  /** Shapes with bounds that only their vertices tell. */
+  /** Shapes whose document does not state their bounds, so that their vertices determine them. */
   readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
   #boundedGroups: readonly BoundedGroup[] = [];
-  /** Bounds by the document, and these extended by bounds of vertices. */
+  /** The bounds that the document states. */
   #documentBox = new Box3();
+  /** The same bounds, extended by those of vertices. */
   #box = new Box3();
-  /** In CSS pixels. */
-  #widestLine = 0;
+  /** Maximum width of lines in CSS pixels. */
+  #maxLineWidth = 0;
 
   /** Adds its objects to `scene`. */
   constructor(scene: Object3D, context: ShapeContext & { readonly batches: Batches }) {
@@ -81,7 +82,7 @@ export class SceneShapes {
         if (shape.geometry) this.#plan.remove(shape.geometry);
         this.#changes.recordRemoved(shape, instance);
       },
-      onTurn: (shape, group) => {
+      onRotate: (shape, group) => {
         this.#objectOf(shape).updateInstance(group);
       },
     });
@@ -93,43 +94,40 @@ export class SceneShapes {
     return this.#plan;
   }
 
-  /** No shape displays anything yet. */
+  /** Whether no shape displays anything yet. */
   get isEmpty(): boolean {
     for (const { isEmpty } of this.#shapes.values()) if (!isEmpty) return false;
     return true;
   }
 
-  /** Around all visible shapes, in scene coordinates. Grows with bounds that only vertices tell. */
+  /** The bounding sphere of all visible shapes, in scene coordinates. Grows when vertices arrive outside it. */
   get sphere(): Sphere {
     return this.#sphere;
   }
 
-  /** Maximum width of points and lines in CSS pixels; 0 where no shape sets one. */
+  /** Maximum width of points and lines in CSS pixels; 0 if no shape sets one. */
   get maxWidth(): number {
-    let largest = 0;
-    for (const { maxWidth: largestWidth } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
-    return largest;
+    return Array.from(this.#shapes.values()).reduce((widest, { maxWidth }) => Math.max(widest, maxWidth), 0);
   }
 
   /**
-   * Displays this scene from now on. Shapes that have been removed, or have another geometry, free their GPU
-   * resources.
+   * Replaces the scene. GPU resources of shapes that it no longer has, or that have another geometry, are freed.
    */
   setScene(description: SceneDescription): BuiltScene {
-    const areRenumbered = this.#graph.follow(description.root);
+    const areLightScopesRenumbered = this.#graph.follow(description.root);
     this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
-    if (areRenumbered) this.#batches.followAll();
-    const { box, boundedGroups, viewpoints, levels, anchors } = this.#graph;
+    if (areLightScopesRenumbered) this.#batches.followAll();
+    const { box, boundedGroups, viewpoints, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
       this.#documentBox = box.clone();
       this.#box = box.clone();
       this.#sphere = sphereAround(box);
     }
-    for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#grow(object, bounds);
+    for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#extendBounds(object, bounds);
     this.#batches.sync(this.#sphere);
-    return { sphere: this.#sphere, viewpoints, levels, anchors, changes };
+    return { sphere: this.#sphere, viewpoints, lods, anchors, changes };
   }
 
   #setLights({ attenuations, lightScopeRanges, scopedAmbients }: SceneLightUniforms): void {
@@ -147,32 +145,32 @@ export class SceneShapes {
     const changes = this.#changes;
     this.#changes = new ShapeChanges();
     const shapes = new Map<SceneElement, ShapeDescription>();
-    const gone: SceneElement[] = [];
+    const removed: SceneElement[] = [];
     for (const [element, shape] of changes.shapes) {
       const object = this.#objectOf(shape);
       if (!object.hasInstances) {
         object.dispose();
         this.#shapes.delete(element);
         this.#unbounded.delete(object);
-        gone.push(element);
+        removed.push(element);
         continue;
       }
       object.setShape(shape);
       if (shape.geometry) object.setDrawModes(this.#plan.drawModesOf(shape.geometry));
       shapes.set(element, { ...shape, visible: object.isVisible });
     }
-    const others = this.#plan.takeChanged();
-    if (others.size > 0) {
+    const changedGeometries = this.#plan.takeChanged();
+    if (changedGeometries.size > 0) {
       for (const object of this.#shapes.values())
-        if (object.geometry && others.has(object.geometry))
+        if (object.geometry && changedGeometries.has(object.geometry))
           object.setDrawModes(this.#plan.drawModesOf(object.geometry));
     }
     if (changes.shapes.size > 0)
-      this.#widestLine = Array.from(this.#shapes.values()).reduce(
-        (widest, { lineWidth }) => Math.max(widest, lineWidth),
+      this.#maxLineWidth = Array.from(this.#shapes.values()).reduce(
+        (maxWidth, { lineWidth }) => Math.max(maxWidth, lineWidth),
         0,
       );
-    return { shapes, removed: gone, instances: changes.instances };
+    return { shapes, removed, instances: changes.instances };
   }
 
   /** Replaces the stage of a patch of a shape. */
@@ -181,14 +179,14 @@ export class SceneShapes {
     object?.setStage(geometry, patch, stage);
     if (object === undefined || stage?.kind !== "buffers" || stage.bounds === undefined) return;
     this.#unbounded.add(object);
-    this.#grow(object, stage.bounds);
+    this.#extendBounds(object, stage.bounds);
   }
 
   setTexture(element: SceneElement, role: TextureRole, picture: SurfaceTexture | undefined): void {
     this.#shapes.get(element)?.setTexture(role, picture);
   }
 
-  /** Draws surfaces, or only their vertices. */
+  /** Whether to draw vertices as points in place of surfaces. */
   drawAsPoints(asPoints: boolean): void {
     if (asPoints === this.#context.drawing.asPoints) return;
     this.#context.drawing.asPoints = asPoints;
@@ -205,7 +203,7 @@ export class SceneShapes {
     return this.#graph.anchorAround(group);
   }
 
-  /** Visible and pickable draws. */
+  /** The draws of visible, pickable shapes. */
   *pickCandidates(): Generator<PickCandidate> {
     for (const object of this.#shapes.values()) if (object.isPickable) yield* visibleDraws(object);
   }
@@ -220,13 +218,13 @@ export class SceneShapes {
   }
 
   /**
-   * Call before a frame: turns billboards to the camera, and hides groups with bounds outside of the view. `picture`:
-   * width and height in CSS pixels.
+   * Call before a frame: turns billboards to the camera, and hides groups with bounds outside of the view.
+   * `canvasSize` is in CSS pixels.
    */
-  cull(camera: Camera, picture: readonly [width: number, height: number]): void {
+  cull(camera: Camera, canvasSize: readonly [width: number, height: number]): void {
     camera.updateMatrixWorld();
-    this.#graph.turnBillboards(camera);
-    const margin = picture.map((pixels) => this.#widestLine / pixels) as [number, number];
+    this.#graph.rotateBillboards(camera);
+    const margin = canvasSize.map((pixels) => this.#maxLineWidth / pixels) as [number, number];
     this.#batches.update(camera, margin);
     if (this.#boundedGroups.length === 0) return;
     const frustum = frustumOf(camera.projectionMatrix, camera.matrixWorldInverse, margin);
@@ -239,7 +237,7 @@ export class SceneShapes {
     this.#batches.dispose();
   }
 
-  #grow(object: ShapeObject, { min, max }: Bounds): void {
+  #extendBounds(object: ShapeObject, { min, max }: Bounds): void {
     for (const group of object.groups) {
       const box = new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(group.matrixWorld);
       if (isDrawable(box) && !this.#box.containsBox(box)) this.#sphere = sphereAround(this.#box.union(box));

@@ -6,16 +6,16 @@ import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import type { ShapeInstance } from "../../scene/instances.ts";
 
 export interface SceneChanges {
-  /** New and changed shapes by their elements; `visible` where one of their instances is. */
+  /** New and changed shapes by their elements; `visible` if one of their instances is visible. */
   readonly shapes: ReadonlyMap<SceneElement, ShapeDescription>;
-  /** Elements that are no shapes any more. */
+  /** Elements whose shapes have no instances any more. */
   readonly removed: readonly SceneElement[];
-  /** New, moved and changed instances; undefined where one has been removed. */
+  /** New, moved and changed instances; undefined for an instance that has been removed. */
   readonly instances: ReadonlyMap<NodeInstance, ShapeInstance | undefined>;
 }
 
 export class ShapeChanges {
-  /** As they were described last; some may have been removed. */
+  /** The last descriptions of changed shapes, including shapes that have been removed. */
   readonly shapes = new Map<SceneElement, ShapeDescription>();
   readonly instances = new Map<NodeInstance, ShapeInstance | undefined>();
 
@@ -24,7 +24,7 @@ export class ShapeChanges {
     this.instances.set(instance, { shape, sceneFromShape: instance.sceneFromNode, lightScope: instance.lightScope });
   }
 
-  /** The shape's other instances are unchanged, or are recorded themselves. */
+  /** Records that one instance of a shape has been removed; others may remain. */
   recordRemoved(shape: ShapeDescription, instance: NodeInstance): void {
     if (!this.shapes.has(shape.element)) this.shapes.set(shape.element, shape);
     this.instances.set(instance, undefined);

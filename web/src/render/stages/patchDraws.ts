@@ -14,7 +14,7 @@ import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
 import type { PatchContext } from "./patchContext.ts";
-import { setAppearance, uniformsOf } from "./stageUniforms.ts";
+import { setAppearanceUniforms, uniformsOf } from "./stageUniforms.ts";
 import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.ts";
 import { boundsOf } from "./stageBounds.ts";
 
@@ -102,7 +102,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     removeInstance: leave,
     applyAppearance(appearance, surfaceTextures) {
       displayed = { appearance, surfaceTextures };
-      setAppearance(uniforms.common, geometry, appearance);
+      setAppearanceUniforms(uniforms.common, geometry, appearance);
       for (const { materials, pick } of draws) {
         for (const material of materials.all)
           materialFactory.applyAppearance(material, appearance, colorsOf(stage), applicable(surfaceTextures));

@@ -1,5 +1,5 @@
-// Uniforms of a stage: where its vertices are stored, and what its appearance says of points, lines
-// and textures.
+// Makes the uniforms of a stage: where its vertices are stored, and how its appearance draws points,
+// lines and textures.
 
 import type { IUniform } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
@@ -23,6 +23,7 @@ import { colorsOf } from "./materialRequests.ts";
 export interface StageUniforms {
   /** Shared by all draws of the stage. */
   readonly common: VertexUniforms;
+  /** The uniforms of one draw of the stage. */
   of(range: DrawRange): VertexUniforms;
 }
 
@@ -48,8 +49,8 @@ export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
   };
 }
 
-/** Updates uniforms after a change of the appearance. */
-export function setAppearance(
+/** Updates the uniforms that depend on the appearance. */
+export function setAppearanceUniforms(
   uniforms: VertexUniforms,
   geometry: GeometryDescription,
   appearance: AppearanceDescription,
@@ -97,13 +98,13 @@ function imageUniformsOf(
   stage: TextureStage,
   textures: TextureProvider,
   common: VertexUniforms,
-  largestStored: number,
+  maxStoredValue: number,
 ): ImageVertexUniforms {
   const { index, coord, normal, color, texCoord } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({
     value: range ? textures.textureOf(range.image) : null,
   });
-  const first = (range: { firstTexel: number } | undefined) => range?.firstTexel ?? 0;
+  const firstTexelOf = (range: { firstTexel: number } | undefined) => range?.firstTexel ?? 0;
   return {
     ...common,
     indexImage: texture(index),
@@ -114,8 +115,10 @@ function imageUniformsOf(
     normalImage: texture(normal),
     colorImage: texture(color),
     texCoordImage: texture(texCoord),
-    firstTexels: { value: [first(index), first(normal), first(color), first(texCoord)] },
-    coordFirstTexels: { value: [first(coord[0]), first(coord[1]), first(coord[2]), first(coord[3])] },
+    firstTexels: { value: [firstTexelOf(index), firstTexelOf(normal), firstTexelOf(color), firstTexelOf(texCoord)] },
+    coordFirstTexels: {
+      value: [firstTexelOf(coord[0]), firstTexelOf(coord[1]), firstTexelOf(coord[2]), firstTexelOf(coord[3])],
+    },
     coordPlanes: { value: stage.coordPlaneCount },
     missingBytesMidpoint: { value: stage.missingBytesMidpoint },
     hasIndex: { value: index !== undefined },
@@ -123,7 +126,7 @@ function imageUniformsOf(
     implicitWidth: { value: stage.implicitWidth },
     gridSize: { value: [stage.grid?.columns ?? 0, stage.grid?.rows ?? 0] },
     isGridClosed: { value: stage.grid?.kind === "sculpt" },
-    largestStored: { value: largestStored },
+    maxStoredValue: { value: maxStoredValue },
     firstSequenceIndex: { value: 0 },
     isStrip: { value: false },
     lineCount: { value: 1 },
