@@ -1,4 +1,7 @@
-/** Bytes that are not what they claim to be. */
+/**
+ * An error in bytes that are decoded. The message is a predicate, such as "is interlaced", that follows the name of the
+ * file.
+ */
 export class DecodeError extends Error {
   override readonly name = "DecodeError";
   readonly kind: "truncated" | "malformed" | "unsupported" | "limit";

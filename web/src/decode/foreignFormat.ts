@@ -1,14 +1,14 @@
-// What a file is that should be a PNG: told to people, who can then mend it.
+// Names the format of a file that should be a PNG, for error messages that say how to fix it.
 
 interface Format {
   readonly name: string;
-  /** Where the letters stand. */
+  /** The byte offset of the magic bytes. */
   readonly offset: number;
-  /** Their bytes as text, one character each. */
+  /** The magic bytes as text, one character each. */
   readonly magic: string;
 }
 
-/** Formats that hosts and image optimisers put in place of a PNG. */
+/** Formats to which hosts and image optimisers convert PNG. */
 const formats: readonly Format[] = [
   { name: "a JPEG image", offset: 0, magic: "\xff\xd8\xff" },
   { name: "a WebP image", offset: 8, magic: "WEBP" },
@@ -17,9 +17,9 @@ const formats: readonly Format[] = [
   { name: "a BMP image", offset: 0, magic: "BM" },
 ];
 
-/** Undefined for what is none of the formats that we know by name. */
+/** The name of the format, with its article; undefined for an unknown format. */
 export function foreignFormatOf(bytes: Uint8Array): string | undefined {
   const begins = ({ offset, magic }: Format) =>
-    Array.from(magic).every((letter, index) => bytes[offset + index] === letter.charCodeAt(0));
+    Array.from(magic).every((character, index) => bytes[offset + index] === character.charCodeAt(0));
   return formats.find(begins)?.name;
 }

@@ -3,18 +3,18 @@ import { DecodeError } from "./decodeError.ts";
 import type { PngHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
 
-/** An image, and the number of channels in its file: browsers decode any to four. */
+/** An image, and the number of channels in its file: browsers decode every image to four. */
 export interface DataImage<Image extends DecodedImage = DecodedImage> {
   readonly image: Image;
   readonly channels: PngHeader["channels"];
 }
 
-/** Decodes a PNG to exactly its stored bytes; rejects where it cannot. */
+/** Decodes a PNG to exactly its stored bytes. Rejects if that is not possible. */
 export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuffer>) => Promise<Image>;
 
 /**
- * Checks and decodes a PNG. The image has the size that the header states.
- * Rejects with DecodeError; the image is then closed.
+ * Checks and decodes a PNG. The image has the size that the header states. Rejects with DecodeError; an image that was
+ * decoded is then closed.
  */
 export async function decodeImage<Image extends DecodedImage>(
   png: Uint8Array<ArrayBuffer>,
@@ -36,7 +36,7 @@ export async function decodeImage<Image extends DecodedImage>(
   );
 }
 
-/** The browser's decoder, without premultiplication and colour conversion. */
+/** Decodes with the browser, without premultiplication by alpha and colour conversion. */
 export async function decodeWithBrowser(png: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   return createImageBitmap(new Blob([png], { type: "image/png" }), {
     premultiplyAlpha: "none",

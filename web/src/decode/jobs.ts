@@ -27,7 +27,7 @@ export type JobName = keyof typeof jobs;
 export type InputOf<Name extends JobName> = Parameters<(typeof jobs)[Name]>[0];
 export type OutputOf<Name extends JobName> = Awaited<ReturnType<(typeof jobs)[Name]>>;
 
-/** Rejects with what the job throws, a DecodeError for bytes that are wrong, or with the signal's reason. */
+/** Runs a job. Rejects with the error of the job, a DecodeError where bytes are wrong, or with the signal's reason. */
 export type RunJob = <Name extends JobName>(
   name: Name,
   input: InputOf<Name>,

@@ -1,6 +1,6 @@
-// What we ask of a PNG before a browser decodes it (PNG specification, W3C 2003,
-// sections 5 and 11). A browser shows a 16-bit, a see-through or a half image as
-// best it can; in an image of vertex data each of these would be a silent wrong shape.
+// Checks a PNG of vertex data before it is decoded (PNG specification, W3C 2003, sections 5 and 11). A browser displays
+// a 16-bit, transparent or incomplete image as best it can; an image of vertex data would silently become a wrong
+// shape.
 
 import { DecodeError } from "./decodeError.ts";
 import { foreignFormatOf } from "./foreignFormat.ts";
@@ -8,23 +8,22 @@ import { foreignFormatOf } from "./foreignFormat.ts";
 export interface PngHeader {
   readonly width: number;
   readonly height: number;
-  /** Numbers that a texel holds: 1 gray, 3 RGB, also out of a palette, 4 RGBA. */
+  /** Numbers of a texel: 1 for gray, 3 for RGB and palettes, 4 for RGBA. */
   readonly channels: 1 | 3 | 4;
 }
 
-/** What readers of the format take (docs/formats/sig-classic.md). */
+/** Maximum width and height that readers of the format accept (docs/formats/sig-classic.md). */
 export const maxImageEdge = 4096;
 
 const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const headerLength = 13;
 const chunkOverhead = 12; // length, type, CRC
-/** By PNG colour type; one of 3 is a palette. */
+/** By PNG colour type; 3 is a palette. */
 const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0: 1, 2: 3, 3: 3, 6: 4 };
 
 /**
- * Checks that the bytes are one whole PNG of 8-bit gray, RGB, RGBA or of an opaque
- * palette, not interlaced, no edge longer than `maxEdge`, and gives its size.
- * Safe for untrusted bytes. Throws DecodeError.
+ * Checks that the bytes are one whole PNG of 8-bit gray, RGB, RGBA or an opaque palette, not interlaced, with no edge
+ * longer than `maxEdge`, and returns its size. Safe for untrusted bytes. Throws DecodeError.
  */
 export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): PngHeader {
   if (!signature.every((byte, index) => bytes[index] === byte)) {
@@ -43,9 +42,12 @@ export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): PngHeader {
   return readHeader(view, signature.length + 8, maxEdge);
 }
 
-/** The header first, at most one palette, the image's data in a row, and nothing else that a reader must know. */
+/**
+ * Throws unless the header is first, there is at most one palette, the chunks of image data are consecutive, and every
+ * other chunk is ancillary.
+ */
 function checkOrder(types: readonly string[]): void {
-  const isCritical = (type: string) => (type.charCodeAt(0) & 32) === 0; // its first letter is a capital
+  const isCritical = (type: string) => (type.charCodeAt(0) & 32) === 0; // its first letter is upper case
   if (types.slice(1).some((type) => isCritical(type) && !["PLTE", "IDAT", "IEND"].includes(type))) {
     throw new DecodeError("malformed", "has a chunk that no reader knows");
   }
@@ -77,7 +79,7 @@ function readHeader(view: DataView, offset: number, maxEdge: number): PngHeader 
   return { width, height, channels };
 }
 
-/** The chunks' types in order; throws unless they end with IEND exactly where the bytes end. */
+/** The types of the chunks in order. Throws unless IEND is the last chunk and ends exactly at the end of the bytes. */
 function chunkTypes(view: DataView): string[] {
   const types: string[] = [];
   let offset = signature.length;

@@ -1,6 +1,5 @@
-// Decodes a PNG to its stored bytes in JavaScript (PNG specification, W3C 2003,
-// sections 7 to 10): where a canvas would do it, browsers multiply by alpha, apply
-// colour profiles, and against fingerprinting add noise.
+// Decodes a PNG to its stored bytes in JavaScript (PNG specification, W3C 2003, sections 7 to 10). A canvas would not
+// return them: browsers multiply by alpha, apply colour profiles, and add noise against fingerprinting.
 
 import { DecodeError } from "./decodeError.ts";
 import type { PngHeader } from "./png.ts";
@@ -19,26 +18,27 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   const { width, height, channels } = checkPng(png);
   const chunks = chunksOf(png);
   const palette = chunks.find(({ type }) => type === "PLTE")?.data;
-  const isPalette = png[colorTypePlace] === 3;
+  const isPalette = png[colorTypeOffset] === 3;
   const rowLength = width * (isPalette ? 1 : channels);
   const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
-  for (const chunk of chunks) checkSum(chunk);
+  for (const chunk of chunks) checkCrc(chunk);
   if (isPalette && !isPaletteLength(palette?.length ?? 0))
     throw new DecodeError("malformed", "has no palette of 1 to 256 colours");
   const length = height * (1 + rowLength);
-  if (length > png.length * largestDeflateRatio)
+  if (length > png.length * maxDeflateRatio)
     throw new DecodeError("truncated", "is too short for the size in its header");
   const [only, ...others] = packed;
-  const filtered = (only && others.length === 0 ? stored(only, length) : undefined) ?? (await inflate(packed, length));
+  const filtered =
+    (only && others.length === 0 ? unpackStored(only, length) : undefined) ?? (await inflate(packed, length));
   const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
-  return { width, height, channels, data: isPalette ? throughPalette(data, palette ?? new Uint8Array()) : data };
+  return { width, height, channels, data: isPalette ? lookUpPalette(data, palette ?? new Uint8Array()) : data };
 }
 
 const signatureLength = 8;
-const colorTypePlace = 25;
+const colorTypeOffset = 25;
 
-/** Deflate makes at most so many bytes of one. */
-const largestDeflateRatio = 1032;
+/** The maximum number of bytes that deflate can encode in one byte. */
+const maxDeflateRatio = 1032;
 
 /** The chunks of a PNG that `checkPng` has accepted. */
 function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
@@ -59,52 +59,56 @@ const crcTable = Int32Array.from({ length: 256 }, (_, byte) => {
   return crc;
 });
 
-/** The sum behind a chunk's data is that of its type and its data. */
-function checkSum({ type, data }: { type: string; data: Uint8Array }): void {
+/** Throws unless the CRC after a chunk's data is that of its type and data. */
+function checkCrc({ type, data }: { type: string; data: Uint8Array }): void {
   const checked = new Uint8Array(data.buffer, data.byteOffset - 4, data.length + 4);
   let crc = -1;
   for (const byte of checked) crc = (crcTable[(crc ^ byte) & 255] ?? 0) ^ (crc >>> 8);
-  const stored = new DataView(data.buffer, data.byteOffset + data.length, 4).getInt32(0);
-  if (~crc !== stored) throw new DecodeError("malformed", `has a damaged ${type} chunk`);
+  const expectedCrc = new DataView(data.buffer, data.byteOffset + data.length, 4).getInt32(0);
+  if (~crc !== expectedCrc) throw new DecodeError("malformed", `has a damaged ${type} chunk`);
 }
 
 /**
- * What a zlib stream of stored blocks alone holds, as bytes do that nothing makes smaller (RFC 1950, RFC 1951,
- * section 3.2.4). Undefined for any other stream, and for one in which anything is wrong.
+ * Unpacks a zlib stream that consists of stored blocks only, as incompressible bytes do (RFC 1950, RFC 1951, section
+ * 3.2.4). Undefined for any other stream, and for one in which anything is wrong.
  */
-function stored(packed: Uint8Array, length: number): Uint8Array | undefined {
-  const sumLength = 4;
+function unpackStored(packed: Uint8Array, length: number): Uint8Array | undefined {
+  const checksumLength = 4;
   if (length > packed.length) return undefined;
   const view = new DataView(packed.buffer, packed.byteOffset, packed.byteLength);
   const bytes = new Uint8Array(length);
   let at = 2;
   let filled = 0;
   if (
-    packed.length < at + sumLength ||
+    packed.length < at + checksumLength ||
     (view.getUint8(0) & 15) !== 8 ||
     (view.getUint8(1) & 32) !== 0 ||
     view.getUint16(0) % 31 !== 0
   )
     return undefined;
   for (let isLast = false; !isLast;) {
-    if (at + 5 + sumLength > packed.length || view.getUint8(at) > 1) return undefined;
+    if (at + 5 + checksumLength > packed.length || view.getUint8(at) > 1) return undefined;
     isLast = view.getUint8(at) === 1;
     const size = view.getUint16(at + 1, true);
     const begin = at + 5;
     at = begin + size;
-    if ((view.getUint16(begin - 2, true) ^ size) !== 0xffff || at + sumLength > packed.length || filled + size > length)
+    if (
+      (view.getUint16(begin - 2, true) ^ size) !== 0xffff ||
+      at + checksumLength > packed.length ||
+      filled + size > length
+    )
       return undefined;
     bytes.set(packed.subarray(begin, at), filled);
     filled += size;
   }
-  return filled === length && at + sumLength === packed.length && view.getUint32(at) === adler32(bytes)
+  return filled === length && at + checksumLength === packed.length && view.getUint32(at) === adler32(bytes)
     ? bytes
     : undefined;
 }
 
 function adler32(bytes: Uint8Array): number {
   let [a, b] = [1, 0];
-  const run = 2048; // so many cannot overflow 31 bits
+  const run = 2048; // sums of this many bytes stay below 2^31
   for (let begin = 0; begin < bytes.length; begin += run) {
     const end = Math.min(begin + run, bytes.length);
     for (let n = begin; n < end; ++n) {
@@ -117,18 +121,18 @@ function adler32(bytes: Uint8Array): number {
   return b * 65536 + a;
 }
 
-/** A zlib stream of exactly `length` bytes; no more than that is ever unpacked. */
+/** Unpacks a zlib stream of exactly `length` bytes; memory is never taken for more. Rejects with DecodeError. */
 async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: number): Promise<Uint8Array> {
   const bytes = new Uint8Array(length);
   let filled = 0;
   const { writable, readable } = new DecompressionStream("deflate");
   const reader = readable.getReader();
-  feed(writable, packed).catch(() => undefined); // the reader is told the same
+  feed(writable, packed).catch(() => undefined); // the reader rejects with the same error
   try {
-    for (let part = await reader.read(); !part.done; part = await reader.read()) {
-      if (filled + part.value.length > length) throw new DecodeError("malformed", "holds more than its texels");
-      bytes.set(part.value, filled);
-      filled += part.value.length;
+    for (let chunk = await reader.read(); !chunk.done; chunk = await reader.read()) {
+      if (filled + chunk.value.length > length) throw new DecodeError("malformed", "holds more than its texels");
+      bytes.set(chunk.value, filled);
+      filled += chunk.value.length;
     }
   } catch (error) {
     await reader.cancel().catch(() => undefined);
@@ -139,14 +143,15 @@ async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: numbe
   return bytes;
 }
 
-async function feed(stream: WritableStream<BufferSource>, parts: readonly Uint8Array<ArrayBuffer>[]): Promise<void> {
+async function feed(stream: WritableStream<BufferSource>, chunks: readonly Uint8Array<ArrayBuffer>[]): Promise<void> {
   const writer = stream.getWriter();
-  for (const part of parts) await writer.write(part);
+  for (const chunk of chunks) await writer.write(chunk);
   await writer.close();
 }
 
 /**
- * Undoes the five filters of PNG, row by row: a byte is told relative to those left of it, above it, and left above it.
+ * Undoes the five filters of PNG, row by row. A byte is stored relative to the bytes to the left, above, and above to
+ * the left.
  */
 function unfiltered(
   filtered: Uint8Array,
@@ -173,7 +178,7 @@ function unfilterRow(
   above: Uint8Array,
   texelLength: number,
 ): void {
-  // Bytes left of the first texel count as 0; typed arrays wrap at 256 as PNG does.
+  // Bytes to the left of the first texel count as 0. Typed arrays wrap at 256, as PNG requires.
   const at = (bytes: Uint8Array, n: number) => (n < 0 ? 0 : (bytes[n] ?? 0));
   const length = source.length;
   switch (filter) {
@@ -199,6 +204,7 @@ function unfilterRow(
   }
 }
 
+/** The Paeth predictor (PNG specification, section 9.4). */
 function paeth(left: number, above: number, corner: number): number {
   const guess = left + above - corner;
   const toLeft = Math.abs(guess - left);
@@ -212,10 +218,11 @@ function isPaletteLength(length: number): boolean {
   return length > 0 && length <= 3 * 256 && length % 3 === 0;
 }
 
-function throughPalette(numbers: Uint8Array, palette: Uint8Array): Uint8Array<ArrayBuffer> {
-  const colors = new Uint8Array(numbers.length * 3);
-  for (let n = 0; n < numbers.length; ++n) {
-    const entry = (numbers[n] ?? 0) * 3;
+/** Looks up each palette index. */
+function lookUpPalette(indices: Uint8Array, palette: Uint8Array): Uint8Array<ArrayBuffer> {
+  const colors = new Uint8Array(indices.length * 3);
+  for (let n = 0; n < indices.length; ++n) {
+    const entry = (indices[n] ?? 0) * 3;
     if (entry + 3 > palette.length) throw new DecodeError("malformed", "names a colour that its palette does not have");
     colors[3 * n] = palette[entry] ?? 0;
     colors[3 * n + 1] = palette[entry + 1] ?? 0;

@@ -1,12 +1,11 @@
-// Triangle strips as separate triangles: buffers of three.js are drawn as
-// triangles only.
+// Converts triangle strips to separate triangles: three.js draws buffers as triangles only.
 
 import type { IndexArray } from "../stage/vertexArray.ts";
 import type { DrawRange } from "../stage/stage.ts";
 
 /**
- * A strip's triangles in its orientation. Degenerate joins stay, so that the
- * strip's triangle t is triangle t; GPUs pass over them.
+ * The triangles of a strip, in its orientation. Degenerate triangles stay, so that triangle t of the strip is triangle
+ * t of the result; GPUs skip them.
  */
 export function trianglesFromStrip(strip: IndexArray): IndexArray {
   const count = Math.max(0, strip.length - 2);
@@ -19,28 +18,31 @@ export function trianglesFromStrip(strip: IndexArray): IndexArray {
   return triangles;
 }
 
-/** The same draws with every strip turned into triangles behind an index of their own. */
+/**
+ * The same draws with every strip converted to triangles, and the index that they use. Without strips, `index` and
+ * `draws` are returned as they are.
+ */
 export function withoutStrips<Index extends IndexArray | undefined>(
   index: Index,
   draws: readonly DrawRange[],
 ): { index: Index | IndexArray; draws: readonly DrawRange[] } {
   if (!draws.some((draw) => draw.primitive === "triangleStrip")) return { index, draws };
-  const parts: IndexArray[] = [];
+  const indexRanges: IndexArray[] = [];
   let first = 0;
   const separate = draws.map((draw): DrawRange => {
-    const numbers =
+    const indices =
       index?.subarray(draw.first, draw.first + draw.count) ??
       Uint32Array.from({ length: draw.count }, (_, n) => draw.first + n);
     const isStrip = draw.primitive === "triangleStrip";
-    const part = isStrip ? trianglesFromStrip(numbers) : numbers;
-    parts.push(part);
-    const range = { primitive: isStrip ? ("triangles" as const) : draw.primitive, first, count: part.length };
-    first += part.length;
+    const converted = isStrip ? trianglesFromStrip(indices) : indices;
+    indexRanges.push(converted);
+    const range = { primitive: isStrip ? ("triangles" as const) : draw.primitive, first, count: converted.length };
+    first += converted.length;
     return range;
   });
   const joined = new Uint32Array(first);
-  separate.forEach((draw, place) => {
-    joined.set(parts[place] ?? [], draw.first);
+  separate.forEach((draw, drawIndex) => {
+    joined.set(indexRanges[drawIndex] ?? [], draw.first);
   });
   return { index: joined, draws: separate };
 }

@@ -173,7 +173,7 @@ describe("an image that lies", () => {
     await full.settled;
     const stage = full.stages.at(-1)?.stage;
     assert.ok(stage?.kind === "textures");
-    assert.deepEqual([full.errors, stage.name, stage.normalCode], [[], "full", { kind: "octahedral", bits: 8 }]);
+    assert.deepEqual([full.errors, stage.name, stage.normalFormat], [[], "full", { kind: "octahedral", bits: 8 }]);
     const short = siteOf({ ...sigFiles(1), "n0.png": gray(3) });
     const { errors, settled } = record(pairs(""), short.pool);
     await settled;
@@ -253,7 +253,7 @@ describe("typed arrays", () => {
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
     assert.equal(full.name, "full");
-    assert.deepEqual(full.normalCode, { kind: "spherical", bits: 8 });
+    assert.deepEqual(full.normalFormat, { kind: "spherical", bits: 8 });
     assert.equal(full.normal?.bytes, full.coord.bytes);
     assert.deepEqual([full.normal.components, full.normal.stride, full.normal.offset], [1, 4, 3]);
   });
@@ -269,7 +269,7 @@ describe("typed arrays", () => {
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
-    assert.deepEqual(full.normalCode, { kind: "octahedral", bits: 16 });
+    assert.deepEqual(full.normalFormat, { kind: "octahedral", bits: 16 });
     assert.deepEqual([full.normal?.components, full.normal?.stride, full.normal?.offset], [2, 2, 0]);
   });
 

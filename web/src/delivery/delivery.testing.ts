@@ -29,7 +29,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   const aborted: string[] = [];
   const jobNames: string[] = [];
   const images = { open: 0 };
-  const pictures = { open: 0 };
+  const textureImages = { open: 0 };
   const arrays = new Map<StoredBytes, ElementArray>();
   const scheduler = new Scheduler(slots);
   const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
@@ -67,14 +67,14 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
       return (jobs[name] as (input: unknown) => Promise<never>)(input);
     },
     runOnMainThread: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
-    makePicture: (png) => {
-      pictures.open += 1;
+    makeTextureImage: (png) => {
+      textureImages.open += 1;
       return Promise.resolve({
         hasAlpha: false,
         image: {
           ...checkPng(png),
           close: () => {
-            pictures.open -= 1;
+            textureImages.open -= 1;
           },
         },
       });
@@ -102,7 +102,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   /** The array that was stored under a handle. */
   const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) =>
     arrays.get(stored?.bytes ?? assert.fail("no array was delivered")) ?? assert.fail("closed");
-  return { requested, aborted, jobs: jobNames, images, pictures, arrays, arrayOf, scheduler, pool };
+  return { requested, aborted, jobs: jobNames, images, textureImages, arrays, arrayOf, scheduler, pool };
 }
 
 export interface Recording {

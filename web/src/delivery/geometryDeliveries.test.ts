@@ -35,7 +35,7 @@ function deliveriesOf() {
       readsTextures: () => Promise.resolve(true),
       maxTextureSize: 2048,
       runJob: () => Promise.reject(new Error("no jobs here")),
-      makePicture: () => Promise.reject(new Error("no pictures here")),
+      makeTextureImage: () => Promise.reject(new Error("no texture images here")),
       storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
       download: {
         fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal),

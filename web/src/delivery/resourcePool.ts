@@ -17,18 +17,18 @@ import type { Transfer } from "./progress.ts";
 
 export type Content =
   | ({ readonly kind: "image" } & DataImage)
-  | ({ readonly kind: "picture" } & Picture)
+  | ({ readonly kind: "textureImage" } & TextureImage)
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> }
   | { readonly kind: "patches"; readonly patches: readonly PatchBuffers[] }
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
- * What a file is to become: a texture, its own bytes, or either, as the GPU allows; a picture; or all patches, or all
- * base meshes, that it holds, which a job decodes.
+ * What a file is to become: a texture, its own bytes, or either, as the GPU allows; a texture image; or all patches, or
+ * all base meshes, that it holds, which a job decodes.
  */
 export type ContentTarget =
   | { readonly kind: "texture" | "bytes" | "either" }
-  | { readonly kind: "picture"; readonly sampling: SamplingDescription }
+  | { readonly kind: "textureImage"; readonly sampling: SamplingDescription }
   | { readonly kind: "patches"; readonly job: FileJob<PatchBuffers[]> }
   | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> };
 
@@ -42,17 +42,17 @@ type FileJob<Output> = {
 }[JobName];
 
 /** A texture image, of any format that the browser decodes. */
-export interface Picture {
+export interface TextureImage {
   readonly image: DecodedImage;
   readonly hasAlpha: boolean;
 }
 
 /** Decodes a texture image and uploads it. Rejects with DecodeError, or with the signal's reason. */
-export type MakePicture = (
+export type MakeTextureImage = (
   bytes: Uint8Array<ArrayBuffer>,
   sampling: SamplingDescription,
   signal: AbortSignal,
-) => Promise<Picture>;
+) => Promise<TextureImage>;
 
 export type ResourceRequest = ContentTarget & {
   /** The URL as the document writes it, without its fragment. */
@@ -89,7 +89,7 @@ export interface DeliveryOptions {
   /** Base meshes whose download began before the runtime; given to the first caller, undefined for all other URLs. */
   readonly prefetchedBases?: (url: string) => Promise<PrefetchedBases> | undefined;
   readonly storeBytes: StoreBytes;
-  readonly makePicture: MakePicture;
+  readonly makeTextureImage: MakeTextureImage;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
   readonly resolve: (url: string) => string;
@@ -356,11 +356,11 @@ class Resource {
   }
 
   async #contentOf(target: ContentTarget, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
-    const { makeImage, makePicture, readsTextures, runJob, runOnMainThread = runJob } = this.#options;
+    const { makeImage, makeTextureImage, readsTextures, runJob, runOnMainThread = runJob } = this.#options;
     const { signal } = this.#aborter;
     switch (target.kind) {
-      case "picture":
-        return { kind: "picture", ...(await makePicture(bytes, target.sampling, signal)) };
+      case "textureImage":
+        return { kind: "textureImage", ...(await makeTextureImage(bytes, target.sampling, signal)) };
       case "patches":
         return { kind: "patches", patches: await runJob(target.job, bytes, signal) };
       case "bases":
@@ -378,7 +378,7 @@ class Resource {
 
 /** Requests of one URL and one key share a resource. */
 function keyOf(target: ContentTarget): readonly string[] {
-  if (target.kind === "picture") return [target.kind, JSON.stringify(target.sampling)];
+  if (target.kind === "textureImage") return [target.kind, JSON.stringify(target.sampling)];
   return "job" in target ? [target.kind, target.job] : [target.kind];
 }
 

@@ -3,13 +3,13 @@
 import type { TextureDescription, TextureRole } from "../document/description.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
-import type { Picture } from "./resourcePool.ts";
+import type { TextureImage } from "./resourcePool.ts";
 import type { JoinedTexture, TextureDeliveries } from "./textureDeliveries.ts";
-import { pictureKeyOf } from "./textureDeliveries.ts";
+import { textureKeyOf } from "./textureDeliveries.ts";
 
 export interface ShapeTexturesListener {
   /** Undefined: the role has no texture any more. The previous one must not be used after the call. */
-  onPicture(role: TextureRole, picture: Picture | undefined): void;
+  onTextureImage(role: TextureRole, image: TextureImage | undefined): void;
   onError(error: DeliveryError): void;
   onSettled(): void;
 }
@@ -46,12 +46,12 @@ export class ShapeTextures {
     this.#followed = new Map(
       textures.map((texture) => {
         const known = before.get(texture.role);
-        const key = pictureKeyOf(texture);
+        const key = textureKeyOf(texture);
         return [texture.role, known?.key === key ? known : { key, joined: this.#join(texture) }];
       }),
     );
     const left = Array.from(before).filter(([role, followed]) => this.#followed.get(role) !== followed);
-    for (const [role] of left) this.#listener.onPicture(role, undefined);
+    for (const [role] of left) this.#listener.onTextureImage(role, undefined);
     for (const [, { joined }] of left) joined.cancel();
   }
 
@@ -63,8 +63,8 @@ export class ShapeTextures {
 
   #join(texture: TextureDescription): JoinedTexture {
     return this.#deliveries.join(texture, {
-      onPicture: (picture) => {
-        this.#listener.onPicture(texture.role, picture);
+      onTextureImage: (image) => {
+        this.#listener.onTextureImage(texture.role, image);
       },
       onError: (error) => {
         this.#listener.onError(error);

@@ -1,6 +1,6 @@
 // Deliveries of textures, through the same queue as vertex data: one for each file and way of sampling, however many
-// shapes use it. Where the document names a small preview, it is displayed until the full picture arrives, and again
-// after the full picture was evicted.
+// shapes use it. Where the document names a small preview, it is displayed until the full image arrives, and again
+// after the full image was evicted.
 
 import type { SamplingDescription, TextureDescription } from "../document/description.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
@@ -8,11 +8,11 @@ import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import { bytesPerTexel } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
-import type { ResourceHandle, Picture, ResourcePool } from "./resourcePool.ts";
+import type { ResourceHandle, TextureImage, ResourcePool } from "./resourcePool.ts";
 
 export interface TextureListener {
-  /** A new picture; undefined: none is left. The previous one must not be used after the call. */
-  onPicture(picture: Picture | undefined): void;
+  /** A new image; undefined: none is left. The previous one must not be used after the call. */
+  onTextureImage(image: TextureImage | undefined): void;
   /** Called once, when the texture has failed. */
   onError(error: DeliveryError): void;
   /** Every requested file is ready or has failed. */
@@ -24,14 +24,14 @@ export interface JoinedTexture {
   readonly transfers: readonly Readonly<Transfer>[];
   /** None of its files is on its way. */
   readonly isSettled: boolean;
-  /** No call to the listener follows. The picture must no longer be used. */
+  /** No call to the listener follows. The image must no longer be used. */
   cancel(): void;
 }
 
-/** The file of a texture: the small preview, or the full picture. */
+/** The file of a texture: the small preview, or the full image. */
 export type TextureChunk = "preview" | "texture";
 
-/** The priority of a texture's file, by the key of its picture; undefined: it is not needed now. */
+/** The priority of a texture's file, by the key of its image; undefined: it is not needed now. */
 export type TexturePriority = (key: string, chunk: TextureChunk) => number | undefined;
 
 /** A file of a texture, and its state. */
@@ -40,7 +40,7 @@ interface Source {
   readonly url: string;
   handle: ResourceHandle | undefined;
   state: "absent" | "requested" | "ready" | "failed";
-  picture: Picture | undefined;
+  image: TextureImage | undefined;
   /** Bytes on the GPU: an estimate until the file has been there once. */
   storedBytes: number;
   budgetRequest: BudgetRequest | undefined;
@@ -48,20 +48,20 @@ interface Source {
 
 interface Shared {
   readonly sampling: SamplingDescription;
-  /** The preview, where there is one, before the full picture. */
+  /** The preview, where there is one, before the full image. */
   readonly sources: readonly Source[];
   readonly listeners: Set<TextureListener>;
   memberCount: number;
-  displayed: Picture | undefined;
+  displayed: TextureImage | undefined;
   error: DeliveryError | undefined;
 }
 
-/** Mipmaps take a third more. A picture counts as 512 x 512 texels until it is there. */
+/** Mipmaps take a third more. An image counts as 512 x 512 texels until it is there. */
 const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
 const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
 
-/** Textures of equal keys share a picture. */
-export function pictureKeyOf({ url, preview, sampling }: TextureDescription): string {
+/** Textures of equal keys share an image. */
+export function textureKeyOf({ url, preview, sampling }: TextureDescription): string {
   return JSON.stringify([url, preview, sampling]);
 }
 
@@ -77,7 +77,7 @@ export class TextureDeliveries {
    * Requests nothing before `request`. Never calls the listener before it returns. Ends when the last member cancels.
    */
   join(texture: TextureDescription, listener: TextureListener): JoinedTexture {
-    const key = pictureKeyOf(texture);
+    const key = textureKeyOf(texture);
     const shared = this.#shared.get(key) ?? sharedOf(texture);
     this.#shared.set(key, shared);
     shared.memberCount += 1;
@@ -85,7 +85,7 @@ export class TextureDeliveries {
     queueMicrotask(() => {
       if (isCancelled) return;
       shared.listeners.add(listener);
-      if (shared.displayed !== undefined) listener.onPicture(shared.displayed);
+      if (shared.displayed !== undefined) listener.onTextureImage(shared.displayed);
       if (shared.error !== undefined) listener.onError(shared.error);
       if (isSettled(shared) && !shared.sources.every(({ state }) => state === "absent")) listener.onSettled();
     });
@@ -120,7 +120,7 @@ export class TextureDeliveries {
     return Array.from(this.#shared.values()).flatMap(transfersOf);
   }
 
-  /** What each texture needs and has of the GPU: its preview before the full picture. */
+  /** What each texture needs and has of the GPU: its preview before the full image. */
   budgetRequests(priorityOf: TexturePriority): readonly (readonly BudgetRequest[])[] {
     return Array.from(this.#shared, ([key, shared]) =>
       shared.sources.flatMap((source) => {
@@ -142,12 +142,12 @@ export class TextureDeliveries {
 
   /**
    * Requests the files that have a priority and aborts those without. Ready files stay; but where `granted` is given,
-   * budget requests that are not in it are evicted. A preview is not requested once its full picture is ready.
+   * budget requests that are not in it are evicted. A preview is not requested once its full image is ready.
    */
   request(priorityOf: TexturePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [key, shared] of this.#shared) {
       const denied = shared.sources.filter(
-        ({ budgetRequest: claim }) => granted !== undefined && claim !== undefined && !granted.has(claim),
+        ({ budgetRequest }) => granted !== undefined && budgetRequest !== undefined && !granted.has(budgetRequest),
       );
       const evicted = denied.filter(({ state }) => state === "ready");
       if (evicted.length > 0) {
@@ -168,7 +168,7 @@ export class TextureDeliveries {
   #startRequest(shared: Shared, source: Source, priority: number): void {
     const { url, chunk } = source;
     source.handle = this.#pool.acquire({
-      kind: "picture",
+      kind: "textureImage",
       url,
       sampling: shared.sampling,
       priority,
@@ -183,10 +183,10 @@ export class TextureDeliveries {
     const isOver = () => source.handle !== handle;
     try {
       const content = await handle.content;
-      if (isOver() || content.kind !== "picture") return;
+      if (isOver() || content.kind !== "textureImage") return;
       source.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
       source.state = "ready";
-      source.picture = content;
+      source.image = content;
       updateDisplayed(shared);
     } catch (error) {
       if (isOver()) return;
@@ -201,12 +201,12 @@ export class TextureDeliveries {
 }
 
 function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
-  const source = (chunk: TextureChunk, of: string): Source => ({
+  const source = (chunk: TextureChunk, url: string): Source => ({
     chunk,
-    url: of,
+    url,
     handle: undefined,
     state: "absent",
-    picture: undefined,
+    image: undefined,
     storedBytes: bytesWithMipmaps(expected[chunk].texels),
     budgetRequest: undefined,
   });
@@ -229,20 +229,20 @@ function isSettled({ sources }: Shared): boolean {
 }
 
 function transfersOf({ sources }: Shared): Readonly<Transfer>[] {
-  return sources.flatMap(({ handle: handle }) => (handle ? [handle.transfer] : []));
+  return sources.flatMap(({ handle }) => (handle ? [handle.transfer] : []));
 }
 
-/** Displays the best picture that is ready, except those of `without`. */
+/** Displays the best image that is ready, except those of `without`. */
 function updateDisplayed(shared: Shared, without: readonly Source[] = []): void {
-  const best = shared.sources.findLast((source) => source.picture !== undefined && !without.includes(source))?.picture;
+  const best = shared.sources.findLast((source) => source.image !== undefined && !without.includes(source))?.image;
   if (best === shared.displayed) return;
   shared.displayed = best;
-  for (const listener of shared.listeners) listener.onPicture(best);
+  for (const listener of shared.listeners) listener.onTextureImage(best);
 }
 
 function release(source: Source): void {
   source.handle?.release();
   source.handle = undefined;
-  source.picture = undefined;
+  source.image = undefined;
   if (source.state !== "failed") source.state = "absent";
 }

@@ -35,7 +35,7 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
   const deliveries = { geometries: new GeometryDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
   const told: string[] = [];
   const shape = new ShapeTextures(deliveries.textures, {
-    onPicture: (role, picture) => told.push(`${role} ${picture?.image.width ?? "none"}`),
+    onTextureImage: (role, image) => told.push(`${role} ${image?.image.width ?? "none"}`),
     onError: ({ url }) => told.push(`no ${url}`),
     onSettled: () => undefined,
   });
@@ -60,13 +60,13 @@ describe("a texture", () => {
       "small.png": small,
     });
     const end = demand();
-    while (site.pictures.open === 0) await shortDelay();
+    while (site.textureImages.open === 0) await shortDelay();
     assert.deepEqual(site.requested, ["small.png", "full.png"]);
     release();
     assert.deepEqual(await end, ["color 8", "color 256"]);
     shape.cancel();
     await shortDelay();
-    assert.equal(site.pictures.open, 0);
+    assert.equal(site.textureImages.open, 0);
   });
 
   test("that does not come leaves the preview, which is no error where it does not come either", async () => {
@@ -82,9 +82,9 @@ describe("a texture", () => {
     const both = bytesOnGpu(256) + bytesOnGpu(8);
     assert.deepEqual(await demand(both), []);
     assert.deepEqual(await demand(both - 1), ["color 8"]);
-    assert.equal(site.pictures.open, 1);
+    assert.equal(site.textureImages.open, 1);
     assert.deepEqual(await demand(bytesOnGpu(8) - 1), ["color none"]);
-    assert.equal(site.pictures.open, 0);
+    assert.equal(site.textureImages.open, 0);
     assert.deepEqual(await demand(), ["color 8", "color 256"]);
   });
 
@@ -94,7 +94,7 @@ describe("a texture", () => {
     assert.deepEqual(site.requested, []);
     await demand();
     assert.deepEqual(await demand(Infinity, () => undefined), []);
-    assert.equal(site.pictures.open, 2);
+    assert.equal(site.textureImages.open, 2);
   });
 
   test("that several roles show is fetched once, and again for another one alone", async () => {
@@ -109,7 +109,7 @@ describe("a texture", () => {
     assert.deepEqual(site.requested, ["a.png", "b.png"]);
     shape.follow([]);
     await shortDelay();
-    assert.equal(site.pictures.open, 0);
+    assert.equal(site.textureImages.open, 0);
   });
 });
 

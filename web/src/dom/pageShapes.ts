@@ -5,7 +5,7 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { needsWorkers } from "../delivery/encodings/encodings.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { Picture } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/resourcePool.ts";
 import type { ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -27,7 +27,7 @@ export interface PageShapesListener {
 /** Told by a shape what becomes of it. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
   onStage(shape: PageShape, patch: number, stage: Stage | undefined): void;
-  onPicture(shape: PageShape, role: TextureRole, picture: Picture | undefined): void;
+  onTextureImage(shape: PageShape, role: TextureRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
   onRemoved(shape: PageShape): void;
 }
@@ -56,8 +56,8 @@ export class PageShape extends LoadingShape {
     this.#listener.onStage(this, patch, stage);
   }
 
-  protected override onPicture(role: TextureRole, picture: Picture | undefined): void {
-    this.#listener.onPicture(this, role, picture);
+  protected override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {
+    this.#listener.onTextureImage(this, role, image);
   }
 
   protected override onError(error: DeliveryError): void {
@@ -78,11 +78,16 @@ export class PageShapes extends LoadingShapes<PageShape> {
   readonly #renderer: SceneRenderer;
   readonly #deliveries: SceneDeliveries;
   readonly #listener: PageShapesListener;
-  /** Visible shapes that are not complete. A set, since each of ten thousand shapes asks on its completion whether it is the last. */
+  /**
+   * Visible shapes that are not complete. A set, since each of ten thousand shapes asks on its completion whether it is
+   * the last.
+   */
   readonly #incomplete = new Set<PageShape>();
   /** Elements of shapes that the preview displays and that have not begun to load. */
   readonly #previewed: Set<SceneElement>;
-  /** Whether every visible shape has sent its last event. Kept, so that frames of ten thousand shapes need not ask each. */
+  /**
+   * Whether every visible shape has sent its last event. Kept, so that frames of ten thousand shapes need not ask each.
+   */
   #isQuiet = false;
 
   constructor(
@@ -194,8 +199,8 @@ export class PageShapes extends LoadingShapes<PageShape> {
       onStage: (shape, patch, stage) => {
         this.#onStage(shape, patch, stage);
       },
-      onPicture: ({ element }, role, picture) => {
-        this.#renderer.setPicture(element, role, picture);
+      onTextureImage: ({ element }, role, image) => {
+        this.#renderer.setTextureImage(element, role, image);
       },
       onError: (error, element, loading) => {
         this.#listener.onError(error, element, loading);
@@ -231,7 +236,10 @@ export class PageShapes extends LoadingShapes<PageShape> {
   }
 }
 
-/** The stage of a whole whose members display these: the lowest of them, but the first stage as soon as any member displays something. */
+/**
+ * The stage of a whole whose members display these: the lowest of them, but the first stage as soon as any member
+ * displays something.
+ */
 export function displayedStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
   const lowest = lowestStageOf(stages);
   return lowest === "none" && stages.some((stage) => stage !== "none") ? (stageNames[0] ?? "none") : lowest;

@@ -71,7 +71,10 @@ export class PageViewer {
   readonly #isPreviewed: boolean;
   /** Whether shaders read vertices from images. Assumed of every GPU that has the units for it, until tested. */
   #readsTextures: boolean;
-  /** The test whether they read exactly is due when the first images are displayed. While it is due or running, nothing is complete. */
+  /**
+   * The test whether they read exactly is due when the first images are displayed. While it is due or running, nothing
+   * is complete.
+   */
   #textureTest: "needless" | "due" | "running" | "ended" = "needless";
   #loading: LoadingEvents;
   #isLoading = false;
@@ -241,7 +244,7 @@ export class PageViewer {
       maxTextureSize: this.renderer.maxTextureSize,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
       runOnMainThread: (name, input, signal) => this.#workers.runOnMainThread(name, input, signal),
-      makePicture: (bytes, sampling, signal) => uploads.makePicture(bytes, sampling, signal),
+      makeTextureImage: (bytes, sampling, signal) => uploads.makeTextureImage(bytes, sampling, signal),
       storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
       prefetchedBases: takePrefetchedBases,

@@ -4,7 +4,7 @@
 import type { Group } from "three";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { Picture } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/resourcePool.ts";
 import type { ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
@@ -66,10 +66,10 @@ export class AppShape extends LoadingShape {
     this.#listener.onAdvance();
   }
 
-  protected override onPicture(role: TextureRole, picture: Picture | undefined): void {
+  protected override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {
     this.object.setTexture(
       role,
-      picture && { texture: this.#context.textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
+      image && { texture: this.#context.textures.textureOf(image.image), hasAlpha: image.hasAlpha },
     );
     this.#listener.onChange();
   }
@@ -116,7 +116,10 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     this.onChange(shape, instance, group);
   }
 
-  /** The renderer of a LOD chooses its level, so a group in it is hidden only where the document hides its shape in every level. */
+  /**
+   * The renderer of a LOD chooses its level, so a group in it is hidden only where the document hides its shape in
+   * every level.
+   */
   onChange(shape: ShapeDescription, instance: NodeInstance, group: Group): void {
     group.visible = shape.contributesToBounds;
     this.#objectOf(shape).instances.set(instance, shape);

@@ -5,9 +5,9 @@ import { NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
-import { decodePicture } from "../decode/picture.ts";
+import { decodeTextureImage } from "../decode/textureImage.ts";
 import { bytesPerTexel } from "../delivery/patchFiles.ts";
-import type { Picture } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import type { TextureProvider } from "../render/uploads/textureProvider.ts";
 import { setSampling } from "../render/uploads/textureSampling.ts";
@@ -42,12 +42,12 @@ export class BitmapTextures implements TextureProvider {
   }
 
   /** The same for a texture of an appearance. */
-  async makePicture(
+  async makeTextureImage(
     bytes: Uint8Array<ArrayBuffer>,
     sampling: SamplingDescription,
     signal: AbortSignal,
-  ): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, maxTextureSize, sampling);
+  ): Promise<TextureImage> {
+    const { bitmap, hasAlpha } = await decodeTextureImage(bytes, maxTextureSize, sampling);
     const texture = new Texture(bitmap);
     texture.flipY = false; // the bitmap has been flipped
     texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;

@@ -79,7 +79,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       readsTextures: () => Promise.resolve(!keepsVertices),
       maxTextureSize,
       runJob,
-      makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
+      makeTextureImage: (bytes, sampling, signal) => textures.makeTextureImage(bytes, sampling, signal),
       storeBytes: async (array, _, signal) => {
         await uploadThrottle.waitForFrame(array.byteLength, signal);
         return buffers.store(array);
@@ -124,7 +124,10 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#advance();
   }
 
-  /** The document with all Inlines loaded so far. Its lights and viewpoints are not in the three.js scene; the app may use them. */
+  /**
+   * The document with all Inlines loaded so far. Its lights and viewpoints are not in the three.js scene; the app may
+   * use them.
+   */
   get description(): SceneDescription {
     return this.#contents.description;
   }
@@ -134,12 +137,17 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     return this.#contents.box;
   }
 
-  /** Resolves when every visible patch displays something; rejects with the first error if nothing could be displayed. */
+  /**
+   * Resolves when every visible patch displays something; rejects with the first error if nothing could be displayed.
+   */
   get firstImage(): Promise<undefined> {
     return this.#firstImage.promise;
   }
 
-  /** Resolves when every file has loaded or failed. `abort` and `dispose` reject both promises with an AbortError, unless they have resolved. */
+  /**
+   * Resolves when every file has loaded or failed. `abort` and `dispose` reject both promises with an AbortError,
+   * unless they have resolved.
+   */
   get complete(): Promise<undefined> {
     return this.#complete.promise;
   }
@@ -220,7 +228,10 @@ function shadowOptionsOf(scene: ImgeoScene): SceneShadowOptions {
   };
 }
 
-/** Passes `castShadow` and `receiveShadow` of a scene on to its present objects. Objects of later stages read the values when they are made. */
+/**
+ * Passes `castShadow` and `receiveShadow` of a scene on to its present objects. Objects of later stages read the values
+ * when they are made.
+ */
 function passOnShadows(scene: ImgeoScene): void {
   for (const name of ["castShadow", "receiveShadow"] as const) {
     let flag = false;

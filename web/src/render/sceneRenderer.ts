@@ -68,7 +68,7 @@ export interface RenderStatistics {
 }
 
 /** A texture image on the GPU. */
-export interface Picture {
+export interface TextureImage {
   readonly image: DecodedImage;
   readonly hasAlpha: boolean;
 }
@@ -237,11 +237,11 @@ export class SceneRenderer {
   }
 
   /** Sets a texture of a shape; `undefined` removes it. */
-  setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
+  setTextureImage(element: SceneElement, role: TextureRole, image: TextureImage | undefined): void {
     this.#shapes.setTexture(
       element,
       role,
-      picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
+      image && { texture: this.#textures.textureOf(image.image), hasAlpha: image.hasAlpha },
     );
     this.requestPacedFrame();
   }
@@ -386,7 +386,10 @@ export class SceneRenderer {
     if (this.#cameraController.isMoving) this.requestFrame();
   }
 
-  /** Draws a depth image of the ground around a walking avatar, if the camera controller needs one, and gives it the samples. */
+  /**
+   * Draws a depth image of the ground around a walking avatar, if the camera controller needs one, and gives it the
+   * samples.
+   */
   async #sampleGround(): Promise<void> {
     const depthCamera = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
     if (depthCamera === undefined) return;

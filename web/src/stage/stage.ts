@@ -35,16 +35,16 @@ export interface TexelRange {
 }
 
 /** A normal as two numbers of `bits` bits: octahedral x and y, or spherical phi and theta. */
-export interface PairCode {
+export interface PairNormalFormat {
   readonly kind: "octahedral" | "spherical";
   readonly bits: 8 | 16;
 }
 
 /** How normals are stored: as vectors, as vectors of bytes 0 … 255 for -1 … 1, or as two numbers. */
-export type NormalCode = { readonly kind: "vector" | "byteVector" } | PairCode;
+export type NormalFormat = { readonly kind: "vector" | "byteVector" } | PairNormalFormat;
 
-export function isPairCode(code: NormalCode): code is PairCode {
-  return "bits" in code;
+export function isPairFormat(format: NormalFormat): format is PairNormalFormat {
+  return "bits" in format;
 }
 
 /**
@@ -63,7 +63,7 @@ export interface TextureStage extends StageHead {
   readonly kind: "textures";
   /** Undefined: element n is record n. */
   readonly index: TexelRange | undefined;
-  /** Index texels hold the record's number; otherwise its column and row in the image. */
+  /** Index texels hold the index of the record; otherwise its column and row in the coordinate image. */
   readonly isIndexWide: boolean;
   /** Draws two triangles for each cell; without normals it is shaded by its slope. */
   readonly grid: Grid | undefined;
@@ -76,7 +76,7 @@ export interface TextureStage extends StageHead {
   /** Added to every coordinate in place of the missing bytes. */
   readonly missingBytesMidpoint: number;
   readonly normal: TexelRange | undefined;
-  readonly normalCode: NormalCode;
+  readonly normalFormat: NormalFormat;
   readonly color: TexelRange | undefined;
   readonly colorComponents: 3 | 4;
   readonly texCoord: TexelRange | undefined;
@@ -137,7 +137,7 @@ export interface BufferStage extends StageHead {
   readonly bounds?: Bounds | undefined;
   /** Two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normal: StoredVertices | undefined;
-  readonly normalCode: NormalCode;
+  readonly normalFormat: NormalFormat;
   readonly color: StoredVertices | undefined;
   readonly value: StoredValues | undefined;
   readonly texCoord: StoredVertices | undefined;

@@ -5,7 +5,7 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { Picture } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/resourcePool.ts";
 import { ShapeTextures } from "../delivery/shapeTextures.ts";
 import type {
   GeometryDescription,
@@ -32,8 +32,8 @@ export abstract class LoadingShape {
     this.#isVisible = visible;
     this.#deliveries = deliveries;
     this.#textures = new ShapeTextures(deliveries.textures, {
-      onPicture: (role, picture) => {
-        this.onPicture(role, picture);
+      onTextureImage: (role, image) => {
+        this.onTextureImage(role, image);
       },
       onError: (error) => {
         this.onError(error);
@@ -46,12 +46,15 @@ export abstract class LoadingShape {
 
   /** A patch has another stage; undefined: none. */
   protected abstract onStage(patch: number, stage: Stage | undefined): void;
-  /** A texture has another picture; undefined: none. The picture before is not used after this call. */
-  protected abstract onPicture(role: TextureRole, picture: Picture | undefined): void;
+  /** A texture has another image; undefined: none. The image before is not used after this call. */
+  protected abstract onTextureImage(role: TextureRole, image: TextureImage | undefined): void;
   protected abstract onError(error: DeliveryError): void;
   /** All files that were requested of the geometry, or of a texture, have come or failed. */
   protected abstract onSettled(): void;
-  /** The scene no longer has the shape, or the shape another geometry: nothing that deliveries brought may be displayed any more. */
+  /**
+   * The scene no longer has the shape, or the shape another geometry: nothing that deliveries brought may be displayed
+   * any more.
+   */
   abstract onRemoved(): void;
 
   /** Whether any instance of the shape is visible. */
@@ -104,7 +107,7 @@ export abstract class LoadingShape {
     this.#textures.follow(this.#describedTextures);
   }
 
-  /** Leaves all deliveries, and tells that textures have no pictures any more; `join` joins them again. */
+  /** Leaves all deliveries, and tells that textures have no images any more; `join` joins them again. */
   suspend(): void {
     this.#delivery?.cancel();
     this.#delivery = undefined;

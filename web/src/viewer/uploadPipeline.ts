@@ -4,10 +4,10 @@
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
-import { decodePicture } from "../decode/picture.ts";
+import { decodeTextureImage } from "../decode/textureImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
-import type { Picture } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -34,7 +34,10 @@ export class UploadPipeline {
     this.#renderer = renderer;
   }
 
-  /** Decodes and uploads an image of vertex data. Rejects with DecodeError, or with the signal's reason; nothing is then left on the GPU. */
+  /**
+   * Decodes and uploads an image of vertex data. Rejects with DecodeError, or with the signal's reason; nothing is then
+   * left on the GPU.
+   */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.maxTextureSize);
     try {
@@ -45,13 +48,16 @@ export class UploadPipeline {
     }
   }
 
-  /** Decodes and uploads a texture in any format that the browser knows. Its first row is the lowest, as in texture coordinates. */
-  async makePicture(
+  /**
+   * Decodes and uploads a texture in any format that the browser knows. Its first row is the lowest, as in texture
+   * coordinates.
+   */
+  async makeTextureImage(
     bytes: Uint8Array<ArrayBuffer>,
     sampling: SamplingDescription,
     signal: AbortSignal,
-  ): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.maxTextureSize, sampling);
+  ): Promise<TextureImage> {
+    const { bitmap, hasAlpha } = await decodeTextureImage(bytes, this.#renderer.maxTextureSize, sampling);
     try {
       signal.throwIfAborted();
       return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };

@@ -3,7 +3,7 @@
 
 import type { GeometryInstance } from "../delivery/filePriority.ts";
 import { geometryInstance } from "../delivery/filePriority.ts";
-import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
+import { textureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import type { ShapeInstance } from "../scene/instances.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
@@ -15,7 +15,7 @@ const none: Instances = new Map();
 
 export class VisibleInstances {
   readonly #geometries = new Map<GeometryDescription, Instances>();
-  /** By texture key (pictureKeyOf). */
+  /** By texture key (textureKeyOf). */
   readonly #textures = new Map<string, Instances>();
   readonly #visible = new Map<object, ShapeInstance>();
 
@@ -47,7 +47,7 @@ export class VisibleInstances {
     if (geometry === undefined) return;
     const added = geometryInstance(geometry, sceneFromShape.elements, priority, textures.length > 0);
     add(this.#geometries, geometry, node, added);
-    for (const texture of textures) add(this.#textures, pictureKeyOf(texture), node, added);
+    for (const texture of textures) add(this.#textures, textureKeyOf(texture), node, added);
     this.#visible.set(node, instance);
   }
 
@@ -62,7 +62,7 @@ export class VisibleInstances {
   ): void {
     this.#visible.delete(node);
     if (geometry) remove(this.#geometries, geometry, node);
-    for (const texture of textures) remove(this.#textures, pictureKeyOf(texture), node);
+    for (const texture of textures) remove(this.#textures, textureKeyOf(texture), node);
   }
 }
 

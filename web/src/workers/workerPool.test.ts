@@ -48,7 +48,7 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
 
 const input = (n: number): NormalJob => ({
   file: { png: pngWithTexels(4, 1, 3, (texel) => n + texel), firstTexel: 0 },
-  code: { kind: "byteVector" },
+  format: { kind: "byteVector" },
   count: 2,
   rowLength: 0,
 });

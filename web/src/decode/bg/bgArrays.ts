@@ -1,23 +1,23 @@
-// Typed arrays out of container bytes (BG). Counts and offsets come from the
-// document, so they are checked against the bytes before anything is viewed.
+// Reads typed arrays from the files of BG. Counts and offsets come from the document, so they are checked against the
+// bytes before any view is made.
 
 import type { Bounds, ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { ElementType } from "../../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
 import { DecodeError } from "../decodeError.ts";
 
-/** Where an attribute lies in a file. */
+/** The range of an attribute in a file. A group is the elements of one vertex. */
 export interface ElementRange {
   readonly type: ElementType;
   readonly byteOffset: number;
   /** Bytes from one group to the next; 0: tightly packed. */
   readonly byteStride: number;
   readonly components: 1 | 2 | 3 | 4;
-  /** 0: as many as the bytes hold. */
+  /** Number of groups; 0: as many as the bytes hold. */
   readonly count: number;
 }
 
-/** How many groups of `range` lie in so many bytes. */
+/** Number of groups of `range` in a file of `byteLength` bytes. */
 export function countThatFits(byteLength: number, range: ElementRange): number {
   const { group, stride } = sizesOf(range);
   const available = byteLength - range.byteOffset;
@@ -25,16 +25,15 @@ export function countThatFits(byteLength: number, range: ElementRange): number {
 }
 
 /**
- * The attribute as an array of its elements, in whole groups of its stride. Of
- * records that hold several attributes of one type each comes as a view of the same
- * bytes. Coordinates of 32-bit integers become floats, which is what shaders compute
- * with. Throws DecodeError where the bytes do not hold it. Safe for untrusted bytes.
+ * The attribute as an array of its elements, in whole groups of its stride. Attributes of one type that are interleaved
+ * in one file become views of the same bytes. 32-bit integers become floats, with which shaders compute. Throws
+ * DecodeError where the bytes end too early. Safe for untrusted bytes.
  */
 export function vertexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): VertexArray {
   const { size, group, stride } = sizesOf(range);
-  const inRecord = range.byteOffset % stride;
-  const isPart = inRecord > 0 && inRecord % size === 0 && inRecord + group <= stride;
-  const byteOffset = isPart ? inRecord : 0; // from where the view begins
+  const offsetInRecord = range.byteOffset % stride;
+  const isInterleaved = offsetInRecord > 0 && offsetInRecord % size === 0 && offsetInRecord + group <= stride;
+  const byteOffset = isInterleaved ? offsetInRecord : 0; // from the beginning of the view
   const stored = wholeGroups(arrayOf(bytes, range, byteOffset), stride / size);
   return {
     array: stored instanceof Int32Array || stored instanceof Uint32Array ? new Float32Array(stored) : stored,
@@ -44,7 +43,7 @@ export function vertexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRang
   };
 }
 
-/** Around three components of each group that are numbers; undefined where none are. */
+/** The bounds of the first three components of all groups, without NaN; undefined where they are not finite. */
 export function boundsOf({ array, stride, offset }: VertexArray): Bounds | undefined {
   const min: [number, number, number] = [Infinity, Infinity, Infinity];
   const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
@@ -60,7 +59,7 @@ export function boundsOf({ array, stride, offset }: VertexArray): Bounds | undef
     : undefined;
 }
 
-/** The last group may end without its padding; buffers want it. */
+/** Completes the last group, whose padding may be missing in the file. */
 function wholeGroups(array: ElementArray, stride: number): ElementArray {
   const length = Math.ceil(array.length / stride) * stride;
   if (array.length === length) return array;
@@ -69,16 +68,16 @@ function wholeGroups(array: ElementArray, stride: number): ElementArray {
   return whole;
 }
 
-/** Indices, each below `vertexCount`. Throws DecodeError. Safe for untrusted bytes. */
+/** Reads indices, each below `vertexCount`. Throws DecodeError. Safe for untrusted bytes. */
 export function indexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, vertexCount: number): IndexArray {
   const indices = arrayOf(bytes, range);
   if (!(indices instanceof Uint8Array || indices instanceof Uint16Array || indices instanceof Uint32Array)) {
     throw new DecodeError("unsupported", `holds indices as ${range.type}; unsigned integers are needed`);
   }
-  let largest = -1;
-  for (const index of indices) if (index > largest) largest = index;
-  if (largest >= vertexCount)
-    throw new DecodeError("malformed", `holds index ${largest} where there are ${vertexCount} vertices`);
+  let maxIndex = -1;
+  for (const index of indices) if (index > maxIndex) maxIndex = index;
+  if (maxIndex >= vertexCount)
+    throw new DecodeError("malformed", `holds index ${maxIndex} where there are ${vertexCount} vertices`);
   return indices;
 }
 
@@ -88,22 +87,25 @@ function sizesOf(range: ElementRange): { size: number; group: number; stride: nu
   return { size, group, stride: range.byteStride === 0 ? group : range.byteStride };
 }
 
-/** The elements from `bytesBefore` before the range on, to the end of its last group's stride. */
+/** The elements from `bytesBefore` bytes before the range to the end of its last group, with its padding. */
 function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefore = 0): ElementArray {
   const { size, group, stride } = sizesOf(range);
   if (stride % size !== 0 || stride < group) {
     throw new DecodeError("malformed", `has a stride of ${stride} bytes for ${range.components} ${range.type}`);
   }
-  const fit = countThatFits(bytes.byteLength, range);
-  const count = range.count === 0 ? fit : range.count;
-  if (count > fit)
-    throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
+  const maxCount = countThatFits(bytes.byteLength, range);
+  const count = range.count === 0 ? maxCount : range.count;
+  if (count > maxCount)
+    throw new DecodeError(
+      "truncated",
+      `holds ${maxCount} of ${count} ${range.components === 1 ? "indices" : "vertices"}`,
+    );
   if (count === 0) return new (arrayTypeOf(range.type))(0);
-  // With the last group's padding, where the file has it.
+  // The padding of the last group is included where the file has it.
   const begin = range.byteOffset - bytesBefore;
   const byteLength = Math.min(count * stride, Math.floor((bytes.byteLength - begin) / size) * size);
   const byteOffset = bytes.byteOffset + begin;
-  // A view must begin at a multiple of its element; elsewhere the bytes are copied.
+  // A view must begin at a multiple of the element size; otherwise the bytes are copied.
   return byteOffset % size === 0
     ? new (arrayTypeOf(range.type))(bytes.buffer, byteOffset, byteLength / size)
     : new (arrayTypeOf(range.type))(bytes.buffer.slice(byteOffset, byteOffset + byteLength));

@@ -3,13 +3,13 @@ import { describe, test } from "node:test";
 import { classicColors, classicCoords, classicIndex, classicNormals } from "./classicArrays.ts";
 import { pngWithTexels } from "../png.testing.ts";
 
-/** 3 x 2 texels of RGB from the number on, and others around them. */
+/** An RGB image of 4 x 2 texels, whose bytes begin with `first`. */
 const plane = (first: number) => pngWithTexels(4, 2, 3, (n, channel) => (first + 10 * n + channel) % 256);
 const file = (png: Uint8Array<ArrayBuffer>, firstTexel = 0) => ({ png, firstTexel });
 const layout = { count: 5, rowLength: 0 };
 
 describe("coordinates on the CPU", () => {
-  test("are put together from their bytes, the first the most significant", async () => {
+  test("are combined from their byte planes, the most significant first", async () => {
     const coord = await classicCoords({
       ...layout,
       planes: [file(plane(1)), file(plane(101))],
@@ -22,7 +22,7 @@ describe("coordinates on the CPU", () => {
     assert.equal(coord.array.length, 20);
   });
 
-  test("of missing bytes have their middle, of three and four bytes their exact sum", async () => {
+  test("have the midpoint in place of missing bytes, and the exact sum of three bytes", async () => {
     const coarse = await classicCoords({
       ...layout,
       planes: [file(plane(1))],
@@ -41,7 +41,7 @@ describe("coordinates on the CPU", () => {
     assert.deepEqual([byte.array.constructor, byte.array[4]], [Uint8Array, 17]);
   });
 
-  test("begin at the reference's texel and stand in rows where there is no index", async () => {
+  test("begin at the texel of the reference, and are in rows where there is no index", async () => {
     const shifted = await classicCoords({
       count: 3,
       rowLength: 0,
@@ -66,7 +66,7 @@ describe("coordinates on the CPU", () => {
     );
   });
 
-  test("of more records than there are texels are refused", async () => {
+  test("are refused where there are more records than texels", async () => {
     for (const [count, rowLength, first] of [
       [9, 0, 0],
       [7, 0, 2],
@@ -84,8 +84,8 @@ describe("coordinates on the CPU", () => {
 });
 
 describe("an index on the CPU", () => {
-  /** Records 0 .. n by column and row of an image of 64 x 32 texels. */
-  const placesOf = (records: readonly number[]) =>
+  /** An index image that names records by column and row of a coordinate image of 64 x 32 texels. */
+  const indexImageOf = (records: readonly number[]) =>
     pngWithTexels(records.length, 1, 3, (n, channel) => {
       const record = records[n] ?? 0;
       return [(record % 64) * 4, Math.floor(record / 64) * 8, 0][channel] ?? 0;
@@ -96,13 +96,13 @@ describe("an index on the CPU", () => {
   test("names records by column and row in 256ths of the image", async () => {
     const { index, draws } = await classicIndex({
       ...job,
-      file: file(placesOf([0, 63, 64, 2047, 1000, 5, 0, 0])),
+      file: file(indexImageOf([0, 63, 64, 2047, 1000, 5, 0, 0])),
       draws: triangles,
     });
     assert.deepEqual([index, draws], [Uint16Array.from([0, 63, 64, 2047, 1000, 5]), triangles]);
   });
 
-  test("of three bytes names them by number", async () => {
+  test("names records by index where it has three bytes", async () => {
     const wide = pngWithTexels(8, 1, 3, (n, channel) => [7, n, 1][channel] ?? 0);
     const { index } = await classicIndex({
       ...job,
@@ -117,10 +117,10 @@ describe("an index on the CPU", () => {
     );
   });
 
-  test("of strips becomes triangles", async () => {
+  test("converts strips to triangles", async () => {
     const { index, draws } = await classicIndex({
       ...job,
-      file: file(placesOf([0, 1, 2, 3, 9, 8, 7, 0])),
+      file: file(indexImageOf([0, 1, 2, 3, 9, 8, 7, 0])),
       draws: [
         { primitive: "triangleStrip", first: 0, count: 4 },
         { primitive: "triangles", first: 4, count: 3 },
@@ -133,14 +133,14 @@ describe("an index on the CPU", () => {
     ]);
   });
 
-  test("beyond the records is refused", async () => {
-    const bad = { ...job, recordCount: 1000, file: file(placesOf([0, 1, 2, 3, 1000, 5, 0, 0])), draws: triangles };
+  test("is refused where it names a record that does not exist", async () => {
+    const bad = { ...job, recordCount: 1000, file: file(indexImageOf([0, 1, 2, 3, 1000, 5, 0, 0])), draws: triangles };
     await assert.rejects(classicIndex(bad), { kind: "malformed", message: /index 1000 where there are 1000/ });
   });
 });
 
-test("normals on the CPU are the bytes of vectors, or pairs of which the second half is apart", async () => {
-  const vectors = await classicNormals({ ...layout, file: file(plane(3)), code: { kind: "byteVector" } });
+test("normals on the CPU are the bytes of vectors, or pairs whose second numbers are in the lower half of the image", async () => {
+  const vectors = await classicNormals({ ...layout, file: file(plane(3)), format: { kind: "byteVector" } });
   assert.deepEqual([vectors.components, Array.from(vectors.array.subarray(4, 7))], [3, [13, 14, 15]]);
   const pairs = await classicNormals({
     ...layout,
@@ -149,11 +149,11 @@ test("normals on the CPU are the bytes of vectors, or pairs of which the second 
       pngWithTexels(4, 2, 1, (n) => n),
       1,
     ),
-    code: { kind: "octahedral", bits: 8 },
+    format: { kind: "octahedral", bits: 8 },
   });
   assert.deepEqual([pairs.components, Array.from(pairs.array)], [2, [1, 5, 0, 0, 2, 6, 0, 0, 3, 7, 0, 0]]);
   await assert.rejects(
-    classicNormals({ ...layout, file: file(pngWithTexels(4, 2, 1, (n) => n)), code: { kind: "spherical", bits: 8 } }),
+    classicNormals({ ...layout, file: file(pngWithTexels(4, 2, 1, (n) => n)), format: { kind: "spherical", bits: 8 } }),
     { kind: "malformed" },
   );
 });

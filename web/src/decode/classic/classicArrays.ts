@@ -1,42 +1,41 @@
-// Classic SIG on the CPU (paper, section 5.2): the images of a patch to the arrays
-// that buffers are made of. Stored integers come out as the vertex shader would
-// read them (render/vertexChunk.ts), so that both ways show the same picture.
-// Pure functions, to be run in workers.
+// Decodes SIG classic on the CPU (paper, section 5.2): converts the images of a patch to arrays for buffers. Stored
+// integers become the numbers that the vertex shader would read (render/shaders/vertexChunk.ts), so that both paths
+// draw the same. Pure functions, for workers.
 
 import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
 import type { Pixels } from "../pngPixels.ts";
 import { decodePixels } from "../pngPixels.ts";
-import type { DrawRange, NormalCode } from "../../stage/stage.ts";
-import { isPairCode } from "../../stage/stage.ts";
+import type { DrawRange, NormalFormat } from "../../stage/stage.ts";
+import { isPairFormat } from "../../stage/stage.ts";
 import { withoutStrips } from "../strips.ts";
 
-/** A file, and the texel that its data begin at. */
+/** A file, and the texel at which its data begin. */
 export interface ImageFile {
   readonly png: Uint8Array<ArrayBuffer>;
   readonly firstTexel: number;
 }
 
-/** Where the records of a patch lie in its images. */
+/** Where the records of a patch are in its images. */
 export interface RecordLayout {
   readonly count: number;
-  /** Record r is texel (r mod rowLength, r div rowLength), or texel r where it is 0. */
+  /** Record r is texel (r mod rowLength, r div rowLength); if rowLength is 0, it is texel r, row by row. */
   readonly rowLength: number;
 }
 
 interface PlanesJob extends RecordLayout {
-  /** The byte planes that are here, most significant first. */
+  /** The available byte planes, most significant first. */
   readonly planes: readonly ImageFile[];
 }
 
 export interface CoordJob extends PlanesJob {
-  /** The byte planes that there will be. */
+  /** Number of byte planes of the complete patch. */
   readonly planeCount: number;
   /** Added to every coordinate for the missing bytes. */
   readonly missingBytesMidpoint: number;
 }
 
-/** Stored integers; in Float32 where bytes are missing or there are more than two. */
+/** Decodes coordinates to stored integers; as Float32 if planes are missing or there are more than two. */
 export async function classicCoords(job: CoordJob): Promise<VertexArray> {
   const { planes, planeCount, missingBytesMidpoint, count } = job;
   const sums = await sumsOf(job, 3, 3);
@@ -56,7 +55,7 @@ export async function classicCoords(job: CoordJob): Promise<VertexArray> {
   return { array, components: 3, stride, offset: 0 };
 }
 
-/** The bytes that are here put together, `stride` numbers a record, of which the first `channels` count. */
+/** Combines the available byte planes to `stride` numbers for each record, of which the first `channels` are set. */
 export async function sumsOf(
   { planes, count, rowLength }: PlanesJob,
   channels: 1 | 2 | 3 | 4,
@@ -66,7 +65,7 @@ export async function sumsOf(
   const sums = new Float64Array(count * stride);
   for (const image of images) {
     const { data } = image;
-    const texelOf = placesOf(image, { count, rowLength });
+    const texelOf = texelsOf(image, { count, rowLength });
     for (let record = 0; record < count; ++record) {
       const at = texelOf(record) * image.channels;
       for (let axis = 0; axis < channels; ++axis) {
@@ -79,40 +78,40 @@ export async function sumsOf(
 
 export interface ValueJob extends PlanesJob {
   readonly components: 1 | 2 | 3 | 4;
-  /** By component: the box over which stored integers are spread. */
+  /** By component: the minimum and the extent of the range that stored integers cover. */
   readonly min: readonly number[];
   readonly size: readonly number[];
 }
 
-/** The numbers themselves, of an attribute of which all planes are here. */
+/** Decodes the numbers of an attribute, of which all planes are available. */
 export async function classicValues({ components, min, size, ...job }: ValueJob): Promise<VertexArray> {
   const sums = await sumsOf(job, components, components);
-  const largest = 256 ** job.planes.length - 1;
+  const maxStored = 256 ** job.planes.length - 1;
   const array = Float32Array.from(
     sums,
-    (stored, i) => (min[i % components] ?? 0) + ((size[i % components] ?? 0) * stored) / largest,
+    (stored, i) => (min[i % components] ?? 0) + ((size[i % components] ?? 0) * stored) / maxStored,
   );
   return { array, components, stride: components, offset: 0 };
 }
 
 export interface IndexJob {
   readonly file: ImageFile;
-  /** Element n is texel (n mod rowLength, n div rowLength), counted from the file's first. */
+  /** Element n is texel (n mod rowLength, n div rowLength), counted from the first texel of the data. */
   readonly rowLength: number;
   readonly draws: readonly DrawRange[];
-  /** Texels hold the record's number; otherwise its column and row in 256ths of the coordinate image. */
+  /** Texels hold the index of the record; otherwise its column and row in 256ths of the coordinate image. */
   readonly isWide: boolean;
   readonly coordWidth: number;
   readonly coordHeight: number;
   readonly recordCount: number;
 }
 
-/** The index with strips taken apart, and the draws that go with it. */
+/** Decodes the index, with strips converted to triangles, and returns the draws that match it. */
 export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; draws: readonly DrawRange[] }> {
   const { file, rowLength, draws, isWide, coordWidth, coordHeight, recordCount } = job;
   const count = draws.reduce((sum, draw) => sum + draw.count, 0);
   const image = await imageOf(file, 3);
-  const texelOf = placesOf(image, { count, rowLength });
+  const texelOf = texelsOf(image, { count, rowLength });
   const index = recordCount <= 2 ** 16 ? new Uint16Array(count) : new Uint32Array(count);
   const { data, channels } = image;
   for (let n = 0; n < count; ++n) {
@@ -130,12 +129,15 @@ export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; 
 
 export interface NormalJob extends RecordLayout {
   readonly file: ImageFile;
-  readonly code: NormalCode;
+  readonly format: NormalFormat;
 }
 
-/** Bytes: three of a vector, or the two numbers of which the second stand in the image's lower half. */
-export async function classicNormals({ file, code, ...layout }: NormalJob): Promise<VertexArray> {
-  if (!isPairCode(code)) return bytesOf(await imageOf(file, 3), layout, 3);
+/**
+ * Decodes normals to bytes: three of a vector, or two numbers, of which the second ones are in the lower half of the
+ * image.
+ */
+export async function classicNormals({ file, format, ...layout }: NormalJob): Promise<VertexArray> {
+  if (!isPairFormat(format)) return bytesOf(await imageOf(file, 3), layout, 3);
   const image = await imageOf(file, 1);
   const { data, channels } = image;
   const half = (image.width * image.height) / 2;
@@ -152,10 +154,10 @@ export interface TexCoordJob extends RecordLayout {
   readonly file: ImageFile;
 }
 
-/** Words: red and blue are the bytes of u, green and alpha those of v. */
+/** Decodes texture coordinates to 16-bit words: red and blue are the bytes of u, green and alpha those of v. */
 export async function classicTexCoords({ file, ...layout }: TexCoordJob): Promise<VertexArray> {
   const image = await imageOf(file, 4);
-  const texelOf = placesOf(image, layout);
+  const texelOf = texelsOf(image, layout);
   const { data, channels } = image;
   const array = new Uint16Array(layout.count * 2);
   for (let record = 0; record < layout.count; ++record) {
@@ -171,23 +173,25 @@ export interface ColorJob extends RecordLayout {
   readonly components: 3 | 4;
 }
 
+/** Decodes colours to bytes, four for each record. */
 export async function classicColors({ file, components, ...layout }: ColorJob): Promise<VertexArray> {
   return bytesOf(await imageOf(file, components), layout, components);
 }
 
-interface FirstPixels extends Pixels {
+/** Pixels, and the texel at which the data begin. */
+interface DataPixels extends Pixels {
   readonly firstTexel: number;
 }
 
-async function imageOf({ png, firstTexel: first }: ImageFile, least: number): Promise<FirstPixels> {
+async function imageOf({ png, firstTexel }: ImageFile, minChannels: number): Promise<DataPixels> {
   const pixels = await decodePixels(png);
-  if (pixels.channels < least)
-    throw new DecodeError("malformed", `has ${pixels.channels} channels where ${least} are needed`);
-  return { ...pixels, firstTexel: first };
+  if (pixels.channels < minChannels)
+    throw new DecodeError("malformed", `has ${pixels.channels} channels where ${minChannels} are needed`);
+  return { ...pixels, firstTexel };
 }
 
-function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): VertexArray {
-  const texelOf = placesOf(image, layout);
+function bytesOf(image: DataPixels, layout: RecordLayout, components: 3 | 4): VertexArray {
+  const texelOf = texelsOf(image, layout);
   const { data, channels } = image;
   const array = new Uint8Array(layout.count * 4);
   for (let record = 0; record < layout.count; ++record) {
@@ -197,8 +201,8 @@ function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): V
   return { array, components, stride: 4, offset: 0 };
 }
 
-/** From numbers to texels of the image; throws where it has fewer. */
-function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: number) => number {
+/** Returns the function from records to texels of the image. Throws if the image has too few texels. */
+function texelsOf(image: DataPixels, { count, rowLength }: RecordLayout): (n: number) => number {
   const { width, firstTexel: first } = image;
   const texelIndexOf =
     rowLength === 0 || rowLength === width
@@ -209,7 +213,7 @@ function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: n
   return texelIndexOf;
 }
 
-function requireTexels({ width, height, firstTexel: first }: FirstPixels, count: number): void {
+function requireTexels({ width, height, firstTexel: first }: DataPixels, count: number): void {
   if (first + count > width * height) {
     throw new DecodeError("malformed", `has ${width} x ${height} texels; ${count} from texel ${first} on do not fit`);
   }

@@ -1,5 +1,5 @@
-// Grids of texels on the CPU: what the vertex shader makes of them without an
-// index (render/vertexChunk.ts), written out for buffers.
+// Decodes grids of texels on the CPU: writes the vertices, normals and triangles that the vertex shader computes
+// without an index (render/shaders/vertexChunk.ts) to arrays for buffers.
 
 import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { CoordJob } from "./classicArrays.ts";
@@ -8,7 +8,7 @@ import type { Grid } from "../../stage/stage.ts";
 
 export interface GridJob extends CoordJob {
   readonly grid: Grid;
-  /** The stored integer that stands for the far side of the box. */
+  /** The stored integer of the far side of the bounding box. */
   readonly maxStored: number;
   /** Lattice step along each axis. */
   readonly step: readonly [number, number, number];
@@ -17,12 +17,13 @@ export interface GridJob extends CoordJob {
 export interface GridArrays {
   readonly index: IndexArray;
   readonly coord: VertexArray;
-  /** Normals of the surface slope. */
+  /** Normals that follow from the slope of the surface. */
   readonly normal: VertexArray;
 }
 
 type Vector = [number, number, number];
 
+/** Decodes the coordinates of a grid, and computes its index and normals. */
 export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
   const { columns, rows } = grid;
   const isHeights = grid.kind === "heightMap";
@@ -47,7 +48,7 @@ export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): P
   };
 }
 
-/** Two triangles a cell, which turn left where columns run right and rows down. */
+/** Two triangles for each cell, counterclockwise where columns run to the right and rows down. */
 export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
   const cellsAcross = kind === "sculpt" ? columns : columns - 1;
   const count = 6 * cellsAcross * (rows - 1);
@@ -64,6 +65,7 @@ export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
   return index;
 }
 
+/** Normals of the surface, from central differences. */
 function slopeNormals(
   points: Float32Array,
   { kind, columns, rows }: Grid,
@@ -78,16 +80,16 @@ function slopeNormals(
     const [above, below] = [Math.max(row - 1, 0), Math.min(row + 1, rows - 1)];
     const across = [0, 1, 2].map((axis) => at(row, right, axis) - at(row, left, axis)) as Vector;
     const down = [0, 1, 2].map((axis) => at(below, column, axis) - at(above, column, axis)) as Vector;
-    return cross(down, across).map((part, axis) => part / (step[axis] ?? 1)) as Vector;
+    return cross(down, across).map((component, axis) => component / (step[axis] ?? 1)) as Vector;
   };
   for (let row = 0; row < rows; ++row) {
     for (let column = 0; column < columns; ++column) {
       let normal = slopeAt(row, column);
-      // At a pole all of a row is one point; the next row says where it faces.
-      if (normal.every((part) => part === 0)) normal = slopeAt(row === 0 ? 1 : row - 1, column);
+      // At a pole all points of a row coincide; the normals are then those of the next row.
+      if (normal.every((component) => component === 0)) normal = slopeAt(row === 0 ? 1 : row - 1, column);
       const length = Math.hypot(...normal) || 1;
       normals.set(
-        normal.map((part) => part / length),
+        normal.map((component) => component / length),
         3 * (row * columns + column),
       );
     }

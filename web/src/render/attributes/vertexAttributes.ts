@@ -1,7 +1,7 @@
 // The vertex attributes of a stage in buffers, under three.js' names; three.js has no `vertexValue`.
 
 import type { BufferStage, StoredVertices } from "../../stage/stage.ts";
-import { isPairCode } from "../../stage/stage.ts";
+import { isPairFormat } from "../../stage/stage.ts";
 
 /** One attribute of a stage's vertices. */
 export interface VertexAttribute {
@@ -14,7 +14,7 @@ export interface VertexAttribute {
 export function vertexAttributesOf({
   coord,
   normal,
-  normalCode,
+  normalFormat,
   color,
   texCoord,
   value,
@@ -23,7 +23,7 @@ export function vertexAttributesOf({
     vertices ? [{ name, vertices, isNormalized: isNormalized && vertices.type !== "Float32" }] : [];
   return [
     ...attribute("position", coord, false),
-    ...attribute("normal", normal, !isPairCode(normalCode)),
+    ...attribute("normal", normal, !isPairFormat(normalFormat)),
     ...attribute("color", color, true),
     ...attribute("vertexValue", value, false),
     ...attribute("uv", texCoord, true),

@@ -53,7 +53,7 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
     vertexCount: 3,
     name: "full",
     draws: [{ primitive: "triangles", first: 0, count: 3 }],
-    normalCode: { kind: "vector" },
+    normalFormat: { kind: "vector" },
     index: stored(new Uint16Array(index)),
     coord: { ...stored(coord), components: 3, stride, offset: 0 },
     normal: undefined,

@@ -38,7 +38,7 @@ function stageOf(draws: readonly DrawRange[], index: IndexArray | undefined): Bu
     coord: { bytes: coord, type: "Int16", components: 3, stride: 5, offset: 1 },
     color: { bytes: color, type: "Uint8", components: 3, stride: 4, offset: 0 },
     normal: undefined,
-    normalCode: { kind: "vector" },
+    normalFormat: { kind: "vector" },
     texCoord: undefined,
     value: undefined,
   };

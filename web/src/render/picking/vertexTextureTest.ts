@@ -86,7 +86,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
       firstTexels: { value: [2, 3, 0, 0] },
       coordFirstTexels: { value: [0, 1, 0, 0] },
-      coordPlanes: { value: 2 },
+      coordPlaneCount: { value: 2 },
       missingBytesMidpoint: { value: 0 },
       hasIndex: { value: true },
       isIndexWide: { value: false },

@@ -66,7 +66,7 @@ uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3
 uniform sampler2D normalImage, colorImage, texCoordImage;
 uniform ivec4 firstTexels;
 uniform ivec4 coordFirstTexels;
-uniform int coordPlanes;
+uniform int coordPlaneCount;
 uniform float missingBytesMidpoint;
 uniform bool hasIndex;
 uniform bool isIndexWide;
@@ -145,9 +145,9 @@ int recordTexelIndex(int record) {
 vec3 storedPosition(int record) {
   int n = recordTexelIndex(record);
   uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
-  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
-  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
-  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
+  if (coordPlaneCount > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
+  if (coordPlaneCount > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
+  if (coordPlaneCount > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
   vec3 position = vec3(stored) + missingBytesMidpoint;
   #ifdef GRID_HEIGHTS
     vec2 xz = vec2(record % gridSize.x, record / gridSize.x) * maxStoredValue / vec2(gridSize - 1);

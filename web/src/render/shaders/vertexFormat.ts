@@ -4,8 +4,8 @@ import type { IUniform, Matrix3, Texture, Vector4 } from "three";
 import type { Vec3 } from "../../document/description.ts";
 import { instancesDefine } from "./instanceRecord.ts";
 import { wideLinesDefine } from "./wideLineChunk.ts";
-import type { Grid, NormalCode } from "../../stage/stage.ts";
-import { isPairCode } from "../../stage/stage.ts";
+import type { Grid, NormalFormat } from "../../stage/stage.ts";
+import { isPairFormat } from "../../stage/stage.ts";
 
 /** Uniforms of both versions of the vertex chunk. */
 export interface VertexUniforms extends Record<string, IUniform> {
@@ -41,7 +41,7 @@ export interface ImageVertexUniforms extends VertexUniforms {
   /** First texels of index, normal, colour and texture coordinates. */
   firstTexels: IUniform<[number, number, number, number]>;
   coordFirstTexels: IUniform<[number, number, number, number]>;
-  coordPlanes: IUniform<number>;
+  coordPlaneCount: IUniform<number>;
   missingBytesMidpoint: IUniform<number>;
   hasIndex: IUniform<boolean>;
   isIndexWide: IUniform<boolean>;
@@ -104,11 +104,11 @@ export function vertexDefinesOf(
 }
 
 /** The #defines for stored normals. `isWord`: both numbers in one 16-bit word. */
-export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
-  if (!isPairCode(code)) return code.kind === "byteVector" ? { NORMAL_BYTES: "" } : {};
+export function normalDefinesOf(format: NormalFormat, isWord: boolean): Record<string, string> {
+  if (!isPairFormat(format)) return format.kind === "byteVector" ? { NORMAL_BYTES: "" } : {};
   return {
-    [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
-    NORMAL_MAX: `${2 ** code.bits - 1}.0`,
+    [format.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
+    NORMAL_MAX: `${2 ** format.bits - 1}.0`,
     ...(isWord && { NORMAL_WORDS: "" }),
   };
 }

@@ -56,7 +56,7 @@ function vertexFormatOf(stage: Stage, range: DrawRange): VertexFormat {
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     hasTexCoords: stage.texCoord !== undefined,
     gridDefines: isFromImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
-    normalDefines: normalDefinesOf(stage.normalCode, !isFromImages && stage.normal?.components === 1),
+    normalDefines: normalDefinesOf(stage.normalFormat, !isFromImages && stage.normal?.components === 1),
   };
 }
 

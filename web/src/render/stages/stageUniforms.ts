@@ -119,7 +119,7 @@ function imageUniformsOf(
     coordFirstTexels: {
       value: [firstTexelOf(coord[0]), firstTexelOf(coord[1]), firstTexelOf(coord[2]), firstTexelOf(coord[3])],
     },
-    coordPlanes: { value: stage.coordPlaneCount },
+    coordPlaneCount: { value: stage.coordPlaneCount },
     missingBytesMidpoint: { value: stage.missingBytesMidpoint },
     hasIndex: { value: index !== undefined },
     isIndexWide: { value: stage.isIndexWide },

@@ -5,7 +5,7 @@ import { DecodeError } from "../../../decode/decodeError.ts";
 import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
 import { boundsOf, countThatFits, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
-import type { BufferStage, DrawRange, NormalCode, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
+import type { BufferStage, DrawRange, NormalFormat, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
 import { withoutStrips } from "../../../decode/strips.ts";
 import type { ElementType, GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
 import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geometry.ts";
@@ -32,7 +32,7 @@ export function bgStageBuilder(
 ): StageBuilder {
   const uploads = new ArrayUploads(storeBytes);
   let available: AvailableArrays = {};
-  const normalCode = normalCodeOf(geometry);
+  const normalFormat = normalFormatOf(geometry);
   const unindexed = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
 
   return {
@@ -77,7 +77,7 @@ export function bgStageBuilder(
         coord,
         bounds,
         normal,
-        normalCode,
+        normalFormat,
         color,
         texCoord,
         value: value && { ...value, maxStored: undefined },
@@ -170,6 +170,6 @@ export function componentsOf(geometry: GeometryDescription, role: AttributeRole)
   }
 }
 
-function normalCodeOf({ normalEncoding, normalType }: GeometryDescription): NormalCode {
+function normalFormatOf({ normalEncoding, normalType }: GeometryDescription): NormalFormat {
   return isPair(normalEncoding) ? { kind: normalEncoding, bits: normalType === "Uint16" ? 16 : 8 } : { kind: "vector" };
 }

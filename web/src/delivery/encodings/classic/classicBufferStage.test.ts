@@ -31,7 +31,7 @@ describe("images that are decoded on the CPU", () => {
       assert.ok(full?.kind === "buffers");
       assert.deepEqual([full.name, full.draws], ["full", [{ primitive: "triangles", first: 0, count: 600 }]]);
       assert.deepEqual(
-        [site.arrayOf(full.coord)[4], site.arrayOf(full.index)[201], full.normalCode.kind],
+        [site.arrayOf(full.coord)[4], site.arrayOf(full.index)[201], full.normalFormat.kind],
         [2 * 256 + 101, 1, "byteVector"],
       );
     });

@@ -16,7 +16,7 @@ import { asDeliveryError } from "../../deliveryError.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
-import { firstTexelOf, normalCodeOf } from "./classicFormat.ts";
+import { firstTexelOf, normalFormatOf } from "./classicFormat.ts";
 import type { Content } from "../../resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
@@ -36,7 +36,7 @@ class AvailableArrays {
   waitingIndex: ImageFile | undefined;
   coordHeader: PngHeader | undefined;
   coord: StoredVertices | undefined;
-  coordPlanes = 0;
+  coordPlaneCount = 0;
   drawn: Drawn | undefined;
   normal: StoredVertices | undefined;
   /** Normals of the slope of a grid that has no others. */
@@ -89,7 +89,7 @@ class BufferStageBuilder implements StageBuilder {
       case "normal": {
         const normals = await this.#run(
           "classicNormals",
-          { file, code: normalCodeOf(this.#geometry), ...this.#layout(header) },
+          { file, format: normalFormatOf(this.#geometry), ...this.#layout(header) },
           signal,
         );
         available.normal = await this.#uploads.storeVertices(normals, signal);
@@ -138,12 +138,12 @@ class BufferStageBuilder implements StageBuilder {
     const { coord, texCoord, color, value } = available;
     if (coord === undefined) return undefined;
     const normal = available.normal ?? available.slope;
-    const normalCode = available.normal ? normalCodeOf(this.#geometry) : ({ kind: "vector" } as const);
+    const normalFormat = available.normal ? normalFormatOf(this.#geometry) : ({ kind: "vector" } as const);
     const name = attainedStageName(this.#patch, {
       index: available.drawn,
       normal: available.normal,
       color,
-      coord: Array.from({ length: available.coordPlanes }),
+      coord: Array.from({ length: available.coordPlaneCount }),
       value: value ? this.#patch.value : [],
     });
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
@@ -157,7 +157,7 @@ class BufferStageBuilder implements StageBuilder {
       draws,
       coord,
       normal,
-      normalCode,
+      normalFormat,
       color,
       texCoord,
       value: value && { ...value, maxStored: undefined },
@@ -171,7 +171,7 @@ class BufferStageBuilder implements StageBuilder {
       undefined,
     );
     const planes = available.planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
-    if (header === undefined || planes.length <= available.coordPlanes) return;
+    if (header === undefined || planes.length <= available.coordPlaneCount) return;
     const planeCount = this.#patch.coord.length;
     const job = {
       planes,
@@ -200,14 +200,14 @@ class BufferStageBuilder implements StageBuilder {
     // slopes are those of the positions.
     if (available.drawn === undefined) available.drawn = drawn;
     else this.#uploads.retire(drawn?.index);
-    if (planes.length <= available.coordPlanes) {
+    if (planes.length <= available.coordPlaneCount) {
       this.#uploads.retire(coord, slope);
       return;
     }
     this.#uploads.retire(available.coord, available.slope);
     available.coord = coord;
     available.slope = slope;
-    available.coordPlanes = planes.length;
+    available.coordPlaneCount = planes.length;
     if (planes.length === planeCount) available.planes = [];
   }
 

@@ -3,9 +3,9 @@
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { GeometryDescription, Reference } from "../../../document/description.ts";
 import { isPair } from "../../../document/geometry.ts";
-import type { NormalCode } from "../../../stage/stage.ts";
+import type { NormalFormat } from "../../../stage/stage.ts";
 
-export function normalCodeOf({ normalEncoding }: GeometryDescription): NormalCode {
+export function normalFormatOf({ normalEncoding }: GeometryDescription): NormalFormat {
   return isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" };
 }
 

@@ -4,12 +4,12 @@
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";
 import type { TexelRange, TextureStage } from "../../../stage/stage.ts";
-import { isPairCode } from "../../../stage/stage.ts";
+import { isPairFormat } from "../../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
 import { missingBytesMidpoint } from "../../../document/dequantization.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
-import { firstTexelOf, normalCodeOf } from "./classicFormat.ts";
+import { firstTexelOf, normalFormatOf } from "./classicFormat.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
@@ -50,7 +50,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
   let planes: (TexelRange | undefined)[] = [];
   let values: (TexelRange | undefined)[] = [];
   let available: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};
-  const normalCode = normalCodeOf(geometry);
+  const normalFormat = normalFormatOf(geometry);
   const cornerCount = cornerCountOf(patch);
 
   function channelsOf(role: PatchFile["role"]): number {
@@ -58,7 +58,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       case "coord":
         return patch.grid?.kind === "heightMap" ? 1 : 3;
       case "normal":
-        return isPairCode(normalCode) ? 1 : 3;
+        return isPairFormat(normalFormat) ? 1 : 3;
       case "texCoord":
         return 4;
       case "color":
@@ -91,7 +91,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
       const range = { image, firstTexel: firstTexelOf(file.reference) };
-      const isPairs = file.role === "normal" && isPairCode(normalCode);
+      const isPairs = file.role === "normal" && isPairFormat(normalFormat);
       const needed = channelsOf(file.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (file.role === "index") {
@@ -136,7 +136,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
         coordPlaneCount: patch.coord.length,
         missingBytesMidpoint: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
         normal: available.normal,
-        normalCode,
+        normalFormat,
         color: available.color,
         colorComponents: geometry.colorComponents,
         texCoord: available.texCoord,

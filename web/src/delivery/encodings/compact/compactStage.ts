@@ -48,7 +48,7 @@ export function compactStageBuilder(
       vertexCount: buffers.vertexCount,
       name,
       draws,
-      normalCode: { kind: "vector" },
+      normalFormat: { kind: "vector" },
       index: ownIndex,
       coord: ownCoord,
       normal: ownNormal,

@@ -1,29 +1,28 @@
-// Pictures that are looked at: whatever the browser can decode, in its own way
-// with colours.
+// Decodes texture images: any format that the browser decodes, with its own colour management.
 
 import { DecodeError } from "./decodeError.ts";
 import { drawGlyphAtlas, GlyphAtlasError } from "../text/glyphRendering.ts";
 
-export interface DecodedPicture {
+export interface DecodedTextureImage {
   readonly bitmap: ImageBitmap;
   readonly hasAlpha: boolean;
 }
 
-/** What a picture's numbers mean. */
-export interface PictureKind {
-  /** No colours: no number is converted. */
+/** What the texels of a texture image mean. */
+export interface TextureImageKind {
+  /** Texels are data, not colours, so that no colour conversion applies. */
   readonly isData: boolean;
-  /** The file tells of letters, whose field of distances is made. */
+  /** The file describes glyphs; the image is drawn as their distance field. */
   readonly isDistanceField?: true;
 }
 
-/** Larger ones are made smaller. Rejects with DecodeError. */
-export async function decodePicture(
+/** Decodes an image, scaled down to `maxEdge` texels where it is larger. Rejects with DecodeError. */
+export async function decodeTextureImage(
   bytes: Uint8Array<ArrayBuffer>,
   maxEdge: number,
-  { isData, isDistanceField }: PictureKind,
-): Promise<DecodedPicture> {
-  if (isDistanceField === true) return { bitmap: await glyphsIn(bytes), hasAlpha: true };
+  { isData, isDistanceField }: TextureImageKind,
+): Promise<DecodedTextureImage> {
+  if (isDistanceField === true) return { bitmap: await glyphAtlasOf(bytes), hasAlpha: true };
   const options: ImageBitmapOptions = {
     premultiplyAlpha: "none",
     imageOrientation: "flipY",
@@ -43,7 +42,7 @@ export async function decodePicture(
   return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };
 }
 
-async function glyphsIn(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
+async function glyphAtlasOf(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   try {
     return await drawGlyphAtlas(bytes);
   } catch (error) {
@@ -52,15 +51,17 @@ async function glyphsIn(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   }
 }
 
-const [pngColorType, grayWithAlpha, rgba] = [25, 4, 6];
+/** The offset of the colour type in a PNG, and the colour types with alpha. */
+const [pngColorTypeOffset, grayWithAlpha, rgba] = [25, 4, 6];
 
 /**
- * Told by the format: PNG's header (or a colour that is see-through), WebP's flags; no JPEG has any. Anything else may.
+ * Whether the image may have transparent texels, by its format: the header or a transparent colour of PNG, the flags of
+ * WebP; never in JPEG, and always in other formats.
  */
 export function mayHaveAlpha(bytes: Uint8Array): boolean {
   const text = (from: number, length: number) => String.fromCharCode(...bytes.subarray(from, from + length));
   if (text(1, 3) === "PNG") {
-    const type = bytes[pngColorType];
+    const type = bytes[pngColorTypeOffset];
     return type === grayWithAlpha || type === rgba || text(33, 1024).includes("tRNS");
   }
   if (bytes[0] === 0xff && bytes[1] === 0xd8) return false;
