@@ -1,5 +1,5 @@
 #pragma once
-// Scene -> the bytes of a mesh file for other programs. One writer per format; other folders include only this header.
+// Writes a scene as a mesh file for other programs. There is one writer per format.
 
 #include "base/bytes.h"
 #include "scene/scene.h"
@@ -34,10 +34,9 @@ Bytes writePly(const Scene& scene);
 Bytes writeObj(const Scene& scene);
 
 /// Binary glTF 2.0: the scene's nodes that have shapes, viewpoints or lights below them, with their transforms. A mesh
-/// that several shapes use is stored once. Each wedge is a vertex
-/// with POSITION, NORMAL, TEXCOORD_0 (v points down in glTF), COLOR_0
-/// (linear, 16 bits a channel) and, of further attributes, _NAME. Physical and unlit materials are kept;
-/// others become rough dielectrics of their diffuse and emissive colour. Textures are written if their image is
+/// that several shapes use is stored once. Each wedge is a vertex with POSITION, NORMAL, TEXCOORD_0 (v points down in
+/// glTF), COLOR_0 (linear, 16 bits per channel) and _NAME for each further attribute. Physical and unlit materials are
+/// kept; others become rough dielectrics of their diffuse and emissive colour. Textures are written if their image is
 /// available. Viewpoints become cameras. Lights are written except those that lightsLeftOut counts.
 Bytes writeGlb(const Scene& scene);
 

@@ -53,10 +53,10 @@ TEST(BaseMesh, KeepsBordersBetweenPatchesButNotTheBorderOfTheMesh) {
   ASSERT_TRUE(base);
   EXPECT_TRUE(meetsAtBorders(*base, trianglesOf(patched)));
 
-  std::size_t edges = 0;
+  std::size_t borderVertexCount = 0;
   for (const Vec3u& position : base->positions)
-    edges += position.x == 0;
-  EXPECT_LT(edges, 40u) << "the grid's own border is straight and needs few of its 101 vertices";
+    borderVertexCount += position.x == 0;
+  EXPECT_LT(borderVertexCount, 40u) << "the grid's border is straight and needs few of its 101 vertices";
 }
 
 TEST(BaseMesh, DoesNotMeetPatchesWhenABorderVertexMoves) {
@@ -66,13 +66,13 @@ TEST(BaseMesh, DoesNotMeetPatchesWhenABorderVertexMoves) {
   for (std::size_t corner = 0; corner < base.corners.size(); ++corner)
     segmentsOf[base.corners[corner]].insert(base.segments[corner / 3]);
   const auto isShared = [](const std::set<std::uint32_t>& segments) { return segments.size() > 1; };
-  const auto meetsWithout = [&](auto found) {
+  const auto meetsAfterMoving = [&](auto found) {
     BaseMesh changed = base;
     changed.positions[static_cast<std::size_t>(found - segmentsOf.begin())].z += 1;
     return meetsAtBorders(changed, trianglesOf(patched));
   };
-  EXPECT_FALSE(meetsWithout(std::ranges::find_if(segmentsOf, isShared)));
-  EXPECT_TRUE(meetsWithout(std::ranges::find_if_not(segmentsOf, isShared)));
+  EXPECT_FALSE(meetsAfterMoving(std::ranges::find_if(segmentsOf, isShared)));
+  EXPECT_TRUE(meetsAfterMoving(std::ranges::find_if_not(segmentsOf, isShared)));
 }
 
 TEST(BaseMesh, HasTheRequestedNumberOfTriangles) {
@@ -110,7 +110,7 @@ TEST(BaseMesh, KeepsColors) {
   }
 }
 
-TEST(BaseMesh, IsLeftOutWhereItIsNotWorthItsBytes) {
+TEST(BaseMesh, IsLeftOutIfItIsNotWorthItsBytes) {
   const auto hasBase = [](const Mesh& mesh, std::uint32_t maxWedges, double percent) {
     return baseOf(patchedOf(mesh, maxWedges), percent).has_value();
   };

@@ -1,9 +1,9 @@
-// The parameters of the lighting equations, from a material's fields.
+// Computes the parameters of the lighting equations from a material's fields.
 
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
 import { srgbOf } from "./physicalLighting.ts";
 
-/** `hasAlpha`: vertex colours or a texture have alpha. */
+/** Whether surfaces are blended with what is behind them. `hasAlpha`: whether vertex colours or the colour texture have alpha. */
 export function isBlended(
   { alpha: { mode }, material: { transparency } }: AppearanceDescription,
   hasAlpha: boolean,
@@ -27,6 +27,7 @@ export function unlitColorOf(description: MaterialDescription, hasColors: boolea
     case "phong":
       return isDark ? description.diffuseColor : emissiveColor;
     case "physical":
+      // Colours of PhysicalMaterial are linear.
       return srgbOf(isDark ? description.baseColor : emissiveColor);
     case "unlit":
       return emissiveColor;
@@ -36,13 +37,17 @@ export function unlitColorOf(description: MaterialDescription, hasColors: boolea
 export interface LitParameters {
   readonly color: Vec3;
   readonly specular: Vec3;
+  /** The exponent of the specular term. */
   readonly shininess: number;
   readonly ambientIntensity: number;
   readonly metallic: number;
   readonly roughness: number;
 }
 
-/** Vertex colours replace the diffuse colour; glTF multiplies them with its base colour. */
+/**
+ * The parameters of a lit material. Vertex colours replace the diffuse colour of a Material; the base colour of a
+ * PhysicalMaterial is multiplied by them, as in glTF.
+ */
 export function litParametersOf(description: MaterialDescription, hasColors: boolean): LitParameters {
   switch (description.kind) {
     case "physical":

@@ -23,7 +23,7 @@ import { minAlpha } from "../render/materials/materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, Shading } from "../render/materials/materialFactory.ts";
 import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
 import { addValueColors } from "../render/materials/valueColors.ts";
-import { primitiveDefinesOf, addRoundPoints } from "../render/points/roundPoints.ts";
+import { primitiveDefinesOf, addPrimitiveChunks } from "../render/points/roundPoints.ts";
 import { addVertexReading } from "../render/shaders/vertexChunk.ts";
 import { vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
 import { srgbColorsDefine } from "../render/shaders/vertexFormat.ts";
@@ -216,7 +216,7 @@ function addVertexReadingTo<Any extends Material>(material: Any, request: Materi
     own(shader, renderer);
     Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
     addVertexReading(shader);
-    addRoundPoints(shader);
+    addPrimitiveChunks(shader);
     addDepthShading(shader);
     addValueColors(shader);
     addGlyphField(shader);

@@ -13,61 +13,63 @@ function geometry(name: string, vertices: number, profile = "compact"): string {
 
 function planOf(instances: readonly ShapeDescription[]): BatchingPlan {
   const plan = new BatchingPlan();
-  for (const { geometry: own } of instances) if (own) plan.add(own);
+  for (const { geometry: description } of instances) if (description) plan.add(description);
   return plan;
 }
 
 /** The draw mode of each of the scene's shapes. */
-function drawn(shapes: readonly string[], is: "opaque" | "blended" = "opaque"): string[] {
+function drawModes(shapes: readonly string[], blending: "opaque" | "blended" = "opaque"): string[] {
   const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
   const instances = shapesOf(scene.root);
   const plan = planOf(instances);
-  return instances.map(({ geometry: own }) => (own ? plan.drawModesOf(own)[is] : "nothing"));
+  return instances.map(({ geometry: description }) =>
+    description ? plan.drawModesOf(description)[blending] : "nothing",
+  );
 }
 
-const crowd = Array.from({ length: minInstances }, (_, n) => geometry(`small${n}`, 24));
+const smallMeshes = Array.from({ length: minInstances }, (_, n) => geometry(`small${n}`, 24));
 
-test("in a scene of few shapes, each shape is drawn alone", () => {
-  const shapes = [...crowd.slice(2), '<ImageGeometry USE="small3"/>'];
-  assert.deepEqual(new Set(drawn(shapes)), new Set(["alone"]));
+test("in a scene of few shapes, each shape is drawModes alone", () => {
+  const shapes = [...smallMeshes.slice(2), '<ImageGeometry USE="small3"/>'];
+  assert.deepEqual(new Set(drawModes(shapes)), new Set(["alone"]));
 });
 
-test("in a scene of many shapes, small meshes are merged and large ones are drawn alone", () => {
-  const shapes = [...crowd, geometry("large", maxMergedVertices + 1), geometry("untold", 0)];
-  assert.deepEqual(drawn(shapes), [...crowd.map(() => "merged"), "alone", "alone"]);
+test("in a scene of many shapes, small meshes are merged and large ones are drawModes alone", () => {
+  const shapes = [...smallMeshes, geometry("large", maxMergedVertices + 1), geometry("unknownSize", 0)];
+  assert.deepEqual(drawModes(shapes), [...smallMeshes.map(() => "merged"), "alone", "alone"]);
 });
 
-test("in a scene of many shapes, blended shapes are never drawn alone, so that they can be sorted", () => {
-  const shapes = [...crowd, geometry("large", maxMergedVertices + 1), geometry("image", 24, "classic")];
-  assert.deepEqual(drawn(shapes, "blended"), [...crowd.map(() => "merged"), "instanced", "instanced"]);
-  assert.deepEqual(new Set(drawn(crowd.slice(1), "blended")), new Set(["alone"]));
+test("in a scene of many shapes, blended shapes are never drawModes alone, so that they can be sorted", () => {
+  const shapes = [...smallMeshes, geometry("large", maxMergedVertices + 1), geometry("image", 24, "classic")];
+  assert.deepEqual(drawModes(shapes, "blended"), [...smallMeshes.map(() => "merged"), "instanced", "instanced"]);
+  assert.deepEqual(new Set(drawModes(smallMeshes.slice(1), "blended")), new Set(["alone"]));
 });
 
 test("a mesh is merged while all its instances together are small, and instanced beyond that", () => {
-  const twice = (vertices: number) => [...crowd, geometry("twin", vertices), '<ImageGeometry USE="twin"/>'];
-  assert.deepEqual(drawn(twice(maxMergedVertices / 2)).slice(-2), ["merged", "merged"]);
-  assert.deepEqual(drawn(twice(maxMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
+  const withTwin = (vertices: number) => [...smallMeshes, geometry("twin", vertices), '<ImageGeometry USE="twin"/>'];
+  assert.deepEqual(drawModes(withTwin(maxMergedVertices / 2)).slice(-2), ["merged", "merged"]);
+  assert.deepEqual(drawModes(withTwin(maxMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
 });
 
 test("vertices that the GPU decodes are in images, not in buffers, and are never merged", () => {
   const shapes = [
-    ...crowd,
+    ...smallMeshes,
     geometry("image", 24, "classic"),
     geometry("images", 24, "classic"),
     '<ImageGeometry USE="images"/>',
   ];
-  assert.deepEqual(drawn(shapes).slice(-3), ["alone", "instanced", "instanced"]);
+  assert.deepEqual(drawModes(shapes).slice(-3), ["alone", "instanced", "instanced"]);
 });
 
-test("after shapes come and go, the remaining ones are drawn as in a new scene", () => {
+test("after shapes come and go, the remaining ones are drawModes as in a new scene", () => {
   const scene = readScene(
     elementsOf(
-      `<X3D>${[...crowd, geometry("twin", maxMergedVertices / 2), '<ImageGeometry USE="twin"/>']
+      `<X3D>${[...smallMeshes, geometry("twin", maxMergedVertices / 2), '<ImageGeometry USE="twin"/>']
         .map((inner) => `<Shape>${inner}</Shape>`)
         .join("")}</X3D>`,
     ),
   );
-  const geometries = shapesOf(scene.root).flatMap(({ geometry: own }) => own ?? []);
+  const geometries = shapesOf(scene.root).flatMap(({ geometry: description }) => description ?? []);
   const plan = planOf(shapesOf(scene.root));
   const twin = geometries.at(-1);
   assert.ok(twin);
@@ -75,6 +77,6 @@ test("after shapes come and go, the remaining ones are drawn as in a new scene",
   assert.equal(plan.drawModesOf(twin).opaque, "instanced");
   plan.remove(twin);
   assert.equal(plan.drawModesOf(twin).opaque, "merged");
-  for (const gone of geometries.slice(0, 3)) plan.remove(gone);
+  for (const removed of geometries.slice(0, 3)) plan.remove(removed);
   assert.equal(plan.drawModesOf(twin).opaque, "alone");
 });

@@ -1,4 +1,4 @@
-// X3D's Background (ISO/IEC 19775-1, 24.4.1). A single colour clears the canvas. Several colours
+// Draws X3D's Background (ISO/IEC 19775-1, 24.4.1). A single colour clears the canvas. Several colours
 // are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and
 // each pixel computes its view direction.
 
@@ -14,8 +14,8 @@ varying vec3 direction;
 void main() {
   gl_Position = vec4(position.xy, 1.0, 1.0);
   vec2 center = vec2(projectionMatrix[2][0], projectionMatrix[2][1]);
-  vec2 slope = (position.xy + center) / vec2(projectionMatrix[0][0], projectionMatrix[1][1]);
-  direction = transpose(mat3(viewMatrix)) * vec3(slope, -1.0);
+  vec2 viewPosition = (position.xy + center) / vec2(projectionMatrix[0][0], projectionMatrix[1][1]);
+  direction = transpose(mat3(viewMatrix)) * vec3(viewPosition, -1.0);
 }
 `;
 
@@ -28,7 +28,7 @@ uniform int skyCount;
 uniform int groundCount;
 varying vec3 direction;
 
-float shareBetween(float begin, float end, float angle) {
+float fractionBetween(float begin, float end, float angle) {
   return clamp((angle - begin) / max(end - begin, 1e-6), 0.0, 1.0);
 }
 
@@ -38,13 +38,13 @@ void main() {
   vec3 color = skyColors[0];
   for (int i = 1; i < RINGS; ++i) {
     if (i < skyCount && fromZenith > skyAngles[i - 1])
-      color = mix(skyColors[i - 1], skyColors[i], shareBetween(skyAngles[i - 1], skyAngles[i], fromZenith));
+      color = mix(skyColors[i - 1], skyColors[i], fractionBetween(skyAngles[i - 1], skyAngles[i], fromZenith));
   }
   if (groundCount > 0 && fromNadir <= groundAngles[groundCount - 1]) {
     color = groundColors[0];
     for (int i = 1; i < RINGS; ++i) {
       if (i < groundCount && fromNadir > groundAngles[i - 1])
-        color = mix(groundColors[i - 1], groundColors[i], shareBetween(groundAngles[i - 1], groundAngles[i], fromNadir));
+        color = mix(groundColors[i - 1], groundColors[i], fractionBetween(groundAngles[i - 1], groundAngles[i], fromNadir));
     }
   }
   gl_FragColor = vec4(color, 1.0);
@@ -79,13 +79,13 @@ export function makeBackground(background: BackgroundDescription): Color | Mesh 
 }
 
 function ringsOf(name: "sky" | "ground", rings: BackgroundDescription["sky"]): Record<string, { value: unknown }> {
-  const all = Array.from(
+  const paddedRings = Array.from(
     { length: maxRings },
     (_, i) => rings[Math.min(i, rings.length - 1)] ?? { angle: 0, color: [0, 0, 0] },
   );
   return {
-    [`${name}Colors`]: { value: all.flatMap(({ color }) => color) },
-    [`${name}Angles`]: { value: all.map(({ angle }) => angle) },
+    [`${name}Colors`]: { value: paddedRings.flatMap(({ color }) => color) },
+    [`${name}Angles`]: { value: paddedRings.map(({ angle }) => angle) },
     [`${name}Count`]: { value: Math.min(rings.length, maxRings) },
   };
 }

@@ -17,7 +17,7 @@ import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
 import { minAlpha } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
-import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
+import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
 import { addValueColors } from "./valueColors.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
 import { srgbColorsDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
@@ -90,7 +90,7 @@ function makeMaterial(
     const { depthRange, attenuations, lightScopeRanges, scopedAmbients } = shared;
     Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightScopeRanges, scopedAmbients, ...lit });
     addVertexReading(shader);
-    addRoundPoints(shader);
+    addPrimitiveChunks(shader);
     addDepthShading(shader);
     addValueColors(shader);
     addGlyphField(shader);

@@ -1,7 +1,7 @@
-// Samples the surroundings of a walking viewer: one depth image straight down from the eye, and
-// four rows of depths around it at eye level, all in one small render target. The picking pass
-// draws them, so its vertices are those on the screen; they are read back when the GPU is done,
-// because JavaScript has no copy of the vertices.
+// Samples the surroundings of a walking avatar: one depth image straight down from the eye, and four
+// rows of depths around it at eye level, all in one small render target. The picking materials draw
+// them, with the same vertices as on the screen. JavaScript has no copy of the vertices, so the depths
+// are read back when the GPU has drawn them.
 
 import type { WebGLRenderer, WebGLRenderTarget } from "three";
 import { Camera, Matrix4, Quaternion, Scene, Vector3 } from "three";
@@ -20,7 +20,7 @@ const directions = 4;
 const wordsPerPixel = 4;
 
 /** A block of the render target, and the camera that fills it. */
-interface Shot {
+interface DepthView {
   readonly camera: Camera;
   readonly x: number;
   readonly y: number;
@@ -39,37 +39,40 @@ export class DepthProbe {
     this.#scene.matrixWorldAutoUpdate = false;
   }
 
-  /** A probe is under way; only one may be at a time. */
+  /** Whether a probe is in progress; there may be only one at a time. */
   get isBusy(): boolean {
     return this.#isBusy;
   }
 
-  /** `depth`: the distance below the eye that is searched for ground. Undefined where the context is lost meanwhile. */
+  /**
+   * Draws the surfaces of the candidates and reads their depths. Ground is searched down to `searchDepth` below the eye.
+   * Resolves to undefined if the context is lost meanwhile.
+   */
   async probe(
     depthCamera: DepthCamera,
-    depth: number,
+    searchDepth: number,
     candidates: readonly PickCandidate[],
   ): Promise<GroundSamples | undefined> {
     this.#isBusy = true;
     try {
-      const nearest = depthCamera.range * 1e-3;
-      const farthest = depthCamera.range * 2;
-      const down = downwards(depthCamera, depth);
-      const around = Array.from({ length: directions }, (_, turn) => sideways(depthCamera, turn, nearest, farthest));
+      const near = depthCamera.range * 1e-3;
+      const far = depthCamera.range * 2;
+      const down = downwards(depthCamera, searchDepth);
+      const around = Array.from({ length: directions }, (_, turn) => sideways(depthCamera, turn, near, far));
       const surfaces = candidates.filter(({ pick }) => cornersOf(pick.range) === 3);
-      for (const shot of [down, ...around]) this.#take(shot, surfaces);
+      for (const view of [down, ...around]) this.#draw(view, surfaces);
       const gl = this.#renderer.getContext() as WebGL2RenderingContext;
       const reading = readBlocksAsync(
         gl,
-        [down, ...around].map((shot) => ({ ...shot, attachment: 0 })),
+        [down, ...around].map((view) => ({ ...view, attachment: 0 })),
       );
       this.#renderer.setRenderTarget(null);
       const words = await reading;
       if (gl.isContextLost()) return undefined;
       const depths = depthsIn(words);
       return {
-        floor: { cells: floorCells, heights: heightsOf(depths.subarray(0, floorCells ** 2), depth) },
-        walls: wallsOf(depths.subarray(floorCells ** 2), nearest, farthest),
+        floor: { cells: floorCells, heights: heightsOf(depths.subarray(0, floorCells ** 2), searchDepth) },
+        walls: wallsOf(depths.subarray(floorCells ** 2), near, far),
       };
     } finally {
       this.#isBusy = false;
@@ -81,8 +84,8 @@ export class DepthProbe {
     this.#target = undefined;
   }
 
-  /** Leaves the render target bound. */
-  #take({ camera, x, y, width, height }: Shot, surfaces: readonly PickCandidate[]): void {
+  /** Draws one block of the render target, and leaves the target bound. */
+  #draw({ camera, x, y, width, height }: DepthView, surfaces: readonly PickCandidate[]): void {
     const target = (this.#target ??= makePickTarget(wallRays, floorCells + directions));
     target.viewport.set(x, y, width, height);
     target.scissor.copy(target.viewport);
@@ -96,11 +99,11 @@ export class DepthProbe {
   }
 }
 
-function downwards({ eye, orientation, range }: DepthCamera, depth: number): Shot {
-  const projection = new Matrix4().makeOrthographic(-range, range, range, -range, 0, depth);
-  const towardsFeet = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
+function downwards({ eye, orientation, range }: DepthCamera, searchDepth: number): DepthView {
+  const projection = new Matrix4().makeOrthographic(-range, range, range, -range, 0, searchDepth);
+  const downwardRotation = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
   return {
-    camera: cameraAt(eye, orientation.clone().multiply(towardsFeet), projection),
+    camera: cameraAt(eye, orientation.clone().multiply(downwardRotation), projection),
     x: 0,
     y: 0,
     width: floorCells,
@@ -109,9 +112,9 @@ function downwards({ eye, orientation, range }: DepthCamera, depth: number): Sho
 }
 
 /** A quarter of the horizon, one pixel high; quarter 0 looks along -z, the following ones turn to the left. */
-function sideways({ eye, orientation }: DepthCamera, turn: number, nearest: number, farthest: number): Shot {
-  const half = nearest / wallRays;
-  const projection = new Matrix4().makePerspective(-nearest, nearest, half, -half, nearest, farthest);
+function sideways({ eye, orientation }: DepthCamera, turn: number, near: number, far: number): DepthView {
+  const half = near / wallRays;
+  const projection = new Matrix4().makePerspective(-near, near, half, -half, near, far);
   return {
     camera: cameraAt(eye, orientation.clone().multiply(quarterTurns(turn)), projection),
     x: 0,
@@ -135,7 +138,7 @@ function cameraAt(eye: Vector3, orientation: Quaternion, projection: Matrix4): C
   return camera;
 }
 
-/** Depths 0 … 1; Infinity where nothing is hit. */
+/** Depths 0 … 1; Infinity for pixels in which nothing is hit. */
 function depthsIn(words: Uint32Array): Float32Array {
   const floats = new Float32Array(words.buffer);
   return Float32Array.from({ length: words.length / wordsPerPixel }, (_, pixel) => {
@@ -146,27 +149,27 @@ function depthsIn(words: Uint32Array): Float32Array {
   });
 }
 
-/** The last row of the image, its top, looks towards -z; it becomes the first row of the map. */
-function heightsOf(depths: Float32Array, depth: number): Float32Array {
+/** Heights relative to the eye. The last row of the image, its top, is towards -z, and becomes the first row of the map. */
+function heightsOf(depths: Float32Array, searchDepth: number): Float32Array {
   const heights = new Float32Array(depths.length);
   for (let row = 0; row < floorCells; ++row) {
     const line = depths.subarray((floorCells - 1 - row) * floorCells, (floorCells - row) * floorCells);
-    line.forEach((share, column) => {
-      heights[row * floorCells + column] = -share * depth;
+    line.forEach((depth, column) => {
+      heights[row * floorCells + column] = -depth * searchDepth;
     });
   }
   return heights;
 }
 
-/** Hit points (x, z) in the depth camera's coordinate system. */
-function wallsOf(depths: Float32Array, nearest: number, farthest: number): Float32Array {
+/** The points (x, z) that are hit at eye level, in the depth camera's coordinate system. */
+function wallsOf(depths: Float32Array, near: number, far: number): Float32Array {
   const points: number[] = [];
   const point = new Vector3();
-  depths.forEach((share, pixel) => {
-    if (share === Infinity) return;
-    const ahead = (nearest * farthest) / (farthest - share * (farthest - nearest));
-    const aside = (2 * (pixel % wallRays) + 1) / wallRays - 1;
-    point.set(aside * ahead, 0, -ahead).applyQuaternion(quarterTurns(Math.floor(pixel / wallRays)));
+  depths.forEach((depth, pixel) => {
+    if (depth === Infinity) return;
+    const distance = (near * far) / (far - depth * (far - near));
+    const tangent = (2 * (pixel % wallRays) + 1) / wallRays - 1;
+    point.set(tangent * distance, 0, -distance).applyQuaternion(quarterTurns(Math.floor(pixel / wallRays)));
     points.push(point.x, point.z);
   });
   return Float32Array.from(points);

@@ -9,7 +9,7 @@ import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
+import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "../shaders/texCoords.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
@@ -182,7 +182,7 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
   const { primitive, side, hasNormals, alphaMask, uniforms } = request;
   const shader = { vertexShader, fragmentShader };
   addVertexReading(shader);
-  addRoundPoints(shader);
+  addPrimitiveChunks(shader);
   const material = new ShaderMaterial({
     ...shader,
     side,

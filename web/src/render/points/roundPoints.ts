@@ -1,5 +1,5 @@
-// Large points are round. Points and lines have no back, so their normals are flipped towards the
-// viewer.
+// Shader chunks for points and lines. Large points are drawn as discs. Points and lines have no back
+// face, so their normals are flipped towards the viewer.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
@@ -12,6 +12,7 @@ const twoSidedLightingDefine = "LIT_FROM_BOTH_SIDES";
 /** Points of at least this many device pixels are round. */
 const minRoundSize = "3.0";
 
+/** The defines of a primitive in materials with `addPrimitiveChunks`. */
 export function primitiveDefinesOf(primitive: DrawRange["primitive"]): Record<string, string> {
   switch (primitive) {
     case "points":
@@ -48,8 +49,8 @@ const normalChunk = /* glsl */ `
 #endif
 `;
 
-/** Call in `onBeforeCompile` after addVertexReading; affects materials with `primitiveDefinesOf`. */
-export function addRoundPoints(
+/** Adds the chunks to a shader after addVertexReading; materials with `primitiveDefinesOf` make use of them. */
+export function addPrimitiveChunks(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
   shader.vertexShader = declarations + replaceChunks(shader.vertexShader, [[pointSizeChunk, vertexChunk]]);
