@@ -28,7 +28,7 @@ export interface StageBuilder {
   sweep(): void;
 }
 
-/** What builders get to decode and upload with. */
+/** Functions with which builders decode and upload. */
 export interface BuilderTools {
   readonly runJob: RunJob;
   readonly storeBytes: StoreBytes;
@@ -50,7 +50,7 @@ export interface AvailableAttributes {
   readonly coord: readonly unknown[];
   readonly normal: unknown;
   readonly color: unknown;
-  /** Byte planes, or the only array. */
+  /** The byte planes, or a single array. */
   readonly value: readonly unknown[];
 }
 

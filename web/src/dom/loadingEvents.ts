@@ -15,7 +15,7 @@ export interface ProgressDetail extends Progress {
 export interface ErrorDetail {
   /** "http", "network", "timeout", "truncated", "malformed", "unsupported", "limit" or "webgl". */
   readonly type: string;
-  /** The file's URL as the document has it; "" where no file is concerned. */
+  /** The file's URL as the document writes it; "" for an error without a file. */
   readonly url: string;
   readonly element: Element;
   readonly message: string;
@@ -23,11 +23,11 @@ export interface ErrorDetail {
 
 /** Properties that the runtime adds to <x3d> and to each <shape>. */
 export interface Loadable {
-  /** Resolves when any of it is displayed. */
+  /** Resolves when the element displays something for the first time. */
   readonly firstImage: Promise<undefined>;
   /**
    * Resolves when everything that the view needs is displayed. A shape's promise rejects
-   * where one of its files has failed; the scene's resolves even then, after the error
+   * if one of its files has failed; the scene's resolves even then, after the error
    * events.
    */
   readonly complete: Promise<undefined>;
@@ -39,11 +39,11 @@ export interface Loadable {
 
 /** A file that an element needs. */
 export interface ResourceEntry {
-  /** The URL as the document has it. */
+  /** The URL as the document writes it. */
   readonly url: string;
   readonly state: Transfer["state"];
   readonly loadedBytes: number;
-  /** An estimate until the server answers, exact when the file has come. */
+  /** An estimate until the server answers, exact once the file has been fetched. */
   readonly totalBytes: number;
   /** Requests sent for the file so far. */
   readonly tries: number;
@@ -64,22 +64,25 @@ export class LoadingEvents {
   #error: Error | undefined;
   readonly #errors: ErrorDetail[] = [];
 
-  /** Sets new promises and an empty list of errors on the element. `previewed`: the stage that a preview displays, whose `first-image` event has been sent. */
+  /**
+   * Sets new promises and an empty list of errors on the element. `previewStage`: the stage that a preview displays,
+   * whose `first-image` event has been sent.
+   */
   constructor(
     element: Element,
     transfers: () => readonly Readonly<Transfer>[] = () => [],
-    previewed: StageName | "none" = "none",
+    previewStage: StageName | "none" = "none",
   ) {
     this.#element = element;
-    this.#stage = this.#displayedStage = previewed;
-    if (previewed !== "none") this.#firstImage.resolve(undefined);
+    this.#stage = this.#displayedStage = previewStage;
+    if (previewStage !== "none") this.#firstImage.resolve(undefined);
     const properties: Omit<Loadable, "resources"> = {
       firstImage: this.#firstImage.promise,
       complete: this.#complete.promise,
       errors: this.#errors,
     };
     for (const [name, value] of Object.entries(properties)) {
-      Object.defineProperty(element, name, { value: value, configurable: true, enumerable: true });
+      Object.defineProperty(element, name, { value, configurable: true, enumerable: true });
     }
     Object.defineProperty(element, "resources", {
       get: () => transfers().map(entryOf),
@@ -108,7 +111,7 @@ export class LoadingEvents {
     return this.#stage;
   }
 
-  /** The next frame displays this stage. A lower stage than before is ignored. */
+  /** Call it when the next frame will display this stage. A lower stage than before is ignored. */
   reach(stage: StageName | "none"): void {
     if (rankOf(stage) > rankOf(this.#stage)) this.#stage = stage;
   }
@@ -127,12 +130,15 @@ export class LoadingEvents {
     this.#send("error", detail);
   }
 
-  /** The view needs nothing more: the next frame sends `load`, or rejects. */
+  /** Call it when the view needs nothing more: the next `onFrame` sends `load` or rejects the promises. */
   settle(): void {
     if (this.#outcome === "loading") this.#outcome = "settled";
   }
 
-  /** A frame has displayed the stage reached so far. After `load`, a `refine` may follow when the camera comes nearer. */
+  /**
+   * Call it when a frame has displayed the stage reached so far; sends the events about it. `isScene`: the element is
+   * the <x3d>. After `load`, a `refine` may follow when the camera comes nearer.
+   */
   onFrame(isScene: boolean): void {
     if (this.#outcome === "abandoned") return;
     if (this.#stage !== this.#displayedStage) {
@@ -157,7 +163,7 @@ export class LoadingEvents {
     }
   }
 
-  /** The element has been removed, or loads another geometry. */
+  /** Call it when the element has been removed or loads another geometry: no event follows. */
   abandon(reason: Error = new DOMException("The element was removed or its geometry replaced.", "AbortError")): void {
     const wasEnded = this.isEnded;
     this.#outcome = "abandoned";
@@ -179,7 +185,7 @@ function rankOf(stage: StageName | "none"): number {
   return stage === "none" ? -1 : stageNames.indexOf(stage);
 }
 
-/** The lowest of some stages. */
+/** The lowest of the stages; "none" if there are none. */
 export function lowestStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
   return stages.reduce((lowest, stage) => (rankOf(stage) < rankOf(lowest) ? stage : lowest), stages[0] ?? "none");
 }

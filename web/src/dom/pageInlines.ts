@@ -1,5 +1,4 @@
-// The Inlines of a page's scene while they load: the events and promises that their
-// elements get.
+// The Inlines of a page's scene: sends the events and settles the promises of their elements.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
@@ -22,7 +21,10 @@ export class PageInlines {
     this.#loadings.set(inline, new LoadingEvents(inline as Element, transfers));
   }
 
-  /** `onError` is called with what failed, before the Inline is settled. */
+  /**
+   * The Inline's document has loaded, or failed with `error`; `onError` is then called before the Inline's promises
+   * reject.
+   */
   onEnd(
     inline: SceneElement,
     error: DeliveryError | undefined,

@@ -1,5 +1,5 @@
-// The shapes of a page's scene while they load: what of each is displayed, and the
-// events and promises that its element gets.
+// The shapes of a page's scene: passes the stages and pictures that load to the renderer,
+// and sends the events and settles the promises of their elements.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { needsWorkers } from "../delivery/encodings/encodings.ts";
@@ -20,11 +20,11 @@ export interface PageShapesListener {
   /** A patch displays another stage. */
   onStage(stage: Stage | undefined): void;
   onError(error: DeliveryError, element: Element, loading: LoadingEvents): void;
-  /** Whether shapes of which no file is being loaded may be complete. */
+  /** Whether a shape may complete when no file of it is being loaded. */
   maySettle(): boolean;
 }
 
-/** Told by a shape what becomes of it. */
+/** Receives what a shape loads. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
   onStage(shape: PageShape, patch: number, stage: Stage | undefined): void;
   onTextureImage(shape: PageShape, role: TextureRole, image: TextureImage | undefined): void;
@@ -79,14 +79,15 @@ export class PageShapes extends LoadingShapes<PageShape> {
   readonly #deliveries: SceneDeliveries;
   readonly #listener: PageShapesListener;
   /**
-   * Visible shapes that are not complete. A set, since each of ten thousand shapes asks on its completion whether it is
-   * the last.
+   * Visible shapes that are not complete. A set, so that a shape of ten thousand can tell in constant time whether it
+   * is the last to complete.
    */
   readonly #incomplete = new Set<PageShape>();
   /** Elements of shapes that the preview displays and that have not begun to load. */
   readonly #previewed: Set<SceneElement>;
   /**
-   * Whether every visible shape has sent its last event. Kept, so that frames of ten thousand shapes need not ask each.
+   * Whether every visible shape has sent its last event. Stored, so that a frame does not visit each of ten thousand
+   * shapes.
    */
   #isQuiet = false;
 
@@ -126,7 +127,10 @@ export class PageShapes extends LoadingShapes<PageShape> {
     return this.#incomplete.size > 0;
   }
 
-  /** Whether each of these patches of a shape displays something, unless nothing will come of it. */
+  /**
+   * Whether each of these patches of a shape displays something. Also true for a shape that is hidden, complete or
+   * gone.
+   */
   displays(element: SceneElement, patches: readonly number[]): boolean {
     const shape = this.get(element);
     return (
@@ -137,7 +141,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
     );
   }
 
-  /** Number of patches whose files workers have to decode, whatever the GPU can do. */
+  /** Number of patches whose files workers decode on every GPU. */
   get workerJobCount(): number {
     let count = 0;
     for (const { geometry, isVisible } of this) {
@@ -153,7 +157,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
       .map(({ loading }) => loading);
   }
 
-  /** Completes shapes of which this view requests nothing more, even if they could be finer. */
+  /** Completes visible shapes of which this view requests nothing more, even if they could be refined. */
   settle(): void {
     for (const shape of this) this.#settle(shape);
   }
@@ -175,7 +179,10 @@ export class PageShapes extends LoadingShapes<PageShape> {
     }
   }
 
-  /** Removes what shapes display and leaves their deliveries, until `join`. Events go on from where they are. */
+  /**
+   * Removes what shapes display and leaves their deliveries, until `join`. Events that have been sent are not sent
+   * again.
+   */
   override suspend(): void {
     for (const { element, stages } of this) {
       this.#renderer.clearShape(element);
@@ -230,15 +237,15 @@ export class PageShapes extends LoadingShapes<PageShape> {
     loading.settle();
     this.#incomplete.delete(shape);
     this.#isQuiet = false;
-    // Events wait for a frame; the last event does not wait until the GPU is idle.
+    // Events wait for a frame. The frame of the last event does not wait until the GPU is idle.
     if (this.isLoading) this.#renderer.requestPacedFrame();
     else this.#renderer.requestFrame();
   }
 }
 
 /**
- * The stage of a whole whose members display these: the lowest of them, but the first stage as soon as any member
- * displays something.
+ * The stage of a shape by its patches' stages, or of a scene by its shapes': the lowest of them, but `points` if only
+ * some are "none".
  */
 export function displayedStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
   const lowest = lowestStageOf(stages);

@@ -1,5 +1,5 @@
-// The viewer of a page's <x3d>: follows the document, displays its scene on the
-// view's canvas, loads it, and sends events to its elements.
+// The viewer of a page's <x3d>: follows changes of its elements, displays the scene on the
+// canvas of the <imgeo-view>, loads its files, and sends events to its elements.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
@@ -49,7 +49,7 @@ export interface PageViewerListener {
   onFrame(): void;
   /** Another viewpoint is bound, another navigation type is in use, or the scene has changed the choice of either. */
   onNavigation(): void;
-  /** The scene has other Anchors than before. */
+  /** The scene has been read again and has Anchors, or had some before. */
   onAnchors(anchors: readonly AnchorDescription[]): void;
 }
 
@@ -69,18 +69,21 @@ export class PageViewer {
   readonly #listener: PageViewerListener;
   /** Whether a preview has displayed the scene, and so decoded the bases. */
   readonly #isPreviewed: boolean;
-  /** Whether shaders read vertices from images. Assumed of every GPU that has the units for it, until tested. */
+  /**
+   * Whether shaders read vertices from images. True for every GPU with enough vertex texture units, until the test
+   * fails.
+   */
   #readsTextures: boolean;
   /**
-   * The test whether they read exactly is due when the first images are displayed. While it is due or running, nothing
-   * is complete.
+   * State of the test whether shaders read images exactly, due when the first images are displayed. While it is due or
+   * running, no shape completes.
    */
-  #textureTest: "needless" | "due" | "running" | "ended" = "needless";
+  #textureTest: "notDue" | "due" | "running" | "ended" = "notDue";
   #loading: LoadingEvents;
   #isLoading = false;
   #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
   #hasAnchors = false;
-  /** Depth of the current `read` of the core, each caused by LODs that the one before has changed. */
+  /** Nesting depth of calls of `core.read`: LODs of the scene that one call has read cause the next. */
   #nestedReads = 0;
   readonly #progress = new Throttle(progressIntervalMs, () => {
     this.#updateProgress();
@@ -145,17 +148,17 @@ export class PageViewer {
       reader: { levelOf: (lod) => this.#lods.levelOf(lod) },
       fontEditionOf: (font, letters) => fonts.editionOf(font, letters),
       inlines: {
-        urlOf: (named) => {
-          const url = absoluteUrlOf(named);
-          requireHttp(url);
-          return url;
+        urlOf: (url) => {
+          const absoluteUrl = absoluteUrlOf(url);
+          requireHttp(absoluteUrl);
+          return absoluteUrl;
         },
       },
       host: this.#makeHost(),
     });
-    if (!this.#readsTextures) this.#warnOfGpu();
-    this.#observer = new MutationObserver((all) => {
-      const records = all.filter(({ target }) => isSceneNode(target, x3d));
+    if (!this.#readsTextures) this.#warnOfInexactImages();
+    this.#observer = new MutationObserver((allRecords) => {
+      const records = allRecords.filter(({ target }) => isSceneNode(target, x3d));
       if (records.length === 0) return;
       const { reader } = this.#core;
       for (const { target, type } of records) {
@@ -200,7 +203,7 @@ export class PageViewer {
     this.renderer.requestFrame();
   }
 
-  /** Whether the last frame has displayed at least these. */
+  /** Whether all patches that a preview displays are displayed by the runtime, or have failed. */
   displays(shapes: readonly PreviewedShape[]): boolean {
     return shapes.every(({ element, patches }) => this.#shapes.displays(element, patches));
   }
@@ -302,7 +305,7 @@ export class PageViewer {
     if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new LoadingEvents(this.#x3d, this.#transfers);
   }
 
-  /** Reads the scene again where the camera's distance to a LOD asks for another level. */
+  /** Reads the scene again if the camera's distance to a LOD requires another level. */
   #followLods(): void {
     if (this.#displayed === undefined || this.#nestedReads > maxNestedLods) return;
     const changed = this.#lods.update(this.#displayed.lods, this.navigator.pose.position);
@@ -313,7 +316,7 @@ export class PageViewer {
     this.#nestedReads -= 1;
   }
 
-  /** set_bind is an event: it counts whenever it is written, even if it reads as before. */
+  /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */
   #followBind(element: Element, attribute: string | null): void {
     if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
     this.navigator.bind(element, element.getAttribute(attribute)?.trim().toLowerCase() === "true");
@@ -321,10 +324,10 @@ export class PageViewer {
 
   #onStage(stage: Stage | undefined): void {
     this.#followSphere();
-    if (stage?.kind === "textures" && this.#textureTest === "needless") this.#textureTest = "due";
+    if (stage?.kind === "textures" && this.#textureTest === "notDue") this.#textureTest = "due";
   }
 
-  /** The scene's bounds grow with vertices that lie outside of what the document says. */
+  /** The scene's bounds grow with vertices outside of the bounds that the document states. */
   #followSphere(): void {
     const { sphere } = this.renderer;
     if (this.#displayed === undefined || this.#displayed.sphere === sphere) return;
@@ -349,24 +352,24 @@ export class PageViewer {
     if (this.#listeners.signal.aborted) return;
     if (!reads && !this.renderer.isContextLost) {
       this.#readsTextures = false;
-      this.#warnOfGpu();
+      this.#warnOfInexactImages();
       this.#shapes.suspend();
       this.#deliverAgain();
     }
     this.#onRequests();
   }
 
-  #warnOfGpu(): void {
+  #warnOfInexactImages(): void {
     this.#warn("images cannot be read exactly on this GPU; vertices are decoded in workers");
   }
 
   /** Everything on the GPU is lost, and what is requested now could not be uploaded. */
   #onContextLost(): void {
-    this.#warn("has lost its WebGL context, which the browser took; it comes back with it");
+    this.#warn("has lost its WebGL context; the scene is displayed again when the browser restores it");
     this.#shapes.suspend();
   }
 
-  /** Fetches all files again, usually from the browser's cache. Events go on from where they are. */
+  /** Fetches all files again, usually from the browser's cache. Events that have been sent are not sent again. */
   #deliverAgain(): void {
     this.#shapes.join();
     this.#core.control.request();
@@ -398,14 +401,14 @@ export class PageViewer {
   /** Sends the events of what the frame displays. */
   #sendEvents(): void {
     const awaited = [...this.#shapes.visibleLoadings, ...this.#inlines.loadings];
-    // Shapes of which nothing will come do not hold the scene back.
+    // Shapes that have failed before their first stage do not hold back the scene's stage.
     this.#loading.reach(
       displayedStageOf(
         awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage),
       ),
     );
-    this.#progress.callNow(); // the last progress event of everything comes before its `load`
-    // Decided only after a frame: until then further shapes may join.
+    this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
+    // The scene settles only after a frame: until then further shapes may join.
     if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     this.#shapes.onFrame();
     this.#inlines.onFrame();
@@ -417,7 +420,7 @@ export class PageViewer {
   }
 }
 
-/** What is no URL is returned as it is: the request for it fails, and says why. */
+/** Returns an invalid URL unchanged: its request fails with a message. */
 function absoluteUrlOf(url: string): string {
   return URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url;
 }

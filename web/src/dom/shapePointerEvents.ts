@@ -22,7 +22,8 @@ export interface ShapePointerListener {
   onClick(hit: Hit, native: MouseEvent): void;
 }
 
-const redirected = [
+/** Types of events that are dispatched at a shape at once; moves wait for the GPU. */
+const redirectedTypes = [
   "pointerdown",
   "pointerup",
   "pointercancel",
@@ -37,7 +38,10 @@ const redirected = [
 /** CSS pixels that the pointer may move during a click. A longer movement is a drag, which moves the camera. */
 const maxClickMovement = 5;
 
-/** Listens until `signal` aborts. Call this before adding camera input, so that camera input sees what pages have prevented. */
+/**
+ * Listens until `signal` aborts. Call this before adding camera input, so that camera input sees what pages have
+ * prevented.
+ */
 export function sendShapePointerEvents(
   canvas: HTMLCanvasElement,
   view: HTMLElement,
@@ -45,26 +49,26 @@ export function sendShapePointerEvents(
   listener: ShapePointerListener,
   signal: AbortSignal,
 ): void {
-  const pointing = new ShapePointerEvents(canvas, view, pickable, listener);
-  for (const type of redirected)
+  const shapeEvents = new ShapePointerEvents(canvas, view, pickable, listener);
+  for (const type of redirectedTypes)
     canvas.addEventListener(
       type,
       (event) => {
-        pointing.redirect(event);
+        shapeEvents.redirect(event);
       },
       { signal },
     );
   canvas.addEventListener(
     "pointermove",
     (event) => {
-      pointing.move(event);
+      shapeEvents.move(event);
     },
     { signal },
   );
   canvas.addEventListener(
     "mousemove",
     (event) => {
-      pointing.suppress(event);
+      shapeEvents.suppress(event);
     },
     { signal },
   );
@@ -72,17 +76,20 @@ export function sendShapePointerEvents(
     canvas.addEventListener(
       type,
       (event) => {
-        pointing.leave(event);
+        shapeEvents.leave(event);
       },
       { signal },
     );
   }
   signal.addEventListener("abort", () => {
-    pointing.end();
+    shapeEvents.end();
   });
 }
 
-/** A pressed button: where, and whether the pointer has moved since. */
+/**
+ * The last `pointerdown`: its position in the viewport, its target, and whether the pointer has moved too far for a
+ * click since.
+ */
 interface Press {
   readonly x: number;
   readonly y: number;
@@ -191,7 +198,7 @@ class ShapePointerEvents {
     const before = this.#hovered;
     const now = targetOf(hit) ?? this.#view;
     if (now !== before) {
-      const [left, entered] = [this.#insideScene(before), this.#insideScene(now)];
+      const [left, entered] = [this.#pathInScene(before), this.#pathInScene(now)];
       this.#sendBoth(native, "out", before, this.#hit, now);
       for (const element of left)
         if (!entered.includes(element)) this.#sendBoth(native, "leave", element, this.#hit, now);
@@ -209,33 +216,35 @@ class ShapePointerEvents {
     this.#hovered = this.#view;
     this.#listener.onHover(undefined);
     this.#sendBoth(native, "out", shape, this.#hit, relatedTarget);
-    for (const element of this.#insideScene(shape)) this.#sendBoth(native, "leave", element, this.#hit, relatedTarget);
+    for (const element of this.#pathInScene(shape)) this.#sendBoth(native, "leave", element, this.#hit, relatedTarget);
     this.#hit = undefined;
   }
 
-  /** The element and its ancestors below the <x3d>. */
-  #insideScene(element: Element): Element[] {
-    const chain: Element[] = [];
-    const outer = this.#view.parentElement;
-    if (element === this.#view || outer === null) return chain;
-    for (let at: Element | null = element; at !== null && at !== outer; at = at.parentElement) chain.push(at);
-    return chain;
+  /** The element and its ancestors below the <x3d>; nothing for the view. */
+  #pathInScene(element: Element): Element[] {
+    const path: Element[] = [];
+    const x3d = this.#view.parentElement;
+    if (element === this.#view || x3d === null) return path;
+    for (let at: Element | null = element; at !== null && at !== x3d; at = at.parentElement) path.push(at);
+    return path;
   }
 
-  /** Dispatches a pointer event and, for a mouse, a mouse event. */
+  /**
+   * Dispatches a pointer event and, for a mouse, a mouse event. `action` is "move", "over", "out", "enter" or "leave".
+   */
   #sendBoth(
     native: MouseEvent,
-    what: string,
+    action: string,
     target: Element,
     hit: Hit | undefined,
     relatedTarget: EventTarget | null = null,
   ): void {
-    this.#send(native, `pointer${what}`, target, hit, relatedTarget);
+    this.#send(native, `pointer${action}`, target, hit, relatedTarget);
     if (!(native instanceof PointerEvent) || native.pointerType === "mouse")
-      this.#send(native, `mouse${what}`, target, hit, relatedTarget);
+      this.#send(native, `mouse${action}`, target, hit, relatedTarget);
   }
 
-  /** Returns false where a listener has prevented the default. */
+  /** Returns false if a listener has prevented the default. */
   #send(
     native: MouseEvent,
     type: string,

@@ -1,5 +1,5 @@
-// The CSS touch-action of a view. A view that handles all touch gestures traps the finger
-// in a page that scrolls; one that leaves vertical gestures to the page, as <model-viewer>
+// The CSS touch-action of a view. A view that handles all touch gestures keeps a
+// page from being scrolled by touch; one that leaves vertical gestures to the page, as <model-viewer>
 // does, cannot be turned over the top. By default a view leaves vertical gestures to the
 // page until it has the focus, by a tap or the keyboard, and handles all of them in a page
 // that cannot scroll.
@@ -18,17 +18,17 @@ export function keepTouchAction(
     const chosen = setting();
     canvas.style.touchAction = chosen !== "auto" ? chosen : hasFocus || !canScroll() ? "none" : "pan-y";
   };
-  const focus = (now: boolean) => () => {
-    hasFocus = now;
+  const setFocus = (value: boolean) => () => {
+    hasFocus = value;
     apply();
   };
-  canvas.addEventListener("focus", focus(true), { signal });
-  canvas.addEventListener("blur", focus(false), { signal });
-  const onSize = new ResizeObserver(apply);
-  for (const element of [document.documentElement, document.body]) onSize.observe(element);
+  canvas.addEventListener("focus", setFocus(true), { signal });
+  canvas.addEventListener("blur", setFocus(false), { signal });
+  const resizeObserver = new ResizeObserver(apply);
+  for (const element of [document.documentElement, document.body]) resizeObserver.observe(element);
   window.addEventListener("resize", apply, { signal });
   signal.addEventListener("abort", () => {
-    onSize.disconnect();
+    resizeObserver.disconnect();
   });
   apply();
   return apply;

@@ -6,7 +6,7 @@ import { PrefetchedBases } from "./prefetchedBases.ts";
 
 const file = readFileSync(join(import.meta.dirname, "../../../vectors/compact-1/base.png"));
 
-/** Prefetched bases of a server with this answer, and the URLs that it is asked for. */
+/** Bases prefetched from a server that gives this answer to every request, and the URLs requested from it. */
 function prefetchedFrom(answer: () => Promise<Response>): { prefetched: PrefetchedBases; requested: string[] } {
   const requested: string[] = [];
   const prefetched = new PrefetchedBases((url) => {
@@ -17,7 +17,7 @@ function prefetchedFrom(answer: () => Promise<Response>): { prefetched: Prefetch
 }
 
 describe("prefetched bases", () => {
-  test("are fetched once, decoded, and handed over once", async () => {
+  test("are fetched and decoded once, and can be taken once", async () => {
     const { prefetched, requested } = prefetchedFrom(() => Promise.resolve(new Response(file)));
     const { downloaded, decoded } = prefetched.fetch("b.png");
     assert.equal(prefetched.fetch("b.png").decoded, decoded);
@@ -30,14 +30,14 @@ describe("prefetched bases", () => {
     assert.deepEqual(requested, ["b.png"]);
   });
 
-  test("that fail reject their promises, without unhandled rejections", async () => {
-    const faults = [
+  test("reject their promises on failure, without unhandled rejections", async () => {
+    const failures = [
       () => Promise.reject(new TypeError("no network")),
       () => Promise.resolve(new Response("", { status: 404 })),
       () => Promise.resolve(new Response(file.subarray(0, 40))),
     ];
-    for (const fault of faults) {
-      const { prefetched } = prefetchedFrom(fault);
+    for (const failure of failures) {
+      const { prefetched } = prefetchedFrom(failure);
       const { decoded } = prefetched.fetch("b.png");
       await assert.rejects(decoded);
       await assert.rejects(prefetched.take("b.png") ?? Promise.resolve());

@@ -24,28 +24,28 @@ import type { LoadingShape } from "./loadingShape.ts";
 import type { LoadingShapes } from "./loadingShapes.ts";
 import { MessageLog } from "./messageLog.ts";
 
-/** Progress is reported no more often than a person can see. */
+/** Time between progress reports: 20 a second are as many as a user can see. */
 export const progressIntervalMs = 50;
 
-/** Displays a scene, and is told what becomes of its files. */
+/** Displays a scene, and receives what happens to its files. */
 export interface ViewerHost {
-  /** What the camera sees; undefined where that is not known. */
+  /** The view of the camera; undefined in an app, which has any number of cameras. */
   view(): View | undefined;
-  /** Displays a scene that differs from the one before, and gives what has changed in it. */
+  /** Displays a scene that differs from the previous one, and returns the differences. */
   display(scene: SceneDescription): SceneChanges;
   /** Shapes have joined deliveries, whose files are requested next. */
   onShapes(changes: SceneChanges): void;
   /** The scene is displayed, and its files are requested. */
   onScene(): void;
-  /** Files may have been added to those that are requested, or taken from them. */
+  /** The set of requested files may have changed. */
   onRequests?(): void;
   /** An Inline's document is requested; not called again before `onInlineRemoved`. */
   onInlineRequested?(inline: SceneElement): void;
-  /** An Inline's document is here, or none will come. The scene is read next. */
+  /** An Inline's document has loaded, or failed with `error`. The scene is read next. */
   onInlineEnd(inline: SceneElement, error: DeliveryError | undefined): void;
   /** The scene has been read with the Inline's document. */
   onInlineRead?(): void;
-  /** The scene no longer has the Inline, or it names other documents. */
+  /** The scene no longer has the Inline, or the Inline's `url` has changed. */
   onInlineRemoved?(inline: SceneElement): void;
 }
 
@@ -54,10 +54,10 @@ export interface ViewerCoreOptions<Shape extends LoadingShape> {
   readonly x3d: SceneElement;
   readonly pool: ResourcePool;
   readonly deliveries: SceneDeliveries;
-  /** Joins `deliveries`. */
+  /** The host's shapes, which join `deliveries`. */
   readonly shapes: LoadingShapes<Shape>;
   readonly reader: Pick<SceneReaderOptions, "url" | "levelOf">;
-  /** How often faces of a font have come that were missing before: a text looks different then. */
+  /** How many missing faces of a font have loaded since: texts are laid out again when the number changes. */
   readonly fontEditionOf?: Parameters<typeof textReader>[1];
   readonly inlines: Omit<InlinesOptions, "pool">;
   readonly host: ViewerHost;
@@ -69,7 +69,7 @@ export function sceneDeliveriesOf(pool: ResourcePool): SceneDeliveries {
 }
 
 export class ViewerCore<Shape extends LoadingShape> {
-  /** After an element has been touched in it, call `read`. */
+  /** Call `read` after its `touch` or `rearrange`. */
   readonly reader: SceneReader;
   readonly shapes: LoadingShapes<Shape>;
   readonly inlines: Inlines;
@@ -118,7 +118,7 @@ export class ViewerCore<Shape extends LoadingShape> {
     });
   }
 
-  /** The scene as read last; undefined before the first `read`. */
+  /** The scene that the last `read` has read; undefined before the first `read`. */
   get scene(): SceneDescription | undefined {
     return this.#scene;
   }
@@ -129,19 +129,19 @@ export class ViewerCore<Shape extends LoadingShape> {
     return [...geometries.transfers(), ...textures.transfers(), ...this.inlines.transfers];
   }
 
-  /** Reads the document, and displays and loads the scene where it is another than before. */
+  /** Reads the document. If the scene has changed, displays it and requests its files. */
   read(): void {
     const before = this.#scene;
     const scene = (this.#scene = this.reader.read());
     if (scene === before) return;
     const changes = this.#host.display(scene);
-    const leave = this.shapes.follow(changes);
+    const leaveDeliveries = this.shapes.follow(changes);
     this.#host.onShapes(changes);
     this.control.follow(scene.chunkPriority, changes, (problem) => {
       this.log.warn(`<${this.#options.x3d.localName}> chunkPriority: ${problem}`);
     });
     for (const { element, message } of scene.warnings) this.log.warn(`<${element.localName}> ${message}`);
-    leave(); // last, so that files that old and new shapes share are not fetched again
+    leaveDeliveries(); // last, so that files that old and new shapes share are not fetched again
     if (this.#isLoading && scene.inlines !== before?.inlines) this.inlines.follow(scene.inlines);
     this.#host.onScene();
   }
