@@ -26,7 +26,7 @@ void readProperties(const FieldReader& fields, Texture& texture) {
 
 /// The value that the element's USE refers to; null if it has no USE, or the name is unknown.
 template <typename T>
-const T* AppearanceReader::used(const FieldReader& fields, const std::map<std::string, T>& defined) const {
+const T* AppearanceReader::definitionOf(const FieldReader& fields, const std::map<std::string, T>& defined) const {
   const std::string use = fields.text("USE");
   if (use.empty())
     return nullptr;
@@ -38,7 +38,7 @@ const T* AppearanceReader::used(const FieldReader& fields, const std::map<std::s
 }
 
 std::size_t AppearanceReader::readTexture(const FieldReader& fields) {
-  if (const std::size_t* index = used(fields, textures_))
+  if (const std::size_t* index = definitionOf(fields, textures_))
     return *index;
   Texture texture;
   texture.name = fields.text("DEF");
@@ -80,7 +80,7 @@ void AppearanceReader::readTextures(const FieldReader& fields, DefinedMaterial& 
 }
 
 AppearanceReader::DefinedMaterial AppearanceReader::readMaterial(const FieldReader& fields) {
-  if (const DefinedMaterial* defined = used(fields, materials_))
+  if (const DefinedMaterial* defined = definitionOf(fields, materials_))
     return *defined;
   DefinedMaterial read;
   if (isNamed(fields.node(), "Material"))
@@ -108,7 +108,7 @@ void AppearanceReader::readTransforms(const FieldReader& fields,
 
 std::size_t AppearanceReader::read(const pugi::xml_node& node) {
   const FieldReader fields = fieldsOf(node);
-  if (const std::size_t* index = used(fields, appearances_))
+  if (const std::size_t* index = definitionOf(fields, appearances_))
     return *index;
   Appearance appearance;
   appearance.name = fields.text("DEF");

@@ -19,6 +19,7 @@ public:
   std::size_t read(const pugi::xml_node& node);
 
 private:
+  /// A material, its textures, and the values of its mapping fields by the name of their texture's role.
   struct DefinedMaterial {
     AnyMaterial material;
     std::vector<TextureUse> textures;
@@ -30,13 +31,15 @@ private:
   void readTextures(const FieldReader& material, DefinedMaterial& read);
   std::size_t readTexture(const FieldReader& fields);
   void readTransforms(const FieldReader& fields, std::map<std::string, TextureTransform>& transforms) const;
-  template <typename T> const T* used(const FieldReader& fields, const std::map<std::string, T>& defined) const;
+  /// The definition that the element USEs; nullptr if it is not a USE.
+  template <typename T> const T* definitionOf(const FieldReader& fields, const std::map<std::string, T>& defined) const;
 
   const DocumentText& source_;
   SceneGraph& graph_;
   DocumentWarnings& warnings_;
+  /// Indices by DEF; of images, by url.
   std::map<std::string, std::size_t> appearances_, textures_, images_;
-  std::map<std::string, DefinedMaterial> materials_;
+  std::map<std::string, DefinedMaterial> materials_; ///< by DEF
 };
 
 } // namespace imgeo

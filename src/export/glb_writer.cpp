@@ -37,7 +37,7 @@ public:
   Json lights = Json::array();
 
 private:
-  /// Adds a node and its descendants. Returns its index; nothing if the node has no shape, viewpoint or light below it.
+  /// Adds a node and its descendants. Returns its index; nothing if there is no shape, viewpoint or light among them.
   std::optional<std::size_t> addNode(std::size_t index) {
     const Node& node = scene_.graph.nodes[index];
     Json json = Json::object();
@@ -127,8 +127,9 @@ private:
   }
 
   std::size_t materialIndexOf(const Shape& shape, const Mesh& mesh) {
-    static const Appearance plain;
-    const Appearance& appearance = shape.appearance ? scene_.graph.appearances.at(*shape.appearance) : plain;
+    static const Appearance defaultAppearance;
+    const Appearance& appearance =
+        shape.appearance ? scene_.graph.appearances.at(*shape.appearance) : defaultAppearance;
     Json json = gltfMaterial(appearance, shape, mesh, [&](std::size_t texture) { return textureIndexOf(texture); });
     const auto [found, isNew] = materialOf_.try_emplace(json.dump(-1, ' ', false, replaceBadUtf8), materials.size());
     if (isNew)
@@ -142,11 +143,11 @@ private:
     const Texture& texture = scene_.graph.textures.at(index);
     const ImageFile& image = scene_.graph.images.at(texture.image);
     std::optional<std::size_t>& gltfIndex = textureOf_[index];
-    const std::string_view start = asText(image.bytes);
-    const char* type = start.starts_with("\x89PNG")        ? "image/png"
-                       : start.starts_with("\xff\xd8\xff") ? "image/jpeg"
-                       : start.starts_with("RIFF")         ? "image/webp"
-                                                           : nullptr;
+    const std::string_view signature = asText(image.bytes);
+    const char* type = signature.starts_with("\x89PNG")        ? "image/png"
+                       : signature.starts_with("\xff\xd8\xff") ? "image/jpeg"
+                       : signature.starts_with("RIFF")         ? "image/webp"
+                                                               : nullptr;
     if (!type)
       return gltfIndex;
     const auto [imageIndex, isNew] = imageOf_.try_emplace(texture.image, images.size());
@@ -168,27 +169,28 @@ private:
 
   const Scene& scene_;
   std::vector<Json> primitives_; ///< by index of the mesh
-  std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool>, std::size_t> meshOf_;
-  std::map<std::string, std::size_t> materialOf_; ///< by the JSON text
-  std::map<std::size_t, std::optional<std::size_t>> textureOf_;
+  std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool>, std::size_t>
+      meshOf_;                                                  ///< by mesh, appearance and solid
+  std::map<std::string, std::size_t> materialOf_;               ///< by the JSON text
+  std::map<std::size_t, std::optional<std::size_t>> textureOf_; ///< nothing for images of other formats
   std::map<std::size_t, std::size_t> imageOf_;
 };
 
 void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t padding) {
-  const std::size_t padded = (data.size() + 3) / 4 * 4;
-  appendLittle(glb, narrow<std::uint32_t>(padded));
+  const std::size_t paddedSize = (data.size() + 3) / 4 * 4;
+  appendLittle(glb, narrow<std::uint32_t>(paddedSize));
   appendLittle(glb, type);
   glb.insert(glb.end(), data.begin(), data.end());
-  glb.resize(glb.size() + padded - data.size(), padding);
+  glb.resize(glb.size() + paddedSize - data.size(), padding);
 }
 
-/// The types of the first NavigationInfo that states any. glTF has no such property: they are written as extras.
+/// The `type` field of the first NavigationInfo that has it. glTF has no such property, so it is written as extras.
 std::vector<std::string> navigationTypes(const SceneGraph& graph) {
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
-    const GenericNode* other = std::get_if<GenericNode>(&node.content);
+    const GenericNode* generic = std::get_if<GenericNode>(&node.content);
     const auto type = std::ranges::find(node.fields, "type", &FieldText::name);
-    if (other && other->element == "NavigationInfo" && type != node.fields.end())
+    if (generic && generic->element == "NavigationInfo" && type != node.fields.end())
       return parseStrings(type->value);
   }
   return {};

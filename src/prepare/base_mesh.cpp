@@ -15,19 +15,19 @@ namespace imgeo {
 
 namespace {
 
-/// Numbers distinct positions in the order of their first occurrence.
+/// Collects distinct positions in the order of their first occurrence.
 class PositionTable {
 public:
   explicit PositionTable(std::size_t capacity) : table_(capacity) { positions.reserve(capacity); }
 
-  std::uint32_t numberOf(const Vec3u& position) {
+  std::uint32_t indexOf(const Vec3u& position) {
     const auto next = static_cast<std::uint32_t>(positions.size());
     const std::uint64_t hash = mixHash(mixHash(position.x, position.y), position.z);
-    const std::uint32_t number =
+    const std::uint32_t index =
         table_.findOrInsert(hash, next, [&](std::uint32_t i) { return positions[i] == position; });
-    if (number == next)
+    if (index == next)
       positions.push_back(position);
-    return number;
+    return index;
   }
 
   std::vector<Vec3u> positions;
@@ -36,26 +36,26 @@ private:
   IndexHashTable table_;
 };
 
-/// The positions of all patches with common numbers, and which of them several patches share.
+/// The positions of all patches as indices into a common table, and which of them several patches share.
 struct CommonPositions {
-  std::vector<std::vector<std::uint32_t>> numbers; ///< per patch and position
-  std::vector<bool> isShared;                      ///< per number
+  std::vector<std::vector<std::uint32_t>> indices; ///< by patch and position
+  std::vector<bool> isShared;                      ///< by common index
 };
 
 template <typename AnyPatch>
 CommonPositions commonPositions(const std::vector<AnyPatch>& patches, PositionTable& table) {
   CommonPositions common;
-  std::vector<std::uint32_t> owners;
-  for (std::uint32_t segment = 0; segment < patches.size(); ++segment) {
-    std::vector<std::uint32_t>& numbers = common.numbers.emplace_back();
-    for (const Vec3u& position : patches[segment].positions) {
-      const std::uint32_t number = table.numberOf(position);
-      if (number == owners.size()) {
-        owners.push_back(segment);
+  std::vector<std::uint32_t> firstPatches; // by common index
+  for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+    std::vector<std::uint32_t>& indices = common.indices.emplace_back();
+    for (const Vec3u& position : patches[patch].positions) {
+      const std::uint32_t index = table.indexOf(position);
+      if (index == firstPatches.size()) {
+        firstPatches.push_back(patch);
         common.isShared.push_back(false);
       }
-      common.isShared[number] = common.isShared[number] || owners[number] != segment;
-      numbers.push_back(number);
+      common.isShared[index] = common.isShared[index] || firstPatches[index] != patch;
+      indices.push_back(index);
     }
   }
   return common;
@@ -75,10 +75,10 @@ std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches
   PositionTable table(positionCountOf(patches));
   const CommonPositions common = commonPositions(patches, table);
   std::vector<std::vector<bool>> isShared;
-  for (const std::vector<std::uint32_t>& numbers : common.numbers) {
+  for (const std::vector<std::uint32_t>& indices : common.indices) {
     std::vector<bool>& ofPatch = isShared.emplace_back();
-    for (const std::uint32_t number : numbers)
-      ofPatch.push_back(common.isShared[number]);
+    for (const std::uint32_t index : indices)
+      ofPatch.push_back(common.isShared[index]);
   }
   return isShared;
 }
@@ -121,10 +121,10 @@ public:
     if (from != to)
       terms_.push_back({std::min(from, to), std::max(from, to), from < to ? count : -count});
   }
-  template <typename NumberOf> void addTriangles(std::span<const std::uint32_t> corners, NumberOf numberOf) {
+  template <typename IndexOf> void addTriangles(std::span<const std::uint32_t> corners, IndexOf indexOf) {
     for (std::size_t corner = 0; corner < corners.size(); corner += 3)
       for (std::size_t i = 0; i < 3; ++i)
-        add(numberOf(corners[corner + i]), numberOf(corners[corner + (i + 1) % 3]));
+        add(indexOf(corners[corner + i]), indexOf(corners[corner + (i + 1) % 3]));
   }
 
   /// Calls visit(a, b, count) for each edge whose coefficient `count`, counted from a to b, is not 0.
@@ -153,7 +153,7 @@ struct Segment {
   std::vector<Vec3u> positions;
   SimplifiedWedges wedges;
   double area = 0, inputArea = 0;
-  std::size_t triangleCountBefore = 0;
+  std::size_t inputTriangleCount = 0;
 };
 
 /// Counts the border edges between fixed positions, which simplification keeps.
@@ -174,9 +174,9 @@ std::size_t countFixedEdges(const std::vector<std::uint32_t>& corners, const std
 Segment segmentOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
   const auto [corners, triangleIndices] = nonDegenerateTrianglesOf(patch);
   Segment segment;
-  segment.triangleCountBefore = corners.size() / 3;
+  segment.inputTriangleCount = corners.size() / 3;
   // The interior gets at least half of the requested triangles, beside those that fixed border edges need.
-  const double requested = percent / 100 * static_cast<double>(segment.triangleCountBefore);
+  const double requested = percent / 100 * static_cast<double>(segment.inputTriangleCount);
   const double minimum = requested / 2 + static_cast<double>(countFixedEdges(corners, isFixed));
   SimplifiedTriangles triangles =
       simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(requested, minimum)));
@@ -197,27 +197,27 @@ public:
     base_.segmentCount = static_cast<std::uint32_t>(segments.size());
   }
 
-  void add(const Segment& segment, const Patch& patch, std::uint32_t number) {
-    const std::size_t wedgesBefore = base_.wedgePositions.size();
+  void add(const Segment& segment, const Patch& patch, std::uint32_t segmentIndex) {
+    const std::size_t wedgeCountBefore = base_.wedgePositions.size();
     std::vector<std::uint32_t> wedges, sources;
     for (std::size_t wedge = 0; wedge < segment.wedges.positions.size(); ++wedge) {
       const std::uint32_t source = segment.wedges.sources[wedge];
-      const std::uint32_t position = positions_.numberOf(segment.positions[segment.wedges.positions[wedge]]);
+      const std::uint32_t position = positions_.indexOf(segment.positions[segment.wedges.positions[wedge]]);
       wedges.push_back(wedgeAt(position, patch.texCoords.empty() ? Vec2f{} : patch.texCoords[source]));
-      if (wedgesBefore + sources.size() < base_.wedgePositions.size())
+      if (wedgeCountBefore + sources.size() < base_.wedgePositions.size())
         sources.push_back(source);
     }
     VertexAttributes attributes = gather(patch, sources);
     attributes.normals.clear();
-    append(base_, wedgesBefore, attributes, sources.size());
+    append(base_, wedgeCountBefore, attributes, sources.size());
     for (std::size_t corner = 0; corner < segment.wedges.corners.size(); corner += 3) {
-      const auto at = [&](std::size_t i) { return wedges[segment.wedges.corners[corner + i]]; };
-      const std::uint32_t a = base_.wedgePositions[at(0)], b = base_.wedgePositions[at(1)],
-                          c = base_.wedgePositions[at(2)];
+      const auto wedgeOf = [&](std::size_t i) { return wedges[segment.wedges.corners[corner + i]]; };
+      const std::uint32_t a = base_.wedgePositions[wedgeOf(0)], b = base_.wedgePositions[wedgeOf(1)],
+                          c = base_.wedgePositions[wedgeOf(2)];
       if (a == b || b == c || c == a)
         continue;
-      base_.corners.insert(base_.corners.end(), {at(0), at(1), at(2)});
-      base_.segments.push_back(number);
+      base_.corners.insert(base_.corners.end(), {wedgeOf(0), wedgeOf(1), wedgeOf(2)});
+      base_.segments.push_back(segmentIndex);
     }
   }
 
@@ -269,8 +269,8 @@ std::vector<std::uint32_t> compactIndices(std::vector<std::uint32_t>& indices, s
   return kept;
 }
 
-/// Drops wedges and positions that no triangle uses.
-void dropUnused(BaseMesh& base) {
+/// Removes wedges and positions that no triangle uses.
+void removeUnused(BaseMesh& base) {
   const std::vector<std::uint32_t> wedges = compactIndices(base.corners, base.wedgePositions.size());
   base.wedgePositions = gather(base.wedgePositions, wedges);
   static_cast<VertexAttributes&>(base) = gather(base, wedges);
@@ -298,7 +298,7 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
   for (std::uint32_t i = 0; i < segments.size(); ++i)
     joiner.add(segments[i], mesh.patches[i], i);
   BaseMesh base = joiner.finish();
-  dropUnused(base);
+  removeUnused(base);
   if (4 * base.triangleCount() > elementCount || 2 * area < inputArea || base.corners.empty())
     return std::nullopt;
   return base;
@@ -313,30 +313,31 @@ bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& pat
     return false;
   PositionTable table(positionCountOf(patches) + base.positions.size());
   const CommonPositions common = commonPositions(patches, table);
-  std::vector<std::uint32_t> numbersOfBase;
+  std::vector<std::uint32_t> baseIndices;
   for (const Vec3u& position : base.positions)
-    numbersOfBase.push_back(table.numberOf(position));
+    baseIndices.push_back(table.indexOf(position));
   std::vector<EdgeSum> differences(patches.size());
   for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
     differences[base.segments[triangle]].addTriangles(
         std::span(base.corners).subspan(3 * triangle, 3),
-        [&](std::uint32_t wedge) { return numbersOfBase[base.wedgePositions[wedge]]; });
+        [&](std::uint32_t wedge) { return baseIndices[base.wedgePositions[wedge]]; });
   bool meets = true;
   for (std::size_t segment = 0; segment < patches.size(); ++segment) {
     EdgeSum border;
     border.addTriangles(patches[segment].corners,
-                        [&](std::uint32_t position) { return common.numbers[segment][position]; });
-    // Simplification maps each edge of the mesh's own border to one edge or to none.
-    std::size_t ownBorder = 0, changed = 0;
-    border.visit([&](std::uint32_t a, std::uint32_t b, int times) {
+                        [&](std::uint32_t position) { return common.indices[segment][position]; });
+    // Simplification maps each edge of the mesh's border, which no other patch shares, to one edge or to none.
+    std::size_t borderEdgeCount = 0, changedEdgeCount = 0;
+    border.visit([&](std::uint32_t a, std::uint32_t b, int count) {
       if (common.isShared[a] && common.isShared[b])
-        differences[segment].add(a, b, -times);
+        differences[segment].add(a, b, -count);
       else
-        ownBorder += static_cast<std::size_t>(std::abs(times));
+        borderEdgeCount += static_cast<std::size_t>(std::abs(count));
     });
-    differences[segment].visit(
-        [&](std::uint32_t, std::uint32_t, int times) { changed += static_cast<std::size_t>(std::abs(times)); });
-    meets = meets && changed <= ownBorder;
+    differences[segment].visit([&](std::uint32_t, std::uint32_t, int count) {
+      changedEdgeCount += static_cast<std::size_t>(std::abs(count));
+    });
+    meets = meets && changedEdgeCount <= borderEdgeCount;
   }
   return meets;
 }

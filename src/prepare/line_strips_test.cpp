@@ -25,7 +25,7 @@ Lines linesIn(const std::vector<std::uint32_t>& corners) {
   return sorted(lines);
 }
 
-/// The lines of a strip in order, each from its begin to its end.
+/// The lines of a strip in order, each from its start to its end.
 Lines linesIn(std::span<const std::uint32_t> strip, const std::vector<std::uint32_t>& corners) {
   Lines lines;
   for (const std::uint32_t corner : strip)
@@ -33,28 +33,28 @@ Lines linesIn(std::span<const std::uint32_t> strip, const std::vector<std::uint3
   return lines;
 }
 
-/// Half the number of vertices of odd degree, plus one for each connected component without such vertices.
+/// The sum over connected components of half the number of vertices of odd degree, or 1 if there are none.
 std::size_t minStripCount(const std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
-  std::vector<std::uint32_t> group(vertexCount), valence(vertexCount);
+  std::vector<std::uint32_t> parent(vertexCount), valence(vertexCount);
   for (std::uint32_t v = 0; v < vertexCount; ++v)
-    group[v] = v;
-  const auto rootOf = [&](std::uint32_t v) {
-    while (group[v] != v)
-      v = group[v];
+    parent[v] = v;
+  const auto componentOf = [&](std::uint32_t v) {
+    while (parent[v] != v)
+      v = parent[v];
     return v;
   };
   for (std::size_t i = 0; i < corners.size(); i += 2) {
     ++valence[corners[i]], ++valence[corners[i + 1]];
-    group[rootOf(corners[i])] = rootOf(corners[i + 1]);
+    parent[componentOf(corners[i])] = componentOf(corners[i + 1]);
   }
-  std::vector<std::uint32_t> oddOfGroup(vertexCount), linesOfGroup(vertexCount);
+  std::vector<std::uint32_t> oddVertexCount(vertexCount), lineEndCount(vertexCount);
   for (std::uint32_t v = 0; v < vertexCount; ++v) {
-    oddOfGroup[rootOf(v)] += valence[v] % 2;
-    linesOfGroup[rootOf(v)] += valence[v];
+    oddVertexCount[componentOf(v)] += valence[v] % 2;
+    lineEndCount[componentOf(v)] += valence[v];
   }
   std::size_t strips = 0;
   for (std::uint32_t v = 0; v < vertexCount; ++v)
-    strips += linesOfGroup[v] == 0 ? 0 : std::max(1u, oddOfGroup[v] / 2);
+    strips += lineEndCount[v] == 0 ? 0 : std::max(1u, oddVertexCount[v] / 2);
   return strips;
 }
 

@@ -62,7 +62,7 @@ std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vec
   return std::move(visit.order);
 }
 
-std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t meshesBefore) {
+std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh) {
   const std::size_t nodes = graph.nodes.size(), appearances = graph.appearances.size(),
                     textures = graph.textures.size(), images = graph.images.size(), inlined = graph.inlined.size();
   const auto shift = [](auto& index, std::size_t by) {
@@ -76,7 +76,7 @@ std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_
   for (Node& node : more.nodes) {
     shiftAll(node.children, nodes);
     if (Shape* shape = std::get_if<Shape>(&node.content)) {
-      shape->mesh += meshesBefore;
+      shape->mesh += firstMesh;
       shift(shape->appearance, appearances);
     } else if (GenericNode* other = std::get_if<GenericNode>(&node.content)) {
       shift(other->image, images);

@@ -41,7 +41,7 @@ struct FieldText {
 inline constexpr const char* commentElement = "#comment";
 
 /// An X3D element that is written as it was read, without interpretation: its attributes are Node::fields, its child
-/// elements are Node::children. A comment is a GenericNode with a text only.
+/// elements are Node::children. A comment has the name commentElement and a text only.
 struct GenericNode {
   std::string element;
   std::string text;                 ///< its character data, such as the source code of a Script
@@ -55,7 +55,7 @@ using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpo
                                  SpotLight, GenericNode>;
 
 struct Node {
-  std::string name; ///< becomes its DEF; where several nodes have one name, a number is appended to the later ones
+  std::string name; ///< becomes its DEF; if several nodes have the same name, a number is appended to the later ones
   NodeContent content;
   std::vector<std::size_t> children;  ///< indices into SceneGraph::nodes; Shapes of X3D sources may have some
   std::string extras;                 ///< the source author's own data (glTF's extras), as JSON; may be empty
@@ -119,12 +119,13 @@ const InlinedDocument& inlinedDocumentOf(const SceneGraph& graph, std::size_t no
 /// All nodes that are reachable from the roots, each once, in document order (depth first, parents before children).
 std::vector<std::size_t> nodesInOrder(const SceneGraph& graph);
 
-/// The same for the document whose top nodes are `roots`, without the documents of its Inlines.
+/// All nodes that are reachable from `roots`, the top nodes of a document, in the same order, without the documents of
+/// its Inlines.
 std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vector<std::size_t>& roots);
 
-/// Appends the nodes, appearances, images and inlined documents of `more` to those of `graph`, and adds `meshesBefore`
-/// to the mesh indices of its shapes. Returns its roots, which have no parent yet.
-std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t meshesBefore);
+/// Appends the nodes, appearances, images and inlined documents of `more` to those of `graph`, and adds `firstMesh`
+/// to the mesh indices of its shapes. Returns the indices of its roots, which have no parent yet.
+std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh);
 
 /// The indices of all Shape nodes in document order.
 std::vector<std::size_t> shapeNodes(const SceneGraph& graph);
@@ -132,7 +133,7 @@ std::vector<std::size_t> shapeNodes(const SceneGraph& graph);
 /// The Shape of a Shape node.
 const Shape& shapeOf(const SceneGraph& graph, std::size_t node);
 
-/// Removes the Shape nodes of the meshes for which `isLeftOut` is true from their parents.
+/// Removes Shape nodes from their parents if `isLeftOut`, which is indexed by mesh, is true for their mesh.
 void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut);
 
 } // namespace imgeo

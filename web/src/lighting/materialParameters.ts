@@ -3,7 +3,10 @@
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
 import { srgbOf } from "./physicalLighting.ts";
 
-/** Whether surfaces are blended with what is behind them. `hasAlpha`: whether vertex colours or the colour texture have alpha. */
+/**
+ * Whether surfaces are blended with what is behind them. `hasAlpha`: whether vertex colours or the colour texture have
+ * alpha.
+ */
 export function isBlended(
   { alpha: { mode }, material: { transparency } }: AppearanceDescription,
   hasAlpha: boolean,

@@ -1,5 +1,4 @@
-// The instances of a scene's nodes with their transforms, and the scene's bounds: the input of cameras and
-// renderers.
+// Lists the instances of a scene's nodes with their transforms, and the scene's bounds, for cameras and renderers.
 
 import { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
@@ -9,13 +8,13 @@ import type { NodeInstance } from "./nodeInstance.ts";
 
 /** Lists are in document order. */
 export interface SceneInstances {
-  /** Bounds of all visible shapes; empty where there are none. */
+  /** Bounds of all visible shapes; empty if there are none. */
   readonly box: Box3;
   readonly shapes: readonly ShapeInstance[];
-  /** Those that are on and visible. */
+  /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
-  /** Visible ones. */
+  /** Visible LODs. */
   readonly lods: readonly LodInstance[];
   readonly billboards: readonly NodeInstance[];
 }

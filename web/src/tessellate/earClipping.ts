@@ -11,22 +11,26 @@ type Point = readonly [number, number];
 const maxCorners = 512;
 
 /**
- * Cuts a polygon of n corners into n - 2 triangles and returns their corners as indices into `ring`, three a triangle.
+ * Cuts a polygon of n corners into n - 2 triangles and returns their corners as indices into `ring`, three for each
+ * triangle.
  * A convex polygon becomes a fan about its first corner, and so does one without area. Polygons that cross themselves
  * still give n - 2 triangles.
  */
 export function triangulate(ring: readonly Vec3[]): number[] {
   const normal = newellNormal(ring);
   if (ring.length <= 3 || normal.every((component) => component === 0)) return fan(ring.length);
-  const flat = projected(ring, normal);
-  return isConvex(flat) || ring.length > maxCorners ? fan(ring.length) : clipEars(flat);
+  const polygon = projected(ring, normal);
+  return isConvex(polygon) || ring.length > maxCorners ? fan(ring.length) : clipEars(polygon);
 }
 
 function fan(cornerCount: number): number[] {
   return Array.from({ length: Math.max(cornerCount - 2, 0) }, (_, i) => [0, i + 1, i + 2]).flat();
 }
 
-/** Twice the polygon's vector area; relative to the first corner, which keeps the precision of distant polygons. */
+/**
+ * Twice the polygon's vector area, computed relative to the first corner, which keeps the precision of distant
+ * polygons.
+ */
 function newellNormal([first = [0, 0, 0], ...others]: readonly Vec3[]): Vec3 {
   let sum: Vec3 = [0, 0, 0];
   for (const [i, corner] of others.slice(0, -1).entries()) {
@@ -46,36 +50,38 @@ function projected(ring: readonly Vec3[], normal: Vec3): Point[] {
 }
 
 /** Twice the signed area of a triangle. */
-function area(a: Point, b: Point, c: Point): number {
+function doubleArea(a: Point, b: Point, c: Point): number {
   return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
 }
 
 const origin: Point = [0, 0];
 
-function isConvex(flat: readonly Point[]): boolean {
-  const at = (i: number) => flat[i % flat.length] ?? origin;
-  return flat.every(
+function isConvex(polygon: readonly Point[]): boolean {
+  const pointAt = (i: number) => polygon[i % polygon.length] ?? origin;
+  return polygon.every(
     (point, i) =>
-      area(point, at(i + 1), at(i + 2)) >= 0 &&
-      // A pentagram turns the same way at every corner too; its fan about the first corner has flipped triangles.
-      (i === 0 || i + 1 >= flat.length || area(at(0), point, at(i + 1)) >= 0),
+      doubleArea(point, pointAt(i + 1), pointAt(i + 2)) >= 0 &&
+      // A pentagram turns in the same direction at every corner, too; its fan about the first corner has flipped
+      // triangles.
+      (i === 0 || i + 1 >= polygon.length || doubleArea(pointAt(0), point, pointAt(i + 1)) >= 0),
   );
 }
 
-function clipEars(flat: readonly Point[]): number[] {
-  const remaining = flat.map((_, corner) => corner);
+function clipEars(polygon: readonly Point[]): number[] {
+  const remaining = polygon.map((_, corner) => corner);
   const triangles: number[] = [];
   const cornerAt = (index: number) => remaining[index % remaining.length] ?? 0;
-  const pointAt = (index: number) => flat[cornerAt(index)] ?? origin;
-  const turn = (index: number) => area(pointAt(index + remaining.length - 1), pointAt(index), pointAt(index + 1));
+  const pointAt = (index: number) => polygon[cornerAt(index)] ?? origin;
+  const doubleAreaAt = (index: number) =>
+    doubleArea(pointAt(index + remaining.length - 1), pointAt(index), pointAt(index + 1));
   const isEar = (index: number): boolean => {
-    if (turn(index) <= 0) return false;
+    if (doubleAreaAt(index) <= 0) return false;
     const [a, b, c] = [pointAt(index + remaining.length - 1), pointAt(index), pointAt(index + 1)];
     for (let other = index + 2; other < index + remaining.length - 1; ++other) {
       const p = pointAt(other);
       // A polygon with a bridge to a hole passes through the bridge's ends twice.
-      if ([a, b, c].some((q) => q[0] === p[0] && q[1] === p[1]) || turn(other) > 0) continue;
-      if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
+      if ([a, b, c].some((q) => q[0] === p[0] && q[1] === p[1]) || doubleAreaAt(other) > 0) continue;
+      if (doubleArea(a, b, p) >= 0 && doubleArea(b, c, p) >= 0 && doubleArea(c, a, p) >= 0) return false;
     }
     return true;
   };
@@ -88,7 +94,7 @@ function clipEars(flat: readonly Point[]): number[] {
     }
     triangles.push(cornerAt(index + remaining.length - 1), cornerAt(index), cornerAt(index + 1));
     remaining.splice(index, 1);
-    index = (index + 1) % remaining.length; // skips a corner: clipping neighbors in turn would make needles
+    index = (index + 1) % remaining.length; // skips a corner: clipping neighbors one after the other would make needles
     rejectedCount = 0;
   }
   return triangles;

@@ -10,9 +10,9 @@ import type { SceneLightUniforms } from "./sceneLights.ts";
 import { makeLights } from "./sceneLights.ts";
 
 function uniformsOf(markup: string): SceneLightUniforms {
-  const { summary: reach } = new InstanceTree().update(readScene(elementsOf(`<X3D>${markup}</X3D>`)).root).root;
-  numberLightScopes(reach.lightScopes);
-  return makeLights(reach.lights).uniforms;
+  const { summary } = new InstanceTree().update(readScene(elementsOf(`<X3D>${markup}</X3D>`)).root).root;
+  numberLightScopes(summary.lightScopes);
+  return makeLights(summary.lights).uniforms;
 }
 
 test("programs of scenes with only global lights contain no light scopes", () => {
@@ -26,17 +26,17 @@ test("programs of scenes with only global lights contain no light scopes", () =>
   assert.ok(hasLightScopes(uniformsOf("<Group><DirectionalLight/></Group>")));
 });
 
-test("each light's scope range stands in the order in which three.js counts lights", () => {
+test("scope ranges are in the order in which three.js counts lights", () => {
   const { lightScopeRanges, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
     <Group><DirectionalLight color="1 0.5 0" ambientIntensity="0.5"/><Group><SpotLight global="false"/></Group></Group>
     <Group><PointLight global="false"/></Group>`);
   const point = [3, 3],
     spot = [2, 2],
-    sun = [0, 2 ** 24],
-    ofGroup = [1, 2];
+    wholeScene = [0, 2 ** 24],
+    firstGroup = [1, 2];
   assert.deepEqual(
-    lightScopeRanges.value.map((reach) => reach.toArray()),
-    [point, spot, sun, ofGroup, sun, sun],
+    lightScopeRanges.value.map((range) => range.toArray()),
+    [point, spot, wholeScene, firstGroup, wholeScene, wholeScene],
   );
   assert.deepEqual(
     scopedAmbients.value.map((ambient) => ambient.toArray()),
@@ -54,13 +54,13 @@ test("each light's scope range stands in the order in which three.js counts ligh
 test("three.js' shaders test the scope of each kind of light and of ambient light", () => {
   const lit = { vertexShader: ShaderLib.phong.vertexShader, fragmentShader: ShaderLib.phong.fragmentShader };
   addLightScopes(lit);
-  const asked = [
+  const lightIndices = [
     "UNROLLED_LOOP_INDEX",
     "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX",
     "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX",
   ];
-  for (const number of asked)
-    assert.ok(lit.fragmentShader.includes(`directLight.color *= lightShareInScope( ${number} )`), number);
+  for (const index of lightIndices)
+    assert.ok(lit.fragmentShader.includes(`directLight.color *= lightShareInScope( ${index} )`), index);
   assert.ok(lit.fragmentShader.includes("ambientLightColor + ambientLightInScope()"));
   const unlit = { vertexShader: ShaderLib.basic.vertexShader, fragmentShader: ShaderLib.basic.fragmentShader };
   addLightScopes(unlit);

@@ -34,8 +34,8 @@ uniform vec3 scopedAmbients[ALL_LIGHTS];
 #endif
 
 float lightShareInScope(int light) {
-  vec2 reach = lightScopeRanges[light];
-  return step(reach.x, drawLightScope) * step(drawLightScope, reach.y);
+  vec2 range = lightScopeRanges[light];
+  return step(range.x, drawLightScope) * step(drawLightScope, range.y);
 }
 
 vec3 ambientLightInScope() {

@@ -45,7 +45,8 @@ export class DepthProbe {
   }
 
   /**
-   * Draws the surfaces of the candidates and reads their depths. Ground is searched down to `searchDepth` below the eye.
+   * Draws the surfaces of the candidates and reads their depths. Ground is searched down to `searchDepth` below the
+   * eye.
    * Resolves to undefined if the context is lost meanwhile.
    */
   async probe(
@@ -149,7 +150,9 @@ function depthsIn(words: Uint32Array): Float32Array {
   });
 }
 
-/** Heights relative to the eye. The last row of the image, its top, is towards -z, and becomes the first row of the map. */
+/**
+ * Heights relative to the eye. The last row of the image, its top, is towards -z, and becomes the first row of the map.
+ */
 function heightsOf(depths: Float32Array, searchDepth: number): Float32Array {
   const heights = new Float32Array(depths.length);
   for (let row = 0; row < floorCells; ++row) {

@@ -1,4 +1,4 @@
-// The three.js object for one kind of primitive.
+// Makes the three.js object that draws a primitive type.
 
 import type { BufferGeometry } from "three";
 import { Line, LineSegments, Mesh, Points } from "three";
@@ -22,7 +22,7 @@ export function makeDrawnObject(
           : new Mesh(geometry, material);
 }
 
-/** three.js would cull by bounds that do not include the width of lines. */
+/** Disables three.js' culling, whose bounds do not include the width of lines. */
 function withoutCulling(object: DrawnObject): DrawnObject {
   object.frustumCulled = false;
   return object;
