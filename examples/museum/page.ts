@@ -1,5 +1,5 @@
-// A museum's page for one object: it turns by itself until the user moves it, the key P
-// displays its points, and its notes are buttons at the points that they describe.
+// Makes a museum's page for one object. The object turns by itself until the user moves it, the
+// key P displays its points, and notes about it are buttons at the points that they describe.
 
 /** A note, and the point of the object that it describes. */
 export interface Note {
@@ -9,7 +9,7 @@ export interface Note {
   readonly normal: readonly [number, number, number];
 }
 
-/** The page of a converted site with the notes in it. */
+/** Adds a title, a text and notes to `page`, the index.html of a converted site. */
 export function museumPage(page: string, title: string, text: string, notes: readonly Note[]): string {
   const hotspots = notes.map(
     ({ name, position, normal }, i) =>

@@ -13,7 +13,10 @@ const [geometry] = shapesOf(
     .root,
 ).map((shape) => shape.geometry);
 
-/** Deliveries from a server that has coordinates but no normals, and what it was asked for. */
+/**
+ * Deliveries from a server that has coordinates but no normals and answers after `respond`, and the URLs requested from
+ * it.
+ */
 function deliveriesOf() {
   assert.ok(geometry);
   const requested: string[] = [];
@@ -47,23 +50,24 @@ function deliveriesOf() {
       onTransfer: () => undefined,
     }),
   );
-  /** Asks for all files of all who have joined. */
-  const demand = () => {
+  /** Requests all files of all joined geometries. */
+  const requestAll = () => {
     deliveries.request(() => () => 1);
   };
   return {
     geometry,
     deliveries,
-    demand,
+    requestAll,
     requested,
     aborted: () => aborted,
-    open: () => {
+    respond: () => {
       answer.resolve(undefined);
     },
   };
 }
 
-function logged() {
+/** A listener that records stage names, URLs of failed files and "settled" in `log`. */
+function makeRecorder() {
   const log: string[] = [];
   const settled = Promise.withResolvers<undefined>();
   const stages: unknown[] = [];
@@ -83,40 +87,40 @@ function logged() {
   return { log, stages, listener, settled: settled.promise };
 }
 
-describe("a geometry that several shapes show", () => {
-  test("is asked for once, and tells those who come late what the others know", async () => {
-    const { geometry, deliveries, demand, requested, open } = deliveriesOf();
-    const [early, alsoEarly, late] = [logged(), logged(), logged()];
+describe("a geometry that several shapes use", () => {
+  test("is requested once, and reports its stages and errors also to listeners that join later", async () => {
+    const { geometry, deliveries, requestAll, requested, respond } = deliveriesOf();
+    const [early, alsoEarly, late] = [makeRecorder(), makeRecorder(), makeRecorder()];
     deliveries.join(geometry, early.listener);
     deliveries.join(geometry, alsoEarly.listener);
-    demand();
-    open();
+    requestAll();
+    respond();
     await Promise.all([early.settled, alsoEarly.settled]);
     deliveries.join(geometry, late.listener);
     assert.deepEqual(late.log, []);
     await late.settled;
     assert.deepEqual(late.log, ["surface", "n.bin", "settled"]);
     for (const { log } of [early, alsoEarly]) assert.deepEqual(log.toSorted(), late.log.toSorted());
-    assert.equal(late.stages[0], early.stages[0]); // the same object: it is stored once
+    assert.equal(late.stages[0], early.stages[0]); // the same object, so its arrays are stored once
     assert.deepEqual(requested, ["c.bin", "n.bin"]);
   });
 
-  test("is given up with the last of them, who hears nothing more", async () => {
-    const { geometry, deliveries, demand, requested, aborted } = deliveriesOf();
-    const [first, second] = [logged(), logged()];
-    const one = deliveries.join(geometry, first.listener);
-    const other = deliveries.join(geometry, second.listener);
-    demand();
+  test("is aborted when its last listener leaves, and calls no listener that has left", async () => {
+    const { geometry, deliveries, requestAll, requested, aborted } = deliveriesOf();
+    const [first, second] = [makeRecorder(), makeRecorder()];
+    const firstJoin = deliveries.join(geometry, first.listener);
+    const secondJoin = deliveries.join(geometry, second.listener);
+    requestAll();
     await new Promise((resolve) => setTimeout(resolve));
     assert.equal(requested.length, 2);
-    one.cancel();
-    one.cancel();
+    firstJoin.cancel();
+    firstJoin.cancel();
     assert.equal(aborted(), 0);
-    other.cancel();
+    secondJoin.cancel();
     assert.equal(aborted(), 2);
-    const third = deliveries.join(geometry, logged().listener); // begins anew and ends before it was told anything
-    demand();
-    third.cancel();
+    const thirdJoin = deliveries.join(geometry, makeRecorder().listener); // requests the geometry again, and leaves before any stage
+    requestAll();
+    thirdJoin.cancel();
     await new Promise((resolve) => setTimeout(resolve, 5));
     assert.deepEqual([first.log, second.log], [[], []]);
   });

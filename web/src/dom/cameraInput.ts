@@ -31,8 +31,8 @@ export class CameraInput {
   }
 
   get canZoom(): boolean {
-    const { isDisabled: isStill, canZoom } = this.#limits();
-    return canZoom && !isStill;
+    const { isDisabled, canZoom } = this.#limits();
+    return canZoom && !isDisabled;
   }
 
   /** Turns by radians to the right and over the top. */
@@ -45,7 +45,7 @@ export class CameraInput {
     if (this.canZoom) this.#navigator.zoom(factor);
   }
 
-  /** Moves the scene by shares of the view's shorter side. */
+  /** Moves the scene by fractions of the view's shorter side. */
   pan(right: number, up: number): void {
     if (this.type !== "none" && this.#limits().canPan) this.#navigator.pan(right, up);
   }

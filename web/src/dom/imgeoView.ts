@@ -14,7 +14,8 @@ import type { Vector3D } from "./shapePointerEvent.ts";
 import { vector3DOf } from "./shapePointerEvent.ts";
 import type { ViewStatistics } from "./pageViewer.ts";
 
-const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
+const noWebGlMessage =
+  "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
 
 export interface BlobOptions {
   readonly mimeType?: string;
@@ -46,7 +47,7 @@ export class ImgeoView extends HTMLElement {
     return this.#controller?.viewer.statistics;
   }
 
-  /** In document order. */
+  /** The scene's viewpoints, in document order. */
   get viewpoints(): readonly ViewpointEntry[] {
     const navigator = this.#controller?.viewer.navigator;
     return (navigator?.viewpoints ?? []).map(({ element, viewpoint }) => ({
@@ -56,12 +57,14 @@ export class ImgeoView extends HTMLElement {
     }));
   }
 
-  /** Whether the scene does not turn by itself. */
+  /** Whether automatic rotation is off. */
   get paused(): boolean {
     return this.#controller?.viewer.navigator.autoRotation.isStopped ?? true;
   }
 
-  /** Turns the scene as `auto-rotate` does, but without delay, and even where the user prefers reduced motion. */
+  /**
+   * Starts automatic rotation as `auto-rotate` does, but without delay, and even if the user prefers reduced motion.
+   */
   play(): void {
     this.#controller?.play();
   }
@@ -70,7 +73,7 @@ export class ImgeoView extends HTMLElement {
     this.#controller?.pause();
   }
 
-  /** Removes the poster; with `reveal="manual"` nothing else does. */
+  /** Removes the poster, which otherwise stays with `reveal="manual"`. */
   dismissPoster(): void {
     this.#controller?.poster.dismiss();
   }
@@ -104,10 +107,13 @@ export class ImgeoView extends HTMLElement {
     return vector3DOf(this.#controller?.viewer.navigator.pose.position ?? { x: 0, y: 0, z: 0 });
   }
 
-  /** Draws the scene into an image file. Rejects where there is no picture. */
+  /**
+   * Draws the scene into an image file. Rejects while the view is not connected and when the browser cannot encode the
+   * image.
+   */
   async toBlob({ mimeType = "image/png", qualityArgument }: BlobOptions = {}): Promise<Blob> {
     const canvas = this.#canvas;
-    // In one turn of the event loop: afterwards the canvas' content cannot be read.
+    // Drawn and read in one turn of the event loop: afterwards the canvas' content cannot be read.
     this.#controller?.viewer.renderer.draw();
     const blob = await new Promise<Blob | null>((resolve) => {
       if (canvas === undefined) resolve(null);
@@ -117,7 +123,10 @@ export class ImgeoView extends HTMLElement {
     return blob;
   }
 
-  /** The visible point of a shape at a position in the viewport, in CSS pixels as clientX and clientY; null where there is no shape. */
+  /**
+   * The visible point of a shape at a position in the viewport, in CSS pixels as clientX and clientY; null where there
+   * is no shape.
+   */
   positionAndNormalFromPoint(x: number, y: number): SurfacePoint | null {
     if (this.#controller === undefined || this.#canvas === undefined) return null;
     const hit = this.#controller.viewer.pick(...pixelAt(this.#canvas, x, y));
@@ -134,13 +143,13 @@ export class ImgeoView extends HTMLElement {
     const context = contextOf(ui.canvas);
     if (context === null) {
       preview?.end();
-      ui.showMessage(noWebGl);
-      refuse(x3d);
+      ui.showMessage(noWebGlMessage);
+      reportMissingWebGl(x3d);
       return;
     }
     this.#canvas = ui.canvas;
     this.#controller = new ViewController(x3d, this, ui, context, preview);
-    lendMembers(this, x3d);
+    addMembersTo(x3d, this);
     this.#controller.start();
   }
 
@@ -155,8 +164,8 @@ export class ImgeoView extends HTMLElement {
   }
 }
 
-/** Methods that <x3d> gets too, since pages know that element. */
-const lentMethods = [
+/** Members that <x3d> gets too: pages need not look for the <imgeo-view> in it. */
+const sharedMethods = [
   "play",
   "pause",
   "dismissPoster",
@@ -168,29 +177,31 @@ const lentMethods = [
   "toBlob",
   "positionAndNormalFromPoint",
 ] as const;
-const lentProperties = ["statistics", "viewpoints", "paused"] as const;
+const sharedProperties = ["statistics", "viewpoints", "paused"] as const;
 
 /** The properties that the runtime gives to <x3d>. */
 export type ViewElement = Element &
   Loadable &
-  Pick<ImgeoView, (typeof lentMethods)[number] | (typeof lentProperties)[number]>;
+  Pick<ImgeoView, (typeof sharedMethods)[number] | (typeof sharedProperties)[number]>;
 
-function lendMembers(view: ImgeoView, x3d: Element): void {
-  for (const name of lentMethods) {
+function addMembersTo(x3d: Element, view: ImgeoView): void {
+  for (const name of sharedMethods) {
     Object.defineProperty(x3d, name, { value: view[name].bind(view), configurable: true, enumerable: true });
   }
-  for (const name of lentProperties) {
+  for (const name of sharedProperties) {
     Object.defineProperty(x3d, name, { get: () => view[name], configurable: true, enumerable: true });
   }
 }
 
-/** Reports that no shape will be displayed, as events of each element and on the console. */
-function refuse(x3d: Element): void {
-  const error = new Error(noWebGl);
-  console.error(`imgeo: ${noWebGl}`);
+/**
+ * Reports that no shape can be displayed: by `error` events and rejected promises of all elements, and on the console.
+ */
+function reportMissingWebGl(x3d: Element): void {
+  const error = new Error(noWebGlMessage);
+  console.error(`imgeo: ${noWebGlMessage}`);
   for (const element of [x3d, ...x3d.querySelectorAll("shape")]) {
     const loading = new LoadingEvents(element);
-    loading.fail({ type: "webgl", url: "", element, message: noWebGl }, error);
+    loading.fail({ type: "webgl", url: "", element, message: noWebGlMessage }, error);
     loading.abandon(error);
   }
 }

@@ -1,5 +1,5 @@
-// Menus of a scene: its viewpoints, where it has several with a description, and its
-// navigation types, where NavigationInfo names several. They are native <select>
+// Menus of a scene: its viewpoints, if several have a description, and its
+// navigation types, if NavigationInfo names several. They are native <select>
 // elements, which support keyboard, touch and screen readers.
 
 import type { ViewpointInstance } from "../scene/instances.ts";
@@ -15,26 +15,26 @@ const typeNames: Readonly<Record<NavigationType, string>> = {
 
 export class Menus {
   readonly #navigator: CameraController;
-  readonly #viewpoints = listOf("Viewpoint");
-  readonly #types = listOf("Way to move");
-  #named: readonly ViewpointInstance[] = [];
+  readonly #viewpointMenu = makeMenu("Viewpoint");
+  readonly #typeMenu = makeMenu("Way to move");
+  #namedViewpoints: readonly ViewpointInstance[] = [];
   #listedTypes: readonly NavigationType[] = [];
 
   constructor(controls: HTMLElement, navigator: CameraController, signal: AbortSignal) {
     this.#navigator = navigator;
-    controls.replaceChildren(this.#types, this.#viewpoints);
-    this.#viewpoints.addEventListener(
+    controls.replaceChildren(this.#typeMenu, this.#viewpointMenu);
+    this.#viewpointMenu.addEventListener(
       "change",
       () => {
-        const chosen = this.#named[this.#viewpoints.selectedIndex];
+        const chosen = this.#namedViewpoints[this.#viewpointMenu.selectedIndex];
         if (chosen) navigator.bind(chosen.element);
       },
       { signal },
     );
-    this.#types.addEventListener(
+    this.#typeMenu.addEventListener(
       "change",
       () => {
-        navigator.type = this.#listedTypes[this.#types.selectedIndex] ?? navigator.type;
+        navigator.type = this.#listedTypes[this.#typeMenu.selectedIndex] ?? navigator.type;
       },
       { signal },
     );
@@ -43,34 +43,37 @@ export class Menus {
   /** Updates the menus from the navigator. */
   update(): void {
     const { viewpoints, bound, type } = this.#navigator;
-    this.#named = viewpoints.filter(({ viewpoint }) => viewpoint.description !== "");
+    this.#namedViewpoints = viewpoints.filter(({ viewpoint }) => viewpoint.description !== "");
     this.#listedTypes = this.#navigator.listedTypes;
-    fill(
-      this.#viewpoints,
-      this.#named.map(({ viewpoint }) => viewpoint.description),
-      this.#named.findIndex(({ element }) => element === bound),
+    fillMenu(
+      this.#viewpointMenu,
+      this.#namedViewpoints.map(({ viewpoint }) => viewpoint.description),
+      this.#namedViewpoints.findIndex(({ element }) => element === bound),
     );
-    fill(
-      this.#types,
+    fillMenu(
+      this.#typeMenu,
       this.#listedTypes.map((listed) => typeNames[listed]),
       this.#listedTypes.indexOf(type),
     );
   }
 }
 
-function listOf(label: string): HTMLSelectElement {
-  const list = document.createElement("select");
-  list.setAttribute("aria-label", label);
-  list.setAttribute("part", label === "Viewpoint" ? "viewpoints" : "navigation-types");
-  list.hidden = true;
-  return list;
+function makeMenu(label: string): HTMLSelectElement {
+  const menu = document.createElement("select");
+  menu.setAttribute("aria-label", label);
+  menu.setAttribute("part", label === "Viewpoint" ? "viewpoints" : "navigation-types");
+  menu.hidden = true;
+  return menu;
 }
 
-/** Hides a menu of fewer than two options. Options are replaced only where they differ, so that an open menu stays open. */
-function fill(list: HTMLSelectElement, names: readonly string[], selected: number): void {
+/**
+ * Sets a menu's options, and hides a menu with fewer than two. Replaces options only if they differ, so that an open
+ * menu stays open.
+ */
+function fillMenu(menu: HTMLSelectElement, names: readonly string[], selected: number): void {
   const isSame =
-    names.length === list.options.length && names.every((name, index) => list.options[index]?.text === name);
-  if (!isSame) list.replaceChildren(...names.map((name) => new Option(name)));
-  list.hidden = names.length < 2;
-  if (list.selectedIndex !== selected) list.selectedIndex = selected;
+    names.length === menu.options.length && names.every((name, index) => menu.options[index]?.text === name);
+  if (!isSame) menu.replaceChildren(...names.map((name) => new Option(name)));
+  menu.hidden = names.length < 2;
+  if (menu.selectedIndex !== selected) menu.selectedIndex = selected;
 }

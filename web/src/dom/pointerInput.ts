@@ -4,6 +4,7 @@
 import type { CameraInput } from "./cameraInput.ts";
 import { listenToKeyboard } from "./keyboardInput.ts";
 
+/** Angle that a drag along the shorter side of the canvas turns by. */
 const radiansPerView = Math.PI;
 
 /** Listens until `signal` aborts. */
@@ -20,7 +21,7 @@ export function listenForCameraInput(canvas: HTMLCanvasElement, input: CameraInp
     { passive: false, signal },
   );
   listenToKeyboard(canvas, input, signal);
-  // The right button pans.
+  // The right button pans, so it must not open a menu.
   canvas.addEventListener(
     "contextmenu",
     (event) => {
@@ -35,20 +36,24 @@ interface Point {
   readonly y: number;
 }
 
-/** One pointer turns the camera, or pans it with Shift or another button. Two pan by their midpoint and zoom by their distance. */
+/**
+ * One pointer turns the camera, or pans it with Shift or another button. Two pan by their midpoint and zoom by their
+ * distance.
+ */
 function listenToPointers(canvas: HTMLCanvasElement, input: CameraInput, signal: AbortSignal): void {
-  const down = new Map<number, Point>();
+  /** The last position of each pressed pointer, by id. */
+  const pressed = new Map<number, Point>();
 
-  const lift = (event: PointerEvent) => {
-    down.delete(event.pointerId);
+  const release = (event: PointerEvent) => {
+    pressed.delete(event.pointerId);
   };
-  canvas.addEventListener("pointerup", lift, { signal });
-  canvas.addEventListener("pointercancel", lift, { signal });
+  canvas.addEventListener("pointerup", release, { signal });
+  canvas.addEventListener("pointercancel", release, { signal });
   canvas.addEventListener(
     "pointerdown",
     (event) => {
-      if (event.defaultPrevented || down.size === 2 || input.type === "none") return;
-      down.set(event.pointerId, pointOf(event));
+      if (event.defaultPrevented || pressed.size === 2 || input.type === "none") return;
+      pressed.set(event.pointerId, pointOf(event));
       canvas.setPointerCapture(event.pointerId);
     },
     { signal },
@@ -56,21 +61,21 @@ function listenToPointers(canvas: HTMLCanvasElement, input: CameraInput, signal:
   canvas.addEventListener(
     "pointermove",
     (event) => {
-      const from = down.get(event.pointerId);
+      const from = pressed.get(event.pointerId);
       if (from === undefined) return;
       const to = pointOf(event);
-      const other = Array.from(down).find(([id]) => id !== event.pointerId)?.[1];
-      down.set(event.pointerId, to);
-      const shorter = Math.min(canvas.clientWidth, canvas.clientHeight) || 1;
-      const right = (to.x - from.x) / shorter;
-      const below = (to.y - from.y) / shorter;
+      const other = Array.from(pressed).find(([id]) => id !== event.pointerId)?.[1];
+      pressed.set(event.pointerId, to);
+      const shorterSide = Math.min(canvas.clientWidth, canvas.clientHeight) || 1;
+      const right = (to.x - from.x) / shorterSide;
+      const down = (to.y - from.y) / shorterSide;
       if (other !== undefined) {
-        input.pan(right / 2, -below / 2);
+        input.pan(right / 2, -down / 2);
         input.zoom(Math.max(distance(from, other), 1) / Math.max(distance(to, other), 1));
       } else if (event.shiftKey || (event.buttons & 6) !== 0) {
-        input.pan(right, -below);
+        input.pan(right, -down);
       } else {
-        input.turn(right * radiansPerView, below * radiansPerView);
+        input.turn(right * radiansPerView, down * radiansPerView);
       }
     },
     { signal },
@@ -85,6 +90,6 @@ function distance(a: Point, b: Point): number {
   return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-function clamp(value: number, largest: number): number {
-  return Math.max(-largest, Math.min(largest, value));
+function clamp(value: number, limit: number): number {
+  return Math.max(-limit, Math.min(limit, value));
 }

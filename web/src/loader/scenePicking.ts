@@ -1,12 +1,12 @@
-// Picking in an app's own three.js scene: the GPU draws the pixel, since no vertices are
-// kept for a Raycaster. The app's renderer is used for it, and its state restored.
+// Picking in an app's own three.js scene: the GPU draws the pixel, since a Raycaster would
+// need vertices in JavaScript. Draws with the app's renderer, and restores its state.
 
 import type { Object3D, PerspectiveCamera, WebGLRenderer } from "three";
 import { Color, Vector2, type Vector3 } from "three";
 import type { PickCandidate } from "../render/picking/picker.ts";
 import { Picker } from "../render/picking/picker.ts";
 
-/** Named as in three.js' Intersection where that has the same. */
+/** A picked point. Fields that three.js' Intersection has too are named as there. */
 export interface SceneHit {
   /** The shape's group, named by its DEF. */
   readonly object: Object3D;
@@ -24,9 +24,13 @@ export interface SceneHit {
 }
 
 export class ScenePicker {
-  #lent: { readonly renderer: WebGLRenderer; readonly picker: Picker } | undefined;
+  /** The picker of the renderer that was used last. */
+  #current: { readonly renderer: WebGLRenderer; readonly picker: Picker } | undefined;
 
-  /** Picks at CSS pixels from the top left of the renderer's canvas; points and lines are at most `maxWidth` CSS pixels wide. Waits for the GPU. */
+  /**
+   * Picks at CSS pixels from the top left of the renderer's canvas; points and lines are at most `maxWidth` CSS pixels
+   * wide. Waits for the GPU.
+   */
   pick(
     renderer: WebGLRenderer,
     camera: PerspectiveCamera,
@@ -34,17 +38,17 @@ export class ScenePicker {
     maxWidth: number,
     candidates: Iterable<PickCandidate>,
   ): SceneHit | undefined {
-    if (this.#lent?.renderer !== renderer) {
+    if (this.#current?.renderer !== renderer) {
       this.dispose();
-      this.#lent = { renderer, picker: new Picker(renderer) };
+      this.#current = { renderer, picker: new Picker(renderer) };
     }
-    const { picker } = this.#lent;
+    const { picker } = this.#current;
     const ratio = renderer.getPixelRatio();
     const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
     const pixel = { x: Math.floor(x * ratio), y: Math.floor(y * ratio), width, height };
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width || pixel.y >= height) return undefined;
     const slack = 1 + Math.ceil((maxWidth * ratio) / 2);
-    const hit = lend(renderer, () => picker.pick(camera, pixel, slack, candidates));
+    const hit = withPickingState(renderer, () => picker.pick(camera, pixel, slack, candidates));
     if (hit === undefined) return undefined;
     const { group, position, normal, patch, triangle, vertex } = hit;
     return {
@@ -59,13 +63,13 @@ export class ScenePicker {
   }
 
   dispose(): void {
-    this.#lent?.picker.dispose();
-    this.#lent = undefined;
+    this.#current?.picker.dispose();
+    this.#current = undefined;
   }
 }
 
-/** Sets the clear and target state that picking needs, and restores the app's. */
-function lend<Result>(renderer: WebGLRenderer, use: () => Result): Result {
+/** Calls `use` with the renderer's state that picking needs, and restores the app's state. */
+function withPickingState<Result>(renderer: WebGLRenderer, use: () => Result): Result {
   const target = renderer.getRenderTarget();
   const [face, level] = [renderer.getActiveCubeFace(), renderer.getActiveMipmapLevel()];
   const color = renderer.getClearColor(new Color());

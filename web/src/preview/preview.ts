@@ -1,7 +1,7 @@
 // The preview of a scene: its base meshes, drawn before the runtime has been loaded.
-// Its canvas covers the view's canvas until that displays as much. The preview follows
-// the document and the element's size, and ends where its picture would differ from
-// the runtime's.
+// Its canvas covers the canvas of the <imgeo-view> until that displays the same shapes. The
+// preview follows changes of the document and of the element's size. It ends when its
+// picture would differ from the runtime's.
 
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -46,7 +46,10 @@ export class Preview {
   #content: PreviewContent;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
 
-  /** Requests the bases and draws nothing yet. `insert` puts the canvas into the document. Undefined where only the runtime can display the scene. */
+  /**
+   * Requests the bases and draws nothing yet. `insert` puts the canvas into the document. Returns undefined if only the
+   * runtime can display the scene.
+   */
   static create(
     x3d: Element,
     bases: PrefetchedBases,
@@ -54,7 +57,7 @@ export class Preview {
   ): Preview | undefined {
     const content = previewContentOf(x3d);
     if (content === undefined) return undefined;
-    for (const { base } of content.scene.shapes) bases.fetch(absoluteUrlOf(base.url)); // before anything that takes time
+    for (const { base } of content.scene.shapes) bases.fetch(absoluteUrlOf(base.url)); // first, since all that follows takes time
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
@@ -83,18 +86,18 @@ export class Preview {
     this.#content = content;
     this.#renderer = new PreviewRenderer(context);
     this.#renderer.warmUp(content.scene, canvas.width, canvas.height);
-    this.#observe();
+    this.#followChanges();
     const files = Array.from(new Set(content.scene.shapes.map(({ base }) => absoluteUrlOf(base.url))), (url) => ({
       url,
       ...bases.fetch(url),
     }));
-    this.downloaded = Promise.all(files.map(({ downloaded: arrival }) => arrival)).catch(() => undefined);
+    this.downloaded = Promise.all(files.map(({ downloaded }) => downloaded)).catch(() => undefined);
     this.#load(files).catch(() => {
       this.end();
     }); // the runtime requests the file again and reports the error
   }
 
-  /** All files have been downloaded: the next frame draws the preview. */
+  /** Whether all files have been downloaded and the preview will be drawn as soon as they are decoded. */
   get isDue(): boolean {
     return this.#state === "decoding";
   }
@@ -123,9 +126,9 @@ export class Preview {
   }
 
   async #load(files: readonly ({ readonly url: string } & PrefetchedFile)[]): Promise<void> {
-    await Promise.all(files.map(({ downloaded: arrival }) => arrival));
+    await Promise.all(files.map(({ downloaded }) => downloaded));
     if (this.#state === "waiting") this.#state = "decoding";
-    for (const { url, decoded: content } of files) this.#bases.set(url, (await content).bases);
+    for (const { url, decoded } of files) this.#bases.set(url, (await decoded).bases);
     beforeNextFrame((isHidden) => {
       try {
         if (!isHidden) this.#drawFirstTime();
@@ -140,7 +143,9 @@ export class Preview {
     const [width, height] = deviceSizeOf(this.canvas);
     this.#setSize(width, height);
     if (!this.#draw()) return;
-    // Not earlier: the compositor would wait for the GPU's warm-up, and the page for the compositor.
+    // Makes the canvas visible, not before it is drawn: the compositor would wait for the GPU's warm-up, and the page
+    // for
+    // the compositor.
     this.canvas.classList.add("drawn");
     this.#state = "drawn";
     this.#settle();
@@ -152,12 +157,14 @@ export class Preview {
     }
   }
 
-  /** Returns false where the bases do not hold what the document describes; the preview has then ended. */
+  /**
+   * Draws the scene. Ends the preview and returns false if the bases contradict the document or the canvas has no area.
+   */
   #draw(): boolean {
     const { scene, exposure } = this.#content;
     const { width, height } = this.canvas;
-    const isWhole = scene.shapes.every((shape) => isDrawable(shape, this.#baseOf(shape)));
-    if (isWhole && width > 0 && height > 0) this.#renderer.draw(scene, this.#baseOf, width, height, exposure);
+    const areDrawable = scene.shapes.every((shape) => isDrawable(shape, this.#baseOf(shape)));
+    if (areDrawable && width > 0 && height > 0) this.#renderer.draw(scene, this.#baseOf, width, height, exposure);
     else this.end();
     return this.#state !== "ended";
   }
@@ -171,7 +178,7 @@ export class Preview {
     return true;
   }
 
-  #observe(): void {
+  #followChanges(): void {
     const { signal } = this.#listeners;
     this.canvas.addEventListener(
       "webglcontextlost",
@@ -206,7 +213,7 @@ export class Preview {
   }
 }
 
-/** What the document describes now; undefined where only the runtime can display it. */
+/** The scene that the document describes now; undefined if only the runtime can display it. */
 function previewContentOf(x3d: Element): PreviewContent | undefined {
   const settings = readSettings(x3d, () => undefined);
   if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;

@@ -1,6 +1,6 @@
 // The scene of a preview: the bases of a document's shapes with their transforms, solid
-// materials and lights. A preview looks as the runtime's picture does, or there is none:
-// a scene with any other feature is left to the runtime.
+// materials and lights. A preview equals the runtime's picture of the bases:
+// only the runtime displays scenes with any other feature.
 
 import type { Matrix4, Sphere } from "three";
 import type {
@@ -33,7 +33,7 @@ export interface PreviewScene {
   readonly pose: Pose;
   /** Bounds of all visible shapes. */
   readonly sphere: Sphere;
-  /** Nothing nearer to the camera need be displayed. */
+  /** Distance from the camera within which nothing need be displayed. */
   readonly clearance: number;
 }
 
@@ -43,7 +43,7 @@ export interface PreviewShape {
   readonly base: PatchReference;
   readonly appearance: AppearanceDescription;
   readonly sceneFromShape: Matrix4;
-  /** From lattice coordinates. */
+  /** Maps the lattice coordinates that the base stores to the shape's coordinates. */
   readonly shapeFromStored: Matrix4;
   readonly lightScope: LightScope;
 }
@@ -53,7 +53,7 @@ const maxShapes = 256;
 /** Every light is evaluated at every pixel. */
 export const maxLights = 8;
 
-/** Undefined where the scene is empty or has anything that only the runtime can display. */
+/** The preview of a scene; undefined if the scene is empty or has anything that only the runtime can display. */
 export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): PreviewScene | undefined {
   const { background, navigation, inlines } = scene;
   if (inlines.length > 0 || (background && (background.sky.length > 1 || background.ground.length > 0)))
@@ -61,26 +61,26 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   const instances = instancesOf(scene);
   const { viewpoints, lods, billboards } = instances;
   if (lods.length > 0 || billboards.length > 0 || instances.lights.length > maxLights) return undefined;
-  const visible = instances.shapes.filter(
+  const visibleInstances = instances.shapes.filter(
     ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.hasUnreadableGeometry),
   );
-  const shapes = visible.slice(0, maxShapes + 1).flatMap((instance) => previewShapeOf(instance) ?? []);
-  if (shapes.length === 0 || shapes.length < visible.length || shapes.length > maxShapes) return undefined;
+  const shapes = visibleInstances.slice(0, maxShapes + 1).flatMap((instance) => previewShapeOf(instance) ?? []);
+  if (shapes.length === 0 || shapes.length < visibleInstances.length || shapes.length > maxShapes) return undefined;
   const sphere = sphereAround(instances.box);
-  const bound = new BindingStack<SceneElement>();
-  bindViewpoints(bound, viewpoints);
+  const boundViewpoints = new BindingStack<SceneElement>();
+  bindViewpoints(boundViewpoints, viewpoints);
   return {
     shapes,
     lights: instances.lights,
     headlight: navigation.headlight,
     background: background?.sky[0]?.color,
     sphere,
-    pose: homePoseOf(boundPoseOf(bound, viewpoints), camera, sphere),
+    pose: homePoseOf(boundPoseOf(boundViewpoints, viewpoints), camera, sphere),
     clearance: clearanceOf(navigationTypesOf(navigation.type).first, avatarOf(navigation, sphere)),
   };
 }
 
-/** Undefined where the shape has no base, or is not drawn in solid colours. */
+/** The preview of a shape; undefined if the shape has no base, or is not drawn in opaque colours. */
 function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | undefined {
   const { element, geometry, appearance } = shape;
   const {
