@@ -1,6 +1,8 @@
 // Uploads of the vertex arrays of one patch: each array is stored once, however many attributes read it, and freed when
 // the last of them is replaced.
 
+import type { ByVertexRole, VertexRole } from "../stage/attributeRows.ts";
+import { vertexRoles } from "../stage/attributeRows.ts";
 import type { ElementArray, IndexArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf } from "../stage/elementType.ts";
 import type { ArrayUse, StoredBytes, StoredIndex, StoredVertices } from "../stage/stage.ts";
@@ -37,6 +39,16 @@ export class ArrayUploads {
       stride,
       offset,
     };
+  }
+
+  async storeAttributes(arrays: ByVertexRole<VertexArray>, signal: AbortSignal): Promise<ByVertexRole<StoredVertices>> {
+    const stored: Partial<Record<VertexRole, StoredVertices>> = {};
+    await Promise.all(
+      vertexRoles.map(async (role) => {
+        if (arrays[role] !== undefined) stored[role] = await this.storeVertices(arrays[role], signal);
+      }),
+    );
+    return stored;
   }
 
   async storeIndex(array: IndexArray, signal: AbortSignal): Promise<StoredIndex> {

@@ -66,8 +66,8 @@ describe("the stages of a patch of images", () => {
     );
     assert.deepEqual(points.draws, [{ primitive: "points", first: 0, count: 500 }]);
     assert.deepEqual(surface.draws, [{ primitive: "triangles", first: 0, count: 600 }]);
-    assert.equal(surface.normal, undefined);
-    assert.ok(shaded.normal);
+    assert.equal(surface.attributes.normal, undefined);
+    assert.ok(shaded.attributes.normal);
     assert.deepEqual([shaded.coord.length, shaded.missingBytesMidpoint], [1, 127.5]);
     assert.deepEqual([full.coord.length, full.missingBytesMidpoint], [2, 0]);
   });
@@ -219,7 +219,7 @@ describe("typed arrays", () => {
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
     assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 6 }]);
-    assert.deepEqual([full.coord.components, full.coord.stride, full.normal?.stride], [3, 4, 4]);
+    assert.deepEqual([full.coord.components, full.coord.stride, full.attributes.normal?.stride], [3, 4, 4]);
   });
 
   test("draw strips as the triangles they stand for, after what stands before them", async () => {
@@ -254,8 +254,11 @@ describe("typed arrays", () => {
     assert.ok(full?.kind === "buffers");
     assert.equal(full.name, "full");
     assert.deepEqual(full.normalFormat, { kind: "spherical", bits: 8 });
-    assert.equal(full.normal?.bytes, full.coord.bytes);
-    assert.deepEqual([full.normal.components, full.normal.stride, full.normal.offset], [1, 4, 3]);
+    assert.equal(full.attributes.normal?.bytes, full.coord.bytes);
+    assert.deepEqual(
+      [full.attributes.normal.components, full.attributes.normal.stride, full.attributes.normal.offset],
+      [1, 4, 3],
+    );
   });
 
   test("with octahedral normals of two numbers say how to read them", async () => {
@@ -270,7 +273,10 @@ describe("typed arrays", () => {
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
     assert.deepEqual(full.normalFormat, { kind: "octahedral", bits: 16 });
-    assert.deepEqual([full.normal?.components, full.normal?.stride, full.normal?.offset], [2, 2, 0]);
+    assert.deepEqual(
+      [full.attributes.normal?.components, full.attributes.normal?.stride, full.attributes.normal?.offset],
+      [2, 2, 0],
+    );
   });
 
   test("in the records of one file are views of the same bytes, fetched once", async () => {
@@ -283,9 +289,12 @@ describe("typed arrays", () => {
     );
     await settled;
     const full = stages.at(-1)?.stage;
-    assert.ok(full?.kind === "buffers" && full.normal);
-    assert.deepEqual([full.coord.bytes, full.coord.bytes.byteLength, full.coord.offset], [full.normal.bytes, 80, 0]);
-    assert.equal(full.normal.offset, 4);
+    assert.ok(full?.kind === "buffers" && full.attributes.normal);
+    assert.deepEqual(
+      [full.coord.bytes, full.coord.bytes.byteLength, full.coord.offset],
+      [full.attributes.normal.bytes, 80, 0],
+    );
+    assert.equal(full.attributes.normal.offset, 4);
     assert.equal(site.arrays.size, 1);
     assert.equal(site.requested.length, 1);
   });

@@ -1,6 +1,8 @@
 // The interface of stage builders. A builder takes the files of a patch in any order, checks each against the document,
 // and builds the best stage from those that are available.
 
+import type { ByVertexRole } from "../stage/attributeRows.ts";
+import { attributeRows, vertexRoles } from "../stage/attributeRows.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { DrawRange, Stage, StageName } from "../stage/stage.ts";
 import type { PatchDescription } from "../document/description.ts";
@@ -48,18 +50,16 @@ export function drawRangesOf(patch: PatchDescription): DrawRange[] {
 export interface AvailableAttributes {
   readonly index: unknown;
   readonly coord: readonly unknown[];
-  readonly normal: unknown;
-  readonly color: unknown;
+  readonly attributes: ByVertexRole<unknown>;
   /** The byte planes, or a single array. */
   readonly value: readonly unknown[];
 }
 
 /** The name of the stage that these attributes make. */
 export function attainedStageName(patch: PatchDescription, available: AvailableAttributes): StageName {
-  const lacks = (attribute: "index" | "normal" | "color") =>
-    patch[attribute] !== undefined && available[attribute] === undefined;
-  if (lacks("index")) return "points";
-  if (lacks("normal")) return "surface";
+  if (patch.index !== undefined && available.index === undefined) return "points";
+  const missing = vertexRoles.filter((role) => patch[role] !== undefined && available.attributes[role] === undefined);
+  const [name] = missing.flatMap((role) => attributeRows[role].stageWithout ?? []);
   const isWhole = available.coord.length === patch.coord.length && available.value.length === patch.value.length;
-  return lacks("color") || !isWhole ? "shaded" : "full";
+  return name ?? (isWhole ? "full" : "shaded");
 }

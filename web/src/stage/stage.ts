@@ -1,6 +1,7 @@
 // A stage: what one patch can draw now. Builders of every encoding make stages (delivery), and the renderer draws them
 // without knowing the encoding: it replaces the previous stage of a patch by the next.
 
+import type { ByVertexRole } from "./attributeRows.ts";
 import type { Bounds, VertexArray } from "./vertexArray.ts";
 import type { ElementType } from "./elementType.ts";
 import type { DecodedImage } from "./decodedImage.ts";
@@ -75,11 +76,9 @@ export interface TextureStage extends StageHead {
   readonly coordPlaneCount: number;
   /** Added to every coordinate in place of the missing bytes. */
   readonly missingBytesMidpoint: number;
-  readonly normal: TexelRange | undefined;
+  readonly attributes: ByVertexRole<TexelRange>;
   readonly normalFormat: NormalFormat;
-  readonly color: TexelRange | undefined;
   readonly colorComponents: 3 | 4;
-  readonly texCoord: TexelRange | undefined;
   /** Values of the attribute that colours the geometry; undefined until its first byte plane is available. */
   readonly value: ValuePlanes | undefined;
 }
@@ -135,12 +134,10 @@ export interface BufferStage extends StageHead {
   readonly coord: StoredVertices;
   /** Bounds of the coordinates, where the document states none. */
   readonly bounds?: Bounds | undefined;
-  /** Two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
-  readonly normal: StoredVertices | undefined;
+  readonly attributes: ByVertexRole<StoredVertices>;
+  /** Normals of two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normalFormat: NormalFormat;
-  readonly color: StoredVertices | undefined;
   readonly value: StoredValues | undefined;
-  readonly texCoord: StoredVertices | undefined;
 }
 
 export type Stage = TextureStage | BufferStage;

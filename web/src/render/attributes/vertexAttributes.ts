@@ -1,5 +1,6 @@
 // The vertex attributes of a stage in buffers, under three.js' names; three.js has no `vertexValue`.
 
+import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
 import type { BufferStage, StoredVertices } from "../../stage/stage.ts";
 import { isPairFormat } from "../../stage/stage.ts";
 
@@ -11,21 +12,14 @@ export interface VertexAttribute {
   readonly isNormalized: boolean;
 }
 
-export function vertexAttributesOf({
-  coord,
-  normal,
-  normalFormat,
-  color,
-  texCoord,
-  value,
-}: BufferStage): VertexAttribute[] {
+export function vertexAttributesOf({ coord, attributes, normalFormat, value }: BufferStage): VertexAttribute[] {
   const attribute = (name: string, vertices: StoredVertices | undefined, isNormalized: boolean): VertexAttribute[] =>
     vertices ? [{ name, vertices, isNormalized: isNormalized && vertices.type !== "Float32" }] : [];
   return [
     ...attribute("position", coord, false),
-    ...attribute("normal", normal, !isPairFormat(normalFormat)),
-    ...attribute("color", color, true),
+    ...vertexRoles.flatMap((role) =>
+      attribute(attributeRows[role].bufferName, attributes[role], role !== "normal" || !isPairFormat(normalFormat)),
+    ),
     ...attribute("vertexValue", value, false),
-    ...attribute("uv", texCoord, true),
   ];
 }

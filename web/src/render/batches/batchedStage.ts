@@ -167,7 +167,7 @@ function isBlended(
 
 /** Without texture coordinates, textures cannot be applied. */
 function applicableTextures(stage: Stage, surfaceTextures: SurfaceTextures): SurfaceTextures {
-  return stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+  return stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
 }
 
 function materialKeyOf(

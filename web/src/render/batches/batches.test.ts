@@ -56,10 +56,8 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
     normalFormat: { kind: "vector" },
     index: stored(new Uint16Array(index)),
     coord: { ...stored(coord), components: 3, stride, offset: 0 },
-    normal: undefined,
-    color: undefined,
+    attributes: {},
     value: undefined,
-    texCoord: undefined,
   };
 }
 

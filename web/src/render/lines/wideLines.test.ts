@@ -36,10 +36,8 @@ function stageOf(draws: readonly DrawRange[], index: IndexArray | undefined): Bu
     draws,
     index: index && { bytes: stored(index), type: "Uint16" },
     coord: { bytes: coord, type: "Int16", components: 3, stride: 5, offset: 1 },
-    color: { bytes: color, type: "Uint8", components: 3, stride: 4, offset: 0 },
-    normal: undefined,
+    attributes: { color: { bytes: color, type: "Uint8", components: 3, stride: 4, offset: 0 } },
     normalFormat: { kind: "vector" },
-    texCoord: undefined,
     value: undefined,
   };
 }

@@ -15,6 +15,7 @@ import {
   type WebGLRenderer,
 } from "three";
 import { decodeWithBrowser } from "../../decode/image.ts";
+import { byVertexRoleWith, vertexRoles } from "../../stage/attributeRows.ts";
 import { textureRoles } from "../../document/description.ts";
 import { makePickMaterial, pickTargetCount, pickedWordOffsets } from "./pickMaterial.ts";
 import { makePickTarget } from "./picker.ts";
@@ -60,7 +61,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
     hasNormals: true,
     isFromImages: true,
     isInstanced: false,
-    hasTexCoords: false,
+    attributeDefines: {},
     wideLineStep: 0,
     alphaMask: undefined,
     gridDefines: {},
@@ -79,12 +80,10 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       coordImage1: texture,
       coordImage2: { value: null },
       coordImage3: { value: null },
-      normalImage: texture,
-      colorImage: { value: null },
-      texCoordImage: { value: null },
+      ...byVertexRoleWith("Image", (role) => (role === "normal" ? texture : { value: null })),
       texCoordFrame: { value: [0, 0, 1, 1] },
       textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
-      firstTexels: { value: [2, 3, 0, 0] },
+      firstTexels: { value: [2, ...vertexRoles.map((role) => (role === "normal" ? 3 : 0))] },
       coordFirstTexels: { value: [0, 1, 0, 0] },
       coordPlaneCount: { value: 2 },
       missingBytesMidpoint: { value: 0 },

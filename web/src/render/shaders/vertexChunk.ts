@@ -8,12 +8,13 @@
 // crack opens.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
+import { vertexRoles } from "../../stage/attributeRows.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 import { replaceChunks } from "./replaceChunks.ts";
-import { imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
+import { glslFirstTexelOf, imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
 
 // three.js defines FLAT_SHADED if a geometry has no normal attribute, even if an image has normals.
 const imageNormalsChunk = /* glsl */ `
@@ -63,7 +64,7 @@ vec3 unitOf(vec2 pair) {
 #ifdef ${imageVerticesDefine}
 
 uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3;
-uniform sampler2D normalImage, colorImage, texCoordImage;
+uniform sampler2D ${vertexRoles.map((role) => `${role}Image`).join(", ")};
 uniform ivec4 firstTexels;
 uniform ivec4 coordFirstTexels;
 uniform int coordPlaneCount;
@@ -129,7 +130,7 @@ int recordIndex(int drawVertexIndex) {
   int sequence = sequenceIndex(drawVertexIndex);
   if (!hasIndex) return sequence;
   int n = texelIndex(indexImage, sequence);
-  ivec3 index = ivec3(bytesOf(texelOf(indexImage, firstTexels.x, n)));
+  ivec3 index = ivec3(bytesOf(texelOf(indexImage, ${glslFirstTexelOf("index")}, n)));
   if (isIndexWide) return index.r | index.g << 8 | index.b << 16;
   ivec2 columnRow = index.rg;
   ivec2 size = textureSize(coordImage0, 0);
@@ -185,18 +186,18 @@ vec3 readNormal(int record) {
     return gridNormal(record);
   #elif defined(NORMAL_MAX)
     ivec2 size = textureSize(normalImage, 0);
-    int first = firstTexels.y;
+    int first = ${glslFirstTexelOf("normal")};
     return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
                                texelOf(normalImage, first + size.x * size.y / 2, record).r));
   #else
-    return texelOf(normalImage, firstTexels.y, recordTexelIndex(record)).rgb * 2.0 - 1.0;
+    return texelOf(normalImage, ${glslFirstTexelOf("normal")}, recordTexelIndex(record)).rgb * 2.0 - 1.0;
   #endif
 }
 
 // Two 16-bit words: red and blue are the bytes of u, green and alpha those of v.
 vec2 readTexCoord(int record) {
   #ifdef HAS_TEX_COORDS
-    vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexelIndex(record)) * 255.0;
+    vec4 bytes = texelOf(texCoordImage, ${glslFirstTexelOf("texCoord")}, recordTexelIndex(record)) * 255.0;
     return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
   #else
     return vec2(0.0);
@@ -214,7 +215,7 @@ int drawVertexIndex(int end) {
 
 Vertex vertexAt(int end) {
   int record = recordIndex(drawVertexIndex(end));
-  vec4 color = texelOf(colorImage, firstTexels.z, recordTexelIndex(record));
+  vec4 color = texelOf(colorImage, ${glslFirstTexelOf("color")}, recordTexelIndex(record));
   if (!colorHasAlpha) color.a = 1.0;
   return Vertex(storedPosition(record), readNormal(record), color, readTexCoord(record));
 }

@@ -4,6 +4,8 @@ import type { IUniform, Matrix3, Texture, Vector4 } from "three";
 import type { Vec3 } from "../../document/description.ts";
 import { instancesDefine } from "./instanceRecord.ts";
 import { wideLinesDefine } from "./wideLineChunk.ts";
+import type { ByVertexRole, VertexRole } from "../../stage/attributeRows.ts";
+import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
 import type { Grid, NormalFormat } from "../../stage/stage.ts";
 import { isPairFormat } from "../../stage/stage.ts";
 
@@ -29,17 +31,14 @@ export interface VertexUniforms extends Record<string, IUniform> {
 }
 
 /** Further uniforms of the image version. Textures that have not loaded are null and read as 0. */
-export interface ImageVertexUniforms extends VertexUniforms {
+export interface ImageVertexUniforms extends VertexUniforms, Record<`${VertexRole}Image`, IUniform<Texture | null>> {
   indexImage: IUniform<Texture | null>;
   coordImage0: IUniform<Texture | null>;
   coordImage1: IUniform<Texture | null>;
   coordImage2: IUniform<Texture | null>;
   coordImage3: IUniform<Texture | null>;
-  normalImage: IUniform<Texture | null>;
-  colorImage: IUniform<Texture | null>;
-  texCoordImage: IUniform<Texture | null>;
-  /** First texels of index, normal, colour and texture coordinates. */
-  firstTexels: IUniform<[number, number, number, number]>;
+  /** First texels of the index and of the attributes, at the positions that `glslFirstTexelOf` names. */
+  firstTexels: IUniform<readonly number[]>;
   coordFirstTexels: IUniform<[number, number, number, number]>;
   coordPlaneCount: IUniform<number>;
   missingBytesMidpoint: IUniform<number>;
@@ -76,7 +75,8 @@ export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
 export interface VertexFormat {
   /** From images, not from buffers. */
   readonly isFromImages: boolean;
-  readonly hasTexCoords: boolean;
+  /** As attributeDefinesOf returns them. */
+  readonly attributeDefines: Readonly<Record<string, string>>;
   /** As gridDefinesOf returns them. */
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf returns them. */
@@ -89,18 +89,29 @@ export interface VertexFormat {
 
 /** The #defines of a material that reads vertices of this format. */
 export function vertexDefinesOf(
-  { isFromImages, hasTexCoords, gridDefines, normalDefines, isInstanced, wideLineStep }: VertexFormat,
+  { isFromImages, attributeDefines, gridDefines, normalDefines, isInstanced, wideLineStep }: VertexFormat,
   readsNormals: boolean,
 ): Record<string, string> {
   return {
     ...(isFromImages && { [imageVerticesDefine]: "" }),
     ...(isFromImages && readsNormals && { [imageNormalsDefine]: "" }),
-    ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
+    ...attributeDefines,
     ...(isInstanced && { [instancesDefine]: "" }),
     ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
     ...(readsNormals && normalDefines),
   };
+}
+
+/** The GLSL expression for the first texel of an image. */
+export function glslFirstTexelOf(role: "index" | VertexRole): string {
+  return `firstTexels[${["index", ...vertexRoles].indexOf(role)}]`;
+}
+
+/** The #defines for the attributes that vertices have. */
+export function attributeDefinesOf(attributes: ByVertexRole<unknown>): Record<string, string> {
+  const present = vertexRoles.filter((role) => attributes[role] !== undefined);
+  return Object.fromEntries(present.flatMap((role) => attributeRows[role].define ?? []).map((name) => [name, ""]));
 }
 
 /** The #defines for stored normals. `isWord`: both numbers in one 16-bit word. */

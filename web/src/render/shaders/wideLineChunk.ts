@@ -3,6 +3,7 @@
 // screen. So the joints of polylines are round, and edges are antialiased like those of surfaces.
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
+import { vertexRoles } from "../../stage/attributeRows.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { instanceFields, instancesDefine } from "./instanceRecord.ts";
 
@@ -85,8 +86,9 @@ void widenLine() {
 Vertex readVertex() {
   Vertex begin = vertexAt(0), end = vertexAt(1);
   placeOutline(begin.position, end.position);
-  return Vertex(mix(begin.position, end.position, linePosition), mix(begin.normal, end.normal, linePosition),
-                mix(begin.color, end.color, linePosition), mix(begin.texCoord, end.texCoord, linePosition));
+  Vertex vertex;
+  ${["position", ...vertexRoles].map((name) => `vertex.${name} = mix(begin.${name}, end.${name}, linePosition);`).join("\n  ")}
+  return vertex;
 }
 
 #else

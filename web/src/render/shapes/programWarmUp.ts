@@ -4,6 +4,7 @@
 
 import type { Object3D } from "three";
 import { BufferAttribute, BufferGeometry, Texture } from "three";
+import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
 import { formatOf } from "../../document/encodings.ts";
@@ -47,7 +48,7 @@ export function warmUpObjects(
     for (const bareStage of expectedStages(described, textures.length > 0)) {
       const stage = lines ? withWideLines(bareStage) : bareStage;
       for (const range of stage.draws) {
-        const applicable = stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+        const applicable = stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
         const isBatched =
           materialFactory.batching !== undefined &&
           drawModeOf(stage, plan.drawModesOf(described), appearance, applicable, materialFactory.batching) !== "alone";
@@ -92,14 +93,11 @@ function expectedStages(geometry: GeometryDescription, isTextured: boolean): Sta
   if (patch.index !== undefined)
     stages.push({ ...surface, name: "points", draws: [{ primitive: "points", first: 0, count: 1 }], index: undefined });
   let stage = surface;
-  const add = (attribute: "normal" | "texCoord" | "color", isThere: boolean) => {
-    if (!isThere) return;
-    stage = { ...stage, name: "shaded", [attribute]: placeholderTexels };
+  for (const role of vertexRoles) {
+    if (patch[role] === undefined || (attributeRows[role].isForTextures && !isTextured)) continue;
+    stage = { ...stage, name: "shaded", attributes: { ...stage.attributes, [role]: placeholderTexels } };
     stages.push(stage);
-  };
-  add("normal", patch.normal !== undefined);
-  add("texCoord", isTextured && patch.texCoord !== undefined);
-  add("color", patch.color !== undefined);
+  }
   return stages;
 }
 
@@ -119,11 +117,9 @@ const expectedBase: BufferStage = {
   draws: [{ primitive: "triangles", first: 0, count: 1 }],
   index: undefined,
   coord: placeholderVertices,
-  normal: placeholderVertices,
+  attributes: { normal: placeholderVertices },
   normalFormat: { kind: "vector" },
-  color: undefined,
   value: undefined,
-  texCoord: undefined,
 };
 
 function expectedDraw({ primitive }: PatchDescription["draws"][number]): DrawRange {
@@ -142,11 +138,9 @@ function bareStage(
     coord: [placeholderTexels],
     coordPlaneCount: patch.coord.length,
     missingBytesMidpoint: 0,
-    normal: undefined,
+    attributes: {},
     normalFormat: isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" },
-    color: undefined,
     colorComponents,
-    texCoord: undefined,
     value: undefined,
   };
 }

@@ -9,7 +9,7 @@ import { valueDefinesOf } from "../materials/valueColors.ts";
 import type { PickMaterialRequest } from "../picking/pickMaterial.ts";
 import { alphaMaskOf } from "../picking/pickMaterial.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
-import { normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
+import { attributeDefinesOf, normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
 import { lineStepOf } from "../lines/wideLines.ts";
 
 /** The request for a draw's material. */
@@ -43,7 +43,7 @@ export function pickRequestOf(
   appearance: AppearanceDescription,
   surfaceTextures: SurfaceTextures,
 ): Omit<PickMaterialRequest, "primitive"> {
-  const texture = stage.texCoord === undefined ? undefined : surfaceTextures.get("color")?.texture;
+  const texture = stage.attributes.texCoord === undefined ? undefined : surfaceTextures.get("color")?.texture;
   const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
   return { ...vertexFormatOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
@@ -54,15 +54,15 @@ function vertexFormatOf(stage: Stage, range: DrawRange): VertexFormat {
     isFromImages,
     isInstanced: false,
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
-    hasTexCoords: stage.texCoord !== undefined,
-    gridDefines: isFromImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
-    normalDefines: normalDefinesOf(stage.normalFormat, !isFromImages && stage.normal?.components === 1),
+    attributeDefines: attributeDefinesOf(stage.attributes),
+    gridDefines: isFromImages ? gridDefinesOf(stage.grid, stage.attributes.normal !== undefined) : {},
+    normalDefines: normalDefinesOf(stage.normalFormat, !isFromImages && stage.attributes.normal?.components === 1),
   };
 }
 
 export function colorsOf(stage: Stage): VertexColors {
-  if (stage.color === undefined) return "none";
-  const components = stage.kind === "textures" ? stage.colorComponents : stage.color.components;
+  if (stage.attributes.color === undefined) return "none";
+  const components = stage.kind === "textures" ? stage.colorComponents : stage.attributes.color.components;
   return components === 4 ? "rgba" : "rgb";
 }
 
@@ -75,5 +75,5 @@ function shadingOf(stage: Stage, draw: DrawRange): Shading {
 
 /** Whether a stage has normals, either stored ones or those of a grid's slope. */
 export function hasNormals(stage: Stage): boolean {
-  return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
+  return stage.attributes.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
 }

@@ -44,7 +44,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   const uniforms = uniformsOf(stage, context);
   // Without texture coordinates, textures cannot be applied.
   const applicable = (surfaceTextures: SurfaceTextures) =>
-    stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+    stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
   const draws = context.geometries.acquire(stage).flatMap((shape, drawIndex) => {
     const range = stage.draws[drawIndex];

@@ -2,6 +2,7 @@
 // lines and textures.
 
 import type { IUniform } from "three";
+import { byVertexRoleWith, vertexRoles } from "../../stage/attributeRows.ts";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { DrawRange, Stage, TextureStage } from "../../stage/stage.ts";
 import type {
@@ -100,7 +101,7 @@ function imageUniformsOf(
   common: VertexUniforms,
   maxStoredValue: number,
 ): ImageVertexUniforms {
-  const { index, coord, normal, color, texCoord } = stage;
+  const { index, coord, attributes } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({
     value: range ? textures.textureOf(range.image) : null,
   });
@@ -112,10 +113,8 @@ function imageUniformsOf(
     coordImage1: texture(coord[1]),
     coordImage2: texture(coord[2]),
     coordImage3: texture(coord[3]),
-    normalImage: texture(normal),
-    colorImage: texture(color),
-    texCoordImage: texture(texCoord),
-    firstTexels: { value: [firstTexelOf(index), firstTexelOf(normal), firstTexelOf(color), firstTexelOf(texCoord)] },
+    ...byVertexRoleWith("Image", (role) => texture(attributes[role])),
+    firstTexels: { value: [firstTexelOf(index), ...vertexRoles.map((role) => firstTexelOf(attributes[role]))] },
     coordFirstTexels: {
       value: [firstTexelOf(coord[0]), firstTexelOf(coord[1]), firstTexelOf(coord[2]), firstTexelOf(coord[3])],
     },

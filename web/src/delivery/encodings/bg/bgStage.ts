@@ -1,5 +1,7 @@
 // Stages of BG: typed arrays of index, coordinates, normals, texture coordinates, colours and values.
 
+import type { VertexRole } from "../../../stage/attributeRows.ts";
+import { attributeRows } from "../../../stage/attributeRows.ts";
 import type { Bounds } from "../../../stage/vertexArray.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
@@ -19,9 +21,7 @@ interface AvailableArrays {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
   coord?: StoredVertices;
   bounds?: Bounds | undefined;
-  normal?: StoredVertices;
-  texCoord?: StoredVertices;
-  color?: StoredVertices;
+  readonly attributes: Partial<Record<VertexRole, StoredVertices>>;
   value?: StoredVertices;
 }
 
@@ -31,7 +31,7 @@ export function bgStageBuilder(
   { storeBytes }: BuilderTools,
 ): StageBuilder {
   const uploads = new ArrayUploads(storeBytes);
-  let available: AvailableArrays = {};
+  let available: AvailableArrays = { attributes: {} };
   const normalFormat = normalFormatOf(geometry);
   const unindexed = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
 
@@ -52,10 +52,12 @@ export function bgStageBuilder(
       }
       const vertices = vertexArrayOf(content.bytes, range);
       const stored = await uploads.storeVertices(vertices, signal);
-      present[file.role] = stored;
+      if (file.role === "value") present.value = stored;
+      else if (file.role !== "coord") present.attributes[file.role] = stored;
       if (file.role !== "coord") return;
+      present.coord = stored;
       if (isUnbounded(geometry, patch)) present.bounds = boundsOf(vertices);
-      if (hasNormalsInCoords(geometry, patch)) present.normal = fourthElementOf(stored);
+      if (hasNormalsInCoords(geometry, patch)) present.attributes.normal = fourthElementOf(stored);
       if (patch.index !== undefined) return;
       // Strips without an index get one: buffers are drawn as separate triangles.
       const { index, draws } = unindexed(patch.vertexCount || countThatFits(content.bytes.byteLength, range));
@@ -63,9 +65,9 @@ export function bgStageBuilder(
     },
 
     stage(): BufferStage | undefined {
-      const { coord, bounds, normal, texCoord, color, value, index } = available;
+      const { coord, bounds, attributes, value, index } = available;
       if (coord === undefined) return undefined;
-      const name = attainedStageName(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
+      const name = attainedStageName(patch, { index, attributes, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
       return {
@@ -76,10 +78,8 @@ export function bgStageBuilder(
         draws,
         coord,
         bounds,
-        normal,
+        attributes: { ...attributes },
         normalFormat,
-        color,
-        texCoord,
         value: value && { ...value, maxStored: undefined },
       };
     },
@@ -90,16 +90,10 @@ export function bgStageBuilder(
     drop: () => undefined,
     clear() {
       // Normals in coordinate records share the array of the coordinates.
-      const normal = hasNormalsInCoords(geometry, patch) ? undefined : available.normal;
-      uploads.retire(
-        available.index?.stored,
-        available.coord,
-        normal,
-        available.texCoord,
-        available.color,
-        available.value,
-      );
-      available = {};
+      const { index, coord, attributes, value } = available;
+      const normal = hasNormalsInCoords(geometry, patch) ? undefined : attributes.normal;
+      uploads.retire(index?.stored, coord, ...Object.values({ ...attributes, normal }), value);
+      available = { attributes: {} };
     },
     sweep: () => {
       uploads.sweep();
@@ -160,13 +154,13 @@ export function componentsOf(geometry: GeometryDescription, role: AttributeRole)
     case "coord":
       return 3;
     case "normal":
-      return isPair(geometry.normalEncoding) ? 2 : 3;
-    case "texCoord":
-      return 2;
+      return isPair(geometry.normalEncoding) ? 2 : attributeRows.normal.components;
     case "color":
       return geometry.colorComponents;
     case "value":
       return geometry.value?.components ?? 1;
+    default:
+      return attributeRows[role].components;
   }
 }
 

@@ -112,7 +112,8 @@ describe("images that are decoded on the CPU", () => {
       builder.sweep();
       assert.equal(site.arrays.size, 3, "index, positions and slopes are left");
       return [
-        stage.kind === "buffers" && [stage.coord, stage.normal, stage.index].map((stored) => site.arrayOf(stored)),
+        stage.kind === "buffers" &&
+          [stage.coord, stage.attributes.normal, stage.index].map((stored) => site.arrayOf(stored)),
       ];
     };
     assert.deepEqual(await bytesOf([1, 0]), await bytesOf([0, 1]));

@@ -1,7 +1,8 @@
 // Stages of SIG classic without the GPU's texture units: workers decode each image to an array, and the stages read
 // buffers.
 
-import type { IndexArray } from "../../../stage/vertexArray.ts";
+import type { VertexRole } from "../../../stage/attributeRows.ts";
+import type { IndexArray, VertexArray } from "../../../stage/vertexArray.ts";
 import type { ImageFile, RecordLayout } from "../../../decode/classic/classicArrays.ts";
 import type { GridArrays } from "../../../decode/classic/classicGrid.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
@@ -21,6 +22,22 @@ import type { Content } from "../../resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
+/** Decodes the image of an attribute in a worker. */
+type AttributeDecoder = (
+  run: BuilderTools["runJob"],
+  image: RecordLayout & { readonly file: ImageFile },
+  geometry: GeometryDescription,
+  signal: AbortSignal,
+) => Promise<VertexArray>;
+
+const attributeDecoders: Readonly<Record<VertexRole, AttributeDecoder>> = {
+  normal: (run, image, geometry, signal) =>
+    run("classicNormals", { ...image, format: normalFormatOf(geometry) }, signal),
+  texCoord: (run, image, _, signal) => run("classicTexCoords", image, signal),
+  color: (run, image, { colorComponents }, signal) =>
+    run("classicColors", { ...image, components: colorComponents }, signal),
+};
+
 interface Drawn {
   readonly index: StoredIndex | undefined;
   readonly draws: readonly DrawRange[];
@@ -38,11 +55,9 @@ class AvailableArrays {
   coord: StoredVertices | undefined;
   coordPlaneCount = 0;
   drawn: Drawn | undefined;
-  normal: StoredVertices | undefined;
+  attributes: Partial<Record<VertexRole, StoredVertices>> = {};
   /** Normals of the slope of a grid that has no others. */
   slope: StoredVertices | undefined;
-  texCoord: StoredVertices | undefined;
-  color: StoredVertices | undefined;
   /** Undecoded images, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
   value: StoredVertices | undefined;
@@ -86,32 +101,18 @@ class BufferStageBuilder implements StageBuilder {
         available.waitingIndex = file;
         await this.#decodeIndex(available, signal);
         return;
-      case "normal": {
-        const normals = await this.#run(
-          "classicNormals",
-          { file, format: normalFormatOf(this.#geometry), ...this.#layout(header) },
-          signal,
-        );
-        available.normal = await this.#uploads.storeVertices(normals, signal);
-        return;
-      }
-      case "texCoord": {
-        const texCoords = await this.#run("classicTexCoords", { file, ...this.#layout(header) }, signal);
-        available.texCoord = await this.#uploads.storeVertices(texCoords, signal);
-        return;
-      }
-      case "color": {
-        const colors = await this.#run(
-          "classicColors",
-          { file, components: this.#geometry.colorComponents, ...this.#layout(header) },
-          signal,
-        );
-        available.color = await this.#uploads.storeVertices(colors, signal);
-        return;
-      }
       case "value":
         available.valuePlanes[part.plane] = file;
         await this.#decodeValues(available, header, signal);
+        return;
+      case "patch":
+      case "base":
+        return;
+      default: {
+        const image = { file, ...this.#layout(header) };
+        const vertices = await attributeDecoders[part.role](this.#run, image, this.#geometry, signal);
+        available.attributes[part.role] = await this.#uploads.storeVertices(vertices, signal);
+      }
     }
   }
 
@@ -124,8 +125,8 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   clear(): void {
-    const { drawn, coord, normal, slope, texCoord, color, value } = this.#available;
-    this.#uploads.retire(drawn?.index, coord, normal, slope, texCoord, color, value);
+    const { drawn, coord, attributes, slope, value } = this.#available;
+    this.#uploads.retire(drawn?.index, coord, ...Object.values(attributes), slope, value);
     this.#available = new AvailableArrays();
   }
 
@@ -135,14 +136,12 @@ class BufferStageBuilder implements StageBuilder {
 
   stage(): BufferStage | undefined {
     const available = this.#available;
-    const { coord, texCoord, color, value } = available;
+    const { coord, attributes, value } = available;
     if (coord === undefined) return undefined;
-    const normal = available.normal ?? available.slope;
-    const normalFormat = available.normal ? normalFormatOf(this.#geometry) : ({ kind: "vector" } as const);
+    const normalFormat = attributes.normal ? normalFormatOf(this.#geometry) : ({ kind: "vector" } as const);
     const name = attainedStageName(this.#patch, {
       index: available.drawn,
-      normal: available.normal,
-      color,
+      attributes,
       coord: Array.from({ length: available.coordPlaneCount }),
       value: value ? this.#patch.value : [],
     });
@@ -156,10 +155,8 @@ class BufferStageBuilder implements StageBuilder {
       index,
       draws,
       coord,
-      normal,
+      attributes: { ...attributes, normal: attributes.normal ?? available.slope },
       normalFormat,
-      color,
-      texCoord,
       value: value && { ...value, maxStored: undefined },
     };
   }

@@ -1,6 +1,7 @@
 // Classic's row: an image for each attribute of a patch, one for each byte of its coordinates.
 
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
+import { attributeRows, byVertexRole } from "../../../stage/attributeRows.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
 import { attributeFilesOf, bytesPerTexel, cornerCountOf } from "../../patchFiles.ts";
 import type { ContentTarget } from "../../resourcePool.ts";
@@ -21,7 +22,12 @@ export const classicDelivery: EncodingDelivery = {
  * Bytes in an image for a vertex (a corner, for the index), roughly: only for the progress bar before servers tell
  * sizes.
  */
-const bytesPerElement = { index: 0.7, coord: 2, normal: 2.2, texCoord: 3, color: 2, value: 0.7 } as const;
+const bytesPerElement: Readonly<Record<AttributeRole, number>> = {
+  index: 0.7,
+  coord: 2,
+  ...byVertexRole((role) => attributeRows[role].classic.bytesPerVertex),
+  value: 0.7,
+};
 
 /** Texels of an image as our writer lays it out: records in a power of two of rows of 256. */
 function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, elementCount: number): number {

@@ -3,6 +3,8 @@
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";
+import type { ByVertexRole } from "../../../stage/attributeRows.ts";
+import { attributeRows } from "../../../stage/attributeRows.ts";
 import type { TexelRange, TextureStage } from "../../../stage/stage.ts";
 import { isPairFormat } from "../../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
@@ -49,7 +51,8 @@ export function classicStageBuilder(
 function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   let planes: (TexelRange | undefined)[] = [];
   let values: (TexelRange | undefined)[] = [];
-  let available: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};
+  let index: TexelRange | undefined;
+  let attributes: ByVertexRole<TexelRange> = {};
   const normalFormat = normalFormatOf(geometry);
   const cornerCount = cornerCountOf(patch);
 
@@ -58,15 +61,17 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       case "coord":
         return patch.grid?.kind === "heightMap" ? 1 : 3;
       case "normal":
-        return isPairFormat(normalFormat) ? 1 : 3;
-      case "texCoord":
-        return 4;
+        return isPairFormat(normalFormat) ? 1 : attributeRows.normal.classic.channels;
       case "color":
         return geometry.colorComponents;
       case "value":
         return geometry.value?.components ?? 1;
-      default:
+      case "index":
+      case "patch":
+      case "base":
         return 3;
+      default:
+        return attributeRows[role].classic.channels;
     }
   }
 
@@ -78,13 +83,15 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
     drop({ role, plane }) {
       if (role === "coord") planes[plane] = undefined;
       else if (role === "value") values[plane] = undefined;
-      else if (role !== "patch" && role !== "base") available[role] = undefined;
+      else if (role === "index") index = undefined;
+      else if (role !== "patch" && role !== "base") attributes = { ...attributes, [role]: undefined };
     },
 
     clear() {
       planes = [];
       values = [];
-      available = {};
+      index = undefined;
+      attributes = {};
     },
 
     accept(file, content) {
@@ -96,7 +103,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (file.role === "index") {
         checkHolds(range, cornerCount, patch.implicitWidth);
-        available.index = range;
+        index = range;
         return;
       }
       const records = patch.index === undefined && patch.grid === undefined ? cornerCount : patch.vertexCount;
@@ -104,7 +111,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (file.role === "coord") planes[file.plane] = range;
       else if (file.role === "value") values[file.plane] = range;
-      else if (file.role !== "patch" && file.role !== "base") available[file.role] = range;
+      else if (file.role !== "patch" && file.role !== "base") attributes = { ...attributes, [file.role]: range };
     },
 
     stage(): TextureStage | undefined {
@@ -113,9 +120,8 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       const first = coord[0];
       if (first === undefined) return undefined;
       const name = attainedStageName(patch, {
-        index: available.index,
-        normal: available.normal,
-        color: available.color,
+        index,
+        attributes,
         coord,
         value,
       });
@@ -129,17 +135,15 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
         name,
         draws: name === "points" ? [points] : drawRangesOf(patch),
         grid: patch.grid,
-        index: available.index,
+        index,
         isIndexWide: geometry.indexType === "Uint32",
         implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,
         coord,
         coordPlaneCount: patch.coord.length,
         missingBytesMidpoint: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
-        normal: available.normal,
+        attributes,
         normalFormat,
-        color: available.color,
         colorComponents: geometry.colorComponents,
-        texCoord: available.texCoord,
         value:
           value.length === 0
             ? undefined

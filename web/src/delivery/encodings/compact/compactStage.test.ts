@@ -51,7 +51,9 @@ describe("a geometry of compact", () => {
       assert.ok(stages.length === 1 && stage.kind === "buffers" && stage.name === "full");
       const { index, coord, normal, color } = buffersOf(decodeVector(name)[0] ?? assert.fail());
       assert.deepEqual(
-        [stage.index, stage.coord, stage.normal, stage.color].map((stored) => stored && site.arrayOf(stored)),
+        [stage.index, stage.coord, stage.attributes.normal, stage.attributes.color].map(
+          (stored) => stored && site.arrayOf(stored),
+        ),
         [index, coord.array, normal?.array, color?.array],
       );
       const { type, components, stride, offset } = stage.coord;
@@ -275,7 +277,7 @@ describe("a geometry of compact", () => {
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
       assert.ok(first?.kind === "buffers");
       assert.deepEqual(
-        [first.index, first.coord, first.normal].map((stored) => site.arrayOf(stored)),
+        [first.index, first.coord, first.attributes.normal].map((stored) => site.arrayOf(stored)),
         [parts[patch]?.index, parts[patch]?.coord.array, parts[patch]?.normal?.array],
       );
       assert.deepEqual(first.draws, [{ primitive: "triangles", first: 0, count: parts[patch]?.index?.length }]);
@@ -304,7 +306,7 @@ describe("a geometry of compact", () => {
     for (const { patch, stage } of stages) {
       assert.ok(stage.kind === "buffers" && stage.name === "base");
       assert.deepEqual(
-        [site.arrayOf(stage.texCoord), site.arrayOf(stage.value)],
+        [site.arrayOf(stage.attributes.texCoord), site.arrayOf(stage.value)],
         [parts[patch]?.texCoord?.array, parts[patch]?.others[0]?.vertices.array],
       );
       assert.equal(stage.value?.maxStored, 2 ** 11 - 1);

@@ -2,7 +2,6 @@
 // holds base meshes, whose segments stand in for the patches until they are there.
 
 import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
-import type { VertexArray } from "../../../stage/vertexArray.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { BufferStage, DrawRange, StageName } from "../../../stage/stage.ts";
 import type {
@@ -13,7 +12,6 @@ import type {
 } from "../../../document/description.ts";
 import { latticeBitsOf } from "../../../document/encodings.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
-import { attributeRoles } from "../../patchFiles.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { drawRangesOf } from "../../stageBuilder.ts";
 
@@ -33,15 +31,13 @@ export function compactStageBuilder(
     signal: AbortSignal,
   ): Promise<BufferStage> => {
     const { index, coord, normal, color, texCoord } = buffers;
+    const attributes = { normal, color, texCoord };
     const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
-    const storeIfPresent = (array: VertexArray | undefined) => array && uploads.storeVertices(array, signal);
-    const [ownIndex, ownCoord, ownNormal, ownColor, ownTexCoord, ownValue] = await Promise.all([
+    const [ownIndex, ownCoord, ownAttributes, ownValue] = await Promise.all([
       index && uploads.storeIndex(index, signal),
       uploads.storeVertices(coord, signal),
-      storeIfPresent(normal),
-      storeIfPresent(color),
-      storeIfPresent(texCoord),
-      storeIfPresent(value?.vertices),
+      uploads.storeAttributes(attributes, signal),
+      value && uploads.storeVertices(value.vertices, signal),
     ]);
     return {
       kind: "buffers",
@@ -51,14 +47,12 @@ export function compactStageBuilder(
       normalFormat: { kind: "vector" },
       index: ownIndex,
       coord: ownCoord,
-      normal: ownNormal,
-      color: ownColor,
-      texCoord: ownTexCoord,
+      attributes: ownAttributes,
       value: value && ownValue && { ...ownValue, maxStored: 2 ** value.bits - 1 },
     };
   };
   const retire = (stage: BufferStage | undefined) => {
-    uploads.retire(...attributeRoles.map((role) => stage?.[role]));
+    if (stage !== undefined) uploads.retire(stage.index, stage.coord, ...Object.values(stage.attributes), stage.value);
   };
   const drop = (role: string) => {
     retire(role === "base" ? standIn : full);
