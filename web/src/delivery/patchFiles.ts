@@ -1,4 +1,4 @@
-// The files that a patch needs. Which they are is in the row of its encoding (encodings/encodings.ts).
+// The files that a patch needs. Each encoding lists them (encodings/encodings.ts).
 
 import type { PatchDescription, Reference } from "../document/description.ts";
 import type { Chunk } from "../scheduler/priority.ts";
@@ -18,9 +18,9 @@ export interface PatchFile {
   /** Index of the byte plane, for the images of `coord` and `value`; otherwise 0. */
   readonly plane: number;
   readonly reference: Reference;
-  /** What the downloaded bytes are to become. */
+  /** The form that the downloaded bytes are decoded to. */
   readonly target: ContentTarget;
-  /** Its kind in the order of requests. */
+  /** The content that decides when the file is requested. */
   readonly chunk: Chunk;
   /** Estimated bytes of the file that the patch needs. */
   readonly expectedBytes: number;
@@ -31,7 +31,7 @@ export interface PatchFile {
 /** Bytes of a texel on the GPU: three channels are stored as four. */
 export const bytesPerTexel = 4;
 
-/** The indices that a patch draws. */
+/** Number of indices that a patch draws. */
 export function cornerCountOf({ draws }: Pick<PatchDescription, "draws">): number {
   return draws.reduce((sum, { count }) => sum + count, 0);
 }

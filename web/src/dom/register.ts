@@ -4,7 +4,7 @@ import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
 
-function fillAll(): void {
+function addMissingViews(): void {
   for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
 }
 
@@ -13,7 +13,7 @@ export function registerViews(): void {
   if (customElements.get(viewTag) !== undefined) return;
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);
-  fillAll();
+  addMissingViews();
   // Also adds a view again where a page has replaced all of an <x3d>'s content.
-  new MutationObserver(fillAll).observe(document, { subtree: true, childList: true });
+  new MutationObserver(addMissingViews).observe(document, { subtree: true, childList: true });
 }

@@ -14,7 +14,7 @@ interface DecodedBases<Decoded> {
 export interface PrefetchedFile {
   /** Resolves when the file has been downloaded. */
   readonly downloaded: Promise<unknown>;
-  /** Rejects where the file cannot be downloaded or decoded. */
+  /** Rejects if the file cannot be downloaded or decoded. */
   readonly decoded: Promise<DecodedBases<Base>>;
 }
 
@@ -26,14 +26,17 @@ export class PrefetchedBases {
     this.#fetch = fetchFile;
   }
 
-  /** The file at an absolute URL, which is requested at the first call. */
+  /** The file at an absolute URL. The first call for a URL requests the file. */
   fetch(url: string): PrefetchedFile {
-    const known = this.#files.get(url) ?? this.#load(url);
-    this.#files.set(url, known);
-    return known;
+    const file = this.#files.get(url) ?? this.#load(url);
+    this.#files.set(url, file);
+    return file;
   }
 
-  /** The segments of each base in a file, which is forgotten here; undefined where it has not been requested. */
+  /**
+   * Hands over the segments of each base in a file, once; undefined if the file has not been requested or has been
+   * taken.
+   */
   take(url: string): Promise<DecodedBases<BaseBuffers>> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);

@@ -15,13 +15,13 @@ export function startPreviews(): Preview[] {
   if (document.hidden) return [];
   const bases = new PrefetchedBases((input, init) => fetch(input, init));
   registerPrefetchedBases(bases);
-  const started: Preview[] = [];
+  const previews: Preview[] = [];
   for (const x3d of document.querySelectorAll("x3d")) {
-    if (started.length === maxPreviews) break;
+    if (previews.length === maxPreviews) break;
     const preview = isNearViewport(x3d.getBoundingClientRect(), 0) ? startPreviewIn(x3d, bases) : undefined;
-    if (preview !== undefined) started.push(preview);
+    if (preview !== undefined) previews.push(preview);
   }
-  return started;
+  return previews;
 }
 
 function startPreviewIn(x3d: Element, bases: PrefetchedBases): Preview | undefined {

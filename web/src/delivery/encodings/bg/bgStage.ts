@@ -33,7 +33,7 @@ export function bgStageBuilder(
   const uploads = new ArrayUploads(storeBytes);
   let available: AvailableArrays = { attributes: {} };
   const normalFormat = normalFormatOf(geometry);
-  const unindexed = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
+  const drawsWithoutIndex = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
 
   return {
     isDivisible: false,
@@ -42,26 +42,26 @@ export function bgStageBuilder(
       if (content.kind !== "bytes" || file.role === "patch" || file.role === "base")
         throw new DecodeError("malformed", "is no typed array");
       const range = rangeOf(geometry, patch, file.role, file.reference);
-      const present = available;
+      const arrays = available; // `clear` replaces `available` while an upload runs
       if (file.role === "index") {
-        // Where the document states no number of vertices, only WebGL checks the bounds.
-        const whole = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
-        const { index, draws } = withoutStrips(whole, drawRangesFor(patch, whole.length));
-        present.index = { stored: await uploads.storeIndex(index, signal), draws };
+        // If the document states no vertexCount, only WebGL checks that indices are in range.
+        const indices = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
+        const { index, draws } = withoutStrips(indices, drawRangesFor(patch, indices.length));
+        arrays.index = { stored: await uploads.storeIndex(index, signal), draws };
         return;
       }
       const vertices = vertexArrayOf(content.bytes, range);
       const stored = await uploads.storeVertices(vertices, signal);
-      if (file.role === "value") present.value = stored;
-      else if (file.role !== "coord") present.attributes[file.role] = stored;
+      if (file.role === "value") arrays.value = stored;
+      else if (file.role !== "coord") arrays.attributes[file.role] = stored;
       if (file.role !== "coord") return;
-      present.coord = stored;
-      if (isUnbounded(geometry, patch)) present.bounds = boundsOf(vertices);
-      if (hasNormalsInCoords(geometry, patch)) present.attributes.normal = fourthElementOf(stored);
+      arrays.coord = stored;
+      if (isUnbounded(geometry, patch)) arrays.bounds = boundsOf(vertices);
+      if (hasNormalsInCoords(geometry, patch)) arrays.attributes.normal = fourthElementOf(stored);
       if (patch.index !== undefined) return;
       // Strips without an index get one: buffers are drawn as separate triangles.
-      const { index, draws } = unindexed(patch.vertexCount || countThatFits(content.bytes.byteLength, range));
-      present.index = { stored: index && (await uploads.storeIndex(index, signal)), draws };
+      const { index, draws } = drawsWithoutIndex(patch.vertexCount || countThatFits(content.bytes.byteLength, range));
+      arrays.index = { stored: index && (await uploads.storeIndex(index, signal)), draws };
     },
 
     stage(): BufferStage | undefined {
@@ -127,7 +127,7 @@ function rangeOf(
   role: AttributeRole,
   reference: Reference,
 ): ElementRange {
-  if (!("byteOffset" in reference)) throw new DecodeError("malformed", "is referred to by no byte offset");
+  if (!("byteOffset" in reference)) throw new DecodeError("malformed", "is referenced without a byte offset");
   return {
     type: elementTypeOf(geometry, role),
     byteOffset: reference.byteOffset,
@@ -146,7 +146,7 @@ export function elementTypeOf(geometry: GeometryDescription, role: AttributeRole
   return role === "value" ? "Float32" : geometry[`${role}Type`];
 }
 
-/** The numbers of one element. */
+/** Number of components per element. */
 export function componentsOf(geometry: GeometryDescription, role: AttributeRole): 1 | 2 | 3 | 4 {
   switch (role) {
     case "index":

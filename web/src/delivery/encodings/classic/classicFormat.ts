@@ -11,5 +11,5 @@ export function normalFormatOf({ normalEncoding }: GeometryDescription): NormalF
 
 export function firstTexelOf(reference: Reference): number {
   if ("firstTexel" in reference) return reference.firstTexel;
-  throw new DecodeError("malformed", "is referred to by no texel");
+  throw new DecodeError("malformed", "is referenced without a first texel");
 }
