@@ -68,7 +68,7 @@ Json gltfTransform(const TextureTransform& transform) {
   const Vec2<double> moved{transform.translation.x + transform.center.x, transform.translation.y + transform.center.y};
   const double x = (c * moved.x - s * moved.y) * transform.scale.x - transform.center.x,
                y = (s * moved.x + c * moved.y) * transform.scale.y - transform.center.y;
-  // t' = s sx u + c sy t + y with t = 1 - v, measured up like t'.
+  // X3D's coordinates t = 1 - v and t' = 1 - v' point up: t' = s sx u + c sy t + y.
   Json json;
   json["offset"] = {x - s * transform.scale.x, 1 - y - c * transform.scale.y};
   json["scale"] = {transform.scale.x, transform.scale.y};
@@ -77,12 +77,12 @@ Json gltfTransform(const TextureTransform& transform) {
   return json;
 }
 
-void addTexture(Json& material, const TextureUse& use, std::size_t index, const AnyMaterial& kind) {
+void addTexture(Json& material, const TextureUse& use, std::size_t index, const AnyMaterial& x3dMaterial) {
   Json info{{"index", index}};
   if (use.transform != TextureTransform{})
     if (const Json transform = gltfTransform(use.transform); !transform.is_null())
       info["extensions"]["KHR_texture_transform"] = transform;
-  const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&kind);
+  const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&x3dMaterial);
   switch (use.role) {
   case TextureRole::color:
     material["pbrMetallicRoughness"]["baseColorTexture"] = std::move(info);

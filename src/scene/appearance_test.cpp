@@ -5,7 +5,7 @@
 namespace imgeo {
 namespace {
 
-TEST(PhongOf, KeepsMaterialsOfItsKindAndShowsOthers) {
+TEST(PhongOf, KeepsPhongMaterialsAndConvertsOthers) {
   const Material material{.diffuseColor{1, 0, 0}, .transparency = 0.5f};
   EXPECT_EQ(phongOf(material), material);
   const Material plaster = phongOf(PhysicalMaterial{.baseColor{1, 1, 1}, .metallic = 0, .roughness = 1});

@@ -37,7 +37,7 @@ export class ArrayBuffers implements BufferProvider {
     return buffer;
   }
 
-  indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
+  indexAttributeOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
     return new BufferAttribute(this.#viewOf(bytes, type), 1);
   }
 

@@ -30,7 +30,7 @@ function appOf(markup: string, files: Record<string, Answer>) {
   const viewOf = (bytes: StoredBytes, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
   const buffers: BufferProvider = {
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
-    indexOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),
+    indexAttributeOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),
     read: (bytes, type, first, count = Infinity) => viewOf(bytes, type).slice(first, first + count),
     dispose: (geometry) => {
       geometry.dispose();
@@ -74,7 +74,10 @@ function appOf(markup: string, files: Record<string, Answer>) {
     },
   );
   contents.start();
-  /** Visits the scene as a frame of three.js from a camera position does, and returns the names of the shapes that it draws. */
+  /**
+   * Visits the scene as a frame of three.js from a camera position does, and returns the names of the shapes that it
+   * draws.
+   */
   const namesDrawnFrom = async (...eye: [number, number, number]) => {
     const camera = new PerspectiveCamera();
     camera.position.set(...eye);

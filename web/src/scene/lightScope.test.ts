@@ -8,11 +8,11 @@ import type { SceneInstances } from "./sceneInstances.ts";
 import { instancesOf } from "./sceneInstances.ts";
 import { InstanceTree } from "./instanceTree.ts";
 
-function placed(markup: string): SceneInstances {
+function instancesIn(markup: string): SceneInstances {
   return instancesOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)));
 }
 
-/** Of each light the ids of the shapes that it shines on. */
+/** For each light, the ids of the shapes that it lights. */
 function litBy({ lights, shapes }: SceneInstances): string[] {
   return lights.map(({ scope }) =>
     shapes
@@ -27,21 +27,21 @@ test("a directional light lights its group's descendants; a point or spot light 
     `<DirectionalLight ${attributes}/><PointLight ${attributes}/><SpotLight ${attributes}/>`;
   const around = (attributes: string) =>
     `<Shape id="a"/><Group><Shape id="b"/>${lights(attributes)}<Transform><Group><Shape id="c"/></Group></Transform></Group><Shape id="d"/>`;
-  assert.deepEqual(litBy(placed(around(""))), ["bc", "abcd", "abcd"]);
-  assert.deepEqual(litBy(placed(around('global="false"'))), ["bc", "bc", "bc"]);
-  assert.deepEqual(litBy(placed(around('global="true"'))), ["abcd", "abcd", "abcd"]);
+  assert.deepEqual(litBy(instancesIn(around(""))), ["bc", "abcd", "abcd"]);
+  assert.deepEqual(litBy(instancesIn(around('global="false"'))), ["bc", "bc", "bc"]);
+  assert.deepEqual(litBy(instancesIn(around('global="true"'))), ["abcd", "abcd", "abcd"]);
 });
 
 test("a light at the root lights everything", () => {
-  assert.deepEqual(litBy(placed('<Shape id="a"/><DirectionalLight/><Group><Shape id="b"/></Group>')), ["ab"]);
-  assert.equal(placed("<DirectionalLight/>").lights[0]?.scope, sceneScope);
+  assert.deepEqual(litBy(instancesIn('<Shape id="a"/><DirectionalLight/><Group><Shape id="b"/></Group>')), ["ab"]);
+  assert.equal(instancesIn("<DirectionalLight/>").lights[0]?.scope, sceneScope);
 });
 
 test("a USEd light lights each of its groups, and a USEd group is lit by each instance's surroundings", () => {
-  const twice =
+  const usedTwice =
     '<Group><DirectionalLight DEF="sun"/><Shape id="a"/></Group><Transform><DirectionalLight USE="sun"/><Shape id="b"/></Transform>';
-  assert.deepEqual(litBy(placed(twice)), ["a", "b"]);
-  const lit = placed('<Group DEF="G"><Shape id="a"/></Group><Group><DirectionalLight/><Group USE="G"/></Group>');
+  assert.deepEqual(litBy(instancesIn(usedTwice)), ["a", "b"]);
+  const lit = instancesIn('<Group DEF="G"><Shape id="a"/></Group><Group><DirectionalLight/><Group USE="G"/></Group>');
   assert.deepEqual(litBy(lit), ["a"]);
   assert.deepEqual(
     lit.shapes.map(({ lightScope }) => lightScope === sceneScope),
@@ -52,7 +52,7 @@ test("a USEd light lights each of its groups, and a USEd group is lit by each in
 test("a light in a Switch choice or a LOD level lights that child only", () => {
   assert.deepEqual(
     litBy(
-      placed(
+      instancesIn(
         '<Switch whichChoice="0"><Group><DirectionalLight/><Shape id="a"/></Group><Shape id="b"/></Switch><Shape id="c"/>',
       ),
     ),
@@ -60,7 +60,9 @@ test("a light in a Switch choice or a LOD level lights that child only", () => {
   );
   assert.deepEqual(
     litBy(
-      placed('<LOD range="1"><Shape id="a"/><Group><DirectionalLight/><Shape id="b"/></Group></LOD><Shape id="c"/>'),
+      instancesIn(
+        '<LOD range="1"><Shape id="a"/><Group><DirectionalLight/><Shape id="b"/></Group></LOD><Shape id="c"/>',
+      ),
     ),
     ["b"],
   );
@@ -81,20 +83,20 @@ test("scope numbers tell which scope contains which, in random documents", () =>
       edited.edit();
       const { lightScopes: scopes } = tree.update(edited.reader.read().root).root.summary;
       numberLightScopes(scopes);
-      assert.ok(!numberLightScopes(scopes), "they have their numbers");
+      assert.ok(!numberLightScopes(scopes), "the numbers change only once");
       const all = [sceneScope, ...scopes];
       for (const outer of all) {
         for (const inner of all) {
-          const isIn = outer.value <= inner.value && inner.value <= outer.last;
+          const isInside = outer.value <= inner.value && inner.value <= outer.last;
           assert.equal(
-            isIn,
+            isInside,
             outer.contains(inner),
             `seed ${seed}, round ${round}: ${outer.value} … ${outer.last} and ${inner.value}`,
           );
-          if (isIn && outer !== inner && outer !== sceneScope) nested += 1;
+          if (isInside && outer !== inner && outer !== sceneScope) nested += 1;
         }
       }
     }
   }
-  assert.ok(nested > 100, `only ${nested} scopes lie in others`);
+  assert.ok(nested > 100, `only ${nested} scopes are inside others`);
 });

@@ -27,15 +27,15 @@ export interface BatchContext {
   readonly isMerged: boolean;
 }
 
-/** The draw mode of a stage, from those of its geometry. */
+/** The draw mode of a stage, given the modes of its geometry. */
 export function drawModeOf(
   stage: Stage,
-  drawing: DrawModes,
+  modes: DrawModes,
   appearance: AppearanceDescription,
   surfaceTextures: SurfaceTextures,
   batching: BatchingRules,
 ): DrawMode {
-  return isBlended(stage, appearance, surfaceTextures, batching) ? drawing.blended : drawing.opaque;
+  return isBlended(stage, appearance, surfaceTextures, batching) ? modes.blended : modes.opaque;
 }
 
 export class BatchedStage implements PatchDraws {
@@ -51,19 +51,19 @@ export class BatchedStage implements PatchDraws {
     this.#context = context;
     this.#batch = batch;
     this.#draws = drawsOf(stage, context, batch);
-    this.picks = stage.draws.filter(isSeen).map((range) => pickOf(stage, range, () => this.#context));
+    this.picks = stage.draws.filter(isNotEmpty).map((range) => pickOf(stage, range, () => this.#context));
   }
 
   addInstance(group: ShapeGroup): void {
     const { batches } = this.#batch;
     this.#members.set(
       group,
-      this.#draws.map((draw) => batches.add(draw, this.#numbersOf(draw), group)),
+      this.#draws.map((draw) => batches.add(draw, this.#instanceNumbersOf(draw), group)),
     );
   }
 
   updateInstance(group: ShapeGroup): void {
-    for (const member of this.#members.get(group) ?? []) this.#batch.batches.follow(member);
+    for (const member of this.#members.get(group) ?? []) this.#batch.batches.updateRecord(member);
   }
 
   removeInstance(group: ShapeGroup): void {
@@ -81,7 +81,8 @@ export class BatchedStage implements PatchDraws {
     );
     if (isSame) {
       for (const members of this.#members.values())
-        for (const member of members) this.#batch.batches.setMaterialNumbers(member, this.#numbersOf(member.draw));
+        for (const member of members)
+          this.#batch.batches.setMaterialNumbers(member, this.#instanceNumbersOf(member.draw));
       return;
     }
     this.#draws = drawsOf(this.#stage, this.#context, this.#batch);
@@ -96,7 +97,7 @@ export class BatchedStage implements PatchDraws {
     for (const pick of this.picks) pick.dispose();
   }
 
-  #numbersOf({ request }: BatchedDraw): readonly number[] {
+  #instanceNumbersOf({ request }: BatchedDraw): readonly number[] {
     return this.#batch.batching.instanceNumbersOf(request, this.#context.appearance);
   }
 }
@@ -105,8 +106,8 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
   const { geometry, patch, appearance, surfaceTextures, shared } = context;
   const uniforms = uniformsOf(stage, context);
   const { sphere: bounds } = boundsOf(geometry, patch, stage);
-  const blends = isBlended(stage, appearance, surfaceTextures, batching);
-  return groupedRangesOf(stage, isMerged, blends).flatMap(({ ranges, mayMerge }) => {
+  const areBlended = isBlended(stage, appearance, surfaceTextures, batching);
+  return groupedRangesOf(stage, isMerged, areBlended).flatMap(({ ranges, mayMerge }) => {
     const [first] = ranges;
     if (first === undefined) return [];
     return [
@@ -117,7 +118,7 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
         appearance,
         materialKey: materialKeyOf(stage, first, appearance, surfaceTextures, batching),
         isMerged: isMerged && mayMerge,
-        isBlended: blends,
+        isBlended: areBlended,
         vertexCount: stage.kind === "buffers" ? stage.vertexCount : 0,
         shapeFromStored: shapeFromStoredOf(geometry, patch),
         step: dequantizationOf(geometry, patch).step,
@@ -137,22 +138,22 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
 function groupedRangesOf(
   { kind, draws }: Stage,
   isMerged: boolean,
-  blends: boolean,
+  areBlended: boolean,
 ): { ranges: readonly DrawRange[]; mayMerge: boolean }[] {
-  const seen = draws.filter(isSeen);
+  const ranges = draws.filter(isNotEmpty);
   const mayMerge = ({ primitive, isWide }: DrawRange) =>
-    isMerged && kind === "buffers" && (isWide === true ? !blends : primitive !== "lineStrip");
-  const primitives = new Set(seen.filter(mayMerge).map(({ primitive }) => primitive));
+    isMerged && kind === "buffers" && (isWide === true ? !areBlended : primitive !== "lineStrip");
+  const primitives = new Set(ranges.filter(mayMerge).map(({ primitive }) => primitive));
   return [
     ...Array.from(primitives, (primitive) => ({
-      ranges: seen.filter((range) => range.primitive === primitive),
+      ranges: ranges.filter((range) => range.primitive === primitive),
       mayMerge: true,
     })),
-    ...seen.filter((range) => !mayMerge(range)).map((range) => ({ ranges: [range], mayMerge: false })),
+    ...ranges.filter((range) => !mayMerge(range)).map((range) => ({ ranges: [range], mayMerge: false })),
   ];
 }
 
-function isSeen({ count }: DrawRange): boolean {
+function isNotEmpty({ count }: DrawRange): boolean {
   return count > 0;
 }
 
@@ -184,25 +185,25 @@ function materialKeyOf(
   );
 }
 
-/** The picking pass draws single instances near the pointer. */
-function pickOf(stage: Stage, range: DrawRange, contextNow: () => PatchContext): PickDraw {
-  const { geometry, patch, buffers, geometries } = contextNow();
+/** Makes a draw for the picking pass, which draws instances near the pointer one by one. */
+function pickOf(stage: Stage, range: DrawRange, currentContext: () => PatchContext): PickDraw {
+  const { geometry, patch, buffers, geometries } = currentContext();
   return new PickDraw(stage, range, {
     buffers,
     bounds: boundsOf(geometry, patch, stage).sphere,
     shapeFromStored: shapeFromStoredOf(geometry, patch),
     acquireResources: () => {
-      const shape = geometries.acquire(stage)[stage.draws.indexOf(range)];
-      if (shape === undefined) throw new RangeError("the draw is not one of its stage");
+      const acquired = geometries.acquire(stage)[stage.draws.indexOf(range)];
+      if (acquired === undefined) throw new RangeError("the stage does not have this draw");
       return {
-        geometry: shape,
+        geometry: acquired,
         request: pickRequestOf(
           stage,
           range,
           geometry.solid ? FrontSide : DoubleSide,
-          uniformsOf(stage, contextNow()).of(range),
-          contextNow().appearance,
-          contextNow().surfaceTextures,
+          uniformsOf(stage, currentContext()).of(range),
+          currentContext().appearance,
+          currentContext().surfaceTextures,
         ),
         release: () => {
           geometries.release(stage);

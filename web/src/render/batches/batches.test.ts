@@ -32,7 +32,7 @@ const arrays = new WeakMap<StoredBytes, ElementArray>();
 
 const buffers: BufferProvider = {
   recordsOf: (bytes, type, stride) => new InterleavedBuffer(new (arrayTypeOf(type))(bytes.byteLength), stride),
-  indexOf: () => new BufferAttribute(new Uint16Array(3), 1),
+  indexAttributeOf: () => new BufferAttribute(new Uint16Array(3), 1),
   read: (bytes, _, first, count = Infinity) => (arrays.get(bytes) ?? new Uint8Array()).subarray(first, first + count),
   dispose: (geometry) => {
     geometry.dispose();
@@ -116,17 +116,17 @@ class Scene {
 
   move(member: Member, x: number, z = 0): void {
     moveGroup(member.group, x, 1, z);
-    this.batches.follow(member);
+    this.batches.updateRecord(member);
   }
 
   hide(member: Member, isHidden = true): void {
     member.group.visible = !isHidden;
-    this.batches.follow(member);
+    this.batches.updateRecord(member);
   }
 
   /** The objects that the next frame draws. */
   frame(margin: readonly [number, number] = [0, 0]): DrawnObject[] {
-    this.batches.sync(new Sphere(new Vector3(), 10));
+    this.batches.setBoundingSphere(new Sphere(new Vector3(), 10));
     this.batches.update(this.#camera, margin);
     return (this.batches.root.children as DrawnObject[]).filter(({ visible }) => visible);
   }
@@ -234,7 +234,7 @@ describe("a stage with many instances", () => {
   test("has matrices relative to the scene's centre, so that single precision is enough", () => {
     const scene = new Scene();
     const member = scene.add(draw, 1e7 + 0.25);
-    scene.batches.sync(new Sphere(new Vector3(1e7, 0, 0), 10));
+    scene.batches.setBoundingSphere(new Sphere(new Vector3(1e7, 0, 0), 10));
     assert.equal(scene.record(member)[instanceFields.matrix + 3], 0.25);
   });
 });

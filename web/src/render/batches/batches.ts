@@ -1,5 +1,5 @@
-// All batches of a scene. Finds a batch for each member, and keeps the instance table up to date
-// with the groups of the instances.
+// Holds all batches of a scene, finds a batch for each member, and writes the records of members into
+// the instance table.
 
 import type { BufferGeometry, Camera } from "three";
 import { Group, Matrix4, Sphere, Vector3 } from "three";
@@ -29,7 +29,7 @@ export class Batches {
   readonly #members = new Set<Member>();
   /** Members of draws that blend. */
   readonly #blended = new Set<Member>();
-  /** By the key of their members; new members join the last batch. */
+  /** Batches by the key of their members. New members join the last batch of their key. */
   readonly #batches = new Map<string, Batch[]>();
   /**
    * Batches without members since the last frame. They are kept for one more frame, because new members may reuse
@@ -37,7 +37,7 @@ export class Batches {
    */
   #empty = new Set<Batch>();
   /** Batches whose members blend. */
-  readonly #inOrder = new WeakSet<Batch>();
+  readonly #blendedBatches = new WeakSet<Batch>();
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
 
@@ -70,7 +70,7 @@ export class Batches {
     return member;
   }
 
-  /** Replaces the `material` field of its record. */
+  /** Replaces the field `material` of a member's record. */
   setMaterialNumbers({ instanceIndex }: Member, numbers: readonly number[]): void {
     this.#table.write(instanceIndex, instanceFields.material, numbers);
   }
@@ -83,25 +83,25 @@ export class Batches {
     if (this.#members.size === 0) this.#disposeBatches(); // a restored context starts without objects of the lost one
   }
 
-  /** The group has moved, has become visible or invisible, or has another light scope. */
-  follow(member: Member): void {
-    this.#followIn(this.#rootFromScene, member);
+  /** Call when the group has moved, has become visible or invisible, or has another light scope. */
+  updateRecord(member: Member): void {
+    this.#updateRecordIn(this.#rootFromScene, member);
   }
 
-  /** The scene's bounding sphere has changed. */
-  sync({ center, radius }: Sphere): void {
+  /** Call when the scene's bounding sphere has changed. */
+  setBoundingSphere({ center, radius }: Sphere): void {
     // A new origin rewrites every record, so it moves only when it is outside of the sphere.
     const origin = new Vector3().setFromMatrixPosition(this.root.matrix);
     if (!(radius > 0) || origin.distanceTo(center) <= radius) return;
     this.root.matrix.setPosition(center);
     this.root.updateMatrixWorld(true);
-    this.followAll();
+    this.updateAllRecords();
   }
 
-  /** All groups have moved, or light scopes have new numbers. */
-  followAll(): void {
+  /** Call when all groups have moved or light scopes have new numbers. */
+  updateAllRecords(): void {
     const rootFromScene = this.#rootFromScene;
-    for (const member of this.#members) this.#followIn(rootFromScene, member);
+    for (const member of this.#members) this.#updateRecordIn(rootFromScene, member);
   }
 
   /** Call before a frame. `margin`: as in `frustumOf`. */
@@ -121,7 +121,7 @@ export class Batches {
           continue;
         }
         if (batch.isEmpty) this.#empty.add(batch);
-        if (this.#inOrder.has(batch)) batch.drawRuns(runs.get(batch) ?? []);
+        if (this.#blendedBatches.has(batch)) batch.drawRuns(runs.get(batch) ?? []);
         else batch.update(frustum);
       }
       if (kept.length === 0) this.#batches.delete(key);
@@ -146,7 +146,7 @@ export class Batches {
     return this.root.matrixWorld.clone().invert();
   }
 
-  #followIn(rootFromScene: Matrix4, member: Member): void {
+  #updateRecordIn(rootFromScene: Matrix4, member: Member): void {
     const { isMirrored } = member;
     if (this.#write(member, rootFromScene)) member.batch?.invalidateBounds();
     if (member.isMirrored === isMirrored) return;
@@ -154,7 +154,7 @@ export class Batches {
     this.#join(member);
   }
 
-  /** Writes the record. Returns whether anything that concerns the batch has changed. */
+  /** Writes the matrix, lattice step, visibility and light scope into the record. Returns whether they have changed. */
   #write(member: Member, rootFromScene: Matrix4): boolean {
     const {
       draw: { shapeFromStored, bounds, step },
@@ -168,13 +168,13 @@ export class Batches {
     member.isMirrored = rootFromStored.determinant() < 0;
     // three.js detects mirroring by the object's matrix, so the object is mirrored, and the record
     // is multiplied by the same mirror.
-    const turn = member.isMirrored ? -1 : 1;
+    const mirror = member.isMirrored ? -1 : 1;
     sphere.copy(bounds).applyMatrix4(rootFromStored);
     return this.#table.write(instanceIndex, instanceFields.matrix, [
-      turn * xx,
-      turn * yx,
-      turn * zx,
-      turn * ox,
+      mirror * xx,
+      mirror * yx,
+      mirror * zx,
+      mirror * ox,
       xy,
       yy,
       zy,
@@ -228,7 +228,7 @@ export class Batches {
       : draw.isBlended
         ? new OrderedMergedBatch(resources, this.#buffers)
         : new MergedBatch(resources, this.#buffers);
-    if (draw.isBlended) this.#inOrder.add(batch);
+    if (draw.isBlended) this.#blendedBatches.add(batch);
     return batch;
   }
 

@@ -18,7 +18,7 @@ function stored(array: ElementArray): StoredBytes {
 
 const buffers: BufferProvider = {
   recordsOf: () => assert.fail(),
-  indexOf: () => assert.fail(),
+  indexAttributeOf: () => assert.fail(),
   dispose: () => undefined,
   read: (bytes, _, first, count = Infinity) => (contents.get(bytes) ?? assert.fail()).subarray(first, first + count),
 };

@@ -1,4 +1,4 @@
-// Colours from the values of a vertex attribute. The vertex shader reads the value (from the byte
+// Colours surfaces by the values of a vertex attribute. The vertex shader reads the value (from the byte
 // planes of an image, or from a buffer); each fragment looks the interpolated value up in the
 // colour map.
 
@@ -14,7 +14,7 @@ import { imageVerticesDefine, srgbColorsDefine } from "../shaders/vertexFormat.t
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { wideLinesDefine } from "../shaders/wideLineChunk.ts";
 
-/** Uniforms of a colour map; none where the appearance has none. */
+/** The uniforms of a colour map; none if the appearance has no colour map. */
 export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record<string, IUniform> {
   if (map === undefined) return {};
   const numbers = map.colors.flat();
@@ -31,6 +31,7 @@ export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | u
   return { VALUE_COMPONENTS: `${attribute.components}` };
 }
 
+/** The uniforms from which the vertex shader reads values; none if the stage has no values. */
 export function valueUniformsOf(
   stage: Stage,
   attribute: AttributeDescription | undefined,
@@ -43,19 +44,22 @@ export function valueUniformsOf(
   return { valueMin: { value: min }, valueStep: { value: step }, ...images };
 }
 
-/** The value of a stored 0, and that of a step, for four components. Meaningless where a stage has no values. */
+/**
+ * The value of a stored 0 and the difference between two stored values, for padded components. Without meaning if the
+ * stage has no values.
+ */
 export function valueFrameOf(
   stage: Stage,
   attribute: AttributeDescription | undefined,
 ): { min: readonly number[]; step: readonly number[] } {
   const { min = [], size = [] } = attribute ?? {};
-  const largest = stage.kind === "buffers" ? stage.value?.maxStored : 256 ** (stage.value?.planeCount ?? 1) - 1;
-  const four = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
-  if (largest === undefined) return { min: four([], 0), step: four([], 1) };
+  const maxStored = stage.kind === "buffers" ? stage.value?.maxStored : 256 ** (stage.value?.planeCount ?? 1) - 1;
+  const padded = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
+  if (maxStored === undefined) return { min: padded([], 0), step: padded([], 1) };
   return {
-    min: four(min, 0),
-    step: four(
-      size.map((extent) => extent / largest),
+    min: padded(min, 0),
+    step: padded(
+      size.map((extent) => extent / maxStored),
       0,
     ),
   };
@@ -79,7 +83,7 @@ function imageUniformsOf(
 const vertexChunk = /* glsl */ `
 #ifdef VALUE_COMPONENTS
 
-// 0 and 1 are the ends of the colour map.
+// The position in the colour map, whose ends are 0 and 1.
 varying float vColorMapCoord;
 #ifdef ${instancesDefine}
   #define valueMin instanceTexel(${instanceFields.valueMin / 4})
@@ -162,9 +166,9 @@ const fragmentDeclarations = /* glsl */ `
   uniform int mapColorCount;
 
   vec3 mappedColor() {
-    float at = clamp(vColorMapCoord, 0.0, 1.0) * float(mapColorCount - 1);
-    int before = min(int(at), mapColorCount - 2);
-    vec3 color = mix(mapColors[before], mapColors[before + 1], at - float(before));
+    float position = clamp(vColorMapCoord, 0.0, 1.0) * float(mapColorCount - 1);
+    int lower = min(int(position), mapColorCount - 2);
+    vec3 color = mix(mapColors[lower], mapColors[lower + 1], position - float(lower));
     #ifdef ${srgbColorsDefine}
       ${toLinearChunk("color")}
     #endif

@@ -117,7 +117,7 @@ export class SceneShapes {
     const areLightScopesRenumbered = this.#graph.follow(description.root);
     this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
-    if (areLightScopesRenumbered) this.#batches.followAll();
+    if (areLightScopesRenumbered) this.#batches.updateAllRecords();
     const { box, boundedGroups, viewpoints, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
@@ -126,7 +126,7 @@ export class SceneShapes {
       this.#sphere = sphereAround(box);
     }
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#extendBounds(object, bounds);
-    this.#batches.sync(this.#sphere);
+    this.#batches.setBoundingSphere(this.#sphere);
     return { sphere: this.#sphere, viewpoints, lods, anchors, changes };
   }
 

@@ -66,7 +66,7 @@ function inBuffers(stage: BufferStage, buffers: BufferProvider): (range: DrawRan
       ),
     }),
   );
-  const index = stage.index && buffers.indexOf(stage.index.bytes, stage.index.type);
+  const index = stage.index && buffers.indexAttributeOf(stage.index.bytes, stage.index.type);
   return ({ first, count }) => {
     const geometry = new BufferGeometry();
     for (const { name, attribute } of attributes) geometry.setAttribute(name, attribute);

@@ -1,5 +1,5 @@
-// The interface to vertex and index arrays that are ready for three.js: on the GPU (bufferStore.ts)
-// or in JavaScript (loader/arrayBuffers.ts).
+// The interface to stored vertex and index arrays, which three.js can draw. They are on the GPU
+// (bufferStore.ts) or in JavaScript (loader/arrayBuffers.ts).
 
 import type { ElementType } from "../../stage/elementType.ts";
 import type { InterleavedBuffer, BufferAttribute, BufferGeometry } from "three";
@@ -8,20 +8,21 @@ import type { ElementArray } from "../../stage/vertexArray.ts";
 
 /** An array that is being uploaded. */
 export interface BufferUpload {
-  /** Complete after the last step. Closing it frees the buffer, also before that. */
+  /** Complete after the last step. Closing it frees the buffer, even before the last step. */
   readonly bytes: StoredBytes;
   /** Each step yields the number of bytes that it has uploaded. */
   readonly steps: Generator<number, void, void>;
 }
 
-/** Access to stored arrays. All methods but `dispose` throw RangeError where an array is unknown or closed. */
+/** Access to stored arrays. All methods but `dispose` throw RangeError if an array is unknown or closed. */
 export interface BufferProvider {
   /** Records of `stride` elements, as three.js' InterleavedBuffer. */
   recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer;
-  indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute;
+  /** The whole array, as the index of a geometry. */
+  indexAttributeOf(bytes: StoredBytes, type: ElementType): BufferAttribute;
   /**
-   * `count` elements from element `first` on; all that follow where `count` is undefined. Blocks until the GPU is done
-   * where the array is there.
+   * Returns `count` elements from element `first` on; all that follow if `count` is undefined. If the array is on the
+   * GPU, blocks until the GPU is done.
    */
   read(bytes: StoredBytes, type: ElementType, first: number, count?: number): ElementArray;
   /** Disposes of a geometry made from these arrays; the arrays stay. */

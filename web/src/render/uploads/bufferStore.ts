@@ -86,7 +86,7 @@ export class BufferStore implements BufferProvider {
     }) as unknown as InterleavedBuffer;
   }
 
-  indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
+  indexAttributeOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
     return new GLBufferAttribute(
       this.#bufferOf(bytes),
       glTypes[type],
