@@ -1,9 +1,9 @@
-// A page that has become whole, for benchmarks of what it costs from then on.
+// Opens a page and waits until its scene is complete, for benchmarks of what happens afterwards.
 
 import type { Page } from "playwright-core";
 import type { ViewElement } from "../web/src/dom/imgeoView.ts";
 
-/** Goes there, and waits until its scene has told that it is complete. */
+/** Navigates to `url` and resolves when the scene's promise `complete` does. */
 export async function goUntilComplete(page: Page, url: string, timeoutMs: number): Promise<void> {
   page.setDefaultTimeout(timeoutMs);
   await page.goto(url);

@@ -1,5 +1,5 @@
-// Draws the picture of docs/decisions/lossless.md: what `build/bench/lossy MODEL
-// --write DIRECTORY` left of a mesh, seen from one viewpoint.
+// Draws the picture of docs/decisions/lossless.md: the meshes that `build/bench/lossy MODEL --write DIRECTORY` wrote,
+// from one viewpoint.
 //
 //   scripts/node bench/lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]
 
@@ -17,13 +17,13 @@ if (directory === undefined || model === undefined)
   throw new Error("usage: lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]");
 
 const panel = { width: 300, height: 280 };
-const variants: readonly { file: string; bits?: number; says: string }[] = [
-  { file: "lossless", says: "PNG, 16 bits" },
-  { file: "JPEG80", says: "JPEG 80, second byte only" },
-  { file: "JPEG100-both", says: "JPEG 100, both bytes" },
-  { file: "lossless", bits: 12, says: "PNG, 12 bits" },
-  { file: "WebP80", says: "WebP 80, second byte only" },
-  { file: "WebP100-both", says: "WebP 100, both bytes" },
+const variants: readonly { file: string; bits?: number; caption: string }[] = [
+  { file: "lossless", caption: "PNG, 16 bits" },
+  { file: "JPEG80", caption: "JPEG 80, second byte only" },
+  { file: "JPEG100-both", caption: "JPEG 100, both bytes" },
+  { file: "lossless", bits: 12, caption: "PNG, 12 bits" },
+  { file: "WebP80", caption: "WebP 80, second byte only" },
+  { file: "WebP100-both", caption: "WebP 100, both bytes" },
 ];
 
 const viewpointElement = /<Viewpoint[\s\S]*?<\/Viewpoint>/;
@@ -48,7 +48,7 @@ async function picture(browser: Browser, site: string, viewpoint: string): Promi
   }
 }
 
-/** All of them in rows of three, each with what it says. */
+/** A PNG of all pictures in rows of three, each with its caption. */
 async function together(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
   const page = await browser.newPage({ viewport: { width: 3 * panel.width, height: 2 * (panel.height + 26) } });
   await page.setContent(`<style>
@@ -57,7 +57,7 @@ async function together(browser: Browser, pictures: readonly Buffer[]): Promise<
     </style>${pictures
       .map(
         (png, i) =>
-          `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${variants[i]!.says}</figcaption></figure>`,
+          `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${variants[i]!.caption}</figcaption></figure>`,
       )
       .join("")}`);
   return page.screenshot();
@@ -68,8 +68,8 @@ const browser = await launchChromium();
 try {
   const pictures: Buffer[] = [];
   let viewpoint = "";
-  for (const { file, bits, says } of variants) {
-    const site = join(sites, says.replaceAll(/\W+/g, "-"));
+  for (const { file, bits, caption } of variants) {
+    const site = join(sites, caption.replaceAll(/\W+/g, "-"));
     execFileSync(
       converter,
       [
@@ -85,7 +85,7 @@ try {
       ],
       { stdio: "ignore" },
     );
-    // All from where the first is seen: what is torn out of a mesh widens its box.
+    // The viewpoint of the first mesh for all: lossy compression widens the box of a mesh.
     viewpoint ||= viewpointElement.exec(readFileSync(join(site, "index.html"), "utf8"))?.[0] ?? "";
     pictures.push(await picture(browser, site, viewpoint));
   }

@@ -1,4 +1,4 @@
-// Draws the picture of the museum's piece: its surface with notes, and its points.
+// Draws the picture of the museum example: its surface with notes, and its points.
 //
 //   scripts/node bench/museum.ts SITE_OF_EXAMPLES_MUSEUM [OUTPUT.png]
 
@@ -11,9 +11,9 @@ import { startServer } from "../tests/browser/server.ts";
 
 const [site, output = join(repository, "docs/images/museum.png")] = process.argv.slice(2);
 const size = { width: 480, height: 350 };
-if (site === undefined) throw new Error("which site?");
+if (site === undefined) throw new Error("usage: museum.ts SITE_OF_EXAMPLES_MUSEUM [OUTPUT.png]");
 
-/** Waits until nothing has changed for a while. */
+/** Returns the picture once it has not changed for a second. */
 async function stillPicture(page: Page): Promise<Buffer> {
   for (let last = Buffer.alloc(0) as Buffer; ;) {
     await page.waitForTimeout(1000);

@@ -1,5 +1,5 @@
-// Draws the README's picture: a page of compact and one of classic, each at three
-// moments of its arrival, with the share of the bytes that it needs.
+// Draws the README's picture: a page of compact and one of classic, each at three moments of loading, with the share
+// of bytes that each picture needs.
 //
 //   scripts/node bench/screenshot.ts [MODEL] [OUTPUT.png]
 
@@ -26,33 +26,33 @@ interface Strip {
   profile: "compact" | "classic";
   /** The page's container files, each with its rank in the order of requests. */
   ranks: (html: string) => Map<string, number>;
-  /** Files up to `rank` have come: what is then seen. */
-  moments: readonly { rank: number; says: string }[];
+  /** What is displayed when the files up to `rank` have arrived. */
+  moments: readonly { rank: number; caption: string }[];
 }
 
 const strips: readonly Strip[] = [
   {
     profile: "compact",
-    ranks: patchesInTheirOrder,
+    ranks: patchRanks,
     moments: [
-      { rank: 0, says: "the base" },
-      { rank: 3, says: "three patches, exact" },
-      { rank: Infinity, says: "all patches" },
+      { rank: 0, caption: "the base" },
+      { rank: 3, caption: "three patches, exact" },
+      { rank: Infinity, caption: "all patches" },
     ],
   },
   {
     profile: "classic",
     ranks: ranksOfFiles,
     moments: [
-      { rank: 0, says: "each coordinate's first byte" },
-      { rank: 2, says: "triangles and normals" },
-      { rank: Infinity, says: "the second byte" },
+      { rank: 0, caption: "each coordinate's first byte" },
+      { rank: 2, caption: "triangles and normals" },
+      { rank: Infinity, caption: "the second byte" },
     ],
   },
 ];
 
-/** The base, then the patches as the document names them. */
-function patchesInTheirOrder(html: string): Map<string, number> {
+/** Ranks: the base first, then the patches in document order. */
+function patchRanks(html: string): Map<string, number> {
   const urls = (attribute: string): string[] =>
     [...html.matchAll(new RegExp(`\\s${attribute}=["'](geometry/[^"'#]+)`, "g"))].map((match) => match[1]!);
   return new Map([...new Set([...urls("base"), ...urls("data")])].map((url, index) => [url, index]));
@@ -61,7 +61,7 @@ function patchesInTheirOrder(html: string): Map<string, number> {
 /** A promise that never resolves: held requests stay held. */
 const forever = new Promise(() => undefined);
 
-/** In the page: all that comes is on the GPU, and four frames have passed in which nothing was left to be drawn. */
+/** In the page: resolves when the files `coming` are on the GPU and no frame has been due for four frames. */
 async function untilDrawn(coming: readonly string[]): Promise<void> {
   const x3d = document.querySelector<Partial<ViewElement & Loadable> & Element>("x3d")!;
   const isReady = (file: string): boolean =>
@@ -84,10 +84,10 @@ async function picture(
     const page = await context.newPage();
     await page.goto(server.origin, { waitUntil: "commit" });
     await page.evaluate(untilDrawn, coming);
-    // The bar and its like lie over the scene; the picture is of the scene.
+    // Hides the progress bar and other elements over the scene.
     await page.evaluate(() => {
-      for (const part of document.querySelector("imgeo-view")?.shadowRoot?.children ?? []) {
-        if (part instanceof HTMLElement && part.localName !== "canvas") part.style.display = "none";
+      for (const element of document.querySelector("imgeo-view")?.shadowRoot?.children ?? []) {
+        if (element instanceof HTMLElement && element.localName !== "canvas") element.style.display = "none";
       }
     });
     return await page.screenshot();
@@ -97,8 +97,8 @@ async function picture(
   }
 }
 
-/** All strips below each other. */
-async function sheetOf(browser: Browser, rows: { png: Buffer; caption: string }[][]): Promise<Buffer> {
+/** A PNG of all strips below each other. */
+async function contactSheetOf(browser: Browser, rows: { png: Buffer; caption: string }[][]): Promise<Buffer> {
   const columns = Math.max(...rows.map((row) => row.length));
   const page = await browser.newPage({
     viewport: { width: panel.width * columns, height: (panel.height + 30) * rows.length },
@@ -118,7 +118,7 @@ async function sheetOf(browser: Browser, rows: { png: Buffer; caption: string }[
   return png;
 }
 
-/** The pictures of one page's moments. */
+/** Pictures of one page at the moments of its strip. */
 async function panelsOf(
   browser: Browser,
   site: string,
@@ -131,13 +131,13 @@ async function panelsOf(
   const bytesUpTo = (rank: number): number =>
     [...ranks].reduce((sum, [url, own]) => sum + (own <= rank ? statSync(join(site, url)).size : 0), 0);
   const panels: { png: Buffer; caption: string }[] = [];
-  for (const { rank, says } of moments) {
+  for (const { rank, caption } of moments) {
     const coming = [...ranks].filter(([, own]) => own <= rank).map(([url]) => url);
     const held = new Set([...ranks.keys()].filter((url) => !coming.includes(url)));
     const share = Math.round((100 * bytesUpTo(rank)) / bytesUpTo(Infinity));
     panels.push({
       png: await picture(browser, site, held, coming),
-      caption: `${profile}, ${share} % of the bytes: ${says}`,
+      caption: `${profile}, ${share} % of the bytes: ${caption}`,
     });
   }
   return panels;
@@ -148,7 +148,7 @@ const browser = await launchChromium();
 try {
   const rows: { png: Buffer; caption: string }[][] = [];
   for (const strip of strips) rows.push(await panelsOf(browser, site, strip));
-  const png = await sheetOf(browser, rows);
+  const png = await contactSheetOf(browser, rows);
   writeFileSync(output, png);
   console.log(
     `${output}: ${png.length} bytes; ${rows

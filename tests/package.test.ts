@@ -1,5 +1,6 @@
-// The npm package as its users get it: packed, installed in a temporary folder without
-// a network, and used there by apps that are type-checked, bundled and built by Vite.
+// Tests the npm package: packs it, installs it in a temporary folder without network access, and type-checks, bundles
+// and builds (with Vite) apps that use it.
+
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -32,7 +33,7 @@ before(() => {
   packed = tarball.files.map(({ path }) => path);
   mkdirSync(app);
   writeFileSync(join(app, "package.json"), JSON.stringify({ name: "app", private: true, type: "module" }));
-  // Peers are the app's own: here those of this repository.
+  // The app brings peer dependencies; here they are those of this repository.
   run(
     app,
     "npm",
@@ -86,7 +87,7 @@ async function bundle(source: string): Promise<{ text: string; metafile: Metafil
   return { text: outputFiles[0]?.text ?? "", metafile };
 }
 
-/** The package's modules that have left something in a bundle, and their folders. */
+/** The package's modules that contribute to a bundle. */
 function modulesIn({ outputs }: Metafile): Set<string> {
   const inputs = Object.values(outputs).flatMap((output) => Object.entries(output.inputs));
   return new Set(

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { longestTaskMsOf, mainTasksOf, processorMsOf, type TraceEvent } from "../bench/load/trace.ts";
 
-/** Milliseconds; a thread's name where `name` is that. */
+/** A trace event; times in milliseconds. */
 function event(tid: number, name: string, at: number, ms: number, processorMs: number): TraceEvent {
   return { name, ph: "X", pid: 1, tid, ts: 1000 * at, dur: 1000 * ms, tdur: 1000 * processorMs, args: {} };
 }
@@ -30,7 +30,7 @@ const events = [
   event(2, "ThreadControllerImpl::RunTask", 15, 300, 300),
 ];
 
-test("a trace tells of each task of the main thread how long it was and what most of it was for", () => {
+test("tasks of the main thread have durations and main causes", () => {
   assert.deepEqual(mainTasksOf(events), [
     { ms: 100, processorMs: 45, cause: "start of the module" },
     { ms: 30, processorMs: 9, cause: "a frame" },
@@ -42,11 +42,11 @@ test("a trace tells of each task of the main thread how long it was and what mos
   );
 });
 
-test("a trace tells what tasks of the page and its workers take of the processor, each counted once", () => {
+test("processor times of the page and its workers are added, each task once", () => {
   assert.equal(processorMsOf(events), 60 + 9 + 1 + 100);
 });
 
-test("a trace of thirty thousand tasks is read in one go", () => {
+test("a trace of thirty thousand tasks is read in linear time", () => {
   const many = Array.from({ length: 30_000 }, (_, n) => [
     event(0, "ThreadControllerImpl::RunTask", n, 0.9, 0.5),
     event(0, "TimerFire", n + 0.1, 0.5, 0.4),

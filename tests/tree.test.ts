@@ -1,5 +1,5 @@
-// What must not stand in any tracked file: paths of one machine, and the hosts
-// that one machine fetches packages from.
+// Finds text that must not be in any tracked file: paths of one machine, and hosts of package registries.
+
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";

@@ -1,5 +1,6 @@
-// The two decoders of compact, and their readers of PNG, say the same of every file
-// that the C++ ones are fuzzed with.
+// Tests that the two decoders of compact, and their PNG readers, give the same verdicts on the fuzzing corpora and on
+// damaged files.
+
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
@@ -13,7 +14,7 @@ const compactVerdicts = join(repository, "build/fuzz/compact_verdicts");
 const corpusOfCompact = join(repository, "fuzz/corpus/compact");
 const corpora = [corpusOfCompact, join(repository, "fuzz/corpus/png")];
 
-test("both decoders of compact say the same of every file of the corpora", async () => {
+test("both decoders of compact give the same verdict on every file of the corpora", async () => {
   const output = execFileSync(compactVerdicts, corpora, { encoding: "utf8" });
   const { count, differences } = await differencesIn(output);
   assert.deepEqual(differences, []);
@@ -23,10 +24,10 @@ test("both decoders of compact say the same of every file of the corpora", async
   assert.ok(verdicts.filter((verdict) => /^\d+$/.test(verdict)).length > 20, "most of them decode");
 });
 
-/** `make soak` asks for more. */
+/** `make soak` tests more. */
 const mutants = Number(process.env.IMGEO_MUTANTS ?? 1500);
 
-test("and of every file that damage makes of these", async () => {
+test("and on damaged copies of these files", async () => {
   const directory = mkdtempSync(join(tmpdir(), "imgeo-mutants-"));
   try {
     writeMutants(directory, corpusOfCompact, mutants, 1);

@@ -1,5 +1,4 @@
-// What the runtime's decoder of compact says of files, beside what the C++ one said,
-// and files for both to be asked of.
+// Compares the runtime's decoder of compact with the C++ decoder, and generates damaged files for both.
 
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -31,7 +30,7 @@ export async function differencesIn(output: string): Promise<{ count: number; di
   return { count: lines.length, differences };
 }
 
-/** Writes files of a corpus with a few bytes changed, moved, or cut off: the same ones of a seed every time. */
+/** Writes `count` files of a corpus with a few bytes changed, moved, or cut off; the same seed gives the same files. */
 export function writeMutants(directory: string, corpus: string, count: number, seed: number): void {
   const files = readdirSync(corpus)
     .sort()
@@ -47,7 +46,7 @@ export function writeMutants(directory: string, corpus: string, count: number, s
 
 function damaged(bytes: Uint8Array<ArrayBuffer>, other: Uint8Array, random: TestRandom): Uint8Array<ArrayBuffer> {
   if (bytes.length === 0) return bytes;
-  // Headers are short, and what they state goes far.
+  // Half of the positions are among the first 64 bytes, where headers are.
   const at = random.below(random.below(2) === 0 ? Math.min(bytes.length, 64) : bytes.length);
   const put = (byte: number) => bytes.with(at, byte);
   switch (random.below(8)) {

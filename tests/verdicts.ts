@@ -1,7 +1,6 @@
-// Holds the runtime's decoder of compact to the C++ one: reads lines of a verdict,
-// a tab and a path, as fuzz/compact_verdicts prints them, and fails where it says
-// something else of a file. `make test` asks of the corpus, `make soak` of all that
-// fuzzing has found.
+// Compares the runtime's decoder of compact with the C++ decoder: reads lines of a verdict, a tab and a path, as
+// fuzz/compact_verdicts prints them, and fails where its own verdict on the file differs. `make test` uses the corpus,
+// `make soak` also the inputs that fuzzing has found.
 
 import { readFileSync } from "node:fs";
 import { differencesIn } from "./verdicts.testing.ts";

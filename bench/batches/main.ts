@@ -1,9 +1,8 @@
-// What a frame costs in scenes of 1,000 shapes that differ in more than their
-// colours: shapes that values colour, each over a range of its own, lines of ten
-// widths, and lines that are dashed as well. Prints a Markdown table: draw calls, and the
-// processor time that the page's main thread takes for a frame while the scene turns.
+// Measures the cost of a frame in scenes of 1,000 shapes that differ in more than their colours: shapes coloured by
+// values, each over a range of its own, lines of ten widths, and dashed lines. Prints a Markdown table of draw calls
+// and of the processor time that the page's main thread takes for a frame while the scene turns.
 //
-//   scripts/bench batches          RUNTIME=folder: of another build's imgeo.js
+//   scripts/bench batches          RUNTIME=folder: with the imgeo.js of another build
 
 import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

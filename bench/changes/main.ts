@@ -1,9 +1,8 @@
-// What a change of the document costs the page's main thread in a scene of many
-// shapes: 7,000 boxes by USE and 3,000 of sizes and colours of their own, in a
-// Transform each. Prints a Markdown table: of each change the median and the least
-// time from the change until everything has followed it but the picture.
+// Measures the time that a change of the document takes on the page's main thread in a scene of many shapes: 7,000
+// boxes by USE and 3,000 of sizes and colours of their own, each in a Transform. Prints a Markdown table with the
+// median and the minimum time of each change until everything but the picture has followed it.
 //
-//   scripts/bench changes          RUNTIME=folder: of another build's imgeo.js
+//   scripts/bench changes          RUNTIME=folder: with the imgeo.js of another build
 
 import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -13,18 +12,18 @@ import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { goUntilComplete } from "../completePage.ts";
 
-const alike = 7000,
-  others = 3000;
+const equalCount = 7000,
+  otherCount = 3000;
 const rounds = 15;
 const timeout = 300_000;
 
 function sceneText(): string {
-  const shapes = Array.from({ length: alike + others }, (_, n) => {
+  const shapes = Array.from({ length: equalCount + otherCount }, (_, n) => {
     const position = `${2 * (n % 100)} ${2 * Math.floor(n / 100)} 0`;
     const shape =
       n === 0
         ? '<Shape DEF="box"><Appearance><Material></Material></Appearance><Box size="1 1 1"></Box></Shape>'
-        : n < alike
+        : n < equalCount
           ? '<Shape USE="box"></Shape>'
           : `<Shape><Appearance><Material diffuseColor="${(n % 7) / 7} ${(n % 11) / 11} 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
     return `<Transform translation="${position}">${shape}</Transform>`;
@@ -32,7 +31,7 @@ function sceneText(): string {
   return `<X3D style="width:64px;height:48px;display:block" budget="1000"><Scene>${shapes.join("\n")}</Scene></X3D>`;
 }
 
-/** Self-contained: each is called in the page, over and over, and changes something each time. */
+/** Self-contained functions that the page calls repeatedly; each call changes something. */
 const changes: Record<string, (round: number) => void> = {
   "a Transform is moved": (round) => {
     document.querySelectorAll("transform")[5000]!.setAttribute("translation", `100 100 ${round % 2}`);
@@ -60,7 +59,7 @@ const changes: Record<string, (round: number) => void> = {
   },
 };
 
-/** Self-contained. MutationObservers are called before whoever waits for what is resolved after the change. */
+/** Self-contained. MutationObservers run before continuations of promises that resolve after the change. */
 async function timesIn(change: (round: number) => void, count: number): Promise<number[]> {
   const times: number[] = [];
   for (let round = 0; round < count; ++round) {
@@ -93,7 +92,7 @@ const browser = await launchChromium();
 try {
   const page = await browser.newPage();
   await goUntilComplete(page, server.origin, timeout);
-  console.log(`| in a scene of ${alike + others} shapes | median | minimum |\n|---|--:|--:|`);
+  console.log(`| in a scene of ${equalCount + otherCount} shapes | median | minimum |\n|---|--:|--:|`);
   for (const [name, change] of Object.entries(changes)) console.log(await row(page, name, change));
 } finally {
   await browser.close();

@@ -1,8 +1,7 @@
-// How long decoding takes in a browser, and how long it holds up the page: ours
-// beside three.js' DRACOLoader and MeshoptDecoder, the same meshes, one run.
-// Checks first that each gives as many triangles as the model has. Prints a
-// Markdown table, with shares of Draco's times. Time on the processor is that of
-// the page and its workers, for machines that have other things to do.
+// Measures how long decoding takes in a browser, and how long it blocks the page, for compact and for three.js'
+// DRACOLoader and MeshoptDecoder with the same meshes in one run. First checks that each decoder returns as many
+// triangles as the model has. Prints a Markdown table with ratios to Draco's times. Processor time is that of the page
+// and its workers.
 //
 //   scripts/bench decode [MODEL...]
 
@@ -42,7 +41,7 @@ async function writePage(directory: string): Promise<void> {
   );
 }
 
-/** Brings a decoder's files into the page. */
+/** Loads a decoder's files into the page. */
 async function give(page: Page, decoder: string, files: readonly Buffer[]): Promise<void> {
   await page.evaluate(
     ({ decoder, texts }) => {
@@ -66,7 +65,7 @@ const median = (values: number[]): number => values.toSorted((a, b) => a - b)[Ma
 async function measure(page: Page, decoder: string, files: readonly Buffer[], triangles: number) {
   await give(page, decoder, files);
   const first = await decode(page, decoder);
-  // Draco and gltfpack drop triangles that have lost their area among 16-bit positions.
+  // Draco and gltfpack drop triangles that have become degenerate with 16-bit positions.
   if (Math.abs(first.triangles - triangles) > triangles / 100)
     throw new Error(`${decoder} gives ${first.triangles} triangles of ${triangles}`);
   const times: number[] = [];

@@ -1,5 +1,4 @@
-// The page of bench/decode: three decoders, each from bytes in memory to arrays in
-// the page, as a viewer would use it.
+// The page of bench/decode: three decoders, each from bytes in memory to arrays in the page, as a viewer uses it.
 
 import type { BufferGeometry, Object3D } from "three";
 import { Mesh } from "three";
@@ -24,7 +23,7 @@ declare global {
 
 const workers = pageWorkers();
 const draco = new DRACOLoader().setDecoderPath("draco/").preload();
-// Where the decoder runs in a worker, as its author advises for large files.
+// meshoptimizer's author recommends a worker for large files.
 MeshoptDecoder.useWorkers(1);
 const gltf = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
 const { signal } = new AbortController();
@@ -42,7 +41,7 @@ window.decoders = {
       files.map(
         (file) =>
           new Promise<BufferGeometry>((resolve, reject) => {
-            // The loader hands its bytes over to its worker, so it gets its own.
+            // The loader transfers its bytes to its worker, so it gets a copy.
             draco.parse(file.slice().buffer, resolve, reject);
           }),
       ),

@@ -1,10 +1,9 @@
-// Runs in a page before its scripts and keeps what the screen shows after each
-// frame. The same for every page: calls to WebGL are what they have in common. A
-// time is taken when the GPU has done its work (the picture is read back), so
-// that a renderer in software counts for everybody alike.
+// Runs in a page before its scripts and records what the screen shows after each frame. It works for every page
+// because it intercepts WebGL calls. It takes times when the GPU has finished (the picture is read back), so that
+// software renderers count equally for all pages.
 
 export interface Recording {
-  /** Milliseconds from navigation to when all of the model had been drawn; 0 until then. */
+  /** Milliseconds from navigation until all of the model had been drawn; 0 until then. */
   complete: number;
   /** For each drawn frame: the time at which the GPU had finished it, and every second pixel of every second row, RGBA. */
   frames: { at: number; pixels: Uint8Array }[];
@@ -14,13 +13,13 @@ export interface Recording {
 
 export interface RecordOptions {
   /**
-   * The page says by an event when all of the model is there: `load` of <x3d>, or
-   * `model-complete` of the document. Others are complete with their first draw of
-   * so many vertices.
+   * The page sends an event when all of the model has been drawn: `load` of <x3d>, or
+   * `model-complete` of the document. Other pages are complete with their first draw of
+   * at least minModelVertices vertices.
    */
   saysWhenComplete: boolean;
   minModelVertices: number;
-  /** Otherwise no picture is taken, and times are those at which the GPU has been told. */
+  /** If false, no pictures are taken, and times are those at which commands have been sent to the GPU. */
   takesPictures: boolean;
   completeMessage: string;
 }
@@ -31,7 +30,7 @@ declare global {
   }
 }
 
-/** What a page says in its console when its model is complete. Asking it meanwhile would take its time. */
+/** Console message of a page whose model is complete. Polling the page would take its processor time. */
 export const completeMessage = "bench: complete";
 
 type Context = WebGLRenderingContext | WebGL2RenderingContext;
@@ -63,15 +62,15 @@ export function recordFrames(options: RecordOptions): void {
     recording.columns = columns;
     recording.frames.push({ at, pixels: new Uint8Array(some.buffer) });
   };
-  /** A page may draw into a canvas that it shows later: nobody has seen that yet. */
+  /** False for a canvas that the page draws into but displays later. */
   const isSeen = ({ canvas }: Context): boolean =>
     canvas instanceof HTMLCanvasElement && canvas.checkVisibility({ opacityProperty: true, visibilityProperty: true });
   const note = (gl: Context, count: number): void => {
-    if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // what is drawn for the page's own use
+    if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // offscreen
     hasModel ||= count >= options.minModelVertices;
     if (due.has(gl)) return;
     due.add(gl);
-    // When the frame's draws have all been given, and before the browser takes them.
+    // After all draws of the frame have been issued, and before the browser presents it.
     queueMicrotask(() => {
       due.delete(gl);
       if (options.takesPictures && isSeen(gl)) takePicture(gl);
@@ -105,23 +104,23 @@ export function recordFrames(options: RecordOptions): void {
   );
 }
 
-/** When a page's picture had become what. Milliseconds from navigation. */
+/** Times at which a page's picture had reached certain states, in milliseconds from navigation. */
 export interface Times {
-  /** 95 % of the model's silhouette are covered, or have a pixel beside them that is. */
+  /** 95 % of the pixels of the model's silhouette are covered, or a neighbouring pixel is. */
   first: number;
   /** Nine tenths of the way from nothing to the final picture, in the sum of all channels' differences. */
   nearlyFinal: number;
-  /** The final picture, but for what nobody sees. */
+  /** The final picture, except for invisible differences. */
   final: number;
 }
 
-/** Runs in the page, when it is complete. */
+/** Runs in the page after it is complete. */
 export function timesOf(): Times {
   const { frames, columns } = window.recording;
   const last = frames.at(-1);
   if (last === undefined) throw new Error("nothing was drawn");
   const final = last.pixels;
-  const background = final.slice(0, 3); // the models stand clear of the corner
+  const background = final.slice(0, 3); // the models do not reach the corner
   const off = (pixels: Uint8Array, i: number, channel: number): number =>
     Math.abs(pixels[i + channel]! - background[channel]!);
   const shows = (pixels: Uint8Array, i: number): boolean =>
@@ -144,7 +143,7 @@ export function timesOf(): Times {
     }
     return { at, coverage: both / covered, likeness: 1 - missing / whole };
   });
-  // From then on: a picture that is lost again has not come to stay.
+  // The time from which the condition holds for all further frames.
   const since = (holds: (frame: (typeof measured)[number]) => boolean): number =>
     measured[measured.findLastIndex((frame) => !holds(frame)) + 1]!.at;
   return {

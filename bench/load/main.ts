@@ -1,9 +1,8 @@
-// Paper section 7.3 repeated: how long bunny, horse and dragon take to load as
-// SIG, as BG and inline, over three lines, beside three.js with what its users
-// have; then the longest tasks of the main thread on the largest of them. Prints
-// Markdown tables.
+// Repeats paper section 7.3: measures how long bunny, horse and dragon take to load as SIG, as BG and inline over
+// three connections, and compares them with what three.js users have; then measures the longest tasks of the main
+// thread for the largest of the models. Prints Markdown tables.
 //
-//   scripts/bench load [--runs N] [--tasks] [MODEL...]     --tasks: the last table alone
+//   scripts/bench load [--runs N] [--tasks] [MODEL...]     --tasks: only the last table
 
 import { mkdtempSync, rmSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
@@ -20,7 +19,7 @@ const { values: options, positionals: modelNames } = parseArgs({
   allowPositionals: true,
 });
 const runs = Number(options.runs);
-if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is no number of loads`);
+if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is not a number of loads`);
 
 const lines: Record<string, LinkOptions | undefined> = {
   unthrottled: undefined,
@@ -74,8 +73,8 @@ async function printLoads(model: string, page: BenchPage): Promise<void> {
 async function printTasks(page: BenchPage): Promise<void> {
   await withServer(page, async (server) => {
     const { longest, longestOfLoading, longestMs } = await longestTasks(browser, page, server, runs);
-    const told = [longest, longestOfLoading].flatMap(({ processorMs, cause }) => [processorMs.toFixed(0), cause]);
-    print(page.name, longestMs.toFixed(0), ...told);
+    const cells = [longest, longestOfLoading].flatMap(({ processorMs, cause }) => [processorMs.toFixed(0), cause]);
+    print(page.name, longestMs.toFixed(0), ...cells);
   });
 }
 
@@ -84,7 +83,7 @@ const work = mkdtempSync(join(tmpdir(), "imgeo-load-"));
 try {
   const models = prepareModels(modelNames, work);
   if (!options.tasks) {
-    print("model", "as", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
+    print("model", "format", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
     print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));
   }
   let largest: { model: Model; pages: BenchPage[] } | undefined;
@@ -100,14 +99,14 @@ try {
       "longest task, ms",
       "longest on the processor, ms",
       "caused by",
-      "longest but for starts, ms",
+      "longest except starts, ms",
       "caused by",
     );
     print("---", "--:", "--:", "---", "--:", "---");
     for (const page of largest.pages) await printTasks(page);
   }
   console.log(
-    `\nMedians of ${runs} cold loads, one where the first image takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`,
+    `\nMedians of ${runs} cold loads, a single load where the first image takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`,
   );
 } finally {
   await browser.close();

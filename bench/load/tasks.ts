@@ -1,7 +1,6 @@
-// The longest tasks of a page's main thread while it loads, from Chromium's own
-// trace. A task holds up input and frames for as long as it lasts; of that, only
-// the time on the processor is the page's doing where a renderer in software
-// shares the machine.
+// Finds the longest tasks of a page's main thread while it loads, from Chromium's trace. A task delays input and
+// frames for its whole duration; with a software renderer on the same machine, only its processor time is caused by
+// the page.
 
 import type { Browser, BrowserContext } from "playwright-core";
 import type { TestServer } from "../../tests/browser/server.ts";
@@ -10,14 +9,14 @@ import type { BenchPage } from "./pages.ts";
 import { mainTasksOf, traceCategories, type Task, type TraceEvent } from "./trace.ts";
 
 export interface Tasks {
-  /** The longest on the processor, and the longest of those that start no code: what loads and draws the model. */
+  /** The task with the longest processor time, of all tasks and of those that load and draw the model (not starting scripts). */
   longest: Task;
   longestOfLoading: Task;
-  /** Milliseconds from begin to end of the one that takes longest so. */
+  /** Maximum duration of a task in milliseconds. */
   longestMs: number;
 }
 
-/** The medians of so many cold loads. */
+/** Medians over `count` cold loads. */
 export async function longestTasks(
   browser: Browser,
   page: BenchPage,
@@ -80,7 +79,7 @@ async function traceLoad(
   return trace.traceEvents;
 }
 
-/** From the first request of the page on: what comes before is the browser's own beginning. */
+/** Tasks after the first request of the page; earlier tasks belong to the start of the browser. */
 function tasksOf(events: TraceEvent[]): Task[] {
   const first = events.find(
     ({ name, args }) => name === "ResourceSendRequest" && args.data?.url?.startsWith("http://127.0.0.1"),
@@ -89,7 +88,7 @@ function tasksOf(events: TraceEvent[]): Task[] {
   return mainTasksOf(events, first.ts);
 }
 
-/** The browser and what draws for it, for the foot of a table. */
+/** Browser version and renderer, for the note below a table. */
 export async function describeBrowser(browser: Browser): Promise<string> {
   const page = await browser.newPage();
   const renderer = await page.evaluate(() => {

@@ -1,31 +1,30 @@
-// What Chromium's trace tells of the tasks of a page's main thread: how long each
-// was, and what it was for.
+// Extracts the tasks of a page's main thread from Chromium's trace: the duration of each and its main cause.
 
-/** An event of Chromium's trace, as far as we read it. */
+/** The fields of a Chromium trace event that are used here. */
 export interface TraceEvent {
   name: string;
   ph: string;
   pid: number;
   tid: number;
-  /** Microseconds; `tdur` on the processor. */
+  /** Microseconds; `tdur` is processor time. */
   ts: number;
   dur?: number;
   tdur?: number;
   args: { name?: string; data?: { url?: string } };
 }
 
-/** Those that this reads. */
+/** Trace categories of the events that are used here. */
 export const traceCategories = ["toplevel", "devtools.timeline", "v8", "__metadata"];
 
 export interface Task {
-  /** From its begin to its end, and on the processor. */
+  /** Duration, and processor time, in milliseconds. */
   ms: number;
   processorMs: number;
-  /** What most of it was for. */
+  /** Cause of the largest share of it. */
   cause: Cause;
 }
 
-/** By the trace's own names. */
+/** Causes by event name. */
 const causes = {
   "v8.evaluateModule": "start of the module",
   EvaluateScript: "start of a script",
@@ -41,7 +40,7 @@ const causes = {
 } as const;
 export type Cause = (typeof causes)[keyof typeof causes] | "unknown";
 
-/** V8 finds out where functions stand when the inspector that traces wants a stack; nobody else waits for that. */
+/** V8 looks up source positions when the tracing inspector needs a stack; without tracing this does not happen. */
 const inspectorsEvent = "V8.CollectSourcePositions";
 
 /** Tasks of the main threads of a trace's pages that begin at `from` (microseconds) or later. */
@@ -57,7 +56,7 @@ export function mainTasksOf(events: readonly TraceEvent[], from = 0): Task[] {
   });
 }
 
-/** A task appears once for each layer that runs it. */
+/** Removes nested entries: a task appears once for each layer that runs it. */
 function outermostTasks(sorted: readonly TraceEvent[]): TraceEvent[] {
   let end = 0;
   return sorted.filter((event) => {
@@ -86,12 +85,12 @@ function tasksOf(tasks: readonly TraceEvent[], sorted: readonly TraceEvent[]): T
   });
 }
 
-/** Milliseconds on the processor of the longest of these. */
+/** Processor time of the longest task in milliseconds. */
 export function longestTaskMsOf(events: readonly TraceEvent[]): number {
   return mainTasksOf(events).reduce((longest, { processorMs }) => Math.max(longest, processorMs), 0);
 }
 
-/** Milliseconds on the processor of all tasks of the pages' main threads and of their workers. */
+/** Processor time of all tasks of the pages' main threads and of their workers in milliseconds. */
 export function processorMsOf(events: readonly TraceEvent[]): number {
   const threads = new Set(
     events
@@ -109,7 +108,7 @@ export function processorMsOf(events: readonly TraceEvent[]): number {
   );
 }
 
-/** Outer ones before inner ones. */
+/** Orders events by begin, outer events before inner ones. */
 function byBegin(a: TraceEvent, b: TraceEvent): number {
   return a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0);
 }

@@ -1,12 +1,8 @@
-// What each way of vertices to the screen costs a page: images that the shader
-// decodes (paper section 5.1), the same images decoded in workers (5.2), those of
-// compact, and typed arrays (BG). Prints a Markdown table: the time from navigation to `load` and what
-// of it is spent on processors, the longest task of the page, the time of a frame
-// while the scene turns, and the bytes of vertex data on the GPU. The renderer is
-// named; on a software renderer, whose frames run on the same processors, the
-// table tells what is allocated and decides nothing else.
-//
-//   scripts/bench paths [bunny|horse|dragon|shapes...]
+// Compares the ways in which vertices reach the GPU: images that the shader decodes (paper section 5.1), the same
+// images decoded in workers (5.2), those of compact, and typed arrays (BG). Prints a Markdown table: the time from
+// navigation to `load` and its processor time, the longest task of the page, the time of a frame while the scene
+// turns, and the bytes of vertex data on the GPU. The table names the renderer; with a software renderer, whose frames
+// run on the same cores, only the memory figures are meaningful.
 
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -37,7 +33,7 @@ const paths: Record<string, { container: Container; decode: string }> = {
   BG: { container: "BG", decode: "" },
 };
 
-/** So many shapes, no two alike: what is the same would be one file. */
+/** A file of `count` different shapes; equal shapes would share files. */
 function shapes(count: number, directory: string): Input {
   mkdirSync(directory, { recursive: true });
   const source = join(directory, "shapes.obj");
@@ -95,7 +91,7 @@ async function measure(browser: Browser, site: string, decode: string): Promise<
   }
 }
 
-/** Frames while the scene turns by itself. */
+/** Frame time while the scene rotates automatically. */
 async function turn(page: Page) {
   return page.evaluate(async (ms) => {
     const x3d = document.querySelector<ViewElement>("x3d")!;
@@ -130,7 +126,7 @@ try {
   console.log("|---|---|--:|--:|--:|--:|--:|--:|");
   for (const { name, sites } of inputs) {
     const results = new Map(Object.keys(paths).map((path) => [path, [] as Measured[]]));
-    // One after the other, so that what else the machine does befalls all alike.
+    // Alternates between the paths, so that other load of the machine affects all of them equally.
     for (let run = 0; run < runs; ++run) {
       for (const [path, { container, decode }] of Object.entries(paths))
         results.get(path)?.push(await measure(browser, sites[container], decode));

@@ -1,5 +1,5 @@
-// The scenes: a generated hall, and public ones of Debian packages, each with two
-// cameras that see other things first.
+// The scenes of the benchmark: a generated hall and public scenes of Debian packages, each with two cameras that see
+// different shapes first.
 
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, readFileSync, writeFileSync } from "node:fs";
@@ -8,20 +8,20 @@ import { converter } from "../../tests/browser/paths.ts";
 
 export interface Camera {
   readonly name: string;
-  /** Attributes of <x3d>; none: the scene's own. */
+  /** Attributes of <x3d>; empty for the scene's own camera. */
   readonly attributes: string;
 }
 
 export interface Input {
   readonly name: string;
-  /** Where it is from. */
+  /** Origin of the scene, for readers. */
   readonly source: string;
-  /** Its file, once it is there. */
+  /** Path of the file; empty for the generated hall. */
   readonly file: string;
   readonly cameras: readonly [Camera, Camera];
 }
 
-/** Where Debian packages are unpacked: "/", or a folder of `dpkg-deb --extract`. */
+/** Folder into which Debian packages are unpacked: "/", or a folder of `dpkg-deb --extract`. */
 const root = process.env.IMGEO_PACKAGES ?? "/";
 const models = join(root, "usr/share/assimp/models");
 const castle = join(root, "usr/share/doc/castle-game-engine-doc/examples");
@@ -49,7 +49,7 @@ export const inputs: readonly Input[] = [
     source: "`2CylinderEngine.glb` of assimp-testmodels",
     file: join(models, "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb"),
     cameras: [
-      { name: "of all", attributes: "" },
+      { name: "of the whole engine", attributes: "" },
       { name: "at one end", attributes: 'camera-orbit="80deg 85deg 40%"' },
     ],
   },
@@ -70,7 +70,7 @@ export const inputs: readonly Input[] = [
   },
 ];
 
-/** The input's file; undefined, with a sentence, where its package is not here. */
+/** The input's file; undefined, with a message, if its package is not installed. */
 export function fileOf(input: Input, work: string): string | undefined {
   if (input.file === "") {
     const file = join(work, `${input.name}.glb`);
@@ -80,11 +80,11 @@ export function fileOf(input: Input, work: string): string | undefined {
     return file;
   }
   if (existsSync(input.file)) return input.file;
-  console.error(`imgeo: ${input.file} is not here, and ${input.name} is left out`);
+  console.error(`imgeo: ${input.file} is missing; ${input.name} is skipped`);
   return undefined;
 }
 
-/** The site that `imgeo convert` makes of a file, and a copy of it that opens with the second camera. */
+/** Two copies of the site that `imgeo convert` makes of a file, which open with the first and the second camera. */
 export function sitesOf(input: Input, file: string, work: string): [string, string] {
   const [first, second] = [join(work, `${input.name}-1`), join(work, `${input.name}-2`)];
   execFileSync(converter, ["convert", file, "-o", first], { stdio: ["ignore", "ignore", "ignore"] });

@@ -1,7 +1,6 @@
-// Scenes of many shapes: what of their bytes is the document, what a page asks for
-// until something and until everything is seen, and in which order, from two
-// cameras. Prints Markdown tables; pictures go to build/scenes, and all of them
-// together, where no scene is missing, to docs/images/scenes.png.
+// Measures scenes of many shapes with two cameras each: the document's share of their bytes, what a page requests
+// until it displays something and until it displays everything, and the order of its requests. Prints Markdown tables;
+// writes pictures to build/scenes and, if no scene is missing, all of them together to docs/images/scenes.png.
 //
 //   scripts/bench scenes [NAME...]
 
@@ -47,15 +46,15 @@ async function measure(input: Input, work: string): Promise<Measured | undefined
   visits.forEach(({ picture }, camera) => {
     writeFileSync(join(output, `${input.name}-${camera + 1}.png`), picture);
   });
-  // The second copy's document has a camera's attributes more.
+  // The size of the first copy's document: the second copy has additional camera attributes.
   return { input, info: { ...info, documentBytes: statSync(join(sites[0], "index.html")).size }, visits };
 }
 
-/** Raw, and as sent with brotli; geometry and pictures are the same either way. */
+/** Prints the document's size raw and with brotli; geometry and textures are not compressed further. */
 function printBytes({ input, info, visits }: Measured): void {
   const { shapes, triangles, documentBytes, runtimeBytes } = visits[0]!;
   const { containerBytes, textureBytes } = info;
-  // What its containers would take were every instance of a mesh stored by itself.
+  // Bytes of the containers if every instance of a mesh were stored separately.
   const unshared = (containerBytes * triangles) / info.triangles;
   const page = runtimeBytes + containerBytes + textureBytes;
   print(
@@ -93,7 +92,7 @@ function textOf({ role, names, bytes }: RequestedFile): string {
   return `${role} (${(bytes / 1000).toFixed(bytes < 10_000 ? 1 : 0)} kB) of ${some}${names.length > 3 ? ` and ${names.length - 3} more` : ""}`;
 }
 
-/** Previews come in one go, and would fill the list. */
+/** Prints the order of requests without previews, which are requested together and would fill the list. */
 function printOrder({ input, visits }: Measured, camera: number): void {
   const steps = visits[camera]!.requestedFiles.filter(({ role }) => role !== "preview").map(textOf);
   console.log(
@@ -101,8 +100,8 @@ function printOrder({ input, visits }: Measured, camera: number): void {
   );
 }
 
-/** A column a scene, a row a camera. */
-async function sheetOf(all: readonly Measured[]): Promise<Buffer> {
+/** A PNG with a column per scene and a row per camera. */
+async function contactSheetOf(all: readonly Measured[]): Promise<Buffer> {
   const width = 200;
   const page = await browser.newPage({ viewport: { width: width * all.length, height: 300 } });
   const pictures = [0, 1].flatMap((camera) => all.map(({ visits }) => visits[camera]!.picture.toString("base64")));
@@ -128,25 +127,33 @@ try {
   print(
     "scene",
     "shapes",
-    "triangles seen",
-    "stored",
+    "triangles displayed",
+    "triangles stored",
     "document",
     "brotli",
     "geometry",
     "textures",
     "document's share of the page",
     "of the scene's files",
-    "were nothing shared",
+    "if nothing were shared",
   );
   print("---", ...Array.from({ length: 10 }, () => "--:"));
   all.forEach(printBytes);
   console.log();
-  print("scene", "camera", "requests", "draw calls", "until the first picture", "until all is seen");
+  print(
+    "scene",
+    "camera",
+    "requests",
+    "draw calls",
+    "received until the first picture",
+    "received until everything is displayed",
+  );
   print("---", "---", "--:", "--:", "--:", "--:");
   for (const measured of all) for (const camera of [0, 1]) printLoad(measured, camera);
   console.log();
   for (const measured of all) for (const camera of [0, 1]) printOrder(measured, camera);
-  if (all.length === inputs.length) writeFileSync(join(repository, "docs/images/scenes.png"), await sheetOf(all));
+  if (all.length === inputs.length)
+    writeFileSync(join(repository, "docs/images/scenes.png"), await contactSheetOf(all));
 } finally {
   await browser.close();
   rmSync(work, { recursive: true, force: true });

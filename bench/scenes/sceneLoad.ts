@@ -1,5 +1,5 @@
-// One cold load of a scene over a line: what was asked for and when, and when of
-// which shape something was seen first.
+// Loads a scene once over a slow connection with an empty cache and records the requests and the times of the first
+// and the final picture.
 
 import type { Browser } from "playwright-core";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
@@ -7,7 +7,7 @@ import { observe } from "../../tests/browser/pageObserver.ts";
 import type { LinkOptions } from "../../tests/browser/networkLink.ts";
 import { serve, timeoutMs, viewport } from "../load/measure.ts";
 
-/** A file as the page's document names it. */
+/** A file that the page's document references. */
 export interface RequestedFile {
   readonly role: "base" | "patches" | "preview" | "texture";
   /** Names of the shapes that need the file, without trailing numbers, each once. */
@@ -16,13 +16,13 @@ export interface RequestedFile {
 }
 
 export interface SceneLoad {
-  /** All that the page asked for, itself included. */
+  /** Number of requests, including that of the page. */
   readonly requests: number;
-  /** As sent. */
+  /** Bytes as sent. */
   readonly bytes: number;
   readonly documentBytes: number;
   readonly runtimeBytes: number;
-  /** When the first picture was drawn, in seconds from navigation, and what had come until then. */
+  /** Time of the first picture in seconds from navigation, and the bytes received until then. */
   readonly firstSeconds: number;
   readonly firstBytes: number;
   readonly finalSeconds: number;
@@ -30,7 +30,7 @@ export interface SceneLoad {
   /** Counts in the scene; each instance of a shape counts. */
   readonly shapes: number;
   readonly triangles: number;
-  /** The scene's files in the order in which they were asked for. */
+  /** The scene's files in the order of their requests. */
   readonly requestedFiles: readonly RequestedFile[];
   readonly picture: Buffer;
 }

@@ -1,5 +1,5 @@
-// What visitors download to see a scene, beside other viewers': bytes minified,
-// and compressed as hosts do. Prints a Markdown table.
+// Measures the bytes that visitors download to display a scene with imgeo and with other viewers, minified and
+// compressed as by hosts. Prints a Markdown table.
 //
 //   scripts/bench sizes
 
@@ -11,7 +11,7 @@ import { repository } from "../../tests/browser/paths.ts";
 import { runtimeBundle, siteBundle, workerBundle } from "../../web/bundle.ts";
 import { leanThree } from "../../web/leanThree.ts";
 
-/** three.js itself is left to the app, but not its add-ons. */
+/** Without three.js itself, which the app brings, but with its add-ons. */
 const withoutThree: Plugin = {
   name: "without three.js",
   setup(bundle) {
@@ -30,7 +30,7 @@ async function bundled(source: string, ...plugins: Plugin[]): Promise<Buffer> {
   return Buffer.from(outputFiles[0]!.contents);
 }
 
-/** What a page of `imgeo convert` loads, in its modules: those that draw a base, and all. */
+/** The modules that a page of `imgeo convert` loads: those that draw the preview, and all. */
 async function ofSite(): Promise<{ first: Buffer[]; all: Buffer[] }> {
   const { outputFiles } = await build({ ...siteBundle, outdir: "dist", write: false });
   const modules = outputFiles.map(({ path, contents }) => ({ path, bytes: Buffer.from(contents) }));
@@ -45,7 +45,7 @@ async function worker(): Promise<Buffer> {
   return Buffer.from(outputFiles[0]!.contents);
 }
 
-/** What another viewer's package ships for pages, minified where it is not so already. */
+/** The file of another viewer's package that pages load, minified if the package does not minify it. */
 async function shipped(path: string): Promise<Buffer> {
   const { code } = await transform(readFileSync(join(repository, "node_modules", path)), {
     minify: true,
@@ -57,7 +57,7 @@ async function shipped(path: string): Promise<Buffer> {
 const site = await ofSite();
 const element = `import "./web/src/dom/index.ts";`;
 const loader = `export { ImgeoLoader } from "./web/src/loader/index.ts";`;
-// What an app that shows a mesh uses of three.js, as bench/load's pages do.
+// The modules of three.js that an app uses to display a mesh, as bench/load's pages do.
 const app = `export { Scene, WebGLRenderer, PerspectiveCamera, DirectionalLight, Mesh, MeshStandardMaterial } from "three";`;
 
 type Files = Buffer | Buffer[];
@@ -86,7 +86,7 @@ const rows: [name: string, withThree: Files | undefined, without: Files | undefi
   ["X3DOM", undefined, await shipped("x3dom-1.8/x3dom.js")],
 ];
 
-/** Files are compressed each for itself. */
+/** Sums sizes; each file is compressed separately. */
 function cellOf(files: Files | undefined): string {
   if (files === undefined) return "";
   const all: readonly Buffer[] = Buffer.isBuffer(files) ? [files] : files;

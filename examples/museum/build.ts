@@ -1,4 +1,4 @@
-// Builds a museum's page of the Stanford dragon in build/museum, for any web server.
+// Builds the museum example with the Stanford dragon in build/museum, for any server.
 //
 //   node examples/museum/build.ts [SITE [OUTPUT]]
 

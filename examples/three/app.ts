@@ -1,5 +1,5 @@
-// A plain three.js app that displays a site of `imgeo convert` on a floor of its own,
-// under its own lights, with their shadows. A click on the model marks a point.
+// A plain three.js app that displays a site of `imgeo convert` on a floor of its own, under its own lights, with
+// shadows. A click on the model marks the point.
 
 import {
   CircleGeometry,
@@ -60,14 +60,14 @@ model.castShadow = true;
 model.receiveShadow = true;
 scene.add(model);
 model.addEventListener("change", draw);
-setTheStage(model.box);
+fitSceneTo(model.box);
 fitWindow();
 
 await model.complete;
 status.textContent = "Complete. Drag to turn, click to mark a place.";
 
-/** Everything as large as the model needs it. */
-function setTheStage(box: Box3): void {
+/** Adapts floor, lights and camera to the size of the model. */
+function fitSceneTo(box: Box3): void {
   const { center, radius } = box.getBoundingSphere(new Sphere());
   camera.near = radius / 50;
   camera.far = radius * 50;

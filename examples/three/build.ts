@@ -1,5 +1,5 @@
-// Builds the app with the site of a model in build/three-app, for any web server. Here
-// `imgeo` is resolved to the sources in web/; in your app it comes from npm.
+// Builds the app and the site of a model in build/three-app, for any server. Here `imgeo` is bundled from the sources
+// in web/; an app of yours imports the npm package.
 //
 //   node examples/three/build.ts [SITE [OUTPUT]]
 

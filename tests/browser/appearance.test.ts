@@ -1,7 +1,6 @@
-// What an Appearance says besides the material: textures, laid over surfaces of
-// every container, and points with a size. Pixels are compared with the texels and
-// sizes that the document names: a quad that faces the headlight shows the
-// numbers of its picture.
+// Tests the fields of Appearance other than the material: textures on surfaces of every container, and points with a
+// size. Pixels are compared with the texels and sizes that the document specifies; a quad that faces the headlight has
+// the colours of its texture.
 
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
@@ -31,7 +30,7 @@ function plyOf(name: string, properties: string, rows: string[], faces: string[]
   return path;
 }
 
-/** From -1 to 1, with texture coordinates from 0 to `maxTexCoord`. */
+/** A square from -1 to 1 with texture coordinates from 0 to `maxTexCoord`. */
 const quad = (maxTexCoord: number): string =>
   plyOf(
     `quad${maxTexCoord}`,
@@ -144,7 +143,7 @@ const cases = (): Case[] => [
     expected: (s, t) => texelAt(wrapped(s), wrapped(t)),
   },
   {
-    what: "held at the border",
+    what: "clamped",
     site: siteOf(quad(3), "--profile", "classic"),
     maxTexCoord: 3,
     appearance: white + image("", properties("CLAMP_TO_EDGE", "REPEAT")),
@@ -158,7 +157,7 @@ const cases = (): Case[] => [
     expected: (s, t) => texelAt(wrapped(s), mirrored(t)),
   },
   {
-    what: "moved, turned and scaled",
+    what: "translated, rotated and scaled",
     site: siteOf(quad(1), "--profile", "classic"),
     maxTexCoord: 1,
     appearance: `${white}${image()}<TextureTransform translation="0.25 0.5" rotation="1.5707963" scale="2 0.5" center="0.5 0.25"></TextureTransform>`,
@@ -174,7 +173,7 @@ const cases = (): Case[] => [
     appearance: `<PhysicalMaterial metallic="0" roughness="1">${image('containerField="baseTexture"')}</PhysicalMaterial>`,
     expected: texelAt,
     tolerance: 12,
-  }, // a twenty-fifth of the light is mirrored instead
+  }, // 4 % of the light is reflected specularly instead
 
   {
     what: "unlit",
@@ -184,7 +183,7 @@ const cases = (): Case[] => [
     expected: texelAt,
   },
   {
-    what: "written as numbers and multiplied by the material",
+    what: "of a PixelTexture, multiplied by the material",
     site: siteOf(quad(1), "--profile", "classic"),
     maxTexCoord: 1,
     appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0"><PixelTexture image="${numbers}" containerField="diffuseTexture">${nearest}</PixelTexture></Material>`,
@@ -194,7 +193,7 @@ const cases = (): Case[] => [
     },
   },
   {
-    what: "that shines",
+    what: "of emissive colour",
     site: siteOf(quad(1), "--profile", "classic"),
     maxTexCoord: 1,
     appearance: `<Material diffuseColor="0 0 0" emissiveColor="1 0.5 1">${image('containerField="emissiveTexture"')}</Material>`,
@@ -242,7 +241,7 @@ const cases = (): Case[] => [
 
 const dataImage = (url: string, field: string): string =>
   `<ImageTexture url="${url}" containerField="${field}">${nearest}</ImageTexture>`;
-/** What the normal map says all over, and the light that shows which way it means. */
+/** The normal in every texel of the normal map, and the light that shows its direction. */
 const tilted = [0.48, 0.36, 0.8] as const;
 const sideLight = 0.4;
 const withSideLight = `<DirectionalLight direction="-1 -1 0" intensity="${sideLight}"></DirectionalLight>`;
@@ -305,7 +304,7 @@ function texturedScene(): { directory: string; all: Case[] } {
 }
 
 describe("a texture", () => {
-  test("is laid over surfaces of every container as X3D says, asked for once, last, and fetched with the coordinates that it needs", async () => {
+  test("is applied to surfaces of every container as X3D specifies, and requested once, after all other files", async () => {
     const { directory, all } = texturedScene();
     const { closed, open } = gate();
     await withPage(
@@ -313,19 +312,19 @@ describe("a texture", () => {
       { server: (server) => server.when(/\/(picture|normal|plain|holes)\.png$/, { hold: closed }) },
       async (view) => {
         await until(
-          "all but the picture is shown",
+          "everything but the texture is displayed",
           async () => (await view.events("first-image", "shape")).length === all.length,
         );
-        await until("the picture is asked for", () => view.server.requestsOf(/picture\.png$/).length > 0);
+        await until("the texture is requested", () => view.server.requestsOf(/picture\.png$/).length > 0);
         const [textured, others] = [
           all.filter(({ appearance }) => appearance.includes("url=")).length,
           (await view.events("load", "shape")).length,
         ];
         assert.ok(
           textured + others <= all.length,
-          `${others} of ${all.length} shapes are loaded, but ${textured} await their texture`,
+          `${others} of ${all.length} shapes are loaded, but ${textured} wait for their texture`,
         );
-        assert.deepEqual(await view.events("load", "x3d"), []); // which awaits them
+        assert.deepEqual(await view.events("load", "x3d"), []); // the scene waits for the textures
         open();
         await view.promise("complete");
         const shown = await view.picture();
@@ -337,7 +336,7 @@ describe("a texture", () => {
             const [u, v] = [((step % 11) + 0.52) / 11, (Math.floor(step / 11) + 0.52) / 11];
             const found = colorAt(shown, pixelAt(x + 2 * u - 1, y + 2 * v - 1));
             const expectedColor = expected(u * maxTexCoord, v * maxTexCoord);
-            // Which texel a pixel on a border shows is nobody's promise.
+            // A pixel on the border between two texels may have either colour.
             const isInside = [-0.02, 0.02].every((away) =>
               [
                 [away, away],
@@ -364,12 +363,12 @@ describe("a texture", () => {
             what,
           );
         }
-        assert.equal(view.server.requestsOf(/picture\.png$/).length, 3); // once for each way of wrapping
+        assert.equal(view.server.requestsOf(/picture\.png$/).length, 3); // once for each wrap mode
       },
     );
   });
 
-  test("that does not come costs its shape the texture and nothing else; without one its coordinates are not fetched", async () => {
+  test("that fails is missing from its shape only; without a texture its coordinates are not fetched", async () => {
     const site = siteOf(quad(1), "--profile", "classic");
     const plain = sceneOf("untextured", { q: site }, viewpoint(distance) + shapeIn(site, "q"));
     let without = 0;
@@ -393,7 +392,7 @@ describe("a texture", () => {
 });
 
 describe("points", () => {
-  /** Two points, the second farther and with a normal that looks away. */
+  /** Two points, the second farther away and with a normal that faces away. */
   const cloud = (): string =>
     siteOf(
       plyOf("two-points", "float:x float:y float:z float:nx float:ny float:nz", ["-1 0 0 0 0 1", "2 0 -10 0 0 -1"]),
@@ -449,7 +448,7 @@ describe("points", () => {
     }
   }
 
-  test("are round, of the size in pixels that PointProperties say, hit where they are drawn, and lit from both sides", async () => {
+  test("are round, have the size in pixels of PointProperties, are hit where they are drawn, and are lit from both sides", async () => {
     await shown('<PointProperties pointSizeScaleFactor="24"></PointProperties>', async (view, picture) => {
       savePicture("points-24", picture);
       await assertDisc(view, picture, near, 24);
@@ -457,7 +456,7 @@ describe("points", () => {
     });
   });
 
-  test("grow smaller with distance, within bounds", async () => {
+  test("become smaller with distance, within limits", async () => {
     // At distances of about 10 and 20.
     await shown(
       '<PointProperties pointSizeScaleFactor="40" attenuation="0 0.1 0"></PointProperties>',

@@ -1,6 +1,5 @@
-// Shapes that values colour, each over a range of its own, and wide lines, each of
-// its own width, are drawn together as well; and look as if each were drawn alone,
-// which they are as soon as the scene has few shapes.
+// Tests that shapes coloured by values, each over a range of its own, and wide lines, each of its own width, are drawn
+// in batches, and have the same picture as when each is drawn alone, as in scenes of few shapes.
 
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
@@ -15,7 +14,7 @@ import { sceneOf } from "./scenes.ts";
 import { pageOf, shapeIn, siteOf, siteOfGenerated } from "./sites.ts";
 
 const away = 10;
-/** Half of what the picture shows at z = 0, along x and y. */
+/** Half of the visible extents at z = 0, along x and y. */
 const [right, top] = [(away * Math.tan(0.4) * pictureSize.width) / pictureSize.height, away * Math.tan(0.4)];
 const black = "<Background skyColor='0 0 0'></Background>";
 const viewpoint = `<Viewpoint position="0 0 ${away}" fieldOfView="0.8"></Viewpoint>`;
@@ -33,7 +32,7 @@ const lines = (fields: string, color = "1 1 1", more = "") =>
 const strip = (points: string, name = "") =>
   `<IndexedLineSet ${name} coordIndex="0 1 2 -1"><Coordinate point="${points}"></Coordinate></IndexedLineSet>`;
 
-/** Knots that values colour: three out of buffers, each a geometry of its own, and two places of one out of images. */
+/** Knots coloured by values: three geometries in buffers, and two instances of one in images. */
 function knots(buffers: string, images: string): string {
   const knot = (id: string, fields: string, geometry: string, x: number, y: number) =>
     at(x, y, `<Shape id="${id}" colorBy="height" ${fields}>${lit}${geometry}</Shape>`, "0.4 0.4 0.4");
@@ -46,7 +45,7 @@ function knots(buffers: string, images: string): string {
   );
 }
 
-/** Wide lines: out of buffers, some that are dashed, some that blend, one beyond the picture's border; and out of images. */
+/** Wide lines in buffers (some dashed, some transparent, one at the picture's border) and in images. */
 function wideLines(images: string): string {
   const zigzag = "-1 -0.6 0 0 0.6 0 1 -0.6 0";
   const others =
@@ -96,7 +95,7 @@ function wideLines(images: string): string {
   );
 }
 
-/** Behind the camera: with them there are enough shapes to be drawn together. */
+/** Shapes behind the camera: with them there are enough shapes for batches. */
 const crowd = `<Transform id="crowd" translation="0 0 ${2 * away}">${Array.from({ length: 16 }, (_, n) => at(n, 0, "<Shape><Box size='0.1 0.1 0.1'></Box></Shape>")).join("")}</Transform>`;
 
 function strokesFile(): string {
@@ -110,7 +109,7 @@ function strokesFile(): string {
   return path;
 }
 
-/** Draw calls and clears of a frame, counted outside of the runtime. */
+/** Number of draw calls and clears of a frame, counted outside of the runtime. */
 async function drawsOfFrame({ page }: View): Promise<number> {
   return page.evaluate(async () => {
     const before = window.observed.draws;
@@ -119,7 +118,7 @@ async function drawsOfFrame({ page }: View): Promise<number> {
   });
 }
 
-test("values and wide lines are drawn together in a scene of many shapes, and look as if drawn alone", async () => {
+test("shapes coloured by values and wide lines are batched in a scene of many shapes, with the same picture as drawn alone", async () => {
   const sites = {
     buffers: siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", "--normal-bits", "10"),
     images: siteOfGenerated(
@@ -130,18 +129,18 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
       "classic",
       "--position-bits",
       "8",
-    ), // small on the screen, more bits would wait
+    ), // 8 bits: a second byte would not be requested for knots as small as these
     strokes: siteOf(strokesFile(), "--profile", "classic", "--position-bits", "8"),
   };
   const shape = (name: keyof typeof sites) =>
     shapeIn(pageOf(sites[name])).replaceAll(/(["'])geometry\//g, `$1${name}/geometry/`);
   const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo>${black}${viewpoint}
     ${knots(shape("buffers"), shape("images"))}${wideLines(shape("strokes"))}${crowd}`;
-  await withPage(sceneOf("batched-looks", sites, scene), {}, async (view) => {
+  await withPage(sceneOf("batched-appearances", sites, scene), {}, async (view) => {
     await view.promise("complete");
     const first = await view.picture();
-    savePicture("batched-looks", first);
-    // Buffers with values, images with values, lines, dashed ones, those that blend, those of images and that of them which is mirrored.
+    savePicture("batched-appearances", first);
+    // Clear, buffers with values, images with values, lines, dashed lines, transparent lines, lines in images, and mirrored lines in images.
     const maxDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
     assert.ok((await drawsOfFrame(view)) <= maxDraws, `${await drawsOfFrame(view)} draws`);
     await view.page.evaluate(() => {
@@ -155,27 +154,27 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
       set("#slim lineproperties", "linetype", "3");
     });
     const together = await view.picture();
-    savePicture("batched-looks-changed", together);
-    assert.ok(!isWithin(difference(first, together), boundsOfQuantised), "the changes are seen");
+    savePicture("batched-appearances-changed", together);
+    assert.ok(!isWithin(difference(first, together), boundsOfQuantised), "the changes are visible");
     await view.page.evaluate(() => {
       document.querySelector("#crowd")!.remove();
     });
     const alone = await view.picture();
     assert.ok((await drawsOfFrame(view)) >= 15, `${await drawsOfFrame(view)} draws`);
-    assertSamePicture("batched-looks-alone", together, alone, boundsOfQuantised);
+    assertSamePicture("batched-appearances-alone", together, alone, boundsOfQuantised);
     await view.page.evaluate(() => {
       document.querySelector("x3d")!.setAttribute("draw-as", "points");
     });
     const points = await view.picture();
-    savePicture("batched-looks-points", points);
-    assert.ok(!isWithin(difference(alone, points), boundsOfQuantised), "surfaces are seen as points");
+    savePicture("batched-appearances-points", points);
+    assert.ok(!isWithin(difference(alone, points), boundsOfQuantised), "surfaces are displayed as points");
     await view.page.evaluate((text) => {
       document.querySelector("scene")!.insertAdjacentHTML("beforeend", text);
     }, crowd);
-    assertSamePicture("batched-looks-points", await view.picture(), points, boundsOfQuantised);
-    assert.ok((await drawsOfFrame(view)) <= maxDraws + 1, "they are drawn together again");
+    assertSamePicture("batched-appearances-points", await view.picture(), points, boundsOfQuantised);
+    assert.ok((await drawsOfFrame(view)) <= maxDraws + 1, "they are batched again");
     await view.page.evaluate(() => {
-      for (const gone of document.querySelectorAll("scene > transform")) gone.remove();
+      for (const transform of document.querySelectorAll("scene > transform")) transform.remove();
     });
     await view.picture();
     assert.deepEqual(
@@ -184,7 +183,7 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
         return { geometries, bufferBytes, textureBytes };
       }),
       { geometries: 0, bufferBytes: 0, textureBytes: 0 },
-      "nothing of them is left on the GPU",
+      "their GPU memory is freed",
     );
     for (const picture of [together, alone]) {
       const last = (Math.floor(picture.height / 2) * picture.width + picture.width - 1) * picture.channels;

@@ -1,6 +1,5 @@
-// Thousands of shapes are few draws, and each of them is still an element: it is
-// picked, hidden, moved, coloured and removed like any other, and looks as if it
-// were drawn alone.
+// Tests that thousands of shapes take few draw calls, that each of them follows its element (picking, visibility,
+// transform, colour, removal), and that the picture is the same as if each were drawn alone.
 
 import assert from "node:assert/strict";
 import { cpSync, mkdirSync, writeFileSync } from "node:fs";
@@ -29,12 +28,12 @@ function positionOf(n: number): Point {
   return [(n % side) - side / 2 + 0.5, Math.floor(n / side) - side / 2 + 0.5];
 }
 
-/** The pixel that shows a point of the plane in which all shapes stand. */
+/** The pixel at a point of the plane z = 0. */
 function pixelOf([x, y]: Point): Point {
   return [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit];
 }
 
-/** Shapes of one ball, each in a colour of its own, and a box of its own size for every hundredth. */
+/** Instances of one ball in several colours; every hundredth shape is a box of a different size. */
 function crowd(ball: string): string {
   const geometry =
     /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(ball)?.[0].replace("<ImageGeometry", '<ImageGeometry DEF="ball"') ??
@@ -53,7 +52,7 @@ function crowd(ball: string): string {
   return shapes.join("\n");
 }
 
-/** Draw calls and clears of a frame, counted outside of the runtime. */
+/** Number of draw calls and clears of a frame, counted outside of the runtime. */
 async function drawsOfFrame({ page }: View): Promise<number> {
   return page.evaluate(async () => {
     const before = window.observed.draws;
@@ -72,7 +71,7 @@ async function shapesAt({ page }: View, points: readonly Point[]): Promise<(stri
   );
 }
 
-test("2,500 shapes are a few draws, and each follows its element", async () => {
+test("2,500 shapes take few draw calls, and each follows its element", async () => {
   const site = variantOf(siteOfGenerated("sphere-small", "--profile", "compact"), "crowd", (page) =>
     withShapes(page.replaceAll(/<Viewpoint[^>]*>/gi, viewpoint.replace("</Viewpoint>", "")), crowd),
   );
@@ -118,7 +117,7 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
   });
 });
 
-/** In the page. The context may be asked for again when all have eventOf that it is lost. */
+/** Runs in the page. The context may be restored only after all listeners have handled its loss. */
 async function loseContextForAMoment(): Promise<void> {
   const canvas = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!;
   const loser = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
@@ -134,12 +133,12 @@ async function loseContextForAMoment(): Promise<void> {
   await restored;
 }
 
-const copies = 12;
+const copyCount = 12;
 
-/** Turned, stretched, and every third one mirrored. */
+/** A rotated and scaled copy; every third one is mirrored. */
 function matrixOfCopy(n: number, x: number): { markup: string; matrix: Matrix4 } {
   const scale = new Vector3(n % 3 === 0 ? -0.2 : 0.2, 0.15 + n / 80, 0.25);
-  const position = new Vector3(x, (n - (copies - 1) / 2) / 3, (n % 2) / 4);
+  const position = new Vector3(x, (n - (copyCount - 1) / 2) / 3, (n % 2) / 4);
   const axis = new Vector3(1, n, 2).normalize();
   const matrix = new Matrix4().compose(position, new Quaternion().setFromAxisAngle(axis, n), scale);
   const text = (vector: Vector3) => vector.toArray().join(" ");
@@ -149,15 +148,15 @@ function matrixOfCopy(n: number, x: number): { markup: string; matrix: Matrix4 }
   };
 }
 
-test("what is drawn together looks as if drawn alone: instances of images, and merged buffers", async () => {
-  const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8"); // small on the screen, more bits would wait
+test("batches of instances of images and of merged buffers have the same picture as shapes drawn alone", async () => {
+  const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8"); // 8 bits: a second byte would not be requested for knots as small as these
   const buffers = siteOfGenerated("sphere-small", "--profile", "compact");
   const inOther = shapeIn(pageOf(buffers)).replaceAll("geometry/", "other/geometry/");
   const appearance = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";
   const ball = inOther.replace(/<Appearance[\s\S]*<\/Appearance>/i, () => appearance);
   const expected: PlainPatch[] = [];
   const scene = (knot: string): string =>
-    Array.from({ length: copies }, (_, n) => {
+    Array.from({ length: copyCount }, (_, n) => {
       const [left, right] = [matrixOfCopy(n, -1.2), matrixOfCopy(n, 1.2)];
       const geometry =
         n === 0
@@ -178,7 +177,7 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
     assertSamePicture("together", await view.picture(), reference, boundsOfQuantised);
     assert.ok((await drawsOfFrame(view)) <= 6, `${await drawsOfFrame(view)} draws`);
     await view.page.evaluate(loseContextForAMoment);
-    await until("all is back after its context was lost", async () =>
+    await until("the picture is back after the context was lost", async () =>
       isWithin(difference(await view.picture(), reference), boundsOfQuantised),
     );
     assert.ok((await drawsOfFrame(view)) <= 6);
@@ -187,7 +186,7 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
 
 /** Positions, colours and transparencies of the panes. */
 const panes = Array.from({ length: 24 }, (_, n) => ({
-  // Three stacks of eight, which cover one another in part; no two alike, in no order.
+  // Three stacks of eight panes that partly cover each other; all different and unsorted.
   z: ((n * 7) % 24) / 8,
   x: (n % 3) * 1.6 - 1.6 + (n % 5) / 20,
   y: (n % 4) / 10,
@@ -195,7 +194,7 @@ const panes = Array.from({ length: 24 }, (_, n) => ({
   transparency: 0.3 + (n % 4) / 8,
 }));
 
-/** Flat squares, every second one with two sides; every third is read from images. */
+/** Flat transparent squares; every third is read from images. */
 function panesMarkup(image: string): string {
   return panes
     .map(({ x, y, z, color, transparency }, n) => {
@@ -211,7 +210,7 @@ function panesMarkup(image: string): string {
     .join("");
 }
 
-test("panes that blend are a few draws, and appearance from both sides as if each were drawn in its turn", async () => {
+test("transparent panes take few draw calls, and are blended from back to front seen from both sides", async () => {
   const away = 12;
   const images = siteOf(squareFile(), "--profile", "classic");
   const image =
@@ -271,7 +270,7 @@ test("panes that blend are a few draws, and appearance from both sides as if eac
   });
 });
 
-/** What the ray from the eye to a point of the plane z = 0 sees, 0 … 255; undefined where it passes near a border. */
+/** The blended colour, 0 … 255, on the ray from the eye to a point of the plane z = 0; undefined near borders of panes. */
 function blendedAt([x, y]: Point, eye: number): number[] | undefined {
   const farFirst = panes.toSorted((a, b) => (a.z - b.z) * Math.sign(eye));
   let color = [0, 0, 0];

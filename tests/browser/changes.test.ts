@@ -1,5 +1,5 @@
-// The document is the scene: what changes in it shows, and looks exactly as if
-// the page had been written so from the start.
+// Tests that changes of the document change the picture, which then is exactly that of a page written so from the
+// start.
 
 import assert from "node:assert/strict";
 import { cpSync } from "node:fs";
@@ -31,7 +31,7 @@ function sphereShape(): string {
   return [...ranksOfFiles(html).keys()].reduce((text, url) => text.replaceAll(url, `other/${url}`), shape);
 }
 
-/** The scene as it stands in the page now, as text, without what the runtime put there. */
+/** The scene of the page as text, without the runtime's elements. */
 async function sceneText(view: View): Promise<string> {
   return view.page.evaluate(() => {
     const copy = document.querySelector("x3d")!.cloneNode(true) as Element;
@@ -53,12 +53,12 @@ async function freshPicture(site: string, scene: string): Promise<Picture> {
 
 type Changes = Record<string, () => void>;
 
-/** Self-contained: each runs in the page, after those before it. */
+/** Self-contained functions that run in the page one after the other. */
 const appearanceChanges: Changes = {
   "a material's colour": () => {
     document.querySelector("material")!.setAttribute("diffuseColor", "0.9 0.2 0.1");
   },
-  "a material's own light": () => {
+  "a material's emissive colour": () => {
     document.querySelector("material")!.setAttribute("emissiveColor", "0 0.3 0");
   },
   "a material's gloss": () => {
@@ -102,15 +102,15 @@ const transformChanges: Changes = {
 };
 
 const vertexChanges: Changes = {
-  "the box that stored integers are spread over": () => {
+  "the decode box": () => {
     document.querySelector("imagegeometry")!.setAttribute("size", "3 6 4");
   },
-  "a surface that has no normals any more": () => {
+  "removed normals": () => {
     document.querySelector("geometrypatch")!.removeAttribute("normal");
   },
 };
 
-/** Self-contained: hidden, then shown again. */
+/** Self-contained functions that hide the shape and make it visible again. */
 const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> = {
   "a shape": [
     () => {
@@ -120,7 +120,7 @@ const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> 
       document.querySelector("shape")!.removeAttribute("visible");
     },
   ],
-  "a group, in X3DOM's words": [
+  "a group, by X3DOM's attribute": [
     () => {
       document.querySelector("transform")!.setAttribute("render", "false");
     },
@@ -140,7 +140,7 @@ const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> 
   ],
 };
 
-describe("a change in the document shows", () => {
+describe("a change of the document changes the picture", () => {
   const replace = (html: Buffer): string => inTransform(html.toString());
   const withTransform = (use: (view: View) => Promise<void>, site = twoMeshSite()): Promise<void> =>
     withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
@@ -158,7 +158,7 @@ describe("a change in the document shows", () => {
       () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000"),
     ],
   ] as const) {
-    test(`${what}, each at once, and all together as if they had always been so`, async () => {
+    test(`${what}, each at once, and all together as if the page had been written so`, async () => {
       await withTransform(async (view) => {
         const asked = view.server.requests.length;
         let before = await view.picture();
@@ -168,7 +168,7 @@ describe("a change in the document shows", () => {
           assert.ok(difference(before, after).mean > 0.5, `${name}: nothing has changed`);
           before = after;
         }
-        assert.equal(view.server.requests.length, asked, "files were asked for again");
+        assert.equal(view.server.requests.length, asked, "files were requested again");
         assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), {
           mean: 0.001,
         });
@@ -176,7 +176,7 @@ describe("a change in the document shows", () => {
     });
   }
 
-  test("that hides, and that shows again", async () => {
+  test("that hides shapes and makes them visible again", async () => {
     await withTransform(async (view) => {
       const asked = view.server.requests.length;
       const shown = await view.picture();
@@ -185,16 +185,16 @@ describe("a change in the document shows", () => {
         const { data, channels } = await view.picture();
         assert.ok(
           data.every((byte, at) => byte === data[at % channels]),
-          `${name}: something is seen`,
+          `${name}: something is visible`,
         );
         await view.page.evaluate(show);
         assertSamePicture(`shown again ${name}`, await view.picture(), shown, { mean: 0 });
       }
-      assert.equal(view.server.requests.length, asked, "files were asked for again");
+      assert.equal(view.server.requests.length, asked, "files were requested again");
     });
   });
 
-  test("of the files that a geometry names: those of another mesh", async () => {
+  test("of the files that a geometry references: those of another mesh", async () => {
     await withTransform(async (view) => {
       const before = await view.picture();
       await view.page.evaluate((text) => {
@@ -208,8 +208,8 @@ describe("a change in the document shows", () => {
           }
         }
       }, sphereShape());
-      await until("its files are asked for", () => view.server.requestsOf(/^\/other\//).length > 0);
-      await until("nothing is open", () =>
+      await until("its files are requested", () => view.server.requestsOf(/^\/other\//).length > 0);
+      await until("no request is open", () =>
         view.page.evaluate(
           () =>
             (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics
@@ -224,7 +224,7 @@ describe("a change in the document shows", () => {
     });
   });
 
-  test("a shape that is added, and one that is removed", async () => {
+  test("by an added shape and by a removed shape", async () => {
     const site = twoMeshSite();
     await withPage(site, {}, async (view) => {
       await view.promise("complete");
@@ -234,7 +234,7 @@ describe("a change in the document shows", () => {
       await view.promise("complete", "#sphere");
       const both = await view.picture();
       const { live: during } = await view.observed();
-      assert.ok(difference(alone, both).mean > 0.5, "the sphere is not seen");
+      assert.ok(difference(alone, both).mean > 0.5, "the sphere is not visible");
       assert.ok(during.textures > before.textures);
       assertSamePicture("added shape", both, await freshPicture(site, await sceneText(view)), { mean: 0.001 });
 
@@ -247,13 +247,13 @@ describe("a change in the document shows", () => {
     });
   });
 
-  test("a shape that leaves takes its requests with it", async () => {
+  test("a removed shape aborts its requests", async () => {
     const site = twoMeshSite();
     const { closed } = gate();
     await withPage(site, { server: (server) => server.when(/^\/other\//, { hold: closed }) }, async (view) => {
       await view.promise("complete");
       await addShape(view, sphereShape());
-      await until("the sphere's files are asked for", () => view.server.requestsOf(/^\/other\//).length > 0);
+      await until("the sphere's files are requested", () => view.server.requestsOf(/^\/other\//).length > 0);
       await view.page.evaluate(() => {
         document.querySelector("#sphere")!.remove();
       });
@@ -268,7 +268,7 @@ describe("a change in the document shows", () => {
     });
   });
 
-  test("a scene that leaves the page gives everything back", async () => {
+  test("a removed scene frees its WebGL context", async () => {
     await withPage(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
       await view.promise("complete");
       const isReleased = await view.page.evaluate(async () => {

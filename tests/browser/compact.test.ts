@@ -1,6 +1,5 @@
-// Compact: a coarse shape first, without a hole in any mixture with patches that
-// have come; then patch by patch, in the order of what is seen; and every file for
-// itself where one is no use.
+// Tests the display of compact: first the base mesh, which has no holes together with any subset of the patches; then
+// patches in the order of their visibility; and damaged files, which affect only their own patch.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -29,7 +28,7 @@ const isPath =
   (path: string): boolean =>
     path === `/${url}`;
 
-/** For each pixel whether the mesh is there: it is darker than what lies behind. */
+/** For each pixel whether it differs from the background. */
 function foreground({ width, height, channels, data }: Picture): boolean[] {
   const background = [0, 1, 2].map((channel) => data[(height - 2) * width * channels + channel]!);
   return Array.from({ length: width * height }, (_, pixel) =>
@@ -37,7 +36,7 @@ function foreground({ width, height, channels, data }: Picture): boolean[] {
   );
 }
 
-/** Pixels from which the mesh reaches at least `margin` pixels to all sides. */
+/** Pixels whose neighbourhood of `margin` pixels to all sides is covered by the mesh. */
 function inner(isMesh: readonly boolean[], margin: number): number[] {
   const { width, height } = pictureSize;
   return isMesh.flatMap((_, pixel) => {
@@ -52,10 +51,10 @@ function inner(isMesh: readonly boolean[], margin: number): number[] {
   });
 }
 
-/** What the first test has seen of the whole shape. */
+/** The picture of the whole shape, set by the first test. */
 let wholePicture: Picture | undefined;
 
-/** Nothing shines through where the whole shape has something behind and around. */
+/** Asserts that all inner pixels of the whole shape are covered. */
 function assertNoHoles(picture: Picture, full: Picture | undefined, what: string): void {
   assert.ok(full, "the test of mixtures comes first");
   const inside = inner(foreground(full), 4);
@@ -77,11 +76,11 @@ const stages = async (view: View): Promise<unknown[]> =>
   );
 
 describe("a base", () => {
-  test("shows the whole shape, and no background through any mixture with patches", async () => {
+  test("displays the whole shape, without holes together with any subset of the patches", async () => {
     const { base, patches } = filesOf(site());
     assert.ok(
       patches.length >= 4 && patches.length <= 6,
-      `${patches.length} patches, all of which are asked for at once`,
+      `${patches.length} patches, all of which are requested at once`,
     );
     const gates = patches.map(gate);
     const server = (server: View["server"]): void => {
@@ -93,15 +92,15 @@ describe("a base", () => {
       await view.promise("firstImage");
       assert.deepEqual(await stages(view), ["base"]);
       const mixtures = [await view.picture()];
-      // Another order in each run, named where it fails; all of its beginnings are mixtures.
+      // A random order in each run, which a failure names.
       const order = shuffled([...patches.keys()]);
       for (const index of order.slice(0, -1)) {
         gates[index]!.open();
-        await until("the patch is here", () =>
+        await until("the patch has arrived", () =>
           view.server.requests.some(({ path, status }) => isPath(patches[index]!)(path) && status === 200),
         );
         const seen = mixtures.at(-1)!;
-        await until("the patch is shown", async () => {
+        await until("the patch is displayed", async () => {
           const picture = await view.picture();
           if (difference(picture, seen).mean === 0) return false;
           mixtures.push(picture);
@@ -126,7 +125,7 @@ describe("a base", () => {
   });
 });
 
-describe("a file of compact that is no use", () => {
+describe("a damaged file of compact", () => {
   const flipped = (body: Buffer): Buffer => {
     const changed = Buffer.from(body);
     changed[changed.length >> 1]! ^= 0x10;
@@ -135,10 +134,10 @@ describe("a file of compact that is no use", () => {
   const faults: [string, Behaviour, RegExp][] = [
     ["missing", { status: 404 }, /http/],
     ["cut short", { truncateTo: 900 }, /truncated|malformed/],
-    ["with a bit turned over", { replace: flipped }, /malformed/],
+    ["with a flipped bit", { replace: flipped }, /malformed/],
   ];
 
-  test("costs its patch alone, which its base stands in for, and is named", async () => {
+  test("affects only its patch, which the base mesh replaces, and is reported", async () => {
     const { patches } = filesOf(site());
     const server = (server: View["server"]): void => {
       faults.forEach(([, behaviour], index) => {
@@ -157,7 +156,7 @@ describe("a file of compact that is no use", () => {
     });
   });
 
-  test("leaves all patches where it is the base", async () => {
+  test("affects no patch if it is the base mesh", async () => {
     const { base } = filesOf(site());
     const server = (server: View["server"]): void => {
       server.when(isPath(base), { status: 404 });
@@ -174,9 +173,9 @@ describe("a file of compact that is no use", () => {
 });
 
 describe("patches of compact", () => {
-  test("come in the order of what is seen, after the base", async () => {
+  test("are requested in the order of their visibility, after the base mesh", async () => {
     const { base, patches } = filesOf(site());
-    // From near one side: what lies beside the view comes last.
+    // Close to one side: patches outside of the view are requested last.
     const near = (html: Buffer): string =>
       html
         .toString()
@@ -203,7 +202,7 @@ describe("patches of compact", () => {
     });
   });
 
-  test("are given back when their shape leaves the document", async () => {
+  test("are freed when their shape is removed from the document", async () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const count = (): Promise<{ geometries: number }> =>

@@ -1,6 +1,5 @@
-// Sites of compact -> plain float buffers, in the order in which the page draws
-// them. By the runtime's own decoder, which vectors/ and the C++ reader check:
-// here it is what becomes of its numbers that is looked at.
+// Decodes sites of the encoding compact into plain float buffers, in the page's drawing order. It uses the runtime's
+// own decoder, which vectors/ and the C++ reader verify; the tests that use it verify how its values are drawn.
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";

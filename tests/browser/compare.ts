@@ -1,4 +1,4 @@
-// Measures between two pictures, and the pictures that explain a failure.
+// Compares pictures, and writes pictures that explain a failed comparison.
 
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -8,7 +8,7 @@ import { outputDirectory } from "./paths.ts";
 export interface Difference {
   /** Mean absolute difference, 0..255, over all pixels and their three colour channels. */
   mean: number;
-  /** Share of pixels, 0..1, that have a channel off by more than 16. */
+  /** Share of pixels, 0..1, that have a channel that differs by more than 16. */
   offShare: number;
   /** Largest difference of a channel, 0..255. */
   largest: number;
@@ -20,15 +20,15 @@ export function difference(a: Picture, b: Picture): Difference {
   }
   const pixels = a.width * a.height;
   let sum = 0;
-  let off = 0;
+  let offCount = 0;
   let largest = 0;
   for (let pixel = 0; pixel < pixels; ++pixel) {
     const pixelDifference = channelDifferences(a, b, pixel);
     sum += pixelDifference.sum;
-    off += pixelDifference.largest > 16 ? 1 : 0;
+    offCount += pixelDifference.largest > 16 ? 1 : 0;
     largest = Math.max(largest, pixelDifference.largest);
   }
-  return { mean: sum / (3 * pixels), offShare: off / pixels, largest };
+  return { mean: sum / (3 * pixels), offShare: offCount / pixels, largest };
 }
 
 function channelDifferences(a: Picture, b: Picture, pixel: number): { sum: number; largest: number } {
@@ -47,20 +47,20 @@ export interface Bounds {
   offShare?: number;
 }
 
-/** The issue's bounds against plain buffers that hold the quantised mesh. */
+/** Bounds for a comparison with plain buffers that hold the quantised mesh. */
 export const boundsOfQuantised: Bounds = { mean: 0.01 };
-/** The issue's bounds against plain buffers that hold the float input. */
+/** Bounds for a comparison with plain buffers that hold the float input. */
 export const boundsOfInput: Bounds = { mean: 0.05, offShare: 0.0001 };
 
-/** The same of compact, whose normals of 8 bits are up to a degree off, those of classic 0.4. */
+/** The same for compact, whose normals of 8 bits differ by up to a degree (classic: 0.4). */
 export const boundsOfCompact: Bounds = { mean: 0.1, offShare: 0.0001 };
 
 export function isWithin(difference: Difference, bounds: Bounds): boolean {
   return difference.mean <= bounds.mean && difference.offShare <= (bounds.offShare ?? 1);
 }
 
-/** Throws unless the pictures agree within the bounds; then leaves NAME.actual.png,
- *  NAME.expected.png and NAME.difference.png (times 8) in build/browser-test/. */
+/** Throws unless the pictures agree within the bounds, after writing NAME.actual.png,
+ *  NAME.expected.png and NAME.difference.png (times 8) into the output directory. */
 export function assertSamePicture(name: string, actual: Picture, expected: Picture, bounds: Bounds): Difference {
   const found = difference(actual, expected);
   if (isWithin(found, bounds)) return found;
@@ -69,7 +69,7 @@ export function assertSamePicture(name: string, actual: Picture, expected: Pictu
   savePicture(`${name}.difference`, differencePicture(actual, expected));
   throw new Error(
     `${name}: mean difference ${found.mean.toFixed(4)} (bound ${bounds.mean}), ` +
-      `${(found.offShare * 100).toFixed(4)} % of pixels off by more than 16` +
+      `${(found.offShare * 100).toFixed(4)} % of pixels differ by more than 16` +
       (bounds.offShare === undefined ? "" : ` (bound ${bounds.offShare * 100} %)`) +
       `; see ${join(outputDirectory, name)}.*.png`,
   );
@@ -92,7 +92,7 @@ function differencePicture(a: Picture, b: Picture): Picture {
   return { width, height, channels: 3, data };
 }
 
-/** One where a picture differs from the blank one by more than 8, zero elsewhere. */
+/** A mask: 1 where a picture differs from the blank one by more than 8, 0 elsewhere. */
 export function silhouette(picture: Picture, blank: Picture): Uint8Array {
   const mask = new Uint8Array(picture.width * picture.height);
   for (let pixel = 0; pixel < mask.length; ++pixel)
@@ -100,7 +100,7 @@ export function silhouette(picture: Picture, blank: Picture): Uint8Array {
   return mask;
 }
 
-/** Pixels of two silhouettes that are in one only, as a share of the first. */
+/** Number of pixels that are in one of two silhouettes only, divided by the pixels of the first. */
 export function silhouetteDifference(a: Uint8Array, b: Uint8Array): number {
   let covered = 0;
   let different = 0;
@@ -111,7 +111,7 @@ export function silhouetteDifference(a: Uint8Array, b: Uint8Array): number {
   return different / covered;
 }
 
-/** Pixels outside the silhouette that the border of the picture does not reach. */
+/** Number of pixels outside the silhouette that are not connected to the border of the picture. */
 export function holesIn(mask: Uint8Array, width: number): number {
   const height = mask.length / width;
   const reached = Uint8Array.from(mask);

@@ -1,5 +1,5 @@
-// Images decoded in workers instead of by the shader: the same picture, chosen by
-// the document, by what the GPU offers, or because the shader reads wrong values.
+// Tests images that are decoded in workers instead of by the shader: the picture is the same, and workers are chosen
+// by the document, by the limits of the GPU, or because the shader reads wrong values.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -14,15 +14,15 @@ import { pageOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
 const onCpu = (html: Buffer): string => html.toString().replaceAll(/<ImageGeometry/gi, `$& decode="cpu"`);
 const cpuServer = (server: View["server"]): void => void server.when(/^\/$/, { replace: onCpu });
 
-interface Shown {
+interface Result {
   picture: Picture;
-  /** Textures that hold vertex data: those that were there when all had come. */
+  /** Number of textures after everything has loaded; without images on the GPU there are fewer. */
   textures: number;
   workers: number;
 }
 
-async function shown(site: string, options: PageOptions): Promise<Shown> {
-  let seen: Shown | undefined;
+async function loadPage(site: string, options: PageOptions): Promise<Result> {
+  let seen: Result | undefined;
   await withPage(site, options, async (view) => {
     await view.promise("complete");
     const picture = await view.picture();
@@ -45,12 +45,12 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "coil", options: ["--primitives", "strips"] },
 ];
 
-describe("decoded on the CPU, the picture is that of the GPU and of plain buffers", () => {
+describe("the picture decoded on the CPU equals that of the GPU and of plain buffers", () => {
   for (const { mesh, options } of cases) {
     test([mesh, ...options].join(" "), async () => {
       const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
-      const gpu = await shown(site, {});
-      const cpu = await shown(site, { server: cpuServer });
+      const gpu = await loadPage(site, {});
+      const cpu = await loadPage(site, { server: cpuServer });
       assertSamePicture(`cpu and gpu ${mesh} ${options.join("")}`, cpu.picture, gpu.picture, { mean: 0.0005 });
       assertSamePicture(
         `cpu ${mesh} ${options.join("")}`,
@@ -74,7 +74,7 @@ describe("decoded on the CPU, the picture is that of the GPU and of plain buffer
         server.when((path) => held.includes(path), { hold: closed });
       };
       await withPage(site, { server }, async (view) => {
-        await until("it is shaded", async () =>
+        await until("the shape is shaded", async () =>
           (await view.observed()).events.some(({ target, detail }) => target === "shape" && detail.stage === "shaded"),
         );
         pictures.push(await view.picture());
@@ -84,7 +84,7 @@ describe("decoded on the CPU, the picture is that of the GPU and of plain buffer
   });
 });
 
-/** Self-contained: compiles a vertex fetch that is a little off. */
+/** Self-contained: makes the vertex shader read slightly wrong values. */
 function readWrongValues(): void {
   const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
   const shaderSource = gl.shaderSource!;
@@ -93,7 +93,7 @@ function readWrongValues(): void {
   };
 }
 
-describe("images are decoded on the CPU of themselves", () => {
+describe("images are decoded on the CPU automatically", () => {
   const site = (): string => siteOfGenerated("trefoil-colors", "--profile", "classic");
 
   async function assertFallsBack(name: string, before: () => void): Promise<void> {
@@ -111,7 +111,7 @@ describe("images are decoded on the CPU of themselves", () => {
     });
   }
 
-  test("where a vertex shader has too few texture units", async () => {
+  test("if vertex shaders have too few texture units", async () => {
     await assertFallsBack("few units", () => {
       const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
       const getParameter = gl.getParameter!;
@@ -121,18 +121,18 @@ describe("images are decoded on the CPU of themselves", () => {
     });
   });
 
-  test("where the shader reads wrong values", async () => {
+  test("if the shader reads wrong values", async () => {
     await assertFallsBack("wrong shader", readWrongValues);
   });
 
-  test("where the browser multiplies by alpha against orders", async () => {
+  test("if the browser premultiplies alpha although told not to", async () => {
     await assertFallsBack("premultiplied", () => {
       const make = window.createImageBitmap.bind(window);
       window.createImageBitmap = (image: ImageBitmapSource) => make(image, { premultiplyAlpha: "premultiply" });
     });
   });
 
-  test("where a texture would be larger than the GPU has", async () => {
+  test("if a texture would exceed the maximum texture size", async () => {
     const before = (): void => {
       const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
       const getParameter = gl.getParameter!;
@@ -141,7 +141,7 @@ describe("images are decoded on the CPU of themselves", () => {
       };
     };
     // Index images are 1024 wide.
-    const { picture, workers } = await shown(site(), { before });
+    const { picture, workers } = await loadPage(site(), { before });
     assertSamePicture(
       "large texture",
       picture,
@@ -151,16 +151,16 @@ describe("images are decoded on the CPU of themselves", () => {
     assert.ok(workers > 0, "nothing was decoded in workers");
   });
 
-  test("but not where the document wants the shader", async () => {
+  test("but not if the document requires the shader", async () => {
     const server = (server: View["server"]): void => {
       server.when(/^\/$/, { replace: (html) => html.toString().replace(/<ImageGeometry/i, `$& decode="gpu"`) });
     };
-    const { workers } = await shown(site(), { server, before: readWrongValues });
+    const { workers } = await loadPage(site(), { server, before: readWrongValues });
     assert.equal(workers, 0);
   });
 });
 
-test("the page decodes by itself where it may start no workers", async () => {
+test("the main thread decodes if workers cannot be started", async () => {
   const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
   const expected = await referencePicture(pageOf(site), decodeSite(site));
   for (const before of [
@@ -177,12 +177,12 @@ test("the page decodes by itself where it may start no workers", async () => {
       };
     },
   ]) {
-    const { picture } = await shown(site, { server: cpuServer, before, expectedErrors: /missing\.js|404/ });
+    const { picture } = await loadPage(site, { server: cpuServer, before, expectedErrors: /missing\.js|404/ });
     assertSamePicture("without workers", picture, expected, boundsOfQuantised);
   }
 });
 
-test("a file that is wrong is named, and the rest is shown", async () => {
+test("a damaged file is reported, and the rest is displayed", async () => {
   const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
   const [normal] = [...ranksOfFiles(pageOf(site))].find(([, rank]) => rank === 2)!;
   const server = (server: View["server"]): void => {
@@ -193,7 +193,7 @@ test("a file that is wrong is named, and the rest is shown", async () => {
     await view.promise("complete");
     const [error] = await view.events("error", "shape");
     assert.deepEqual([error?.detail.type, error?.detail.url], ["truncated", normal]);
-    // Where all is decoded before the first frame, its first image is the surface already.
+    // If everything is decoded before the first frame, its first image already is the surface.
     const { events } = await view.observed();
     const stages = events
       .filter(({ target, type }) => target === "shape" && (type === "first-image" || type === "refine"))

@@ -1,5 +1,5 @@
-// Files that are missing, cut short or nonsense: the page stays alive, says what
-// is wrong, and shows all the rest.
+// Tests missing, truncated and malformed files: the page keeps working, reports the error, and displays everything
+// else.
 
 import assert from "node:assert/strict";
 import { cpSync } from "node:fs";
@@ -31,7 +31,7 @@ function shapeOf(html: string, id: string, prefix: string): string {
 function twoShapes(html: Buffer): string {
   const good = shapeOf(html.toString(), "good", "");
   const bad = shapeOf(pageOf(siteOfGenerated("sphere", "--profile", "classic")), "bad", "bad/");
-  // Large enough that its second byte is seen, and so asked for.
+  // Large enough that its second byte is visible and therefore requested.
   return html
     .toString()
     .replace(/<Shape[\s\S]*<\/Shape>/i, () => `<Transform scale="2 2 2">${bad}</Transform>\n${good}`);
@@ -109,29 +109,29 @@ async function goodAlone(): Promise<Picture> {
   return seen;
 }
 
-describe("a file that does not come", () => {
-  test("leaves the other shape whole where nothing can be shown without it", async () => {
+describe("a missing file", () => {
+  test("does not affect the other shape if its own shape cannot be displayed without it", async () => {
     await withFault(0, { status: 404 }, async (view, url) => {
       await assertReported(view, url);
       assertSamePicture("without the bad shape", await view.picture(), await goodAlone(), { mean: 0 });
     });
   });
 
-  test("leaves the shape as sharp as its other files make it", async () => {
+  test("limits the precision of its shape to that of the other files", async () => {
     await withFault(4, { status: 404 }, async (view, url) => {
       await assertReported(view, url);
-      assert.ok(difference(await view.picture(), await goodAlone()).mean > 1, "the coarse shape is not seen");
+      assert.ok(difference(await view.picture(), await goodAlone()).mean > 1, "the coarse shape is not visible");
     });
   });
 
-  test("is asked for again where trying again can help", async () => {
+  test("is requested again after a temporary status", async () => {
     await withFault(2, { status: 503 }, async (view, url) => {
       await assertReported(view, url);
       assert.ok(view.server.requests.filter(({ path }) => url.endsWith(path)).length > 1);
     });
   });
 
-  test("leaves the page alive: it still follows the document and the keyboard", async () => {
+  test("does not stop the page from following the document and the keyboard", async () => {
     await withFault(1, { status: 404 }, async (view) => {
       const before = await view.picture();
       await view.page.evaluate(() => {
@@ -151,7 +151,7 @@ const smallestJpeg =
   "////////////////wgALCAABAAEBAREA/8QAFBABAAAAAAAAAAAAAAAAAAAAAP/aAAgBAQABPxA=";
 const smallestWebp = "UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA";
 
-describe("a file that is broken is reported", () => {
+describe("a damaged file is reported", () => {
   const broken: Record<string, Behaviour> = {
     "a truncated image": { truncateTo: 200 },
     "an empty image": { truncateTo: 0 },
@@ -160,7 +160,7 @@ describe("a file that is broken is reported", () => {
     "an image of another size": {
       replace: () => encodePng({ width: 16, height: 16, channels: 3, data: new Uint8Array(768) }),
     },
-    "an image larger than any texture may be": {
+    "an image that exceeds the maximum texture size": {
       replace: () => encodePng({ width: 16_384, height: 2, channels: 3, data: new Uint8Array(16_384 * 6) }),
     },
     "no image at all": { replace: () => "<!doctype html><p>Not found</p>" },

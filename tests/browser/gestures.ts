@@ -1,4 +1,4 @@
-// What hands do to a page, and how much of its picture is filled.
+// User input for tests: keyboard focus, touch and mouse; and a measure of how much of the picture is covered.
 
 import assert from "node:assert/strict";
 import { pictureSize, type View } from "./harness.ts";
@@ -7,14 +7,14 @@ import type { Picture } from "./png.ts";
 /** Center of a page of the default size, in CSS pixels. */
 export const center = { x: pictureSize.width / 2, y: pictureSize.height / 2 };
 
-/** Reaches the view by keyboard. */
+/** Moves the keyboard focus to the view. */
 export async function focusView({ page }: View): Promise<void> {
   await page.keyboard.press("Tab");
   const focused = await page.evaluate(() => document.activeElement?.localName);
   assert.equal(focused, "imgeo-view");
 }
 
-/** Fingers at places relative to the centre, one list of fingers for each moment. */
+/** Touches the view: one list of finger positions, relative to the center, for each moment. */
 export async function touch({ page }: View, moments: [number, number][][]): Promise<void> {
   const session = await page.context().newCDPSession(page);
   const points = (fingers: [number, number][]): { x: number; y: number; id: number }[] =>
@@ -26,7 +26,7 @@ export async function touch({ page }: View, moments: [number, number][][]): Prom
   await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
 }
 
-/** Drags with the mouse from the centre. */
+/** Drags with the mouse from the center. */
 export async function drag({ page }: View, right: number, down: number): Promise<void> {
   await page.mouse.move(center.x, center.y);
   await page.mouse.down();
@@ -34,7 +34,7 @@ export async function drag({ page }: View, right: number, down: number): Promise
   await page.mouse.up();
 }
 
-/** Pixels that are not like the top left corner. */
+/** Number of pixels that differ from the top left pixel by more than 8 in a channel. */
 export function covered({ data, channels }: Picture): number {
   let count = 0;
   for (let at = 0; at < data.length; at += channels) {

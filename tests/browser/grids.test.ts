@@ -1,4 +1,4 @@
-// Surfaces over the grid of an image: terrain, geometry image, sculpted prim.
+// Tests surfaces over the grid of an image: terrain, geometry image, sculpted prim.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -12,7 +12,7 @@ import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 
-/** A page that shows the example from above its front. */
+/** A page that displays the example from the front and above. */
 function pageWith(example: GridExample, attributes = ""): string {
   return pageOf(site())
     .replace(/<link rel="preload"[^>]*>/g, "")
@@ -40,7 +40,7 @@ for (const [name, example] of [
 ] as const) {
   describe(`the ${name}`, () => {
     for (const decode of ["gpu", "cpu"]) {
-      test(`is the surface of its texels, shaded by its slope, on the ${decode}`, async () => {
+      test(`is the surface of its texels, shaded by its computed normals, on the ${decode}`, async () => {
         const html = pageWith(example, `decode="${decode}"`);
         await withPage(site(), { server: serving(example, html) }, async (view) => {
           await view.promise("complete");

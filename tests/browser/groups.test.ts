@@ -1,4 +1,4 @@
-// Groups that do more than hold their children.
+// Tests Billboard and Anchor.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -33,7 +33,7 @@ async function redPixels(view: View): Promise<number> {
   return count;
 }
 
-/** Where the box of that x is seen from ahead. */
+/** Clicks on the box at `x` as displayed by the viewpoint ahead. */
 const clickAt = (view: View, x: number): Promise<void> => {
   const unit = size.height / 2 / Math.tan(0.7854 / 2) / 8;
   return view.page.mouse.click(size.width / 2 + x * unit, size.height / 2 - 2.3 * unit);
@@ -54,7 +54,7 @@ async function bind(view: View, name: string): Promise<void> {
   await view.picture();
 }
 
-/** Clicks on what stands in an Anchor, and its link for keyboards. */
+/** Tests clicks on shapes in Anchors, and their links for the keyboard. */
 async function assertLinks(view: View): Promise<void> {
   const { page } = view;
   const hash = (): Promise<string> => page.evaluate(() => location.hash);
@@ -70,7 +70,7 @@ async function assertLinks(view: View): Promise<void> {
   });
   await clickAt(view, 1.5);
   await clickAt(view, 0);
-  assert.equal(await hash(), "", "what is prevented, or a script, leads nowhere");
+  assert.equal(await hash(), "", "a prevented click and a script URL are not followed");
   await clickAt(view, 1.5);
   await until("the page is at its section", async () => (await hash()) === "#section");
   await clickAt(view, -1.5);
@@ -85,11 +85,11 @@ async function assertLinks(view: View): Promise<void> {
   await page.evaluate(() => {
     document.querySelector("#viewpoint")!.removeAttribute("url");
   });
-  await until("a link goes with its url", async () => (await links.allTextContents()).join() === "Read on");
+  await until("the link is removed with its url", async () => (await links.allTextContents()).join() === "Read on");
   assert.notEqual(await page.title(), "1");
 }
 
-test("a billboard is seen from the front from everywhere, drawn by itself and with others, and anchors lead where they say", async () => {
+test("a billboard faces every viewpoint, drawn alone and in a batch, and anchors follow their links", async () => {
   const site = sceneOf("groups", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   await withPage(site, { size }, async (view) => {
     await view.promise("complete");
@@ -102,7 +102,7 @@ test("a billboard is seen from the front from everywhere, drawn by itself and wi
         assert.ok(Math.abs(seen / whole - 1) < 0.03, `${how}, ${name}: ${seen} pixels instead of ${whole.toFixed(0)}`);
       }
     };
-    await assertSeen("by itself");
+    await assertSeen("alone");
     await assertLinks(view);
     await view.page.evaluate(() => {
       const others = Array.from(
@@ -111,11 +111,11 @@ test("a billboard is seen from the front from everywhere, drawn by itself and wi
       );
       document.querySelector("billboard")!.insertAdjacentHTML("beforeend", others.join(""));
     });
-    await assertSeen("with others");
+    await assertSeen("in a batch");
     await view.page.evaluate(() => {
       document.querySelector("billboard")!.setAttribute("axisOfRotation", "0 0 1");
     });
     const unturned = await redPixels(view);
-    assert.ok(unturned < 0.97 * whole, `${unturned} pixels of what cannot turn`);
+    assert.ok(unturned < 0.97 * whole, `${unturned} pixels of a panel that cannot turn`);
   });
 });

@@ -1,4 +1,4 @@
-// The tools of these tests, tested: a comparison that cannot fail proves nothing.
+// Tests the tools of the browser tests, because a comparison that cannot fail proves nothing.
 
 import assert from "node:assert/strict";
 import { mkdirSync, rmSync, writeFileSync } from "node:fs";
@@ -52,7 +52,7 @@ describe("pictures", () => {
     assert.deepEqual(difference(grey, other), { mean: 33 / 30000, offShare: 1 / 10000, largest: 17 });
   });
 
-  test("a comparison fails beyond its bounds and leaves pictures behind", () => {
+  test("a comparison fails outside of its bounds and writes pictures", () => {
     const other = changed(grey, (data) => data.fill(200, 0, 6));
     assert.throws(() => assertSamePicture("harness", grey, other, boundsOfInput), /mean difference 0\.0200/);
     assert.deepEqual(assertSamePicture("harness", grey, grey, boundsOfInput).largest, 0);
@@ -151,7 +151,7 @@ describe("the browser", () => {
       assert.deepEqual([draws, live.textures, live.buffers], [1, 0, 1]);
       const { data, channels } = await picture();
       assert.deepEqual([...data.subarray(50 * channels, 50 * channels + 3)], [255, 128, 0]);
-      // What never comes to rest is told.
+      // An endless animation is an error.
       await page.evaluate(() => {
         const gl = document.querySelector("canvas")?.getContext("webgl2");
         const draw = (): void => {

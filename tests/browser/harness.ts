@@ -1,4 +1,4 @@
-// One Chromium for the whole run, and pages in it that watch themselves.
+// Starts one Chromium for the whole run and opens pages that record events, requests and errors.
 
 import assert from "node:assert/strict";
 import { after } from "node:test";
@@ -27,11 +27,11 @@ export interface PageOptions {
   size?: { width: number; height: number };
   deviceScaleFactor?: number;
   hasTouch?: boolean;
-  /** People may move: pictures are only comparable where they do not. */
+  /** Animations are on; pictures are only comparable without them. */
   motion?: boolean;
   /** Runs in the page before its scripts; self-contained. */
   before?: () => void;
-  /** Sets up the server (rules, bodies) before the page asks for anything. */
+  /** Sets up the server (rules, bodies) before the page sends requests. */
   server?: (server: TestServer) => void;
   /** The page may send requests to other servers. */
   isCrossOrigin?: boolean;
@@ -47,13 +47,13 @@ export interface View {
   errors: string[];
   /** Requests to anywhere but the test's server. */
   foreignRequests: string[];
-  /** Paths without their first slash in the order in which the page asked for them, which the network may change. */
+  /** Paths of requests without the first slash, in the order in which the page sent them; the network may change that order. */
   requestedPaths: string[];
-  /** Resolves when the promise of that name on the element does; throws after 20 s, or as many as are given. */
+  /** Resolves when the promise of that name on the element does; throws after `seconds` (20 by default). */
   promise: (name: "firstImage" | "complete", selector?: string, seconds?: number) => Promise<void>;
   observed: () => Promise<Observed>;
   events: (type: string, target?: string) => Promise<ObservedEvent[]>;
-  /** Waits until the page has stopped drawing, then takes what is seen. */
+  /** The picture after the page has stopped drawing. */
   picture: () => Promise<Picture>;
 }
 
@@ -62,10 +62,9 @@ type Device = Required<Pick<PageOptions, "deviceScaleFactor" | "hasTouch" | "mot
 const openers = new Map<string, Promise<Page>>();
 
 /**
- * A blank page on such a device. A context of its own, and two renderer processes
- * (Chromium starts one for the blank page and one for its first address), would cost
- * more than most tests; a page that another opens lives in the opener's process. Each
- * test's server is an origin of its own, so that nothing else is shared.
+ * Opens a blank page with these settings. A browser context of its own and two renderer processes (Chromium starts
+ * one for the blank page and one for its first URL) would take longer than most tests; a page that another page opens
+ * shares the opener's process. Each test's server has an origin of its own, so nothing else is shared.
  */
 async function openPage(device: Device): Promise<Page> {
   const key = JSON.stringify(device);
@@ -83,7 +82,7 @@ async function openPage(device: Device): Promise<Page> {
 
 /** Opens the page that opens all pages of a device. Its host is that of all test servers, so that pages which it opens stay in its process. */
 async function openOpener({ deviceScaleFactor, hasTouch, motion }: Device): Promise<Page> {
-  // Less motion: the bar does not fade while pictures are taken.
+  // With reduced motion the progress bar does not fade while pictures are taken.
   const reducedMotion = motion ? "no-preference" : "reduce";
   const context = await (
     await browser()
@@ -96,8 +95,7 @@ async function openOpener({ deviceScaleFactor, hasTouch, motion }: Device): Prom
   return page;
 }
 
-/** Opens a page of `directory`, calls `use`, closes everything, and asserts that
- *  nothing went wrong that was not expected. */
+/** Opens a page of `directory`, calls `use`, closes everything, and asserts that there were no unexpected errors. */
 export async function withPage(
   directory: string,
   options: PageOptions,
@@ -130,13 +128,13 @@ function watch(page: Page, server: TestServer): View {
   const foreignRequests: string[] = [];
   const asked: string[] = [];
   page.on("console", (message) => {
-    // WebGL tells of wrong calls by warnings.
+    // Chromium reports invalid WebGL calls as warnings.
     if (message.type() === "error" || /GL_INVALID|WebGL: INVALID/.test(message.text())) errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => {
     if (request.url().startsWith(server.origin)) asked.push(request.url().slice(server.origin.length));
-    // What a page has made for itself, a blob, is of its origin.
+    // Blob URLs have the page's origin.
     else if (new URL(request.url()).origin !== new URL(server.origin).origin) foreignRequests.push(request.url());
   });
   const observed = (): Promise<Observed> => page.evaluate(() => window.observed);
@@ -150,7 +148,7 @@ function watch(page: Page, server: TestServer): View {
     async promise(name, selector = "x3d", seconds = 20) {
       const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });
       if (!isKept)
-        throw new Error(`${name} of ${selector} did not come within ${seconds} s; console: ${errors.join("; ")}`);
+        throw new Error(`${name} of ${selector} did not resolve within ${seconds} s; console: ${errors.join("; ")}`);
     },
     async events(type, target) {
       const { events } = await observed();
@@ -189,8 +187,8 @@ async function awaitPromise({
   return false;
 }
 
-/** What is on the screen now. Chromium has nothing to capture for a moment where a
- *  busy page gets its first WebGL context, and says so: then once more, five times at most. */
+/** The present picture. Chromium cannot capture a busy page that is just getting its first WebGL context; retries up
+ *  to five times then. */
 export async function screenshotOf(page: Page): Promise<Picture> {
   for (let left = 5; ; left -= 1) {
     try {
@@ -203,8 +201,8 @@ export async function screenshotOf(page: Page): Promise<Picture> {
 }
 
 /**
- * Waits until four frames in a row have drawn nothing, no view has one to come, and nothing that has come is still being
- * decoded. Throws, saying what goes on, where that takes longer: busy machines are slow, but not for ever.
+ * Waits until four frames in a row have drawn nothing, no view has a frame due, and no file is being decoded. Throws
+ * after `seconds` with the list of pending work.
  */
 export async function settle(page: Page, seconds = 60): Promise<void> {
   const goingOn = await page.evaluate(async (timeoutMs) => {
@@ -223,7 +221,7 @@ export async function settle(page: Page, seconds = 60): Promise<void> {
     const unrest = (): string[] => {
       const before = draws;
       draws = window.observed.draws;
-      return [...(draws === before ? [] : [`it has drawn ${draws} times and goes on`]), ...due(), ...decoding()];
+      return [...(draws === before ? [] : [`it is still drawing (${draws} draws so far)`]), ...due(), ...decoding()];
     };
     const end = performance.now() + timeoutMs;
     for (let still = 0; still < 4; await frame()) {
@@ -237,10 +235,10 @@ export async function settle(page: Page, seconds = 60): Promise<void> {
     throw new Error(`the page did not come to rest within ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
 }
 
-/** Waits for a condition of the test's own side; throws, naming it, after 20 s. */
+/** Polls a condition; throws after 20 s with its description. */
 export async function until(what: string, condition: () => boolean | Promise<boolean>): Promise<void> {
   for (const end = Date.now() + 20_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 20))) {
     if (await condition()) return;
   }
-  throw new Error(`waited 20 s in vain: ${what}`);
+  throw new Error(`timeout after 20 s: ${what}`);
 }

@@ -1,5 +1,4 @@
-// A scene of several documents as `imgeo convert` leaves it: what Inlines name, what
-// LODs choose, and what becomes of both when the page changes.
+// Tests a scene of several documents as `imgeo convert` writes it: Inlines, LODs, and changes of both in the page.
 
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
@@ -11,7 +10,7 @@ import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { siteOf } from "./sites.ts";
 
-/** A wall of many vertices, so that it is moved out: 2 wide, 2 high. Other columns are other files. */
+/** A wall, 2 wide and 2 high, with so many vertices that convert writes files for it. Another number of columns gives other files. */
 function wall(columns: number): { points: string; faces: string } {
   const points: string[] = [],
     faces: string[] = [];
@@ -28,7 +27,7 @@ function wall(columns: number): { points: string; faces: string } {
 
 const plain = (color: string) => `<Appearance><UnlitMaterial emissiveColor="${color}"/></Appearance>`;
 
-/** At the left a red wall in a VRML file; at the right a LOD: a green box near by, a blue wall (moved out) from afar. */
+/** On the left a red wall in a VRML file; on the right a LOD of a green box (near) and a blue wall in files (far). */
 function convertedWorld(): string {
   const folder = join(outputDirectory, "worlds");
   const [red, blue] = [wall(24), wall(30)];
@@ -51,7 +50,7 @@ function convertedWorld(): string {
   return siteOf(join(folder, "world.x3d"), "--profile", "classic");
 }
 
-/** How many pixels are mostly of each colour. */
+/** Numbers of red, green and blue pixels. */
 function colorsOf({ data, channels }: Picture): { red: number; green: number; blue: number } {
   const seen = { red: 0, green: 0, blue: 0 };
   for (let i = 0; i < data.length; i += channels) {
@@ -65,7 +64,7 @@ function colorsOf({ data, channels }: Picture): { red: number; green: number; bl
 
 const geometryRequests = ({ server }: View) => server.requestsOf(/^\/geometry\//).length;
 
-test("inlined documents and levels of detail are fetched, shown, picked and let go of as the page says", async () => {
+test("inlined documents and levels of detail are fetched, displayed, picked and freed as the page specifies", async () => {
   const site = convertedWorld();
   const server = (test: View["server"]): void => {
     test.put("/held.x3d", "<X3D/>");
@@ -89,35 +88,35 @@ test("inlined documents and levels of detail are fetched, shown, picked and let 
       "the page holds no element of the other document",
     );
 
-    // The pointer finds the Inline in the place of what it shows.
+    // Picking returns the Inline instead of the shapes in its document.
     const hit = await page.evaluate(() => {
       const x3d = document.querySelector<ViewElement>("x3d")!;
       return x3d.positionAndNormalFromPoint(innerWidth / 2 - innerHeight * 0.24, innerHeight / 2)?.shape.id;
     });
     assert.equal(hit, "part");
 
-    // Farther away the other level is asked for, and seen alone.
+    // At a larger distance the other level is requested and displayed.
     await page.evaluate(() => {
       document.querySelector("viewpoint")?.setAttribute("position", "0 0 20");
     });
-    await until("the other level is asked for", () => geometryRequests(view) > asked);
+    await until("the other level is requested", () => geometryRequests(view) > asked);
     await view.promise("complete");
     const far = colorsOf(await view.picture());
     assert.ok(far.red > 1000 && far.green === 0 && far.blue > 1000, JSON.stringify(far));
 
-    // One that is taken away is not waited for; what it shows goes with it.
+    // A removed Inline does not delay loading; its content is removed.
     await page.evaluate(() => {
       document.querySelector("#left")?.insertAdjacentHTML("beforeend", `<inline id="held" url='"held.x3d"'></inline>`);
     });
-    await until("the Inline is asked for", () => view.server.requestsOf(/held/).length === 1);
+    await until("the Inline is requested", () => view.server.requestsOf(/held/).length === 1);
     await page.evaluate(() => {
       document.querySelector("#left")?.replaceChildren();
     });
-    await until("it is given up", () => view.server.requestsOf(/held/)[0]?.state === "aborted");
+    await until("its request is aborted", () => view.server.requestsOf(/held/)[0]?.state === "aborted");
     await settle(page);
     assert.equal(colorsOf(await view.picture()).red, 0);
 
-    // The first url that leads to a document counts; what leads nowhere says so on its element.
+    // The first URL that leads to a document is used; an Inline without one has an error.
     await page.evaluate(() => {
       document
         .querySelector("#left")

@@ -1,5 +1,5 @@
-// What lights reach: walls that face the viewer have the colours of the lights that
-// shine in their groups, drawn one by one and together, while the document changes.
+// Tests the scope of lights: walls that face the viewer have the colours of the lights in their groups, drawn one by
+// one and in a batch, while the document changes.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -24,7 +24,7 @@ function wall(name: Name): string {
     <Coordinate point="${left} -1 0 ${right} -1 0 ${right} 1 0 ${left} 1 0"></Coordinate></IndexedFaceSet></Shape>`;
 }
 
-/** So far away that they shine straight ahead. */
+/** So far away that the light is nearly parallel. */
 const faraway = 'location="0 0 1000" radius="2000"';
 const scene = `<NavigationInfo headlight="false"></NavigationInfo>
   <OrthoViewpoint position="0 0 5" fieldOfView="${-across / 2} ${-across / 4} ${across / 2} ${across / 4}"></OrthoViewpoint>
@@ -35,9 +35,9 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo>
   <Group><SpotLight id="blue" global="false" color="0 0 0.5" ${faraway} beamWidth="0.7" cutOffAngle="0.8"></SpotLight>${wall("spot")}</Group>
   ${wall("last")}`;
 
-/** The scene's own light, and what its groups add. */
+/** The colour by the global light alone, and the colours of all walls at first. */
 const dark: Color = [0.2, 0.2, 0.2];
-const lit: Readonly<Record<Name, Color>> = {
+const initialColors: Readonly<Record<Name, Color>> = {
   alone: dark,
   outer: [0.7, 0.2, 0.2],
   inner: [0.7, 0.8, 0.2],
@@ -56,11 +56,11 @@ async function assertColors(view: View, what: string, expected: Readonly<Record<
   assert.deepEqual(seen, expected, what);
 }
 
-test("lights shine in their groups alone, as the document says now, and however walls are drawn", async () => {
+test("lights that are not global light only their groups, follow the document, and do so in batches", async () => {
   const site = sceneOf("light-scopes", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   await withPage(site, { size }, async (view) => {
     await view.promise("complete");
-    await assertColors(view, "one by one", lit);
+    await assertColors(view, "drawn one by one", initialColors);
 
     await view.page.evaluate(() => {
       document.querySelector("#red")!.setAttribute("global", "true");
@@ -76,7 +76,7 @@ test("lights shine in their groups alone, as the document says now, and however 
     });
 
     await view.page.evaluate(() => {
-      // Further shapes, so many that all are drawn together; their group with a light of its own is the first of all.
+      // Enough further shapes for batches; their group, with a light of its own, comes first.
       const walls = Array.from(
         { length: 16 },
         () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>",
@@ -90,18 +90,18 @@ test("lights shine in their groups alone, as the document says now, and however 
       document.querySelector("#red")!.setAttribute("global", "false");
       document.querySelector("scene")!.append(document.querySelector("#last")!);
     });
-    await assertColors(view, "together", { ...lit, spot: dark });
+    await assertColors(view, "in a batch", { ...initialColors, spot: dark });
     const drawCalls = await view.page.evaluate(
       () => (document.querySelector("x3d") as unknown as { statistics: { drawCalls: number } }).statistics.drawCalls,
     );
-    assert.ok(drawCalls <= 3, `${drawCalls} draws: they are drawn together`);
+    assert.ok(drawCalls <= 3, `${drawCalls} draws: they are batched`);
 
     await view.page.evaluate(() => {
       for (const light of Array.from(document.querySelectorAll("scene > group > directionallight"))) light.remove();
       document.querySelector("#green")!.setAttribute("on", "false");
       document.querySelector("#group")!.prepend(document.querySelector("#alone")!);
     });
-    await assertColors(view, "together, after changes", {
+    await assertColors(view, "in a batch, after changes", {
       alone: [0.7, 0.2, 0.2],
       outer: [0.7, 0.2, 0.2],
       inner: [0.7, 0.2, 0.2],

@@ -1,5 +1,5 @@
-// Light and sky by X3D's equations, pixel by pixel. tests/conformance compares the
-// same and more with other runtimes.
+// Tests light and sky against X3D's equations, pixel by pixel. tests/conformance compares them and more with other
+// runtimes.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -44,7 +44,7 @@ function skyAt(angle: number): readonly number[] {
   return sky[upper]!.map((value, i) => (upper === 0 ? value : (1 - share) * sky[upper - 1]![i]! + share * value));
 }
 
-test("a lamp's light falls off with distance and angle, and the sky has its rings, as X3D says", async () => {
+test("a spot light is attenuated by distance and angle, and the sky has its gradient, as X3D specifies", async () => {
   const site = sceneOf("lighting", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   await withPage(site, { size: { width: 320, height: 240 } }, async (view) => {
     await view.promise("complete");
@@ -57,14 +57,14 @@ test("a lamp's light falls off with distance and angle, and the sky has its ring
       for (let x = 0; x < width; ++x) {
         const [right, down] = [slope(x, width), slope(y, height)];
         const inPlane = Math.max(Math.abs(right), Math.abs(down)) * eye;
-        if (Math.abs(inPlane - edge) < 0.05) continue; // smoothed
+        if (Math.abs(inPlane - edge) < 0.05) continue; // antialiased edge
         const seen = Array.from(data.subarray((y * width + x) * channels, (y * width + x) * channels + 3));
         const isWall = inPlane < edge;
         const aside = Math.hypot(right, down) * eye;
         const expected = isWall
           ? [1, 1, 1].map(() => lit(aside))
           : skyAt(Math.acos(-down / Math.hypot(right, down, 1)));
-        // Where the light ends, a pixel is on both sides.
+        // Pixels at the light's radius are partly lit.
         if (isWall && Math.abs(Math.hypot(aside, lamp) - 2.3) < 0.02) continue;
         const off = Math.max(...seen.map((value, i) => Math.abs(value - 255 * expected[i]!)));
         assert.ok(

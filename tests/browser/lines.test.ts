@@ -1,6 +1,5 @@
-// Lines that LineProperties make wide. Every pixel is compared with geometry: on
-// the screen a line is all that lies within half its width of the way between its
-// ends, and its colour there is that between theirs.
+// Tests lines that LineProperties make wide. Every pixel is compared with geometry: on the screen a line covers all
+// points within half its width of the segment between its ends, and its colour is interpolated between theirs.
 
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
@@ -17,7 +16,7 @@ import { siteOf } from "./sites.ts";
 type Pair = [number, number];
 type Color = [number, number, number];
 
-/** Sharp and blunt joints, each vertex in its colour. */
+/** Zigzags with sharp and blunt joints; each vertex has a colour. */
 const corners: Pair[] = [
   [-0.9, -0.7],
   [-0.3, 0.8],
@@ -92,7 +91,7 @@ function zigzags(sites: readonly string[]): string {
       true,
     )}</Shape>`,
   );
-  // One is mirrored, and one lies flat on its side.
+  // One is mirrored, and one is rotated out of the plane.
   const turns = shapes.map((_, n) => (n === 1 ? 'scale="-1 1 1"' : n === 3 ? 'scale="1 1 -3"' : ""));
   return shapes
     .map((shape, n) => `<Transform translation="${positionOf(n).join(" ")} 0" ${turns[n]!}>${shape}</Transform>`)
@@ -103,7 +102,7 @@ const dashWidth = 2;
 const past = { behind: [1.5, -1.5, 25], ahead: [3.4, -2.6, -8] } as const;
 const dot: Pair = [1.2, -3];
 
-/** From behind the camera to far ahead of it; three kinds of lines in the row at the bottom; and a dot. */
+/** A line from behind the camera to far ahead of it; three types of lines in the bottom row; and a dot. */
 const others = (): string => `
   <Shape id="past">${wide}${inline([past.behind, past.ahead])}</Shape>
   <Shape id="dashed">${properties(`linetype="2" linewidthScaleFactor="${dashWidth}"`)}${inline([
@@ -125,7 +124,7 @@ const others = (): string => `
   ])}</Shape>`;
 
 const scale = (pictureSize.height * ratio) / 2 / Math.tan(0.7854 / 2);
-/** Device pixels. */
+/** Widths in device pixels. */
 function onScreen([x, y]: Pair, distance = viewDistance): Pair {
   return [
     (pictureSize.width * ratio) / 2 + (x * scale) / distance,
@@ -140,7 +139,7 @@ interface Segment {
   width: number;
 }
 
-/** How far from a segment, and how far along it, 0 … 1. */
+/** Distance of a point from a segment, and its position along it, 0 … 1. */
 function nearest({ from, to }: Segment, [x, y]: Pair): { away: number; along: number } {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const along = Math.min(1, Math.max(0, ((x - from[0]) * dx + (y - from[1]) * dy) / (dx * dx + dy * dy || 1)));
@@ -159,7 +158,7 @@ function segments(): Segment[] {
       .slice(1)
       .map((to, i): Segment => ({ from: at[i]!, to, colors: [colors[i]!, colors[i + 1]!], width: width * ratio }));
   });
-  // Cut a thousandth of a length before the eye: far beyond the picture.
+  // Clipped just before the eye, far outside of the picture.
   const [[x, y, z], [u, v, w]] = [past.behind, past.ahead];
   const share = (z - viewDistance + 0.001) / (z - w);
   const from = onScreen([x + (u - x) * share, y + (v - y) * share], 0.001);
@@ -173,10 +172,10 @@ function segments(): Segment[] {
 const colorAt = ({ data, channels, width }: Picture, x: number, y: number): Color =>
   [0, 1, 2].map((channel) => data[(y * width + x) * channels + channel]!) as Color;
 
-/** Rows that the dashed and thin lines have for themselves. */
+/** Rows with dashed and thin lines only. */
 const isTheirs = (y: number): boolean => [-2.4, -2.8, -3.1].some((row) => Math.abs(y - onScreen([0, row])[1]) < 7);
 
-/** Compares a third of the pixels, of those that no border goes through. */
+/** Compares a third of the pixels, except those on borders of lines. */
 function assertDrawn(picture: Picture, drawn: readonly Segment[]): void {
   let lit = 0;
   for (let y = 0; y < picture.height; ++y) {
@@ -218,7 +217,7 @@ function runsAlong(picture: Picture, row: number): Pair[] {
   return runs;
 }
 
-/** How many pixels are lit above one another. */
+/** Height of the lit pixels in a column. */
 function heightOf(picture: Picture, [x, row]: Pair): number {
   const [column, middle] = onScreen([x, row]).map(Math.floor) as Pair;
   return Array.from({ length: 13 }, (_, i) => colorAt(picture, column, middle - 6 + i)[0]).filter((value) => value > 60)
@@ -235,7 +234,7 @@ const hitAt = (view: View, [x, y]: Pair): Promise<boolean> =>
   );
 
 describe("wide lines", () => {
-  test("cover what lies within half their width, from every container, past the eye and in dashes, and are hit there", async () => {
+  test("cover all points within half their width, from every container, clipped at the camera and dashed, and are hit there", async () => {
     const sites = ways.map((way) => siteOf(zigzag(), ...way));
     const directory = sceneOf(
       "lines-wide",
@@ -252,7 +251,7 @@ describe("wide lines", () => {
       await assertHit(view, drawn);
       assertDashes(picture);
       for (const row of [-2.8, -3.1])
-        assert.ok(heightOf(picture, [-2, row]) <= 2, `a line of ${row} is as thin as can be`);
+        assert.ok(heightOf(picture, [-2, row]) <= 2, `a line of ${row} has the minimum width`);
       await view.page.evaluate(() => {
         document.querySelector("#thin lineproperties")?.setAttribute("linewidthScaleFactor", "3");
         document.querySelector("#dashed lineproperties")?.remove();
@@ -280,7 +279,7 @@ function assertDashes(picture: Picture): void {
   });
 }
 
-/** A little within and without the borders of one segment of each zigzag. */
+/** Picks slightly inside and outside of the borders of one segment of each zigzag. */
 async function assertHit(view: View, drawn: readonly Segment[]): Promise<void> {
   for (let n = 0; n < ways.length + 2; ++n) {
     const { from, to, width: across } = drawn[n * (corners.length - 1) + (n % (corners.length - 1))]!;

@@ -1,5 +1,5 @@
-// The loader in a three.js app that knows nothing of us: its lights, shadows, tone
-// mapping and colour space hold for the scene as they hold for plain buffers.
+// Tests the loader in a three.js app: the app's lights, shadows, tone mapping and colour space apply to the scene as
+// to plain buffers.
 
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -36,7 +36,7 @@ before(async () => {
 
 const page = `<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/app.css"><script type="module" src="/app.js"></script><body>`;
 
-/** An app beside a site. Its worker stands where the app says it is. */
+/** An app beside a site, with the worker at the URL that the app sets. */
 async function withApp(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
   const server: PageOptions["server"] = (server) => {
     server.put("/", page);
@@ -97,7 +97,7 @@ const cases: Case[] = [
   { mesh: "coil", options: ["--profile", "classic"] },
 ];
 
-describe("a scene in somebody's own app looks as plain buffers do there", () => {
+describe("a scene in a three.js app has the same picture as plain buffers", () => {
   for (const { mesh, options, lights = ["directional" as const], keepsVertices = false } of cases) {
     test([mesh, ...options, ...(keepsVertices ? ["keeping vertices"] : [])].join(" "), async () => {
       const site = siteOfGenerated(mesh, ...options);
@@ -114,7 +114,7 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
         for (const light of lights) {
           const expected = await draw(page, light, "plain");
           const name = `loader ${mesh} ${options.join("")} ${keepsVertices ? "kept " : ""}${light}`;
-          // Shadow edges may fall to the other side of a texel of the map.
+          // Shadow edges may differ by a texel of the shadow map.
           assertSamePicture(name, await draw(page, light, "scene"), expected, { mean: 0.06, offShare: 0.001 });
           const [empty, unshadowed] = [await draw(page, light, "nothing"), await draw(page, light, "plain", false)];
           assert.ok(difference(expected, empty).mean > 0.5, "the reference shows nothing");
@@ -128,7 +128,7 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
   }
 });
 
-test("a texture lies over a surface, the right way round", async () => {
+test("a texture is applied to a surface with the right orientation", async () => {
   mkdirSync(outputDirectory, { recursive: true });
   const quad = join(outputDirectory, "textured.ply");
   const corners = [
@@ -142,7 +142,7 @@ test("a texture lies over a surface, the right way round", async () => {
     quad,
     `ply\nformat ascii 1.0\nelement vertex 4\n${properties}element face 2\nproperty list uchar int vertex_indices\nend_header\n${corners.join("\n")}\n3 0 1 2\n3 0 2 3\n`,
   );
-  // Red on the left, blue on the right.
+  // The texture is red on the left and blue on the right.
   const picture = encodePng({ width: 2, height: 1, channels: 3, data: Uint8Array.from([230, 20, 20, 20, 20, 230]) });
   const nearest = '<TextureProperties magnificationFilter="NEAREST_PIXEL" minificationFilter="NEAREST_PIXEL"/>';
   const textured = (xml: Buffer): string =>
@@ -189,7 +189,7 @@ const filesOf = (site: string): string[] =>
 const isGeometry = (path: string): boolean => path.startsWith("/geometry/");
 
 describe("the loader keeps three's conventions", () => {
-  test("its manager hears of the document and of every file, once each, and of the end", async () => {
+  test("its manager gets the document and every file as an item, once each, and the end", async () => {
     const site = classic();
     await withApp(site, {}, async ({ page }) => {
       for (const document of ["scene.x3d", "index.html"]) {
@@ -209,8 +209,8 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("a document that is missing or none is an error that names it", async () => {
-    // Chromium styles its message about XML inline.
+  test("a missing or malformed document is an error that names it", async () => {
+    // Chromium's page about malformed XML has inline styles.
     await withApp(classic(), { expectedErrors: /404|inline style/ }, async ({ page, server }) => {
       server.put("/none.html", "<p>nothing here");
       server.put("/broken.x3d", "<X3D><Scene></X3D>");
@@ -226,7 +226,7 @@ describe("the loader keeps three's conventions", () => {
           [`start ${url}`, `error ${url}`, `end ${url}`],
         );
       }
-      // So is a worker that is not where it should be.
+      // A missing worker is an error as well.
       const withoutWorker = await page.evaluate(() =>
         window.app.loader
           .setWorkerUrl("/nowhere.js")
@@ -241,7 +241,7 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("a file that fails is the manager's error, and the rest of the scene is there; without any there is none", async () => {
+  test("a failed file is the manager's error, and the rest of the scene loads; without any file loading fails", async () => {
     const site = classic();
     const [, index] = filesOf(site);
     await withApp(site, { expectedErrors: /404/ }, async ({ page, server }) => {
@@ -260,13 +260,13 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("an abort ends its requests and its promise, and what has come stays", async () => {
+  test("an abort ends requests and the promise, and loaded objects stay", async () => {
     const { closed, open } = gate();
     await withApp(classic(), {}, async ({ page, server, observed }) => {
       const [first, ...later] = filesOf(classic());
       server.when(isGeometry, { hold: closed });
       const log = page.evaluate(() => window.app.log("scene.x3d"));
-      await until("files are asked for", () => server.requestsOf(/^\/geometry\//).length > 0);
+      await until("files are requested", () => server.requestsOf(/^\/geometry\//).length > 0);
       await page.evaluate(() => {
         window.app.abort();
       });
@@ -294,7 +294,7 @@ describe("the loader keeps three's conventions", () => {
       });
       assert.deepEqual(await partial, { complete: "AbortError", shown: ["Points"] });
       for (const file of later) {
-        await until(`${file} is given up`, () =>
+        await until(`the request of ${file} is aborted`, () =>
           server.requestsOf(new RegExp(file)).every(({ state }) => state === "aborted"),
         );
       }
@@ -303,7 +303,7 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("dispose gives everything back", async () => {
+  test("dispose frees all resources", async () => {
     for (const site of [classic(), siteOfGenerated("trefoil", "--profile", "compact")]) {
       await withApp(site, {}, async ({ page, observed }) => {
         await draw(page, "directional", "nothing");
@@ -316,7 +316,7 @@ describe("the loader keeps three's conventions", () => {
           await page.evaluate(() => {
             window.app.dispose();
           });
-          // The app makes its floor and its shadow map anew each time, and the scene must leave no more than that.
+          // The app creates its floor and its shadow map again each time; the scene must leave nothing else.
           const { live } = await observed();
           assert.ok(live.textures + live.buffers < held.textures + held.buffers);
           left.push({ textures: live.textures, buffers: live.buffers, bitmaps: live.bitmaps });
@@ -332,7 +332,7 @@ describe("the loader keeps three's conventions", () => {
     }
   });
 
-  test("materials, shadows, names and the box are the app's to use", async () => {
+  test("the app can use materials, shadows, names and the box", async () => {
     await withApp(classic(), {}, async ({ page }) => {
       const { size, sizeOfObjects, ...found } = await page.evaluate(() => window.app.inspect());
       assert.deepEqual(found, { meshes: 1, toon: true, casting: true, byName: true, lights: false });
@@ -343,7 +343,7 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("the GPU says what is under a pixel, and a ray finds it where vertices are kept", async () => {
+  test("the GPU picks the object at a pixel, and Raycaster finds the same where vertices are kept", async () => {
     for (const [options, keeps] of [
       [["--profile", "classic"], false],
       [["--profile", "classic"], true],
@@ -380,16 +380,16 @@ describe("the loader keeps three's conventions", () => {
           assert.ok(Math.hypot(...gpu.point.map((part, axis) => part - ray.point[axis]!)) < 1e-2);
         }
         assert.ok(hits >= 2 && hits < 6, `${hits} hits`);
-        // GPUs round corners to a fraction of a pixel: on an edge the neighbour may be hit.
+        // GPUs round vertices to a fraction of a pixel: at an edge the neighbour may be hit.
         if (hasVertices) assert.ok(sameTriangles >= hits - 1, `${sameTriangles} of ${hits} triangles are the ray's`);
-        // The app's renderer is as it was.
+        // The state of the app's renderer has not changed.
         assert.equal(difference(before, await draw(page, "directional", "scene")).largest, 0);
       });
     }
   });
 });
 
-test("documents that Inlines name come with the scene, and levels of a LOD as cameras look at it", async () => {
+test("documents of Inlines load with the scene, and levels of a LOD when cameras need them", async () => {
   const site = siteOfGenerated("trefoil", "--profile", "compact");
   const unlit = (name: string, color: string): string =>
     `<Shape DEF="${name}"><Appearance><UnlitMaterial emissiveColor="${color}"/><ImageTexture url="two.png"/></Appearance><Box/></Shape>`;
@@ -445,14 +445,14 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
     assert.equal(server.requestsOf(/two\.png$/).length, 2);
     assert.equal(server.requestsOf(/^\/(model\.x3d|geometry)/).length, 0);
 
-    // From afar the last level; from near by too, until all of the first shows something.
+    // Far away the last level is displayed; near as well, until all of the first level displays something.
     const drawFrom = (z: number): Promise<number> => page.evaluate((z) => window.app.drawFrom([0, 0, z]), z);
     const seen = async (): Promise<Picture> => decodePng(await page.screenshot());
     assert.equal(await drawFrom(15), 1);
     assert.deepEqual(await page.evaluate(() => window.app.pick(320, 240).ray?.name), "far");
     assert.equal(colorAt(await seen(), 320, 240), "blue");
     assert.equal(await drawFrom(9), 1);
-    await until("the level is asked for", () => server.requestsOf(/^\/model\.x3d$/).length === 1);
+    await until("the level is requested", () => server.requestsOf(/^\/model\.x3d$/).length === 1);
     assert.equal(await drawFrom(9), 1);
     open();
     await until(
@@ -469,7 +469,7 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
     );
     assert.equal(colorAt(await seen(), 300, 50), "green");
 
-    // What has come is there in the frame in which it is looked at.
+    // A loaded level is displayed in the first frame that needs it.
     const asked = server.requestsOf(/./).length;
     assert.equal(await drawFrom(15), 1);
     assert.equal(await drawFrom(9), 0);
@@ -477,7 +477,7 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
   });
 });
 
-/** As far as one channel says it, whatever the app's tone mapping. */
+/** The dominant channel, which is the same with any tone mapping. */
 function colorAt({ data, width, channels }: Picture, x: number, y: number): string {
   const at = (y * width + x) * channels;
   const pixel = Array.from(data.subarray(at, at + 3));

@@ -1,5 +1,5 @@
-// In the browser: one and the same three.js app, once with a scene of the loader
-// and once with plain buffers of the same mesh. Bundled by loader.test.ts.
+// Runs in the browser: one three.js app that draws either a scene of the loader or plain buffers of the same mesh.
+// Bundled by loader.test.ts.
 
 import {
   ACESFilmicToneMapping,
@@ -34,7 +34,7 @@ import {
 } from "three";
 import { ImgeoLoader, type ImgeoScene } from "../../web/src/loader/index.ts";
 
-/** As reference.ts has it, of which triangles win over lines and lines over points. */
+/** As in reference.ts; if there are triangles, lines are not drawn, and if there are lines, points are not. */
 export interface PlainBuffers {
   positions: number[];
   normals?: number[];
@@ -60,26 +60,26 @@ export interface Found {
 declare global {
   interface Window {
     app: {
-      /** What "plain" is from now on, with X3D's material. */
+      /** Sets the mesh that "plain" draws, and its X3D material. */
       setPlain: (mesh: PlainBuffers, material: { diffuseColor: [number, number, number]; shininess: number }) => void;
       loader: ImgeoLoader;
-      /** Loads scene.x3d to its end. */
+      /** Loads scene.x3d completely. */
       load: () => Promise<void>;
       draw: (request: AppRequest) => Promise<void>;
-      /** What the loader tells while it loads `url`, in order. */
+      /** The loader's events and callbacks while it loads `url`, in order. */
       log: (url: string) => Promise<string[]>;
-      /** Ends what is being logged, by a signal. */
+      /** Aborts the load that is being logged. */
       abort: () => void;
-      /** Under a place of the last picture: by the GPU, and by three's Raycaster. */
+      /** Picks at a pixel of the last picture, by the GPU and by three.js' Raycaster. */
       pick: (x: number, y: number) => { gpu: Found | undefined; ray: Found | undefined };
-      /** Ends what was loaded. */
+      /** Disposes of the loaded scene. */
       dispose: () => void;
       inspect: () => Promise<Record<string, unknown>>;
-      /** Draws what is loaded as it is seen from a place; the level that its LOD then shows. */
+      /** Draws the loaded scene from a camera position; returns the displayed level of its LOD. */
       drawFrom: (from: [number, number, number]) => Promise<number>;
-      /** Nothing of what is loaded is on its way. */
+      /** True if no request of the loaded scene is pending. */
       isSettled: () => boolean;
-      /** Names of what is below the loaded scene, and of what. */
+      /** Names of the objects below the loaded scene, and of their parents. */
       names: () => Record<string, string>;
     };
   }
@@ -101,7 +101,7 @@ let loaded: ImgeoScene | undefined;
 let plain: Object3D | undefined;
 let aborter = new AbortController();
 
-function stageWith(light: Light): Scene {
+function sceneWith(light: Light): Scene {
   const scene = new Scene();
   scene.background = new Color(0x8899aa);
   scene.fog = new Fog(0x8899aa, 6, 40);
@@ -155,7 +155,7 @@ function plainObject(
   return new LineSegments(geometry, new LineBasicMaterial(colorOptions));
 }
 
-/** sRGB triples to what three.js lights with. */
+/** Converts sRGB triples to three.js' linear working space. */
 function linear(colors: number[]): number[] {
   return colors.map((value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4));
 }
@@ -168,7 +168,7 @@ function meshesIn(object: Object3D): Mesh[] {
   return meshes;
 }
 
-/** As three's own item names, without where they are. */
+/** A LoadingManager that logs the file names of its items. */
 function loggingManager(lines: string[]): LoadingManager {
   const manager = new LoadingManager();
   const { itemStart, itemEnd, itemError } = manager;
@@ -201,10 +201,10 @@ window.app = {
   },
 
   async draw({ light, what, castShadow }) {
-    const scene = stageWith(lightOf(light));
+    const scene = sceneWith(lightOf(light));
     const object = what === "scene" ? loaded : what === "plain" ? plain : undefined;
     if (object) {
-      // As apps do: whatever the object has in it, now or later.
+      // As in apps: applies to all objects of the scene, now and later.
       object.traverse((part) => {
         Object.assign(part, { castShadow, receiveShadow: true });
       });
@@ -324,10 +324,10 @@ window.app = {
         }),
     );
     const object = (loaded = await loader.loadAsync("scene.x3d"));
-    object.castShadow = true; // before all has come: it must hold for what comes
+    object.castShadow = true; // must also apply to objects that come later
     await object.complete;
     const meshes = meshesIn(object);
-    const scene = stageWith(lightOf("directional"));
+    const scene = sceneWith(lightOf("directional"));
     scene.add(object);
     renderer.render(scene, camera);
     const size = (box: Box3): number[] => box.getSize(new Vector3()).toArray();

@@ -1,7 +1,6 @@
-// X3D 4's other materials. Where a surface faces light and eye, glTF's reflectance
-// has a simple form, which is stated here once more: with H, L, V and N the same,
-// the distribution is 1/alpha^2 and the visibility 1/4, and light of intensity 1
-// is pi times as bright as its number says.
+// Tests X3D 4's materials. If a surface faces light and eye, glTF's reflectance has a simple form, which this file
+// implements independently: H, L, V and N are equal, the distribution is 1/alpha^2, the visibility is 1/4, and X3D's
+// light of intensity 1 has the radiance pi.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -17,7 +16,7 @@ function headlitSphere(): string {
   );
 }
 
-/** In the middle of the picture. */
+/** The colour in the center of the picture with this material. */
 async function colorOf(view: View, material: string): Promise<Color> {
   await view.page.evaluate((markup) => {
     document.querySelector("appearance")!.innerHTML = markup;
@@ -27,7 +26,7 @@ async function colorOf(view: View, material: string): Promise<Color> {
   return [data[at] ?? 0, data[at + 1] ?? 0, data[at + 2] ?? 0];
 }
 
-/** IEC 61966-2-1. */
+/** Encodes a linear value as sRGB (IEC 61966-2-1). */
 function encoded(linear: number): number {
   const clamped = Math.min(Math.max(linear, 0), 1);
   return 255 * (clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * clamped ** (1 / 2.4) - 0.055);
@@ -46,7 +45,7 @@ function assertColor(actual: Color, expected: Color, what: string): void {
 }
 
 describe("a material of X3D 4", () => {
-  test("is physical, unlit or Phong's, and becomes another", async () => {
+  test("is physical, unlit or Phong, and can be replaced", async () => {
     await withPage(headlitSphere(), {}, async (view) => {
       await view.promise("complete");
       for (const roughness of [1, 0.7]) {
@@ -69,7 +68,7 @@ describe("a material of X3D 4", () => {
         `a metal is ${red} ${green}: it shows its colour in the room around it`,
       );
 
-      // Geometry in the document, larger than what came in files and around it.
+      // Geometry in the document: a box around the sphere.
       await view.page.evaluate(() => {
         document.querySelector("scene")!.insertAdjacentHTML(
           "beforeend",
@@ -84,7 +83,7 @@ describe("a material of X3D 4", () => {
     });
   });
 
-  test("is lit by lights that have a place", async () => {
+  test("is lit by point and spot lights", async () => {
     await withPage(headlitSphere(), {}, async (view) => {
       await view.promise("complete");
       await view.page.evaluate(() => {

@@ -1,4 +1,4 @@
-// Vertex data lives on the GPU alone, and comes there in pieces.
+// Tests that vertex data is kept on the GPU only, and is uploaded in pieces; and the budget of GPU memory.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -16,8 +16,8 @@ interface Memory {
   maxGpuBytes: number;
 }
 
-/** Self-contained: keeps an account of memory from outside of the runtime. */
-function keepAccount(): void {
+/** Self-contained: records memory from outside of the runtime. */
+function recordMemory(): void {
   const memory: Memory = { seen: [], gpuBytes: 0, maxGpuBytes: 0 };
   Object.assign(window, { memory });
   const see = (data: unknown): void => {
@@ -72,7 +72,7 @@ const memoryOf = (view: View): Promise<Memory> =>
   view.page.evaluate(() => (window as unknown as { memory: Memory }).memory);
 
 describe("a scene that has loaded", () => {
-  test("keeps no decoded image", async () => {
+  test("keeps no decoded images open", async () => {
     await withPage(
       siteOfGenerated("trefoil-colors", "--profile", "classic", "--patch-vertices", "1000"),
       {},
@@ -93,7 +93,7 @@ describe("vertex data", () => {
     ["of arrays", "trefoil-colors", ["--container", "bg", "--layout", "separate"], ""],
     ["of arrays of records", "trefoil-colors", ["--container", "bg", "--layout", "interleaved"], ""],
     ["of images that workers decode", "trefoil-colors", ["--profile", "classic"], 'decode="cpu"'],
-    // 36,864 vertices of eight bytes and 73,728 triangles: more than a piece of each.
+    // 36,864 vertices of eight bytes and 73,728 triangles: both are more than one piece.
     ["of compact", "sphere-large", ["--profile", "compact"], ""],
   ] as const) {
     test(`${what} are not kept in JavaScript`, async () => {
@@ -102,7 +102,7 @@ describe("vertex data", () => {
       const server = (server: View["server"]): void => {
         server.when(/^\/$/, { replace: (html) => html.toString().replace(/<ImageGeometry/i, `$& ${attribute}`) });
       };
-      await withPage(site, { before: keepAccount, server }, async (view) => {
+      await withPage(site, { before: recordMemory, server }, async (view) => {
         await view.promise("complete");
         await settle(view.page);
         const { seen, largest, kept } = await view.page.evaluate(async () => {
@@ -111,7 +111,7 @@ describe("vertex data", () => {
           const all = sum(memory.seen);
           const largestPiece = memory.seen.reduce((max, { bytes }) => Math.max(max, bytes), 0);
           for (let turn = 0; turn < 20 && memory.seen.length > 0; ++turn) {
-            await new Promise((resolve) => setTimeout(resolve, 50)); // whoever asks a WeakRef keeps it for the turn
+            await new Promise((resolve) => setTimeout(resolve, 50)); // a WeakRef that was read keeps its target until the end of the task
             gc();
             memory.seen = memory.seen.filter(({ array }) => array.deref() !== undefined);
           }
@@ -127,7 +127,7 @@ describe("vertex data", () => {
 });
 
 describe("a budget", () => {
-  /** Two knots far apart, and a viewpoint before each. */
+  /** Two knots far apart, and a viewpoint in front of each. */
   const scene = (site: string, attributes: string): string => {
     const at = (x: number): string =>
       `<Transform translation="${x} 0 0">${shapeIn(site, "knot", `id="at${x}"`).replaceAll("knot/", `knot${x}/`)}</Transform>`;
@@ -142,7 +142,7 @@ describe("a budget", () => {
 
   async function pictures(directory: string, check: (view: View, x: number) => Promise<void>): Promise<Picture[]> {
     const seen: Picture[] = [];
-    await withPage(directory, { before: keepAccount }, async (view) => {
+    await withPage(directory, { before: recordMemory }, async (view) => {
       await view.promise("complete");
       for (const x of [0, 500, 0]) {
         await view.page.evaluate((name) => {
@@ -162,7 +162,7 @@ describe("a budget", () => {
   }
 
   for (const container of ["sig", "bg"]) {
-    test(`holds what is seen, gives up what is not, and comes to rest: ${container}`, async () => {
+    test(`keeps visible data, frees other data, and becomes stable: ${container}`, async () => {
       const site = siteOfGenerated(
         "trefoil",
         "--profile",
@@ -181,7 +181,7 @@ describe("a budget", () => {
       const found = await pictures(scene(site, `id="${container}" budget="${budget / 1e6}"`), async (view, x) => {
         const { gpuBytes, maxGpuBytes } = await memoryOf(view);
         assert.ok(gpuBytes <= budget && gpuBytes > 0.4 * all, `${gpuBytes} bytes of ${budget}`);
-        // A stage of buffers is there before the one that it replaces is gone.
+        // A stage of buffers is uploaded before the stage that it replaces is freed.
         assert.ok(maxGpuBytes <= budget * 1.1, `up to ${maxGpuBytes} bytes of ${budget}`);
         const { length } = view.server.requests;
         assert.ok(x === 0 || length > requests, "nothing was fetched again");
@@ -194,7 +194,7 @@ describe("a budget", () => {
   }
 });
 
-test("an image of many texels comes to the GPU in strips", async () => {
+test("a large image is uploaded in strips", async () => {
   const before = (): void => {
     const uploads: number[] = [];
     (window as unknown as { uploads: number[] }).uploads = uploads;

@@ -1,9 +1,7 @@
-// Small meshes that show what matters (creases of light, colours, closed
-// surfaces of many patches), written as PLY; and a reader of a few lines for
-// the PLY and OBJ files that the reference pictures of the float input are made
-// of.
+// Generates small meshes for tests (creases, colours, closed surfaces of many patches), writes them as PLY, and reads
+// the PLY and OBJ files from which reference pictures of the float input are drawn.
 
-/** Per vertex arrays; triangles as vertex triples, lines as pairs; a point cloud has none. */
+/** Per vertex arrays; triangles as vertex triples, lines as pairs; a point cloud has neither. */
 export interface PlainMesh {
   positions: Float32Array;
   normals?: Float32Array;
@@ -13,7 +11,7 @@ export interface PlainMesh {
   texCoords?: Float32Array;
   triangles: Uint32Array;
   lines?: Uint32Array;
-  /** Further numbers, one a vertex, by the names of PLY's properties. */
+  /** Further numbers, one a vertex, by PLY property name. */
   numbers?: Readonly<Record<string, Float32Array>>;
 }
 
@@ -38,7 +36,7 @@ export function trefoil(along = 160, around = 16): PlainMesh {
   });
 }
 
-/** The same with a colour that turns along the tube. */
+/** The same with a colour that changes along the tube. */
 export function withColors(mesh: PlainMesh): PlainMesh {
   const colors = new Uint8Array(mesh.positions.length);
   for (let i = 0; i < colors.length; ++i) {
@@ -47,7 +45,7 @@ export function withColors(mesh: PlainMesh): PlainMesh {
   return { ...mesh, colors };
 }
 
-/** The same with a picture laid over it from the front, `times` times a side and from `start` on. */
+/** The mesh with texture coordinates projected along z, from `start` to `start + times` over its extent. */
 export function withTexCoords(mesh: PlainMesh, times = 1, start = 0): PlainMesh {
   const across = [0, 1].map((axis) => mesh.positions.filter((_, i) => i % 3 === axis));
   const [min, max] = [Math.min, Math.max].map((pick) => across.map((values) => values.reduce((a, b) => pick(a, b))));
@@ -93,7 +91,7 @@ export function withoutNormals({ positions, triangles }: PlainMesh): PlainMesh {
   return { positions, triangles };
 }
 
-/** A unit sphere: an octahedron's faces split `splits` times a side; closed, 8·splits² triangles. */
+/** A unit sphere: an octahedron whose edges are split into `splits`; closed, 8·splits² triangles. */
 export function sphere(splits = 50): PlainMesh {
   const vertices: Point[] = [];
   const numbers = new Map<string, number>();
@@ -188,7 +186,7 @@ function unit(a: Point): Point {
   return [a[0] / length, a[1] / length, a[2] / length];
 }
 
-/** Smooth normals, each triangle counting by its area: what convert gives a mesh without normals. */
+/** Area-weighted vertex normals, as convert computes them for a mesh without normals. */
 export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float32Array {
   const sums = new Float64Array(positions.length);
   const at = (vertex: number): Point => [
@@ -200,7 +198,7 @@ export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float3
     const corners = [triangles[t]!, triangles[t + 1]!, triangles[t + 2]!];
     const [a, b, c] = [at(corners[0]!), at(corners[1]!), at(corners[2]!)];
     const weighted = cross(minus(b, a), minus(c, a));
-    for (const corner of corners) weighted.forEach((part, axis) => (sums[3 * corner + axis]! += part));
+    for (const corner of corners) weighted.forEach((value, axis) => (sums[3 * corner + axis]! += value));
   }
   for (let i = 0; i < sums.length; i += 3) sums.set(unit([sums[i]!, sums[i + 1]!, sums[i + 2]!]), i);
   return Float32Array.from(sums);
@@ -245,13 +243,13 @@ export function writePly({
   return Buffer.concat([Buffer.from(header), body]);
 }
 
-/** With a number for each vertex, how high it lies, and a vector of three, how far it is from the middle. */
+/** The mesh with a number for each vertex (its y coordinate) and a vector (its position). */
 export function withNumbers(mesh: PlainMesh): PlainMesh {
   const axis = (n: number): Float32Array => mesh.positions.filter((_, i) => i % 3 === n);
   return { ...mesh, numbers: { height: axis(1), away_0: axis(0), away_1: axis(1), away_2: axis(2) } };
 }
 
-/** Reads what writePly writes, further numbers apart. */
+/** Reads files of writePly, without further numbers. */
 export function readPly(bytes: Buffer): PlainMesh {
   const headerBytes = bytes.indexOf("end_header\n") + "end_header\n".length;
   const header = bytes.toString("latin1", 0, headerBytes);
@@ -282,7 +280,7 @@ export function readPly(bytes: Buffer): PlainMesh {
   };
 }
 
-/** Positions and triangles of an OBJ file; anything else in it is left out. */
+/** Positions and triangles of an OBJ file; ignores everything else. */
 export function readObj(text: string): PlainMesh {
   const positions: number[] = [];
   const triangles: number[] = [];

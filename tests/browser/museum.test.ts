@@ -1,5 +1,5 @@
-// A piece as a museum shows it (paper, figure 12): notes that stand where they
-// speak of, and points or triangles by a key.
+// Tests the museum example (paper, figure 12): notes at positions of the statue, and a key that displays points or
+// triangles.
 
 import assert from "node:assert/strict";
 import { cpSync } from "node:fs";
@@ -13,7 +13,7 @@ import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import { repository } from "./paths.ts";
 import { siteOfGenerated, variantOf } from "./sites.ts";
 
-test("a museum's piece has notes that can be read from everywhere, shows its points, and stays still for who wants that", async () => {
+test("the museum example has notes that are readable from everywhere, displays its points, and does not rotate with reduced motion", async () => {
   const notes = [
     { name: "Front", text: "Its face.", position: [0, 0, 1.2], normal: [0, 0, 1] },
     { name: "Back", text: "Its other side.", position: [0, 0, -1.2], normal: [0, 0, -1] },
@@ -31,7 +31,7 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
         return getComputedStyle(note!).opacity;
       }, name);
     await until(
-      "the note of the far side has faded",
+      "the note on the far side has faded",
       async () => (await opacityOf("Front")) === "1" && (await opacityOf("Back")) === "0.25",
     );
 
@@ -40,7 +40,7 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
       await page.keyboard.press("Tab");
       return page.evaluate(() => document.activeElement?.textContent);
     };
-    assert.deepEqual([await focused(), await focused()], ["Front", "Back"]); // also the one that has faded
+    assert.deepEqual([await focused(), await focused()], ["Front", "Back"]); // the faded note as well
     await page.keyboard.press("Enter");
     assert.ok(await page.getByText("Its other side.").isVisible());
     await page.keyboard.press("Escape");
@@ -66,7 +66,7 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
     assertSamePicture("a surface again", await view.picture(), surface, { mean: 0.001 });
     assert.ok(
       (await viewEvents(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"),
-      "it turns for who wants less motion",
+      "it rotates although reduced motion is preferred",
     );
   });
 });

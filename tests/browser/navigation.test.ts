@@ -1,5 +1,5 @@
-// Viewpoints and ways to move, as the document says them and as people use them:
-// by keyboard, mouse, touch and lists.
+// Tests viewpoints and navigation types, as the document specifies them and as users control them by keyboard, mouse,
+// touch and menus.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -16,7 +16,7 @@ const above =
 const side =
   '<Transform rotation="0 1 0 1.5707963"><Viewpoint id="side" description="Side" position="0 0 12"></Viewpoint></Transform>';
 
-/** The site with more viewpoints behind its own, and another NavigationInfo. */
+/** The site with viewpoints added after its own, and another NavigationInfo. */
 function siteWith(name: string, viewpoints: string, navigation?: string): string {
   return variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), name, (page) =>
     page
@@ -34,7 +34,7 @@ async function withScene(site: string, options: PageOptions, use: (view: View) =
   });
 }
 
-/** The picture of the page when that viewpoint is its only one. */
+/** The picture of the page with this viewpoint as its only one. */
 async function pictureFrom(viewpoint: string): Promise<Picture> {
   const site = variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), "one-view", (page) =>
     page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint),
@@ -47,7 +47,7 @@ async function pictureFrom(viewpoint: string): Promise<Picture> {
   return seen;
 }
 
-/** Without the lists, which are drawn over the scene. */
+/** The picture without the menus, which are displayed over the scene. */
 async function bare(view: View): Promise<Picture> {
   await view.page.evaluate(() => {
     document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".controls")!.style.opacity = "0";
@@ -83,7 +83,7 @@ const waysToBind: Record<string, (view: View) => Promise<void>> = {
 
 describe("a viewpoint is chosen by", () => {
   for (const [name, bind] of Object.entries(waysToBind)) {
-    test(`${name}, and left again`, async () => {
+    test(`${name}, and unbound again`, async () => {
       await withScene(threeViews(), {}, async (view) => {
         const start = await bare(view);
         await bind(view);
@@ -99,14 +99,14 @@ describe("a viewpoint is chosen by", () => {
     });
   }
 
-  test("set_bind in the document from the start", async () => {
+  test("set_bind in the document", async () => {
     const site = siteWith("bound", above.replace("description", 'set_bind="true" description') + side);
     await withScene(site, {}, async (view) => {
       assertSamePicture("bound from the start", await bare(view), await pictureFrom(above), { mean: 0.001 });
     });
   });
 
-  test("its removal from under the camera", async () => {
+  test("the removal of the bound viewpoint", async () => {
     await withScene(threeViews(), {}, async (view) => {
       const start = await bare(view);
       await view.page.evaluate(() => {
@@ -120,7 +120,7 @@ describe("a viewpoint is chosen by", () => {
     });
   });
 
-  test("no list where there is only one", async () => {
+  test("no menu if there is only one viewpoint", async () => {
     await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async ({ page }) => {
       assert.equal(await page.getByRole("combobox").count(), 0);
     });
@@ -136,7 +136,7 @@ describe("a viewpoint is chosen by", () => {
   }
 });
 
-describe("the way to a viewpoint", () => {
+describe("the transition to a viewpoint", () => {
   const travel = async (view: View): Promise<{ frames: number; picture: Picture }> => {
     await settle(view.page);
     const before = (await viewEvents(view, "camera-change")).length;
@@ -145,15 +145,15 @@ describe("the way to a viewpoint", () => {
     return { frames: (await viewEvents(view, "camera-change")).length - before, picture };
   };
 
-  test("is a journey that ends where the viewpoint is", async () => {
+  test("is an animation that ends at the viewpoint", async () => {
     await withScene(threeViews(), { motion: true }, async (view) => {
       const { frames, picture } = await travel(view);
       assert.ok(frames > 3, `${frames} frames`);
-      assertSamePicture("end of a journey", picture, await pictureFrom(side), { mean: 0.001 });
+      assertSamePicture("end of a transition", picture, await pictureFrom(side), { mean: 0.001 });
     });
   });
 
-  test("is none for people who prefer less motion, nor where the document teleports", async () => {
+  test("is skipped with reduced motion and with TELEPORT", async () => {
     await withScene(threeViews(), {}, async (view) => {
       assert.equal((await travel(view)).frames, 1);
     });
@@ -167,7 +167,7 @@ describe("the way to a viewpoint", () => {
 const walking = (): string => siteWith("walk", "", '<NavigationInfo type=\'"WALK" "FLY" "EXAMINE"\' speed="3">');
 
 describe("walking and flying", () => {
-  test("go on while a key is held, and end with it or with the focus", async () => {
+  test("continue while a key is held, and end with the key or with the focus", async () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
       for (const end of [
@@ -179,7 +179,10 @@ describe("walking and flying", () => {
       ]) {
         const before = (await viewEvents(view, "camera-change")).length;
         await view.page.keyboard.down("ArrowUp");
-        await until("the camera moves on", async () => (await viewEvents(view, "camera-change")).length > before + 3);
+        await until(
+          "the camera keeps moving",
+          async () => (await viewEvents(view, "camera-change")).length > before + 3,
+        );
         await end();
         await settle(view.page);
         const { length } = await viewEvents(view, "camera-change");
@@ -193,7 +196,7 @@ describe("walking and flying", () => {
     });
   });
 
-  /** Where the eye is, and where it looks. */
+  /** The camera's orbit. */
   async function radiusAnd({ page }: View): Promise<{ theta: number; phi: number; radius: number }> {
     return page.evaluate(() => {
       const { theta, phi, radius } = document.querySelector<ViewElement>("x3d")!.getCameraOrbit();
@@ -201,23 +204,23 @@ describe("walking and flying", () => {
     });
   }
 
-  test("drag to look about: what is seen follows the hand, the eye stays", async () => {
+  test("dragging turns the camera, and its position stays", async () => {
     await withScene(walking(), {}, async (view) => {
       const before = await radiusAnd(view);
       await drag(view, 80, 0);
       const after = await radiusAnd(view);
       assert.ok(Math.abs(after.radius - before.radius) < 1e-6);
-      // Looking to the left is as if the eye had gone to the right around what is ahead.
+      // Turning to the left is like an orbit to the right around a center ahead.
       assert.ok(after.theta > before.theta + 0.05, `${before.theta} to ${after.theta}`);
     });
   });
 
-  test("by touch: one finger looks about, two walk and fly", async () => {
+  test("by touch: one finger turns the camera, two fingers move it", async () => {
     await withScene(walking(), { hasTouch: true }, async (view) => {
       const start = await view.picture();
       await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
       const looked = await view.picture();
-      assert.ok(difference(start, looked).mean > 1, "one finger does not look about");
+      assert.ok(difference(start, looked).mean > 1, "one finger does not turn the camera");
       await touch(view, [
         [
           [-40, 0],
@@ -233,7 +236,7 @@ describe("walking and flying", () => {
         ],
       ]);
       const walked = await view.picture();
-      assert.ok(difference(looked, walked).mean > 1, "two fingers do not walk");
+      assert.ok(difference(looked, walked).mean > 1, "two fingers do not move the camera in WALK");
       await focusView(view);
       await view.page.keyboard.press("f");
       await touch(view, [
@@ -250,24 +253,24 @@ describe("walking and flying", () => {
           [40, -90],
         ],
       ]);
-      assert.ok(difference(walked, await view.picture()).mean > 1, "two fingers do not fly");
+      assert.ok(difference(walked, await view.picture()).mean > 1, "two fingers do not move the camera in FLY");
     });
   });
 
-  test("are chosen by list or by key, and said", async () => {
+  test("are chosen by menu or by key, and announced", async () => {
     await withScene(walking(), {}, async (view) => {
       const list = view.page.getByRole("combobox", { name: "Way to move" });
       assert.deepEqual(await list.getByRole("option").allTextContents(), ["Walk", "Fly", "Examine"]);
       await focusView(view);
       await view.page.keyboard.press("e");
       assert.equal(await list.inputValue(), "Examine");
-      await until("it is said", async () => (await spoken(view)).includes("Examining"));
+      await until("it is announced", async () => (await spoken(view)).includes("Examining"));
       await list.selectOption("Fly");
-      await until("it is said", async () => (await spoken(view)).includes("Flying"));
+      await until("it is announced", async () => (await spoken(view)).includes("Flying"));
     });
   });
 
-  test("a walk by keyboard leads somewhere, and R back", async () => {
+  test("walking by keyboard moves the camera, and R resets it", async () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
       const start = await bare(view);
@@ -294,7 +297,7 @@ describe("walking and flying", () => {
     });
   });
 
-  /** For a quarter of a second, and some frames however slow they are. */
+  /** Holds a key for at least a quarter of a second and some frames. */
   async function hold({ page }: View, key: string): Promise<void> {
     const keys = key.split("+").filter((part) => part !== "");
     for (const part of keys.length ? keys : ["+"]) await page.keyboard.down(part);
@@ -312,8 +315,8 @@ async function spoken({ page }: View): Promise<string> {
   );
 }
 
-test("who has lost the scene on a phone finds it again", async () => {
-  const size = { width: 640, height: 844 }; // `touch` counts from the middle of the usual picture
+test("reset buttons display the scene again on a touch screen", async () => {
+  const size = { width: 640, height: 844 }; // `touch` uses the center of the default picture
   await withScene(siteOfGenerated("trefoil", "--profile", "classic"), { size, hasTouch: true }, async (view) => {
     const { page } = view;
     const start = await view.picture();
@@ -334,7 +337,10 @@ test("who has lost the scene on a phone finds it again", async () => {
         [150, 0],
       ],
     ]);
-    await until("the ways back are there", async () => (await buttons.allTextContents()).join() === "Show all,Start");
+    await until(
+      "the reset buttons are displayed",
+      async () => (await buttons.allTextContents()).join() === "Show all,Start",
+    );
     const orbit = (): Promise<{ theta: number; radius: number }> =>
       page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit());
     const near = await orbit();
@@ -343,7 +349,7 @@ test("who has lost the scene on a phone finds it again", async () => {
     const all = await orbit();
     assert.ok(
       all.radius > 3 * near.radius && Math.abs(all.theta - near.theta) < 1e-6,
-      "all is shown from the same side",
+      "the whole scene is displayed from the same side",
     );
     await page.getByRole("button", { name: "Start" }).tap();
     assertSamePicture("found again", await view.picture(), start, { mean: 0.001 });
@@ -351,19 +357,19 @@ test("who has lost the scene on a phone finds it again", async () => {
   });
 });
 
-describe("what a document does not allow", () => {
-  test("is not to be had by key", async () => {
+describe("navigation types that a document does not allow", () => {
+  test("cannot be chosen by key", async () => {
     await withScene(siteWith("only-walk", "", '<NavigationInfo type="WALK">'), {}, async (view) => {
       await focusView(view);
       await view.page.keyboard.press("e");
       const before = (await viewEvents(view)).length;
-      await view.page.keyboard.down("ArrowUp"); // walks still: examining would be a single step
-      await until("the camera moves on", async () => (await viewEvents(view)).length > before + 3);
+      await view.page.keyboard.down("ArrowUp"); // still in WALK: EXAMINE would move a single step
+      await until("the camera keeps moving", async () => (await viewEvents(view)).length > before + 3);
       await view.page.keyboard.up("ArrowUp");
     });
   });
 
-  test("with NONE, nothing moves the camera but the page", async () => {
+  test("with NONE only the page moves the camera", async () => {
     await withScene(
       siteWith("none", above + side, '<NavigationInfo type="NONE">'),
       { hasTouch: true },
@@ -384,7 +390,7 @@ describe("what a document does not allow", () => {
   });
 });
 
-test("the page says which way is up: a statue seen from above stays upright when it is turned", async () => {
+test("orbits keep the up axis of the page: a statue seen from above stays upright", async () => {
   await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async (view) => {
     const orbit = async (): Promise<number> =>
       view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit().phi);

@@ -1,5 +1,5 @@
-// A slow line between a server and its clients: bytes of all connections share
-// its width, and every answer begins a round trip late.
+// A slow network link between a server and its clients: all connections share its bandwidth, and every answer starts a
+// round trip late.
 
 import type { IncomingMessage, ServerResponse } from "node:http";
 import type { Socket } from "node:net";
@@ -16,23 +16,23 @@ const headBytes = 300;
 
 export class NetworkLink {
   readonly #options: LinkOptions;
-  readonly #greeted = new WeakSet<Socket>();
-  /** When the line will have sent what has been given to it. */
+  readonly #connected = new WeakSet<Socket>();
+  /** Time at which the link will have sent everything that it has been given. */
   #freeAt = 0;
 
   constructor(options: LinkOptions) {
     this.#options = options;
   }
 
-  /** The time until the server's first byte can be here; a new connection takes a round trip of its own. */
+  /** Waits until the server's first byte can arrive; a new connection takes an additional round trip. */
   async arrive({ socket }: IncomingMessage): Promise<void> {
-    const isNew = !this.#greeted.has(socket);
-    this.#greeted.add(socket);
+    const isNew = !this.#connected.has(socket);
+    this.#connected.add(socket);
     await pause((isNew ? 2 : 1) * this.#options.roundTripMs);
     await this.#turn(headBytes);
   }
 
-  /** Sends the body as fast as the line allows; stops where the client goes away. */
+  /** Sends the body at the link's bandwidth; stops when the client disconnects. */
   async send(response: ServerResponse, body: Uint8Array): Promise<void> {
     for (let at = 0; at < body.length && !response.destroyed; at += packetBytes) {
       const packet = body.subarray(at, at + packetBytes);
@@ -42,7 +42,7 @@ export class NetworkLink {
     response.end();
   }
 
-  /** Resolves when so many bytes have passed. */
+  /** Resolves when `bytes` bytes have been sent. */
   async #turn(bytes: number): Promise<void> {
     const now = performance.now();
     this.#freeAt = Math.max(this.#freeAt, now) + (8000 * bytes) / this.#options.bitsPerSecond;

@@ -1,6 +1,5 @@
-// What may happen to a page from outside: a slow host, one that says no to other
-// sites, a lost WebGL context, a tab that nobody looks at. In the end the picture
-// is right and the events are true.
+// Tests external disturbances: a slow host, a host that refuses other origins, a lost WebGL context, a hidden tab. In
+// the end the picture is correct, and events have been correct throughout.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -29,8 +28,8 @@ function filesOf(ranks: (rank: number) => boolean): (path: string) => boolean {
   return (path) => paths.includes(path);
 }
 
-/** first-image once, then rising stages, then load once; all before or at it. */
-async function assertTruthfulEvents(view: View): Promise<void> {
+/** Asserts one first-image, then refine with rising stages, then one load. */
+async function assertCorrectEvents(view: View): Promise<void> {
   for (const target of ["x3d", "shape"]) {
     const types = (await view.events("first-image", target)).length;
     assert.equal(types, 1, `${types} first images of ${target}`);
@@ -50,7 +49,7 @@ async function assertTruthfulEvents(view: View): Promise<void> {
 }
 
 describe("a slow host", () => {
-  test("shows the first picture before any second byte has come, and then all of it", async () => {
+  test("displays the first picture before any second byte has arrived, and then everything", async () => {
     const { closed, open } = gate();
     const isSecondByte = filesOf((rank) => rank === 4);
     const server = (server: View["server"]): void => {
@@ -58,17 +57,17 @@ describe("a slow host", () => {
       server.when(isSecondByte, { hold: closed });
     };
     await withPage(site(), { server }, async (view) => {
-      await view.promise("firstImage"); // which would not come if it waited for one
+      await view.promise("firstImage"); // would not resolve if it waited for a second byte
       const answered = view.server.requests.filter(({ path, state }) => isSecondByte(path) && state === "answered");
       assert.deepEqual(answered, []);
       open();
       await view.promise("complete");
-      await assertTruthfulEvents(view);
+      await assertCorrectEvents(view);
       assertSamePicture("slow host", await view.picture(), await undisturbed(), { mean: 0 });
     });
   });
 
-  test("that is busy for a second is asked again when it says so", async () => {
+  test("that is busy for a second gets another request after Retry-After", async () => {
     const server = (server: View["server"]): void => {
       const busy = server.when(
         filesOf((rank) => rank === 2),
@@ -78,13 +77,13 @@ describe("a slow host", () => {
     };
     await withPage(site(), { server, expectedErrors: /503/ }, async (view) => {
       await view.promise("complete");
-      await assertTruthfulEvents(view);
+      await assertCorrectEvents(view);
       assertSamePicture("busy host", await view.picture(), await undisturbed(), { mean: 0 });
     });
   });
 });
 
-test("a host that refuses other sites' pages costs the shapes whose files it has, and says what it must allow", async () => {
+test("a host that refuses other origins affects only shapes with files on it, and the error says what it must allow", async () => {
   const other = await startServer(site());
   try {
     const scene =
@@ -120,7 +119,7 @@ describe("a lost WebGL context", () => {
     (window as unknown as { loser: WEBGL_lose_context }).loser.restoreContext();
   };
 
-  test("comes back with the same picture, and without a second load", async () => {
+  test("is restored with the same picture, and without a second load event", async () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const before = await view.picture();
@@ -128,7 +127,7 @@ describe("a lost WebGL context", () => {
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
       const asked = view.server.requests.length;
       await view.page.evaluate(restore);
-      await until("the files are asked for again", () => view.server.requests.length > asked);
+      await until("the files are requested again", () => view.server.requests.length > asked);
       await until("the picture is back", async () => {
         await settle(view.page);
         const statistics = await view.page.evaluate(() => {
@@ -141,12 +140,12 @@ describe("a lost WebGL context", () => {
       });
       await settle(view.page);
       assertSamePicture("restored context", await view.picture(), before, { mean: 0 });
-      await assertTruthfulEvents(view);
+      await assertCorrectEvents(view);
       assert.equal((await view.observed()).live.bitmaps, 0);
     });
   });
 
-  test("amid loading only delays it", async () => {
+  test("during loading only delays it", async () => {
     const { closed, open } = gate();
     const server = (server: View["server"]): void =>
       void server.when(
@@ -161,13 +160,13 @@ describe("a lost WebGL context", () => {
       assert.deepEqual(await view.events("load"), []);
       await view.page.evaluate(restore);
       await view.promise("complete");
-      await assertTruthfulEvents(view);
+      await assertCorrectEvents(view);
       assertSamePicture("context lost amid loading", await view.picture(), await undisturbed(), { mean: 0 });
     });
   });
 });
 
-test("ten thousand shapes, one without its files, are all shown but that one, and the page follows the keyboard", async () => {
+test("ten thousand shapes are all displayed except one whose files are missing, and the page follows the keyboard", async () => {
   const side = 100;
   const small = siteOfGenerated("sphere-small", "--profile", "classic");
   const [whole, broken] = [shapeIn(small, "small", 'id="NAME"'), shapeIn(small, "missing", 'id="NAME"')];
@@ -194,12 +193,12 @@ test("ten thousand shapes, one without its files, are all shown but that one, an
     });
     assert.equal(loaded, side * side - 1);
     assert.deepEqual([...new Set(failed)], ["shape#s4321"]);
-    // One URL is one request, and a request that fails is one line.
+    // One request per URL, and one console line per error.
     assert.ok(view.server.requests.length < 20, `${view.server.requests.length} requests`);
     assert.equal(view.errors.filter((line) => line.startsWith("imgeo:")).length, failed.length);
     await view.page.locator("imgeo-view canvas").press("ArrowLeft");
-    await until("it draws again", () => view.page.evaluate((before) => window.observed.draws > before, draws));
-    // Each is written in full, but all that name the same files are one geometry, drawn in all its places at once.
+    await until("the view draws again", () => view.page.evaluate((before) => window.observed.draws > before, draws));
+    // Each shape is written in full, but shapes with the same files are instances of one geometry.
     const perFrame = await view.page.evaluate(async () => {
       const before = window.observed.draws;
       await (document.querySelector("x3d") as unknown as { toBlob: () => Promise<Blob> }).toBlob();
@@ -209,8 +208,8 @@ test("ten thousand shapes, one without its files, are all shown but that one, an
   });
 });
 
-describe("a tab that nobody looks at", () => {
-  /** Headless Chromium shows every tab: what a hidden one lacks is taken away. */
+describe("a hidden tab", () => {
+  /** Simulates a hidden tab, which headless Chromium does not have: no animation frames, and document.hidden. */
   const hideAtFirst = (): void => {
     let isHidden = true;
     let waiting: FrameRequestCallback[] = [];
@@ -226,12 +225,12 @@ describe("a tab that nobody looks at", () => {
     };
   };
 
-  test("loads all the same; pictures, and what is told of them, wait until somebody does", async () => {
+  test("loads files; pictures and their events wait until it is visible", async () => {
     await withPage(site(), { before: hideAtFirst }, async (view) => {
       const files = filesOf(() => true);
       const count = ranksOfFiles(pageOf(site())).size;
       await until(
-        "all files have come",
+        "all files have arrived",
         () => view.server.requests.filter(({ path, state }) => files(path) && state === "answered").length === count,
       );
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 1000)));
@@ -240,7 +239,7 @@ describe("a tab that nobody looks at", () => {
         (window as unknown as { reveal: () => void }).reveal();
       });
       await view.promise("complete");
-      await assertTruthfulEvents(view);
+      await assertCorrectEvents(view);
       assertSamePicture("hidden tab", await view.picture(), await undisturbed(), { mean: 0 });
       assert.equal((await view.observed()).live.bitmaps, 0);
     });

@@ -1,6 +1,5 @@
-// Runs in the page before anything else and keeps a record of what happens
-// there: events of the scene, calls to WebGL, objects that WebGL holds. Counted
-// from outside, so that the runtime's own book-keeping is not what proves it.
+// Runs in the page before its scripts and records events of the scene, WebGL calls and live WebGL objects. It
+// intercepts them from outside the runtime, so that tests do not depend on the runtime's own statistics.
 
 export interface ObservedEvent {
   type: string;
@@ -15,11 +14,11 @@ export interface ObservedEvent {
 export interface Observed {
   /** Events of <x3d> and <shape> elements, in order. */
   events: ObservedEvent[];
-  /** Types of such events that bubbled up to the document: there must be none. */
+  /** Types of such events that bubbled up to the document: must be empty. */
   bubbled: string[];
-  /** Draw calls and clears so far: stands still while nothing is rendered. */
+  /** Number of draw calls and clears so far; constant while nothing is rendered. */
   draws: number;
-  /** WebGL objects that exist now, and decoded images that are open. */
+  /** Numbers of live WebGL objects and of open decoded images. */
   live: { textures: number; buffers: number; vertexArrays: number; programs: number; bitmaps: number };
 }
 
@@ -60,7 +59,7 @@ export function observe(): void {
         at: performance.now(),
       });
     };
-    // Events that do not bubble still pass the document on their way down.
+    // Events that do not bubble still pass the document in the capture phase.
     document.addEventListener(type, record, true);
   }
 

@@ -1,6 +1,5 @@
-// The pointer finds exactly what is seen: triangle, vertex, place and normal of
-// known pixels against rays through the reference decoder's mesh; and its events
-// come from the shape's element as the web's own do.
+// Tests picking and pointer events: triangle, vertex, position and normal at known pixels are compared with rays
+// through the reference decoder's mesh, and events are dispatched on the shape's element as the browser's own are.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -29,8 +28,8 @@ declare global {
   }
 }
 
-/** Self-contained: records pointer events as the document hears them, after all bubbling. */
-function hear(): void {
+/** Self-contained: records pointer events that have bubbled up to the document. */
+function recordPointerEvents(): void {
   window.pointerEvents = [];
   const types = [
     "pointerdown",
@@ -69,7 +68,7 @@ async function withSite(
   const server = (server: View["server"]): void => {
     server.when(/^\/$/, { replace: (html) => change(html.toString()) });
   };
-  await withPage(site, { before: hear, server }, async (view) => {
+  await withPage(site, { before: recordPointerEvents, server }, async (view) => {
     await view.promise("complete");
     await settle(view.page);
     await use(view);
@@ -80,7 +79,7 @@ async function pointerEvents({ page }: View, type: string): Promise<PointerRecor
   return (await page.evaluate(() => window.pointerEvents)).filter((event) => event.type === type);
 }
 
-/** Clicks and gives what the document pointerEvents of it. */
+/** Clicks at a pixel; returns the click event that the document receives. */
 async function clickAt(view: View, x: number, y: number): Promise<PointerRecord> {
   await view.page.evaluate(() => {
     window.pointerEvents = [];
@@ -95,14 +94,14 @@ function expectedAt(site: string, patches: PlainPatch[], x: number, y: number): 
   return firstHit(rayThrough(referenceSettingsOf(pageOf(site)).viewpoint, pictureSize, x, y), patches);
 }
 
-/** Pixels over the whole picture, off any regular pattern of the mesh. */
+/** Pixels over the whole picture, in no regular pattern. */
 const pixels = Array.from({ length: 24 }, (_, i) => ({
   x: Math.round(pictureSize.width * (0.15 + 0.7 * ((i * 0.618034) % 1))),
   y: Math.round(pictureSize.height * (0.06 + 0.88 * ((i + 0.5) / 24))),
 }));
 
 function assertNear(actual: Vec3 | null | undefined, expected: Vec3, tolerance: number, what: string): void {
-  assert.ok(actual, `${what} is told`);
+  assert.ok(actual, `${what} is missing`);
   const off = Math.hypot(...minus(actual, expected));
   assert.ok(off <= tolerance, `${what} is ${actual.join(" ")}, ${off} from ${expected.join(" ")}`);
 }
@@ -122,7 +121,7 @@ const layouts: string[][] = ["int16", "float32"].map((type) => [
   type,
 ]);
 
-describe("a click tells the triangle, vertex, place and normal that the pixel shows", () => {
+describe("a click event has the triangle, vertex, position and normal at its pixel", () => {
   for (const options of [
     ...sites,
     ...layouts,
@@ -133,7 +132,7 @@ describe("a click tells the triangle, vertex, place and normal that the pixel sh
     test(options.join(" "), async () => {
       const isCompact = options.includes("compact");
       const site = siteOfGenerated("trefoil", ...(isCompact ? [] : ["--profile", "classic"]), ...options);
-      // From here a third byte plane would not be seen, so it has not been asked for.
+      // A third byte would be invisible with this camera, so it is not requested.
       const patches = isCompact ? decodeCompactSite(site) : decodeSite(site, 2);
       await withSite(site, async (view) => {
         let hits = 0;
@@ -147,7 +146,7 @@ describe("a click tells the triangle, vertex, place and normal that the pixel sh
           assert.equal(click.vertexId, expected.vertices[expected.shares.indexOf(Math.max(...expected.shares))]);
           assertNear(click.position, expected.position, 1e-5, `the position at ${x}, ${y}`);
           assert.deepEqual(click.hitPnt, click.position);
-          // The GPU interpolates normals at places that it has rounded to a fraction of a pixel.
+          // The GPU interpolates normals at positions rounded to a fraction of a pixel.
           assertNear(click.normal, expected.normal, 1e-2, "the normal");
         }
         assert.ok(hits >= 8 && hits < pixels.length, `${hits} of ${pixels.length} pixels show the mesh`);
@@ -159,7 +158,7 @@ describe("a click tells the triangle, vertex, place and normal that the pixel sh
 /** Removes the normals from a page, so that faces are shaded flat. */
 const withoutNormalFiles = (html: string): string => html.replaceAll(/ normal=("[^"]*"|'[^']*')/gi, "");
 
-describe("a surface without normals tells that of the triangle", () => {
+describe("a surface without normals has the normal of the triangle", () => {
   for (const container of ["sig", "bg"]) {
     test(container, async () => {
       const site = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
@@ -189,7 +188,7 @@ describe("a surface without normals tells that of the triangle", () => {
 
 interface ProjectedPoint {
   vertex: number;
-  /** In pixels, whose middles are whole numbers. */
+  /** Pixel coordinates; centers of pixels are whole numbers. */
   x: number;
   y: number;
   depth: number;
@@ -207,7 +206,7 @@ function projected(
   return Array.from(vertices, (vertex) => {
     const towards = minus(vectorAt(patch.positions, vertex), viewpoint.position);
     const depth = dot(towards, ahead);
-    const off = minus(towards.map((part) => part / depth) as Vec3, corner);
+    const off = minus(towards.map((value) => value / depth) as Vec3, corner);
     return { vertex, depth, x: dot(off, right) / dot(right, right), y: dot(off, below) / dot(below, below) };
   });
 }
@@ -230,7 +229,7 @@ describe("a point is hit where it is drawn", () => {
           assert.equal(click.target, "shape", `at ${x}, ${y}`);
           ++hits;
           assert.deepEqual([click.vertexId, click.triangleId, click.normal], [expected, null, null]);
-          assertNear(click.position, vectorAt(patch!.positions, expected), 1e-5, "the place");
+          assertNear(click.position, vectorAt(patch!.positions, expected), 1e-5, "the position");
         }
         assert.ok(hits >= 8, `${hits} points`);
         assert.equal((await clickAt(view, 5, 5)).target, "imgeo-view");
@@ -238,7 +237,7 @@ describe("a point is hit where it is drawn", () => {
     });
   }
 
-  /** The nearest point whose square of two pixels covers the middle of this one; "unsure" by a hair of its edge. */
+  /** The nearest point whose square of two pixels covers the center of this pixel; "unsure" near the edge of the square. */
   function pointAt(points: ProjectedPoint[], x: number, y: number): number | "unsure" {
     const covering = points.filter((point) => Math.max(Math.abs(point.x - x), Math.abs(point.y - y)) < 1.02);
     const [nearest] = covering.sort((a, b) => a.depth - b.depth);
@@ -246,7 +245,7 @@ describe("a point is hit where it is drawn", () => {
   }
 });
 
-describe("a line is hit where it is drawn, at its nearer end", () => {
+describe("a line is hit where it is drawn, and the event has its nearer end", () => {
   for (const [what, options] of Object.entries(containers)) {
     test(what, async () => {
       const site = siteOfGenerated("coil", ...options);
@@ -259,7 +258,7 @@ describe("a line is hit where it is drawn, at its nearer end", () => {
         for (const [a, b] of lines.filter((_, i) => i % 97 === 0)) {
           const [x, y] = [Math.round((a.x + b.x) / 2), Math.round((a.y + b.y) / 2)];
           const click = await clickAt(view, x, y);
-          if (click.target !== "shape") continue; // lines are a pixel wide: the middle may lie in the next one
+          if (click.target !== "shape") continue; // lines are a pixel wide: the midpoint may be in the next pixel
           ++hits;
           const near = lines.filter(
             ([from, to]) => distanceToLine({ x, y }, from, to) < 1 && [from.vertex, to.vertex].includes(click.vertexId),
@@ -291,14 +290,14 @@ describe("a line is hit where it is drawn, at its nearer end", () => {
   }
 });
 
-/** A pixel that shows the shape, one that does not, and the site. */
+/** The site of the tests of pointer events, a pixel on its shape, and one beside it. */
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 const onShape = pixels.find(({ x, y }) => expectedAt(site(), decodeSite(site()), x, y))!;
 const nearby = { x: onShape.x + 2, y: onShape.y + 1 };
 const offShape = { x: 3, y: pictureSize.height - 3 };
 
 describe("pointer events", () => {
-  test("come from the shape, bubble, and say what was hit; elsewhere they are the view's", async () => {
+  test("are dispatched on the shape, bubble, and describe the hit; elsewhere they are dispatched on the view", async () => {
     await withSite(site(), async (view) => {
       const { mouse } = view.page;
       await mouse.move(offShape.x, offShape.y);
@@ -321,7 +320,7 @@ describe("pointer events", () => {
     });
   });
 
-  test("are stopped by a listener on the shape, and enter a group once for all its shapes", async () => {
+  test("can be stopped by a listener on the shape, and enter a group once for all its shapes", async () => {
     const inGroup = (html: string): string =>
       html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) => `<Group id="all">${shape}</Group>`);
     await withSite(
@@ -344,7 +343,7 @@ describe("pointer events", () => {
     );
   });
 
-  test("leave the camera alone when the press is prevented, and are no click after a drag", async () => {
+  test("do not move the camera if pointerdown is prevented, and do not include a click after a drag", async () => {
     await withSite(site(), async (view) => {
       const drag = async (): Promise<void> => {
         await view.page.mouse.move(onShape.x, onShape.y);
@@ -367,7 +366,7 @@ describe("pointer events", () => {
       const before = await frames();
       await drag();
       assert.equal(await frames(), before, "the camera has moved");
-      assert.equal((await pointerEvents(view, "mousedown")).length, 0, "a prevented press has no mouse event");
+      assert.equal((await pointerEvents(view, "mousedown")).length, 0, "a prevented pointerdown has no mouse event");
       await view.page.evaluate(() => {
         window.pointerEvents = [];
       });
@@ -377,7 +376,7 @@ describe("pointer events", () => {
     });
   });
 
-  test("pass through shapes that are hidden or not pickable, also when they become so", async () => {
+  test("ignore shapes that are hidden or not pickable, also after a change", async () => {
     await withSite(site(), async (view) => {
       for (const [name, value] of [
         ["visible", "false"],
@@ -400,7 +399,7 @@ describe("pointer events", () => {
     });
   });
 
-  test("hit what a transform has moved, mirrored and stretched", async () => {
+  test("hit shapes that a transform has moved, mirrored and scaled", async () => {
     const moved = (html: string): string =>
       html.replace(
         /<Shape[\s\S]*<\/Shape>/i,
@@ -421,7 +420,7 @@ describe("pointer events", () => {
             click.position,
             origin.map((part, i) => part + along * direction[i]!) as Vec3,
             2e-4,
-            "the place on the ray",
+            "the position on the ray",
           );
           assert.ok(dot(click.normal!, direction) < 0.1, "the normal faces the eye");
         }
@@ -432,7 +431,7 @@ describe("pointer events", () => {
   });
 });
 
-test("hovering draws no frame and never waits for the GPU", async () => {
+test("hovering draws no frame and does not wait for the GPU", async () => {
   await withSite(site(), async (view) => {
     await view.page.evaluate(() => {
       const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
@@ -447,7 +446,7 @@ test("hovering draws no frame and never waits for the GPU", async () => {
     const before = await frames();
     await view.page.mouse.move(onShape.x, onShape.y);
     await view.page.mouse.move(nearby.x, nearby.y, { steps: 3 });
-    await until("the shape hears of it", async () =>
+    await until("the shape gets the event", async () =>
       (await pointerEvents(view, "pointermove")).some(({ target }) => target === "shape"),
     );
     assert.equal(await frames(), before);
@@ -457,7 +456,7 @@ test("hovering draws no frame and never waits for the GPU", async () => {
   });
 });
 
-test("positionAndNormalFromPoint tells what is seen at a point of the window", async () => {
+test("positionAndNormalFromPoint returns the hit at a point of the viewport", async () => {
   await withSite(site(), async (view) => {
     const at = ({
       x,
@@ -478,7 +477,7 @@ test("positionAndNormalFromPoint tells what is seen at a point of the window", a
     const expected = expectedAt(site(), decodeSite(site()), onShape.x, onShape.y)!;
     const found = await at(onShape);
     assert.equal(found?.shape, "shape");
-    assertNear(found.position.split(" ").map(Number) as Vec3, expected.position, 2e-5, "the place");
+    assertNear(found.position.split(" ").map(Number) as Vec3, expected.position, 2e-5, "the position");
     assertNear(found.normal.split(" ").map(Number) as Vec3, expected.normal, 1e-2, "the normal");
     assert.equal(await at(offShape), null);
     assert.equal(await at({ x: -5, y: 10 }), null);

@@ -1,5 +1,5 @@
-// The page shows exactly the mesh: against plain buffers that hold what the
-// container files say, and against plain buffers that hold the input.
+// Tests that the picture of a page equals that of plain buffers: buffers that hold the values of the container files,
+// and buffers that hold the input.
 
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
@@ -21,7 +21,7 @@ import { referenceSettingsOf, patchOfInput, referencePicture } from "./reference
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
 
-/** The site's page when everything has come. */
+/** The picture of the site's page after everything has loaded. */
 async function finalPicture(site: string, options: PageOptions = {}): Promise<Picture> {
   let seen: Picture | undefined;
   await withPage(site, options, async ({ promise, picture }) => {
@@ -87,7 +87,7 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "coil", options: ["--primitives", "strips", "--index", "off"] },
 ];
 
-describe("the final picture is that of plain buffers with the quantised mesh", () => {
+describe("the final picture equals that of plain buffers with the quantised mesh", () => {
   for (const { mesh, options } of cases) {
     test([mesh, ...options].join(" "), async () => {
       const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
@@ -97,7 +97,7 @@ describe("the final picture is that of plain buffers with the quantised mesh", (
   }
 });
 
-describe("the final picture is that of plain buffers with the input", () => {
+describe("the final picture equals that of plain buffers with the input", () => {
   for (const mesh of ["trefoil", "trefoil-colors", "trefoil-plain"] as const) {
     for (const options of [
       ["--profile", "compact"],
@@ -116,7 +116,7 @@ describe("the final picture is that of plain buffers with the input", () => {
 
   const bunny = join(modelDirectory, "stanford-bunny.obj");
   for (const container of ["sig", "bg"]) {
-    test(`bunny --container ${container}`, { skip: existsSync(bunny) ? false : `${bunny} is not here` }, async () => {
+    test(`bunny --container ${container}`, { skip: existsSync(bunny) ? false : `${bunny} is missing` }, async () => {
       const site = siteOf(bunny, "--profile", "classic", "--container", container);
       const expected = await referencePicture(pageOf(site), [patchOfInput(readObj(readFileSync(bunny, "utf8")))]);
       assertSamePicture(`input bunny ${container}`, await finalPicture(site), expected, boundsOfInput);
@@ -124,7 +124,7 @@ describe("the final picture is that of plain buffers with the input", () => {
   }
 });
 
-describe("a wrong mesh is seen", () => {
+describe("a wrong mesh is detected", () => {
   async function assertDiffers(site: string, options: PageOptions): Promise<void> {
     const right = await referencePicture(pageOf(site), decodeSite(site));
     const found = difference(await finalPicture(site, options), right);
@@ -158,10 +158,10 @@ describe("a wrong mesh is seen", () => {
     return url;
   }
 
-  /** How far off the index is: four rows of a coordinate image. */
+  /** Error of the index: four rows of a coordinate image. */
   const offBy = 1024;
 
-  /** The corner that spans the largest triangle towards the camera when its index is off. */
+  /** The corner whose wrong index makes the largest triangle that faces the camera. */
   function nearestCorner(site: string): number {
     const { positions, triangles } = decodeSite(site)[0]!;
     const eye = referenceSettingsOf(pageOf(site)).viewpoint.position;
@@ -170,7 +170,7 @@ describe("a wrong mesh is seen", () => {
       vertices[corner % 3]! ^= offBy;
       const [a, b, c] = vertices.map((vertex) => [0, 1, 2].map((axis) => positions[3 * vertex + axis]! - eye[axis]!));
       if (Math.max(...vertices) * 3 >= positions.length) return 0;
-      // The volume under the triangle seen from the eye is negative for one that faces it.
+      // The signed volume of the triangle and the eye is negative if the triangle faces the eye.
       const volume = [0, 1, 2].reduce((sum, axis) => {
         const [y, z] = [(axis + 1) % 3, (axis + 2) % 3];
         return sum + a![axis]! * (b![y]! * c![z]! - b![z]! * c![y]!);

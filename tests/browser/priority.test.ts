@@ -1,4 +1,4 @@
-// In which order files are asked for (paper section 5.4), seen from outside.
+// Tests the order in which files are requested (paper section 5.4), from outside the runtime.
 
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
@@ -11,7 +11,7 @@ import { siteOfGenerated } from "./sites.ts";
 const knot = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "1000");
 const ball = (): string => siteOfGenerated("sphere", "--profile", "classic", "--patch-vertices", "2000");
 
-/** The knot at the left, the ball at the right, each about 6 and 2 across. */
+/** The knot on the left and the ball on the right, about 6 and 2 wide. */
 function twoShapes(viewpoint: string, { knotIs = "", ballIs = "", x3dIs = "" } = {}): string {
   const scene = `<Viewpoint ${viewpoint}></Viewpoint>
     <Transform translation="-30 0 0">${shapeIn(knot(), "knot", `id="knot" ${knotIs}`)}</Transform>
@@ -27,7 +27,7 @@ const atKnot = 'position="-30 0 12"';
 const atBall = 'position="30 0 6"';
 const atBoth = 'position="0 0 80" fieldOfView="1"';
 
-/** What was asked for of both shapes, in order: "knot0" is a first byte of the knot, "ball2" a normal of the ball. */
+/** The requested files of both shapes, in order: "knot0" is a first byte of the knot, "ball2" normals of the ball. */
 function order(view: View): string[] {
   const ranks = new Map([...ranksIn(knot(), "knot"), ...ranksIn(ball(), "ball")]);
   return view.requestedPaths
@@ -55,12 +55,12 @@ async function orderOf(directory: string): Promise<string[]> {
 }
 
 describe("the order of requests", () => {
-  test("follows the camera: what it sees comes first", async () => {
+  test("follows the camera: visible shapes come first", async () => {
     assertBefore(await orderOf(twoShapes(atKnot)), isOf("knot"), isOf("ball"));
     assertBefore(await orderOf(twoShapes(atBall)), isOf("ball"), isOf("knot"));
   });
 
-  test("of two in the view makes both coarse before one is fine, the larger first", async () => {
+  test("loads the first bytes of both visible shapes before further bytes, the larger shape first", async () => {
     const names = await orderOf(twoShapes(atBoth));
     for (const rank of ["0", "1", "2"]) {
       assertBefore(
@@ -81,7 +81,7 @@ describe("the order of requests", () => {
     assertBefore(names, isOf("ball"), isOf("knot"));
   });
 
-  test("follows the author: by what files hold", async () => {
+  test("follows the author: by chunk type", async () => {
     const names = await orderOf(twoShapes(atBoth, { x3dIs: 'chunkPriority="normal: 100000"' }));
     assertBefore(
       names,
@@ -131,10 +131,10 @@ describe("the order of requests", () => {
       async (view) => {
         await until("all slots are taken", () => order(view).length === 6);
         await view.page.locator("imgeo-view canvas").focus();
-        // Shifts the scene to the left, until only the ball at the right of it is seen.
+        // Moves the scene to the left until only the ball is visible.
         for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
         await settle(view.page);
-        // The queue is told some times a second, by a timer of the page: a later one of the page's own comes after it.
+        // The runtime updates priorities by a timer some times a second; a later timer of the test runs after it.
         await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
         open();
         await view.promise("complete");
@@ -145,7 +145,7 @@ describe("the order of requests", () => {
 });
 
 describe("a shape that is hidden", () => {
-  test("is not asked for, and does not keep the scene waiting", async () => {
+  test("is not requested, and does not delay the scene's load", async () => {
     await withPage(twoShapes(atBoth, { ballIs: 'visible="false"' }), {}, async (view) => {
       await view.promise("complete");
       assert.ok(!order(view).some(isOf("ball")), order(view).join(" "));
@@ -161,7 +161,7 @@ describe("a shape that is hidden", () => {
     });
   });
 
-  test("while it loads is no longer asked for, and its requests are aborted", async () => {
+  test("while it loads is no longer requested, and its requests are aborted", async () => {
     const { closed } = gate();
     const server = (server: View["server"]): void => void server.when(/^\/ball\//, { hold: closed });
     await withPage(twoShapes(atBall), { server }, async (view) => {
@@ -169,7 +169,7 @@ describe("a shape that is hidden", () => {
       await view.page.evaluate(() => {
         document.querySelector("#ball")!.setAttribute("visible", "false");
       });
-      await view.promise("complete"); // the knot gets the slots
+      await view.promise("complete"); // the knot gets the request slots
       const requests = view.server.requestsOf(/^\/ball\//);
       assert.deepEqual(
         requests.map(({ state }) => state),
@@ -180,10 +180,10 @@ describe("a shape that is hidden", () => {
   });
 });
 
-describe("a byte that nobody could see", () => {
+describe("a byte whose effect is invisible", () => {
   const secondBytes = (view: View): number => order(view).filter((name) => name === "knot4").length;
 
-  test("is not asked for, the scene is complete without it, and it comes when the camera does", async () => {
+  test("is not requested, the scene is complete without it, and it is requested when the camera comes near", async () => {
     await withPage(twoShapes('position="-30 0 900"'), {}, async (view) => {
       await view.promise("complete");
       assert.equal(secondBytes(view), 0);
@@ -194,7 +194,7 @@ describe("a byte that nobody could see", () => {
       });
       const stages = async (): Promise<unknown[]> =>
         (await view.events("refine", "shape#knot")).map(({ detail }) => detail.stage);
-      await until("the knot is sharp", async () => (await stages()).at(-1) === "full");
+      await until("the knot has full precision", async () => (await stages()).at(-1) === "full");
       assert.ok(secondBytes(view) > 0);
       assert.equal((await view.events("load", "shape#knot")).length, 1);
       assert.equal((await view.events("load", "x3d")).length, 1);

@@ -1,5 +1,5 @@
-// Where the ray through a pixel meets a mesh: by the book (Möller and Trumbore
-// 1997), over every triangle, in double precision. What picking is tested with.
+// Intersects the ray through a pixel with a mesh (Möller and Trumbore 1997), over every triangle and in double
+// precision, as the reference for picking.
 
 import type { ReferenceScene } from "./reference.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
@@ -8,13 +8,13 @@ export type Vec3 = [number, number, number];
 
 export interface RayHit {
   patch: number;
-  /** The patch's number for the triangle. */
+  /** Index of the triangle in its patch. */
   triangle: number;
   vertices: Vec3;
-  /** Shares of the three corners; they sum to 1. */
+  /** Barycentric coordinates. */
   shares: Vec3;
   position: Vec3;
-  /** From the corners' normals; from the triangle where there are none. */
+  /** Interpolated from the vertices' normals; the triangle's normal where there are none. */
   normal: Vec3;
   distance: number;
 }
@@ -24,7 +24,7 @@ export interface Ray {
   direction: Vec3;
 }
 
-/** The ray through the middle of a pixel. */
+/** The ray through the center of a pixel. */
 export function rayThrough(
   { position, orientation, fieldOfView }: ReferenceScene["viewpoint"],
   { width, height }: { width: number; height: number },
@@ -36,7 +36,7 @@ export function rayThrough(
   return { origin: position, direction: rotated(inView, orientation) };
 }
 
-/** Rodrigues' formula. */
+/** Rotates `v` (Rodrigues' formula). */
 function rotated(v: Vec3, [x, y, z, angle]: [number, number, number, number]): Vec3 {
   const length = Math.hypot(x, y, z) || 1;
   const axis: Vec3 = [x / length, y / length, z / length];

@@ -1,6 +1,5 @@
-// What the page must look like, drawn by plain three.js from plain buffers in a
-// page of its own. The scene's numbers (camera, lights, material) are read from
-// the site's document; what they mean is said in referencePage.ts.
+// Draws reference pictures with plain three.js from plain buffers in a page of its own. Camera, lights and material
+// are read from the site's document; referencePage.ts draws them by X3D's equations.
 
 import { build } from "esbuild";
 import { join } from "node:path";
@@ -14,7 +13,7 @@ import { numbersOf, tagsOf, type PlainPatch } from "./siteDecoder.ts";
 
 type Vec3 = [number, number, number];
 
-/** A scene of one shape: X3D's numbers and plain buffers. */
+/** A scene of one shape: X3D's fields and plain buffers. */
 export interface ReferenceScene {
   viewpoint: { position: Vec3; orientation: [number, number, number, number]; fieldOfView: number };
   headlight: boolean;
@@ -37,7 +36,7 @@ export interface ReferenceScene {
   }[];
 }
 
-/** The numbers that the only shape of a document is drawn with. */
+/** The fields of camera, lights, material and background with which the only shape of a document is drawn. */
 export function referenceSettingsOf(html: string): Omit<ReferenceScene, "patches"> {
   const tags = tagsOf(html);
   const attributesOf = (name: string): Record<string, string> =>
@@ -70,7 +69,7 @@ export function referenceSettingsOf(html: string): Omit<ReferenceScene, "patches
   };
 }
 
-/** The float input as the reference draws it: computed normals where it has none. */
+/** The float input as the reference draws it: with computed normals if it has none. */
 export function patchOfInput({
   positions,
   normals,
@@ -90,7 +89,7 @@ export function patchOfInput({
   };
 }
 
-/** Draws one reference after the other: opening a page costs more than drawing. */
+/** A page that draws all references, because opening a page takes longer than drawing. */
 interface ReferencePage {
   page: Page;
   server: TestServer;
@@ -134,7 +133,7 @@ async function openReferencePage(deviceScaleFactor: number): Promise<ReferencePa
   return { page, server, failures };
 }
 
-/** The picture of plain buffers under the look of a site's document. */
+/** The picture of plain buffers with camera, lights and material of a site's document. */
 export async function referencePicture(
   html: string,
   patches: PlainPatch[],

@@ -1,6 +1,5 @@
-// In the browser: draws plain buffers with plain three.js, nothing of the
-// runtime. Bundled by reference.ts. The shader states X3D's lighting (ISO/IEC
-// 19775-1, 17.2.2) once more, from the standard.
+// Runs in the browser: draws plain buffers with plain three.js and without any module of the runtime. Bundled by
+// reference.ts. The shader implements X3D's lighting (ISO/IEC 19775-1, 17.2.2) independently.
 
 import {
   BufferAttribute,
@@ -32,17 +31,17 @@ type Patch = ReferenceScene["patches"][number];
 /** Size of points in CSS pixels. */
 const pointSize = 2;
 
-let drawn: WebGLRenderer | undefined;
+let lastRenderer: WebGLRenderer | undefined;
 
 window.drawReference = async (sceneUrl) => {
   const description = (await (await fetch(sceneUrl, { cache: "no-store" })).json()) as ReferenceScene;
-  // A context of its own for each: nothing of the last picture can reach this one.
-  drawn?.forceContextLoss();
-  drawn?.dispose();
+  // A new context for each picture, so that no state remains from the last one.
+  lastRenderer?.forceContextLoss();
+  lastRenderer?.dispose();
   const canvas = document.createElement("canvas");
   document.body.replaceChildren(canvas);
   const renderer = new WebGLRenderer({ canvas, antialias: true });
-  drawn = renderer;
+  lastRenderer = renderer;
   renderer.outputColorSpace = LinearSRGBColorSpace;
   renderer.setPixelRatio(window.devicePixelRatio);
   renderer.setSize(window.innerWidth, window.innerHeight);
@@ -145,7 +144,7 @@ function materialOf(
 ): ShaderMaterial {
   const towards = (direction: [number, number, number]): Vector3 =>
     new Vector3(...direction).negate().normalize().transformDirection(camera.matrixWorldInverse);
-  const shining = [
+  const activeLights = [
     ...(headlight ? [{ towards: new Vector3(0, 0, 1), color: new Vector3(1, 1, 1) }] : []),
     ...lights.map(({ direction, color, intensity }) => ({
       towards: towards(direction),
@@ -161,7 +160,7 @@ function materialOf(
     fragmentShader,
     side: FrontSide,
     defines: {
-      LIGHTS: shining.length,
+      LIGHTS: activeLights.length,
       ...(patch.normals && { HAS_NORMALS: "" }),
       ...(patch.colors && { HAS_COLORS: "" }),
       ...(patch.points.length && { HAS_NO_BACK: "" }),
@@ -172,8 +171,8 @@ function materialOf(
       emissiveColor: value(new Vector3(...material.emissiveColor)),
       shininess: value(material.shininess),
       ambient: value(ambient),
-      towardsLight: value(shining.map((light) => light.towards)),
-      lightColor: value(shining.map((light) => light.color)),
+      towardsLight: value(activeLights.map((light) => light.towards)),
+      lightColor: value(activeLights.map((light) => light.color)),
       pointSize: value(pointSize * window.devicePixelRatio),
     },
   });

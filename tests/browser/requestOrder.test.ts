@@ -1,6 +1,5 @@
-// Near things first (paper section 5.4): the hall, all of it one mesh cut into
-// patches, as two visitors see it come who stand at its two ends, one of them over
-// a line on which more files come at a time.
+// Tests that near patches are requested first (paper section 5.4): the hall is one mesh that consists of patches,
+// displayed from either of its ends, once over HTTP/2, which allows more requests at a time.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -15,24 +14,24 @@ import { pageOf, siteOf, variantOf } from "./sites.ts";
 
 type Point = readonly [number, number, number];
 
-interface Visitor {
+interface Camera {
   readonly name: string;
   readonly eye: Point;
-  /** Where they look, of length 1. */
-  readonly gaze: Point;
+  /** Unit vector of the view direction. */
+  readonly direction: Point;
   readonly orientation: string;
-  /** As the browser tells it; by HTTP/2 more files come at a time. */
+  /** As nextHopProtocol states it; over HTTP/2 there are more request slots. */
   readonly protocol: string;
   readonly slots: number;
 }
 
 const fieldOfView = 1;
 /** The hall is 28 m wide. */
-const visitors: readonly Visitor[] = [
+const cameras: readonly Camera[] = [
   {
     name: "left",
     eye: [-12.5, 3, 2],
-    gaze: [1, 0, 0],
+    direction: [1, 0, 0],
     orientation: `0 1 0 ${-Math.PI / 2}`,
     protocol: "h2",
     slots: http2SlotCount,
@@ -40,14 +39,14 @@ const visitors: readonly Visitor[] = [
   {
     name: "right",
     eye: [12.5, 3, 2],
-    gaze: [-1, 0, 0],
+    direction: [-1, 0, 0],
     orientation: `0 1 0 ${Math.PI / 2}`,
     protocol: "http/1.1",
     slots: http1SlotCount,
   },
 ];
 
-/** Self-contained: the test's server knows but one protocol. */
+/** Self-contained: the test's server supports only HTTP/1.1. */
 const pretend: Readonly<Record<string, () => void>> = {
   h2: () => {
     Object.defineProperty(PerformanceResourceTiming.prototype, "nextHopProtocol", { get: () => "h2" });
@@ -55,7 +54,7 @@ const pretend: Readonly<Record<string, () => void>> = {
   "http/1.1": () => undefined,
 };
 
-/** The generated hall's triangles without what tells its seats apart. */
+/** The generated hall, exported to one mesh without instances. */
 function hallOfOneMesh(): string {
   const file = join(outputDirectory, "whole-hall.ply");
   if (!existsSync(file)) {
@@ -75,14 +74,14 @@ interface SeenPatch {
   readonly x: number;
   /** Its diameter over its distance. */
   readonly size: number;
-  /** Between the gaze and the nearest and farthest direction to it, in radians. */
+  /** Minimum and maximum angle between the view direction and directions to the patch, in radians. */
   readonly angles: readonly [number, number];
 }
 
 const dot = (a: Point, b: Point): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-/** The boxes in the page are all that a visitor's eye needs. */
-function patchesSeenBy({ eye, gaze }: Visitor, page: string): Map<string, SeenPatch> {
+/** The patches as seen by a camera, computed from their boxes in the page. */
+function patchesSeenBy({ eye, direction }: Camera, page: string): Map<string, SeenPatch> {
   const numbersOf = (tag: string, field: string): Point =>
     (new RegExp(`\\s${field}="([^"]*)"`).exec(tag)?.[1] ?? "").split(" ").map(Number) as unknown as Point;
   return new Map(
@@ -91,7 +90,7 @@ function patchesSeenBy({ eye, gaze }: Visitor, page: string): Map<string, SeenPa
       const url = /\sdata="([^"#]*)/.exec(tag)?.[1] ?? "";
       const away: Point = [center[0] - eye[0], center[1] - eye[1], center[2] - eye[2]];
       const [radius, distance] = [Math.hypot(...size) / 2, Math.hypot(...away)];
-      const angle = Math.acos(dot(away, gaze) / distance);
+      const angle = Math.acos(dot(away, direction) / distance);
       const spread = distance > radius ? Math.asin(radius / distance) : Math.PI;
       return [
         url,
@@ -106,33 +105,33 @@ function patchesSeenBy({ eye, gaze }: Visitor, page: string): Map<string, SeenPa
   );
 }
 
-/** No patch comes after one that is a tenth smaller. */
-function assertLargestFirst(patches: readonly SeenPatch[], who: string): void {
+/** Asserts that no patch follows one that is 10 % smaller. */
+function assertLargestFirst(patches: readonly SeenPatch[], name: string): void {
   let minSize = Infinity;
   for (const { url, size } of patches) {
-    assert.ok(size < 1.1 * minSize, `${who}: ${url} (${size}) after one of ${minSize}`);
+    assert.ok(size < 1.1 * minSize, `${name}: ${url} (${size}) after one of ${minSize}`);
     minSize = Math.min(minSize, size);
   }
 }
 
-test("of a hall comes first what is seen largest, last what is behind one, from whichever end", async () => {
+test("patches of a hall that are largest on the screen are requested first, and those behind the camera last, from either end", async () => {
   const middles: number[] = [];
-  for (const visitor of visitors) {
-    const { name, eye, orientation } = visitor;
+  for (const camera of cameras) {
+    const { name, eye, orientation } = camera;
     const site = variantOf(hallOfOneMesh(), name, (page) =>
       page.replace(
         /<Viewpoint[^>]*>/i,
         `<Viewpoint position="${eye.join(" ")}" orientation="${orientation}" fieldOfView="${fieldOfView}">`,
       ),
     );
-    const patches = patchesSeenBy(visitor, pageOf(site));
+    const patches = patchesSeenBy(camera, pageOf(site));
     const { closed, open } = gate();
     const server = (server: View["server"]): void =>
       void server.when((path) => patches.has(path.slice(1)), { hold: closed });
-    await withPage(site, { server, before: pretend[visitor.protocol]! }, async (view) => {
+    await withPage(site, { server, before: pretend[camera.protocol]! }, async (view) => {
       const count = (): number => view.requestedPaths.filter((url) => patches.has(url)).length;
-      await until("all slots are taken", () => count() >= visitor.slots);
-      assert.equal(count(), visitor.slots, `${name}: files asked for at a time, over ${visitor.protocol}`);
+      await until("all slots are taken", () => count() >= camera.slots);
+      assert.equal(count(), camera.slots, `${name}: concurrent requests over ${camera.protocol}`);
       open();
       await view.promise("complete", "x3d", 60);
       const asked = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
@@ -143,8 +142,11 @@ test("of a hall comes first what is seen largest, last what is behind one, from 
       const isBefore = ({ angles: [nearest] }: SeenPatch): boolean => nearest < 0.3;
       assertLargestFirst(asked.filter(isBefore), name);
       assertLargestFirst(asked.filter(isBehind), name);
-      assert.ok(asked.some(isBehind), "something is behind the visitor");
-      assert.ok(asked.findLastIndex(isBefore) < asked.findIndex(isBehind), `${name}: what is behind came early`);
+      assert.ok(asked.some(isBehind), "there are patches behind the camera");
+      assert.ok(
+        asked.findLastIndex(isBefore) < asked.findIndex(isBehind),
+        `${name}: patches behind the camera were requested early`,
+      );
       const first = asked.slice(0, asked.length / 4);
       middles.push(first.reduce((sum, { x }) => sum + x, 0) / first.length);
     });

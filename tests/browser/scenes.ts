@@ -1,4 +1,4 @@
-// Pages of several shapes, put together from sites of one.
+// Pages of several shapes, composed from sites of one shape each.
 
 import assert from "node:assert/strict";
 import { cpSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
@@ -22,7 +22,7 @@ export function sceneOf(name: string, sites: Record<string, string>, scene: stri
   mkdirSync(directory, { recursive: true });
   const [first] = Object.values(sites);
   assert.ok(first);
-  // The page's own files (runtime, style) lie beside it; preload hints are those of another scene.
+  // The runtime and the style sheet come from the first site; its preload hints do not apply to this scene.
   cpSync(first, directory, { recursive: true });
   for (const [folder, site] of Object.entries(sites)) cpSync(site, join(directory, folder), { recursive: true });
   const page = pageOf(first)

@@ -1,8 +1,6 @@
-// An HTTP server that misbehaves on request: it serves directories and single
-// bodies, keeps a record of every request, and fails, holds, delays, truncates
-// or replaces what matches a rule. Everything goes out under
-// `Content-Security-Policy: default-src 'self'`, so that every test that loads
-// a page of ours proves that the page needs nothing more.
+// An HTTP server for tests: it serves directories and single bodies, records every request, and fails, holds, delays,
+// truncates or replaces the answers to requests that match a rule. It sends everything with `Content-Security-Policy:
+// default-src 'self'`, so every test that loads a page of imgeo proves that the page needs no more.
 
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
@@ -13,12 +11,12 @@ import { NetworkLink, type LinkOptions } from "./networkLink.ts";
 export interface RequestRecord {
   /** Decoded path, without the query. */
   path: string;
-  /** 200 and so on; 0 until answered, and for good where the client went away first. */
+  /** HTTP status; 0 until answered, and if the client disconnected first. */
   status: number;
   state: "waiting" | "answered" | "aborted";
 }
 
-/** What happens to a request whose path matches. The parts combine. */
+/** How the server treats a request whose path matches. The members combine. */
 export interface Behaviour {
   /** Answers with this status and an empty body. */
   status?: number;
@@ -27,9 +25,9 @@ export interface Behaviour {
   /** Waits until this resolves. */
   hold?: Promise<unknown>;
   delayMs?: number;
-  /** Sends only so many bytes of the body, as if the file ended there. */
+  /** Sends only the first `truncateTo` bytes of the body, as if the file ended there. */
   truncateTo?: number;
-  /** Sent besides, or instead of, the usual ones. */
+  /** Additional headers; they override the default ones. */
   headers?: Record<string, string>;
   /** Changes the body. */
   replace?: (body: Buffer) => Buffer | string;
@@ -42,15 +40,15 @@ export interface TestServer {
   requests: RequestRecord[];
   /** Bytes of all bodies sent so far. */
   bytesSent: number;
-  /** What lies between the server and its clients; at first nothing. */
+  /** Sets the network link between the server and its clients; by default there is none. */
   useLink(options: LinkOptions | undefined): void;
-  /** Sends this file as it is, with `Content-Encoding`, to clients that take it. */
+  /** Sends this body with `Content-Encoding` to clients that accept the encoding. */
   putEncoded(path: string, encoding: "br" | "gzip", body: Buffer): void;
-  /** Sent with everything; ours is the strictest, other people's pages need more. */
+  /** Content-Security-Policy of every answer. The default is the strictest; pages of other runtimes need more. */
   contentPolicy: string;
   /** Serves `body` under "/name". */
   put(path: string, body: Buffer | string): void;
-  /** The latest rule that matches a path wins. Returns what takes the rule back. */
+  /** Adds a rule; the latest rule that matches a path applies. Returns a function that removes the rule. */
   when(matches: RegExp | ((path: string) => boolean), behaviour: Behaviour): () => void;
   /** The records of the paths that match. */
   requestsOf(matches: RegExp): RequestRecord[];
@@ -78,7 +76,7 @@ export async function startServer(directory: string): Promise<TestServer> {
   async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
     const path = decodeURIComponent(new URL(request.url ?? "/", "http://localhost").pathname);
     if (path === "/favicon.ico") {
-      // Chromium asks for it by itself: not the page's doing.
+      // Chromium requests it without the page.
       response.writeHead(204).end();
       return;
     }
@@ -150,7 +148,7 @@ export async function startServer(directory: string): Promise<TestServer> {
   return testServer;
 }
 
-/** A promise for `hold`, with the function that lets go. */
+/** A promise for `hold`, and the function that resolves it. */
 export function gate(): { closed: Promise<unknown>; open: () => void } {
   const { promise, resolve } = Promise.withResolvers<undefined>();
   return {

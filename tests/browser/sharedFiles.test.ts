@@ -1,6 +1,5 @@
-// Many small shapes whose vertices lie in one file: one request brings them all,
-// and each is still an element that is found, hidden, moved, removed, and told
-// what has become of its file.
+// Tests many small shapes whose vertices are in one file: it is requested once, and each shape follows its element,
+// can be picked, and gets the state and the errors of the file.
 
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
@@ -18,7 +17,7 @@ const distance = 45;
 const middle = (3 * (side - 1)) / 2;
 const pixelsPerUnit = pictureSize.height / 2 / Math.tan(0.4) / distance;
 
-/** Seen from straight above. */
+/** The site with a viewpoint straight above. */
 function site(): string {
   mkdirSync(outputDirectory, { recursive: true });
   const file = join(outputDirectory, "many-shapes.obj");
@@ -29,7 +28,7 @@ function site(): string {
   );
 }
 
-/** The names of the shapes that are seen where some of them stand. */
+/** The names of the shapes that are displayed at the positions of some of them. */
 async function shapesAt({ page }: View, numbers: readonly number[], offset = 0): Promise<(string | undefined)[]> {
   await settle(page);
   const pixels = numbers.map(
@@ -47,7 +46,7 @@ async function shapesAt({ page }: View, numbers: readonly number[], offset = 0):
 
 const nameOf = (n: number): string => `shape${n}`;
 
-test("shapes of one file come with one request, and each follows its element", async () => {
+test("shapes of one file load with one request, and each follows its element", async () => {
   await withPage(site(), {}, async (view) => {
     await view.promise("complete");
     assert.equal(new Set(view.server.requestsOf(/geometry/).map(({ path }) => path)).size, 1);
@@ -70,7 +69,7 @@ test("shapes of one file come with one request, and each follows its element", a
       transform.append(moved);
     });
     assert.deepEqual(await shapesAt(view, [30, 31, 32]), [undefined, undefined, "shape32"]);
-    await until("the shape stands elsewhere", async () => (await shapesAt(view, [70], 1.5))[0] === "shape70");
+    await until("the shape has moved", async () => (await shapesAt(view, [70], 1.5))[0] === "shape70");
     const states = await view.page.evaluate(() =>
       Array.from(
         (document.querySelector("#shape100") as unknown as { resources: Iterable<{ state: string }> }).resources,
@@ -86,7 +85,7 @@ test("a file that is missing is an error of each shape that shares it", async ()
     own.when(/geometry/, { status: 404 });
   };
   await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
-    await until("all have been told", async () => (await view.events("error", "x3d")).length === count);
+    await until("all have got an error", async () => (await view.events("error", "x3d")).length === count);
     for (const name of ["shape0", "shape99"])
       assert.equal((await view.events("error", `shape#${name}`)).length, 1, name);
   });

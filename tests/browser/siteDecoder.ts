@@ -1,18 +1,18 @@
-// The test's own decoder: a site's document and container files -> plain float
-// buffers of the quantised mesh. Written from docs/formats/nodes.md alone and
-// sharing nothing with the product, so that both can only agree by being right.
+// The tests' own decoder: reads a site's document and container files into plain float buffers of the quantised mesh.
+// It is written from docs/formats/nodes.md alone and shares no code with the product, so that errors of either do not
+// cancel out.
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { decodePng } from "./png.ts";
 
-/** An element's name and attributes, lower case, and its place in the text. */
+/** An element's name and attributes, lower case, and its offset in the text. */
 export interface Tag {
   name: string;
   attributes: Record<string, string>;
 }
 
-/** Every start tag of a document of ours, in order. */
+/** Every start tag of a document that imgeo wrote, in order. */
 export function tagsOf(text: string): Tag[] {
   return [...text.matchAll(/<([A-Za-z][\w-]*)((?:\s+[\w:-]+(?:=(?:"[^"]*"|'[^']*'))?)*)\s*\/?>/g)].map((tag) => ({
     name: tag[1]!.toLowerCase(),
@@ -39,17 +39,17 @@ function stringsOf(text: string | undefined): string[] {
   return quoted.length ? quoted : text.trim().split(/\s+/);
 }
 
-/** What one patch draws, as plain buffers. */
+/** The content of one patch as plain buffers. */
 export interface PlainPatch {
   positions: Float32Array;
   normals?: Float32Array;
   /** 0..1, three a vertex. */
   colors?: Float32Array;
-  /** Triangles in their drawn orientation; strips are taken apart. */
+  /** Triangles in their drawn orientation; strips are converted to triangles. */
   triangles: Uint32Array;
-  /** Pairs of vertices; strips are taken apart. */
+  /** Pairs of vertices; strips are converted to pairs. */
   lines: Uint32Array;
-  /** Which of the patch's triangles each is, where a strip's joins without area are counted too. */
+  /** Index of each triangle in the patch; degenerate triangles that join strips count too. */
   triangleNumbers?: Uint32Array;
   /** Vertices drawn as points. */
   points: Uint32Array;
@@ -61,7 +61,7 @@ interface Records {
   at(record: number, component: number): number;
 }
 
-/** All patches of the only geometry of the site; of images, from so many byte planes. */
+/** All patches of the only geometry of the site; of SIG only the first `planes` byte planes are read. */
 export function decodeSite(directory: string, planes = Infinity): PlainPatch[] {
   const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
   const node = tags.find(({ name }) => name === "imagegeometry" || name === "binarygeometry");
@@ -74,7 +74,7 @@ export function decodeSite(directory: string, planes = Infinity): PlainPatch[] {
   );
 }
 
-/** The URLs, without fragments, of every container file of a document, each with its place in the order of
+/** The URLs, without fragments, of every container file of a document, each with its rank in the order of
  *  delivery: 0 first coordinate byte, 1 index, 2 normals, 3 colours and texture coordinates, 4 and up further bytes. */
 export function ranksOfFiles(html: string): Map<string, number> {
   const ranks = new Map<string, number>();
@@ -141,7 +141,7 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   const height = planes[0]!.height;
   const recordCount = Number(patch.recordcount);
   const index = patch.index ? image(patch.index) : undefined;
-  // The middle of what the bytes that are not here may hold stands for them.
+  // The midpoint of the possible values replaces missing bytes.
   const byteOf = (plane: Records, index: number, r: number, axis: number): number =>
     index < planesHere ? plane.at(r, axis) : 127.5;
   const coordinate: Records = {
@@ -232,7 +232,7 @@ function table(records: number, value: (record: number, axis: number) => number)
   return Float32Array.from({ length: 3 * records }, (_, i) => value(Math.floor(i / 3), i % 3));
 }
 
-/** Stored integers 0..largest spread over the decode box; signed ones (`middle` 0) around its centre. */
+/** Maps stored integers 0..largest to the decode box; signed ones (`middle` 0) to both sides of its center. */
 function spread(node: Attributes, stored: Records, records: number, largest: number, middle = 0.5): Float32Array {
   const center = numbersOf(node.position, [0, 0, 0]);
   const size = numbersOf(node.size, [1, 1, 1]);

@@ -1,4 +1,4 @@
-// Meshes written as files and converted into sites by the tool under test.
+// Converts meshes into sites with the tool under test.
 
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -18,7 +18,7 @@ import { converter, outputDirectory } from "./paths.ts";
 
 const generators = {
   trefoil: () => trefoil(),
-  /** More vertices than 16 bits name. */
+  /** More vertices than 16-bit indices can address. */
   "trefoil-large": () => trefoil(2000, 34),
   "trefoil-colors": () => withColors(trefoil()),
   "trefoil-numbers": () => withNumbers(trefoil()),
@@ -43,7 +43,7 @@ export function meshFile(name: GeneratedMesh): string {
 
 const converted = new Map<string, string>();
 
-/** The directory of the site that `imgeo convert INPUT OPTIONS` makes, once a run for each set of arguments. */
+/** The directory of the site that `imgeo convert INPUT OPTIONS` makes; converts once a run for each set of arguments. */
 export function siteOf(input: string, ...options: string[]): string {
   const name = [basename(input).replace(/\..*/, ""), ...options].join("").replaceAll(/[^\w]+/g, "-");
   const known = converted.get(name);
@@ -65,7 +65,7 @@ export function pageOf(site: string): string {
   return readFileSync(join(site, "index.html"), "utf8");
 }
 
-/** A copy of a site whose page is another. */
+/** A copy of a site with a changed page. */
 export function variantOf(site: string, name: string, change: (page: string) => string): string {
   const directory = `${site}-${name}`;
   rmSync(directory, { recursive: true, force: true });
@@ -81,7 +81,7 @@ export function shapeIn(page: string): string {
   return shape;
 }
 
-/** The page with something else in its only Shape's place. */
+/** The page with its only Shape replaced. */
 export function withShapes(page: string, change: (shape: string) => string): string {
   return page.replace(shapeIn(page), () => change(shapeIn(page)));
 }

@@ -1,5 +1,4 @@
-// What is seen while files are still on their way, and in which order they are
-// asked for.
+// Tests the pictures while files are still loading, and the order in which files are requested.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -28,7 +27,7 @@ function pathsOf(site: string, ranks: (rank: number) => boolean): string[] {
   return [...ranksOfFiles(pageOf(site))].filter(([, rank]) => ranks(rank)).map(([url]) => `/${url}`);
 }
 
-/** Waits until what these files hold is part of the shapes. */
+/** Waits until the shapes display the content of these files. */
 async function arrived(view: View, paths: string[]): Promise<void> {
   await until("every file that is not held has arrived", async () => {
     const states = await view.page.evaluate(() =>
@@ -59,7 +58,7 @@ describe("the first coordinate byte", () => {
     return blank;
   }
 
-  test("shows the whole shape before the rest has come, and the rest sharpens it", async () => {
+  test("displays the whole shape before other files have arrived, and they refine it", async () => {
     const blank = await blankPicture();
     const { closed, open } = gate();
     await withPage(site(), { server: holding(site(), (rank) => rank > 3, closed) }, async (view) => {
@@ -80,14 +79,14 @@ describe("the first coordinate byte", () => {
       const final = await view.picture();
       assert.equal((await view.events("load", "x3d")).length, 1);
       assert.ok(difference(blank, coarse).mean > 1, "the coarse stage is not drawn");
-      assert.ok(difference(coarse, final).mean > 0.02, "the last bytes change nothing");
+      assert.ok(difference(coarse, final).mean > 0.02, "the last bytes do not change the picture");
       const shapes = [coarse, final].map((picture) => silhouette(withoutBar(picture), withoutBar(blank)));
       const apart = silhouetteDifference(shapes[0]!, shapes[1]!);
       assert.ok(apart < 0.03, `silhouettes differ in ${(apart * 100).toFixed(1)} % of the pixels`);
     });
   });
 
-  test("shows points while the index is missing, a surface while the normals are", async () => {
+  test("displays points without the index, and a surface without the normals", async () => {
     const blank = await blankPicture();
     const { closed: noIndex, open: sendIndex } = gate();
     const { closed: noNormal } = gate();
@@ -114,19 +113,19 @@ describe("the first coordinate byte", () => {
   });
 });
 
-/** The bar lies over the topmost rows while files are on their way. */
+/** The progress bar covers the topmost rows while files are loading. */
 function withoutBar({ width, height, channels, data }: Picture): Picture {
   const rows = 8;
   return { width, height: height - rows, channels, data: data.subarray(rows * width * channels) };
 }
 
 describe("borders between patches are watertight", () => {
-  /** White light from the surface itself, black behind it: any gap is dark. */
+  /** A white emissive surface on black: any gap is dark. */
   const glowing = (html: string): string =>
     html
       .replace(/<Material[^>]*>/i, `<Material diffuseColor="0 0 0" emissiveColor="1 1 1">`)
       .replace(/skyColor="[^"]*"/i, `skyColor="0 0 0"`);
-  /** Held second bytes take no slot before the first ones of what is behind the camera. */
+  /** A camera inside the sphere. Second bytes, which are held, are requested after the first bytes of patches behind it. */
   const fromInside = (html: string): string =>
     glowing(html)
       .replace(/<X3D/i, `<X3D chunkPriority="refinement: 0"`)
@@ -169,14 +168,14 @@ describe("borders between patches are watertight", () => {
           if (from === "inside")
             assert.ok(
               mask.every((pixel) => pixel === 1),
-              "the background shines through",
+              "the background is visible",
             );
         }
       });
     });
   }
 
-  test("and a patch that lies a fraction of a coarse step off is seen", async () => {
+  test("and a patch that is off by a fraction of a coarse step is detected", async () => {
     const [path] = pathsOf(site(), (rank) => rank > 3);
     const flattened = (png: Buffer): Buffer => {
       const image = decodePng(png);
@@ -190,13 +189,13 @@ describe("borders between patches are watertight", () => {
       await view.promise("complete");
       assert.ok(
         litPixels(await view.picture()).some((pixel) => pixel === 0),
-        "no gap is seen",
+        "no gap is visible",
       );
     });
   });
 });
 
-describe("files are asked for", () => {
+describe("files are requested", () => {
   const site = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "300");
 
   test("once each, first coordinate bytes first, then index, normals and the rest", async () => {
@@ -205,21 +204,21 @@ describe("files are asked for", () => {
       const ranks = ranksOfFiles(pageOf(site()));
       const asked = view.server.requests.map(({ path }) => path.slice(1)).filter((path) => ranks.has(path));
       assert.deepEqual([...asked].sort(), [...ranks.keys()].sort());
-      // Requests that leave together over several connections may arrive in any order.
+      // Requests sent at the same time over several connections may arrive in any order.
       const connections = 6;
       const order = asked.map((path) => ranks.get(path)!);
       order.forEach((rank, index) => {
         const late = order.findIndex((other, later) => later >= index + connections && other < rank);
-        assert.equal(late, -1, `rank ${rank} was asked for well before rank ${order[late]}: ${order.join(" ")}`);
+        assert.equal(late, -1, `rank ${rank} was requested well before rank ${order[late]}: ${order.join(" ")}`);
       });
     });
   });
 
-  test("while the runtime is still on its way", async () => {
+  test("while the runtime is still loading", async () => {
     const { closed, open } = gate();
     await withPage(site(), { server: (server) => server.when(/\.js$/, { hold: closed }) }, async (view) => {
       const first = pathsOf(site(), (rank) => rank === 0);
-      await until("the first coordinate bytes are there before the runtime", () =>
+      await until("the first coordinate bytes arrive before the runtime", () =>
         first.every((path) =>
           view.server.requests.some((request) => request.path === path && request.state === "answered"),
         ),
@@ -236,7 +235,7 @@ describe("files are asked for", () => {
     });
   });
 
-  test("from nowhere but the page's own host, and nothing but the page's own parts", async () => {
+  test("from the page's own host only, and only files of the page", async () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const others = view.server.requests
@@ -246,7 +245,7 @@ describe("files are asked for", () => {
         (path, index) =>
           !/^\/(imgeo\.css|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) || others.indexOf(path) < index,
       );
-      assert.deepEqual(strange, []); // besides the page, its modules and its stylesheet, each once
+      assert.deepEqual(strange, []); // other than the page, its modules and its style sheet, each once
       assert.ok(view.server.requests.every(({ status }) => status === 200));
     });
   });

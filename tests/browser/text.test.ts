@@ -1,5 +1,4 @@
-// X3D's Text in a page, beside what the browser itself writes in the same font, size
-// and place.
+// Compares Text nodes with the browser's own rendering of the same text in the same font, size and position.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -18,7 +17,7 @@ const pixelsPerUnit = pictureSize.height / 2 / Math.tan(0.7854 / 2) / 10;
 
 interface Line {
   text: string;
-  /** Left end of the baseline, and the size of letters, in units of the scene. */
+  /** Left end of the baseline, and font size, in scene units. */
   x: number;
   y: number;
   size: number;
@@ -26,7 +25,7 @@ interface Line {
   color: string;
 }
 
-/** What a canvas shows of these lines. */
+/** The picture of these lines drawn into a 2D canvas. */
 async function written(page: Page, lines: readonly Line[]): Promise<Picture> {
   const png = await page.evaluate(
     async ({ lines, pixelsPerUnit, width, height }) => {
@@ -37,7 +36,7 @@ async function written(page: Page, lines: readonly Line[]): Promise<Picture> {
       context.fillRect(0, 0, width, height);
       context.fillStyle = "rgb(51 0 51)";
       context.fillRect(width / 2 + pixelsPerUnit, height / 2 + pixelsPerUnit, 4 * pixelsPerUnit, 2 * pixelsPerUnit);
-      context.fillStyle = "rgb(64 192 64)"; // a surface behind one that is not there
+      context.fillStyle = "rgb(64 192 64)"; // the surface behind a transparent one
       context.fillRect(width / 2 - 5 * pixelsPerUnit, height / 2 + 2 * pixelsPerUnit, 2 * pixelsPerUnit, pixelsPerUnit);
       for (const { text, x, y, size, font, color } of lines) {
         context.font = font.replace("SIZE", `${size * pixelsPerUnit}px`);
@@ -58,7 +57,7 @@ const shape = (id: string, translation: string, string: string, style: string, a
   `<Transform translation="${translation}"><Shape id="${id}"><Appearance>${appearance}</Appearance><Text string='${string}'><FontStyle ${style}></FontStyle></Text></Shape></Transform>`;
 
 describe("a text", () => {
-  test("looks as the browser writes it, small and large, lit or not, hides nothing between its letters (nor does anything of no alpha), is hit within its lines, changes, and again when its font comes", async () => {
+  test("looks as in a 2D canvas, small and large, lit and unlit, is transparent between its glyphs, is hit within its lines, and changes with its fields and when its font has loaded", async () => {
     const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 10" fieldOfView="0.7854"></Viewpoint>
       ${shape("lit", "-5 2.5 0", '"Hall" "of seats"', 'size="1.2" spacing="1.1"', '<Material diffuseColor="1 0.6 0.2" ambientIntensity="0"></Material>')}
       ${shape("bold", "-5 -0.4 0", '"near by"', `family='"SANS"' data-style="BOLD" size="0.6"`, "")}
@@ -99,7 +98,7 @@ describe("a text", () => {
       async ({ page, promise, picture }) => {
         await promise("complete");
         const [shown, expected] = [await picture(), await written(page, lines)];
-        // Edges are as soft as a pixel is wide, in both: 0.65 of 255 on average, and 10 where letters stand elsewhere.
+        // Both have edges one pixel wide. The mean difference is 0.65, and 10 if glyphs are at other positions.
         assertSamePicture("text", shown, expected, { mean: 1 });
         const hit = (x: number, y: number): Promise<string | undefined> =>
           page.evaluate(
@@ -111,7 +110,7 @@ describe("a text", () => {
               ).positionAndNormalFromPoint(x!, y!)?.shape.id,
             [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit],
           );
-        // The empty corner above the "a" of "Hall", beside it, and through the hole of the Q what lies behind it.
+        // The empty corner above the "a" of "Hall", beside the text, and through the hole of the Q the surface behind it.
         assert.deepEqual(
           [await hit(-3.9, 3.3), await hit(-1, 3.3), await hit(-4.9, -0.2), await hit(2, 0)],
           ["lit", undefined, "bold", "large"],
@@ -138,8 +137,8 @@ describe("a text", () => {
           document.querySelector("#bold fontstyle")!.setAttribute("data-style", "PLAIN");
         });
         await promise("complete", "#bold");
-        // No picture of this: Playwright takes none while a font is to come.
-        // Who listens later than the scene hears of the font when the scene has asked for the new letters.
+        // No picture of this state: Playwright takes none while a font is loading.
+        // Listeners added after the scene's run after the scene has requested the new glyphs.
         const come = await page.evaluateHandle(() => ({
           font: new Promise((resolve) => {
             document.fonts.addEventListener("loadingdone", resolve, { once: true });

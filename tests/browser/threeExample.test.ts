@@ -1,4 +1,4 @@
-// The example of docs/three.md as a visitor sees it.
+// Tests the example app of docs/three.md.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -29,7 +29,7 @@ function shadowIn({ data, width, height, channels }: Picture): number {
   return count;
 }
 
-test("the three.js app shows a model with its shadow, and marks where one clicks on it", async () => {
+test("the three.js app displays a model with its shadow, and marks the point of a click", async () => {
   const directory = join(outputDirectory, "three-app");
   execFileSync(
     process.execPath,
@@ -37,12 +37,15 @@ test("the three.js app shows a model with its shadow, and marks where one clicks
     { cwd: repository },
   );
   await withPage(directory, {}, async ({ page, server }) => {
-    await until("all is there", async () => (await page.textContent("#status"))?.startsWith("Complete") === true);
-    // Its last frame may still be on its way.
-    await until("the model throws a shadow", async () => shadowIn(decodePng(await page.screenshot())) > 2000);
+    await until(
+      "the model is complete",
+      async () => (await page.textContent("#status"))?.startsWith("Complete") === true,
+    );
+    // Its last frame may not have been drawn yet.
+    await until("the model casts a shadow", async () => shadowIn(decodePng(await page.screenshot())) > 2000);
     assert.equal(redIn(decodePng(await page.screenshot())), 0);
-    await page.mouse.click(310, 190); // beside the middle, which is a hole
-    await until("a mark is there", async () => redIn(decodePng(await page.screenshot())) > 20);
+    await page.mouse.click(310, 190); // beside the center, which is a hole
+    await until("a mark is displayed", async () => redIn(decodePng(await page.screenshot())) > 20);
     assert.equal(server.requestsOf(/imgeo-worker\.js$/).length, 1);
   });
 });

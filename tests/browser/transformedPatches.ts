@@ -1,9 +1,9 @@
-// Patches of reference pictures that stand elsewhere.
+// Applies transforms to the patches of reference pictures.
 
 import { Matrix3, Vector3, type Matrix4 } from "three";
 import type { PlainPatch } from "./siteDecoder.ts";
 
-/** The patches under a matrix; where it mirrors, triangles turn round so that they face outwards still. */
+/** The patches transformed by a matrix; if it mirrors, triangles are reversed so that they still face outwards. */
 export function transformedPatches(patches: PlainPatch[], matrix: Matrix4): PlainPatch[] {
   const normalMatrix = new Matrix3().getNormalMatrix(matrix);
   const each = (numbers: Float32Array, act: (vector: Vector3) => Vector3): Float32Array =>

@@ -1,5 +1,4 @@
-// What stands around a shape: transforms, with normals that stay right, and USE,
-// for which everything is downloaded and stored once.
+// Tests transforms of shapes and their normals, and USE, for which everything is downloaded and stored once.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -56,7 +55,7 @@ const transforms: Record<string, { markup: (shape: string) => string; matrix: Ma
   },
 };
 
-describe("a Transform places shape and normals", () => {
+describe("a Transform applies to positions and normals", () => {
   for (const [name, { markup, matrix }] of Object.entries(transforms)) {
     for (const container of ["sig", "bg"]) {
       test(`${name}, ${container}`, async () => {
@@ -71,7 +70,7 @@ describe("a Transform places shape and normals", () => {
 });
 
 for (const container of ["sig", "bg"]) {
-  test(`a decode box that is no cube stretches the shape and leaves its normals alone, ${container}`, async () => {
+  test(`a decode box that is not a cube scales the shape and does not change its normals, ${container}`, async () => {
     const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
     const site = variantOf(original, "stretched", (page) =>
       page.replaceAll(/ bbox(Center|Size)="[^"]*"/g, "").replace(/ size="[^"]*"/, ' size="3 6 4"'),
@@ -85,7 +84,7 @@ for (const container of ["sig", "bg"]) {
   });
 }
 
-/** The shape, and once more beside it, said in two ways: with USE, and in full. */
+/** Two instances of the shape beside each other, written in two ways: with USE, and in full. */
 const twice: Record<string, { used: (shape: string) => string; full: (shape: string) => string }> = {
   "a Shape": {
     used: (shape) => `${shape}${aside('<Shape USE="trefoil"></Shape>')}`,
@@ -133,7 +132,7 @@ function aside(markup: string): string {
 describe("USE of", () => {
   for (const [name, { used, full }] of Object.entries(twice)) {
     for (const container of ["sig", "bg"]) {
-      test(`${name} shows it again, downloads and stores nothing again, ${container}`, async () => {
+      test(`${name} displays it again without downloading or storing it again, ${container}`, async () => {
         const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
         const site = variantOf(original, "used", (page) => withShapes(page, used));
         const expected = await pictureOf(variantOf(original, "full", (page) => withShapes(page, full)));
@@ -147,8 +146,8 @@ describe("USE of", () => {
           await view.page.evaluate(() => {
             document.querySelector("#second")!.remove();
           });
-          assert.ok(difference(await view.picture(), expected).mean > 0.5, "the second is seen still");
-          if (name === "an Appearance" || name === "a Material") return; // those have geometries of their own
+          assert.ok(difference(await view.picture(), expected).mean > 0.5, "the second is still visible");
+          if (name === "an Appearance" || name === "a Material") return; // these cases have two geometries
           const { live: alone } = await view.observed();
           assert.deepEqual({ ...live, programs: 0 }, { ...alone, programs: 0 });
         });
@@ -156,7 +155,7 @@ describe("USE of", () => {
     }
   }
 
-  test("a Shape outlives the Shape that defines it no longer than a moment", async () => {
+  test("a Shape is removed with the Shape that defines it", async () => {
     const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "orphan", (page) =>
       withShapes(page, twice["a Shape"]!.used),
     );
@@ -168,7 +167,7 @@ describe("USE of", () => {
       const { data, channels } = await view.picture();
       assert.ok(
         data.every((byte, at) => byte === data[at % channels]),
-        "something is seen",
+        "something is visible",
       );
       const { live } = await view.observed();
       assert.equal(live.textures, await emptySceneTextures());

@@ -1,5 +1,5 @@
-// What stands around the picture: the attributes of <x3d>, poster, progress,
-// hotspots, and what people get who do not see it or use no mouse.
+// Tests the user interface around the picture: attributes of <x3d>, poster, progress bar, hotspots, and access by
+// keyboard and screen reader.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -192,10 +192,10 @@ describe("attributes of <x3d>", () => {
 describe("turning by itself", () => {
   const attributes = 'auto-rotate auto-rotate-delay="50" rotation-per-second="90deg"';
 
-  test("begins after the delay, rests while somebody moves the camera, and stops when it is told", async () => {
+  test("begins after the delay, pauses while the user moves the camera, and stops on pause()", async () => {
     await withPage(siteWith("turns", { attributes }), { before: recordViewEvents, motion: true }, async (view) => {
       await view.promise("complete");
-      await until("it turns", async () =>
+      await until("the scene rotates", async () =>
         (await viewEvents(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
       );
       assert.equal(await view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.paused), false);
@@ -207,7 +207,7 @@ describe("turning by itself", () => {
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.play();
       });
-      await until("it turns on", async () => Math.abs((await orbitOf(view)).theta - theta) > 0.01);
+      await until("the scene continues to rotate", async () => Math.abs((await orbitOf(view)).theta - theta) > 0.01);
       await view.page.evaluate(() => {
         document.querySelector("x3d")!.removeAttribute("auto-rotate");
       });
@@ -216,14 +216,14 @@ describe("turning by itself", () => {
     });
   });
 
-  test("is not for people who prefer less motion, unless they ask", async () => {
+  test("does not start with reduced motion, except on play()", async () => {
     await withScene(siteWith("turns", { attributes }), {}, async (view) => {
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
       assert.ok((await viewEvents(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"));
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.play();
       });
-      await until("it turns", async () =>
+      await until("the scene rotates", async () =>
         (await viewEvents(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
       );
       await view.page.evaluate(() => {
@@ -234,13 +234,13 @@ describe("turning by itself", () => {
 });
 
 describe("a poster", () => {
-  const posterShown = async ({ page }: View): Promise<boolean> =>
+  const isPosterVisible = async ({ page }: View): Promise<boolean> =>
     page.evaluate(() =>
       document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".poster")!.checkVisibility(),
     );
   const geometry = (path: string): boolean => path.startsWith("/geometry/");
 
-  test("stands until the first picture", async () => {
+  test("is displayed until the first picture", async () => {
     const { closed, open } = gate();
     const site = siteWith("poster", { attributes: 'poster="poster.png" alt="A knot"' });
     const server: PageOptions["server"] = (server) => {
@@ -248,28 +248,28 @@ describe("a poster", () => {
       server.put("/poster.png", redPng());
     };
     await withPage(site, { server, before: recordViewEvents }, async (view) => {
-      await until("the poster is shown", async () => isRed(view));
+      await until("the poster is displayed", async () => isRed(view));
       assert.equal(await view.page.getByRole("img", { name: "A knot" }).count(), 1);
       assert.deepEqual(await viewEvents(view, "poster-dismissed"), []);
       open();
       await view.promise("complete");
-      assert.equal(await posterShown(view), false);
+      assert.equal(await isPosterVisible(view), false);
       const types = (await viewEvents(view)).map(({ type }) => type).filter((type) => type !== "camera-change");
       assert.deepEqual(types, ["poster-dismissed", "model-visibility"]);
     });
   });
 
-  test("with reveal=manual stands until the page dismisses it, also one of the page's own", async () => {
+  test("with reveal=manual is displayed until the page dismisses it, also one in the slot", async () => {
     const site = siteWith("manual", { attributes: 'reveal="manual"', inside: '<p slot="poster">Wait for it</p>' });
     await withScene(site, {}, async (view) => {
       await settle(view.page);
-      assert.ok(await posterShown(view));
+      assert.ok(await isPosterVisible(view));
       assert.ok(await view.page.getByText("Wait for it").isVisible());
       assert.deepEqual(await viewEvents(view, "model-visibility"), []);
       await view.page.evaluate(() => {
         document.querySelector<ViewElement>("x3d")!.dismissPoster();
       });
-      assert.equal(await posterShown(view), false);
+      assert.equal(await isPosterVisible(view), false);
       assert.deepEqual(
         (await viewEvents(view, "model-visibility")).map(({ detail }) => detail),
         [{ visible: true }],
@@ -310,7 +310,7 @@ describe("loading", () => {
   };
 
   for (const loading of ["auto", "lazy"]) {
-    test(`="${loading}" waits for a scene far below the window until people come near`, async () => {
+    test(`="${loading}" defers a scene far below the viewport until it comes near`, async () => {
       await withPage(below(loading), { before: tall }, async (view) => {
         await until("the runtime runs", async () =>
           view.page.evaluate(
@@ -333,7 +333,7 @@ describe("loading", () => {
   test('="eager" does not wait', async () => {
     await withPage(below("eager"), { before: tall }, async (view) => {
       await until(
-        "all files are asked for",
+        "all files are requested",
         () =>
           view.server.requestsOf(/geometry/).length ===
           ranksOfFiles(pageOf(siteOfGenerated("trefoil", "--profile", "classic"))).size,
@@ -351,7 +351,7 @@ describe("hotspots", () => {
       attributes: 'camera-orbit="0deg 90deg 10m" camera-target="0 0 0" field-of-view="45deg"',
     });
 
-  test("stand where their places are seen, and follow the camera", async () => {
+  test("are displayed at their projected positions, and follow the camera", async () => {
     await withScene(site(), {}, async (view) => {
       const middle = async (): Promise<[number, number]> =>
         view.page.evaluate(() => {
@@ -364,7 +364,7 @@ describe("hotspots", () => {
         document.querySelector("x3d")!.setAttribute("camera-orbit", "40deg 90deg 10m");
       });
       await settle(view.page);
-      // The eye is at 10 (sin 40, 0, cos 40); the place is 1.5 ahead of the centre as seen from the front.
+      // The eye is at 10 (sin 40, 0, cos 40); the hotspot is at z = 1.5.
       const angle = (40 * Math.PI) / 180;
       const [sideways, away] = [-1.5 * Math.sin(angle), 10 - 1.5 * Math.cos(angle)];
       const focal = center.y / Math.tan(Math.PI / 8);
@@ -374,7 +374,7 @@ describe("hotspots", () => {
     });
   });
 
-  test("say whether they face the camera and nothing stands before them, and stay readable and focusable", async () => {
+  test("report whether they face the camera and are not covered, and stay readable and focusable", async () => {
     await withScene(site(), {}, async (view) => {
       const visible = async (id: string): Promise<boolean> =>
         view.page.evaluate((name) => document.querySelector(name)!.hasAttribute("data-visible"), id);
@@ -383,7 +383,10 @@ describe("hotspots", () => {
       await view.page.evaluate(() => {
         document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg 10m");
       });
-      await until("they change places", async () => !(await visible("#front")) && (await visible("#back")));
+      await until(
+        "the other hotspot faces the camera",
+        async () => !(await visible("#front")) && (await visible("#back")),
+      );
       assert.ok((await viewEvents(view, "hotspot-visibility")).length >= 4);
       assert.equal(await view.page.getByRole("button", { name: "Front" }).count(), 1);
       await view.page.keyboard.press("Tab");
@@ -400,7 +403,7 @@ describe("hotspots", () => {
         };
         const { left, top, width, height } = x3d.getBoundingClientRect();
         const eye = x3d.getCameraPosition();
-        // Somewhere on the shape, and on the same ray behind it.
+        // One hotspot on the shape, and one on the same ray behind it.
         const [hit] = Array.from({ length: 40 }, (_, i) =>
           x3d.positionAndNormalFromPoint(left + (width * (i + 0.5)) / 40, top + height / 2),
         ).filter((found) => found !== null);
@@ -418,7 +421,7 @@ describe("hotspots", () => {
         }
         return (x3d as unknown as { statistics: { frames: number } }).statistics.frames;
       });
-      await until("one is found to be covered", async () => (await visible("#surface")) && !(await visible("#within")));
+      await until("one hotspot is covered", async () => (await visible("#surface")) && !(await visible("#within")));
       await settle(view.page);
       assert.deepEqual(
         [await visible("#surface"), await visible("#within"), await visible("#back")],
@@ -438,7 +441,7 @@ describe("hotspots", () => {
     });
   });
 
-  test("come, move and go with their elements, and the scene is not read anew for them", async () => {
+  test("follow their elements, without a new reading of the scene", async () => {
     await withScene(site(), {}, async (view) => {
       const asked = view.server.requests.length;
       await view.page.evaluate(() => {
@@ -456,7 +459,7 @@ describe("hotspots", () => {
       await view.page.evaluate(() => {
         document.querySelector("#added")!.remove();
       });
-      await until("its frame goes", async () =>
+      await until("its frame is removed", async () =>
         view.page.evaluate(
           () => document.querySelector("imgeo-view")!.shadowRoot!.querySelectorAll(".hotspots > div").length === 2,
         ),
@@ -466,8 +469,8 @@ describe("hotspots", () => {
   });
 });
 
-describe("people who do not see the picture, or use no mouse", () => {
-  test("get its name, how it moves, and where it is seen from", async () => {
+describe("users of screen readers and keyboards", () => {
+  test("get the label, the keys and a description of the view", async () => {
     await withScene(siteWith("named", { attributes: 'alt="A trefoil knot in stone"' }), {}, async (view) => {
       const canvas = view.page.getByRole("application", { name: "A trefoil knot in stone" });
       assert.equal(await canvas.count(), 1);
@@ -492,7 +495,7 @@ describe("people who do not see the picture, or use no mouse", () => {
     });
   });
 
-  test("hear how far it has come", async () => {
+  test("get the loading progress", async () => {
     const { closed, open } = gate();
     await withPage(
       siteOfGenerated("trefoil", "--profile", "classic"),
@@ -511,13 +514,13 @@ describe("people who do not see the picture, or use no mouse", () => {
         open();
         await view.promise("complete");
         await settle(view.page);
-        assert.equal(await bar.count(), 0); // what is complete is not announced as going on
+        assert.equal(await bar.count(), 0); // a complete scene is not announced as loading
         assert.equal(await view.page.getByRole("status").textContent(), "The scene is complete.");
       },
     );
   });
 
-  test("see where the focus is, and leave by Tab or Escape", async () => {
+  test("see the focus, and leave the view by Tab or Escape", async () => {
     const site = siteWith("between", {
       before: '<a id="first" href="#">Before</a>',
       after: '<a id="last" href="#">Behind</a>',
@@ -530,19 +533,19 @@ describe("people who do not see the picture, or use no mouse", () => {
       assert.equal(await focused(), "first");
       await view.page.keyboard.press("Tab");
       assert.equal(await view.page.evaluate(() => document.activeElement?.localName), "imgeo-view");
-      assert.ok(difference(unfocused, await view.picture()).mean > 0.3, "the focus is not seen");
+      assert.ok(difference(unfocused, await view.picture()).mean > 0.3, "the focus is not visible");
       await view.page.keyboard.press("Tab");
       assert.equal(await focused(), "last");
       await view.page.keyboard.press("Shift+Tab");
       await view.page.keyboard.press("Escape");
       assert.equal(await view.page.evaluate(() => document.activeElement?.localName), "body");
-      await view.page.keyboard.press("Tab"); // on from where one was
+      await view.page.keyboard.press("Tab"); // continues after the view
       assert.equal(await focused(), "last");
     });
   });
 });
 
-test("a page puts its own progress into the slot", async () => {
+test("a page replaces the progress bar by the slot", async () => {
   await withPage(siteWith("own-bar", { inside: '<p slot="progress-bar" id="own">…</p>' }), {}, async (view) => {
     await view.promise("complete");
     assert.ok(await view.page.locator("#own").isVisible());
@@ -550,7 +553,7 @@ test("a page puts its own progress into the slot", async () => {
   });
 });
 
-test("toBlob gives the picture as a file", async () => {
+test("toBlob returns the picture as a file", async () => {
   await withScene(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
     const shown = await view.picture();
     const bytes = await view.page.evaluate(async () => {

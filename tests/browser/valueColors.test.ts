@@ -1,5 +1,4 @@
-// Shapes coloured by what their vertices have besides: against plain buffers with
-// the colours that the values stand for.
+// Compares shapes coloured by vertex attributes with plain buffers that have the colours of the values.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -24,7 +23,7 @@ const withFields =
   (server) =>
     void server.when(/^\/$/, { replace: (html) => html.toString().replace("<Shape ", `<Shape ${fields} `) });
 
-/** Plain buffers with a colour for each vertex between two, which are those at `min` and `max`. */
+/** Plain buffers whose vertex colours are interpolated between those of the values `min` and `max`. */
 async function expectedPicture(
   site: string,
   values: Float32Array,
@@ -52,7 +51,7 @@ describe("a shape coloured by an attribute", () => {
     ["out of patches of compact", ["--patch-vertices", "1000", "--normal-bits", "10"]],
     ["out of two byte planes", ["--profile", "classic"]],
     [
-      "out of one byte plane and many patches of strips",
+      "in one byte plane and many patches of strips",
       ["--attribute-bits", "8", "--patch-vertices", "1000", "--primitives", "strips"],
     ],
     ["out of three byte planes, without an index", ["--attribute-bits", "24", "--index", "off"]],
@@ -60,7 +59,7 @@ describe("a shape coloured by an attribute", () => {
     ["out of arrays", ["--container", "bg"]],
   ];
   for (const [what, options, decode] of ways) {
-    test(`${what} has the colours that its values stand for`, async () => {
+    test(`${what} has the colours of its values`, async () => {
       const site = keeping(...options);
       const expected = await expectedPicture(site, height!, spread, ends);
       const server: Server = (server) =>
@@ -78,7 +77,7 @@ describe("a shape coloured by an attribute", () => {
     });
   }
 
-  test("of three components has those of its length, and others at once when the document says so", async () => {
+  test("of three components has the colours of its length, and follows changes of the document at once", async () => {
     const site = keeping("--attribute-bits", "24", "--normal-bits", "10");
     await withPage(site, { server: withFields(`colorBy="away" colorMap="gray" colorRange="0.5 4"`) }, async (view) => {
       await view.promise("complete");
@@ -102,7 +101,7 @@ describe("a shape coloured by an attribute", () => {
         await expectedPicture(site, away, [0, 5], [white, black]),
         boundsOfInput,
       );
-      assert.equal(view.requestedPaths.length, asked, "something was asked for again");
+      assert.equal(view.requestedPaths.length, asked, "files were requested again");
       assert.ok(!isWithin(difference(first, second), boundsOfInput));
       await view.page.evaluate(() => {
         document.querySelector("shape")!.setAttribute("colorBy", "height");
@@ -125,14 +124,14 @@ describe("a shape coloured by an attribute", () => {
     });
   });
 
-  test("without a colorBy is as it would be without attributes, which are not asked for", async () => {
+  test("without colorBy has the picture of a shape without attributes, which are not requested", async () => {
     const pictures: Picture[] = [];
     for (const site of [keeping("--profile", "classic"), siteOfGenerated("trefoil-numbers", "--profile", "classic")]) {
       await withPage(site, {}, async (view) => {
         await view.promise("complete");
         pictures.push(await view.picture());
         const files = /attrib='([^']*)'/.exec(pageOf(site))?.[1] ?? "";
-        for (const url of view.requestedPaths) assert.ok(!files.includes(url) || url === "", `${url} was asked for`);
+        for (const url of view.requestedPaths) assert.ok(!files.includes(url) || url === "", `${url} was requested`);
       });
     }
     assertSamePicture("values unused", pictures[0]!, pictures[1]!, { mean: 0, offShare: 0 });

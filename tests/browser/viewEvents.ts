@@ -1,5 +1,5 @@
-// What a view tells its page about camera and poster, beside what observe.ts
-// keeps of loading.
+// Records the events of camera, poster and hotspots that a view sends to its page. pageObserver.ts records those of
+// loading.
 
 import type { View } from "./harness.ts";
 
@@ -14,7 +14,7 @@ declare global {
   }
 }
 
-/** Self-contained: runs in the page before its scripts. */
+/** Starts recording. Self-contained: runs in the page before its scripts. */
 export function recordViewEvents(): void {
   window.viewEvents = [];
   for (const type of ["camera-change", "model-visibility", "poster-dismissed", "hotspot-visibility"]) {
@@ -28,6 +28,7 @@ export function recordViewEvents(): void {
   }
 }
 
+/** The recorded events, or those of one type, in order. */
 export async function viewEvents({ page }: View, type?: string): Promise<ViewEvent[]> {
   const all = await page.evaluate(() => window.viewEvents);
   return all.filter((event) => type === undefined || event.type === type);

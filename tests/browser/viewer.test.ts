@@ -1,5 +1,5 @@
-// What a person does with the view, and what a page can rely on: turning,
-// zooming, resizing, events, promises, and standing still when nothing changes.
+// Tests basic behaviour of the view: rotating, zooming, resizing, events, promises, and drawing no frames while
+// nothing changes.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -48,7 +48,7 @@ const gestures: Record<string, (view: View) => Promise<void>> = {
   },
 };
 
-describe("the view moves, and R brings it back", () => {
+describe("the camera moves, and R resets it", () => {
   for (const [name, gesture] of Object.entries(gestures)) {
     test(name, async () => {
       await withCompletePage({}, async (view) => {
@@ -63,7 +63,7 @@ describe("the view moves, and R brings it back", () => {
     });
   }
 
-  test("two fingers that part bring the scene nearer, and one finger turns it", async () => {
+  test("two fingers zoom, and one finger rotates", async () => {
     await withCompletePage({ hasTouch: true }, async (view) => {
       const before = await view.picture();
       await touch(view, [
@@ -88,8 +88,8 @@ describe("the view moves, and R brings it back", () => {
   });
 });
 
-describe("the picture fits its place", () => {
-  test("after the window has changed its size", async () => {
+describe("the picture fits its element", () => {
+  test("after the window has been resized", async () => {
     const size = { width: 420, height: 600 };
     await withCompletePage({}, async (view) => {
       await view.page.setViewportSize(size);
@@ -104,7 +104,7 @@ describe("the picture fits its place", () => {
     });
   });
 
-  test("with two device pixels to a pixel", async () => {
+  test("with a device pixel ratio of 2", async () => {
     const size = { width: 320, height: 240 };
     await withCompletePage({ size, deviceScaleFactor: 2 }, async (view) => {
       const picture = await view.picture();
@@ -123,13 +123,13 @@ test("nothing is drawn while nothing changes", async () => {
     assert.equal((await view.observed()).draws, draws);
     await focusView(view);
     await view.page.keyboard.press("ArrowLeft");
-    await until("a key makes it draw", async () => (await view.observed()).draws > draws);
+    await until("a key causes a frame", async () => (await view.observed()).draws > draws);
   });
 });
 
 describe("events", () => {
-  test("tell how far the scene and each shape are, in order, and do not bubble", async () => {
-    // What refines waits for the first picture: where all came before it, nothing would be refined.
+  test("report the loading of the scene and each shape, in order, and do not bubble", async () => {
+    // Files for refinement are held until the first picture; otherwise there might be no refinement.
     const { closed, open } = gate();
     const later = [...ranksOfFiles(pageOf(site()))].filter(([, rank]) => rank > 0).map(([url]) => `/${url}`);
     await withPage(
@@ -169,7 +169,7 @@ describe("events", () => {
     }
   }
 
-  test("the promises of the scene and of its shapes are kept", async () => {
+  test("the promises of the scene and of its shapes resolve", async () => {
     await withPage(site(), {}, async (view) => {
       for (const selector of ["x3d", "shape"]) {
         await view.promise("firstImage", selector);
@@ -180,16 +180,16 @@ describe("events", () => {
   });
 });
 
-test("a browser without WebGL2 says so in words", async () => {
+test("a browser without WebGL2 gets a message", async () => {
   const before = (): void => {
     HTMLCanvasElement.prototype.getContext = () => null;
     OffscreenCanvas.prototype.getContext = () => null;
   };
   await withPage(site(), { before, expectedErrors: /WebGL/ }, async (view) => {
-    await until("the message is there", async () => /WebGL ?2/.test(await shownText(view)));
+    await until("the message is displayed", async () => /WebGL ?2/.test(await shownText(view)));
     assert.ok(
       (await view.picture()).data.some((byte, i, data) => byte !== data[i % 3]),
-      "nothing is seen",
+      "nothing is visible",
     );
   });
 });
@@ -199,7 +199,7 @@ async function shownText({ page }: View): Promise<string> {
   return page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot?.textContent ?? "");
 }
 
-test("programs are compiled while the first files are on their way", async () => {
+test("programs are compiled while the first files are loading", async () => {
   const { closed, open } = gate();
   const before = (): void => {
     const counts = { links: 0 };
@@ -217,16 +217,16 @@ test("programs are compiled while the first files are on their way", async () =>
     async (view) => {
       const links = (): Promise<number> =>
         view.page.evaluate(() => (window as unknown as { counts: { links: number } }).counts.links);
-      // Points, a surface by its slope, one by its normals, and that with colours.
-      await until("four programs are on their way", async () => (await links()) === 4);
+      // Points, flat shading, shading by normals, and the same with colours.
+      await until("four programs are being compiled", async () => (await links()) === 4);
       open();
       await view.promise("complete");
-      assert.ok((await links()) <= 5, `${await links()} programs`); // the trial of the GPU has one of its own
+      assert.ok((await links()) <= 5, `${await links()} programs`); // the test of the GPU uses one more
     },
   );
 });
 
-test("what nothing in the document bounds is framed when its vertices are here", async () => {
+test("a shape without a box in the document is framed when its vertices have loaded", async () => {
   const whole = siteOfGenerated("trefoil", "--container", "bg", "--coord-type", "float32");
   const unplaced = (page: string): string => page.replace(/<Viewpoint[^>]*><\/Viewpoint>/i, "");
   const unbounded = (page: string): string => unplaced(page).replaceAll(/\sbbox(Center|Size)="[^"]*"/gi, "");

@@ -1,4 +1,4 @@
-// All pictures of a run in one: a row a document, a column a runtime.
+// Composes all pictures of a run into one.
 
 import type { Browser } from "playwright-core";
 import type { Runtime } from "./runtimes.ts";
@@ -12,7 +12,7 @@ export interface Row {
 const scale = 0.4;
 const columns = 4;
 
-/** A PNG, four documents beside each other. */
+/** A PNG with four documents in a row, each with the pictures of all runtimes. */
 export async function contactSheet(browser: Browser, rows: readonly Row[]): Promise<Buffer> {
   const [width, height] = [size.width * scale, size.height * scale];
   const cells = rows.map(

@@ -1,7 +1,7 @@
-// Where our picture differs from another runtime's, and why.
+// Explains for each document why imgeo's picture differs from those of other runtimes.
 
-/** Pictures whose channels differ by no more than this on average, of 255, are the same. */
-export const sameMean = 1;
+/** Pictures with a mean difference of up to this, of 255, count as equal. */
+export const maxEqualMean = 1;
 
 const otherDiagonal =
   "X3D does not specify the diagonal along which a quad is split; X_ITE uses the other one. X3DOM's npm package lacks the node";
@@ -49,7 +49,8 @@ export const explanations: Readonly<Record<string, string>> = {
   "Text-length": `${otherFonts}. Glyphs are stretched; X_ITE changes the space between them; X3DOM does not support \`length\` and compresses only one string`,
   "Text-no-material": `${otherFonts}; in X3DOM MIDDLE is slightly higher`,
   TextureTransform: "minified textures are filtered differently",
-  "Transform-mirror": "a mirroring transform reverses the orientation of triangles, which imgeo corrects; X3DOM displays their backs",
+  "Transform-mirror":
+    "a mirroring transform reverses the orientation of triangles, which imgeo corrects; X3DOM displays their backs",
   TriangleFanSet: noFans,
   TriangleStripSet: noFans,
   "UnlitMaterial-emissiveTexture": "X3DOM lacks the node",

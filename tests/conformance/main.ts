@@ -1,9 +1,9 @@
-// Shows each document of nodes/ in our runtime, in X_ITE and in X3DOM, in the same
-// browser, and compares what is seen. Writes docs/conformance.md and its picture;
-// fails where ours differs from both and nothing in explanations.ts says why.
+// Draws each document of nodes/ in imgeo's runtime, in X_ITE and in X3DOM, in the same browser, and compares the
+// pictures. Writes docs/conformance.md and its picture; fails if imgeo differs from one of them and explanations.ts
+// does not explain it.
 //
-//   scripts/conformance [NAME…]      only those documents; pictures go to build/conformance alone
-//   scripts/conformance --check      all of them, the same
+//   scripts/conformance [NAME…]      only those documents; pictures only in build/conformance
+//   scripts/conformance --check      all of them, without writing into docs/
 
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -13,7 +13,7 @@ import { difference } from "../browser/compare.ts";
 import { repository } from "../browser/paths.ts";
 import { decodePng, encodePng } from "../browser/png.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
-import { explanations, sameMean } from "./explanations.ts";
+import { explanations, maxEqualMean } from "./explanations.ts";
 import type { Runtime } from "./runtimes.ts";
 import { pageOf, runtimes, serveRuntimes, size } from "./runtimes.ts";
 import type { Row } from "./contactSheet.ts";
@@ -24,7 +24,7 @@ const output = join(repository, "build/conformance");
 const table = join(repository, "docs/conformance.md");
 const picture = join(repository, "docs/images/conformance.png");
 
-/** Waits until what is seen has not changed for three pictures in a row. */
+/** The picture once it has been the same three times in a row. */
 async function stillPicture(page: Page): Promise<Buffer> {
   let last: Buffer = Buffer.alloc(0);
   let same = 0;
@@ -81,12 +81,12 @@ function lineOf(row: Row): { text: string; isExplained: boolean } {
   const why = explanations[row.name] ?? "";
   return {
     text: `| ${row.name} | ${means.map((mean) => mean.toFixed(2)).join(" | ")} | ${why} |`,
-    isExplained: why !== "" || means.every((mean) => mean <= sameMean),
+    isExplained: why !== "" || means.every((mean) => mean <= maxEqualMean),
   };
 }
 
-const words = process.argv.slice(2);
-const requestedNames = words.filter((word) => word !== "--check");
+const args = process.argv.slice(2);
+const requestedNames = args.filter((argument) => argument !== "--check");
 const all = readdirSync(join(here, "nodes"))
   .map((file) => file.replace(/\.x3d$/, ""))
   .sort();
@@ -99,7 +99,7 @@ try {
   const lines = rows.map(lineOf);
   writeFileSync(join(output, "sheet.png"), sheet);
   console.log(lines.map(({ text }) => text).join("\n"));
-  if (words.length === 0) {
+  if (args.length === 0) {
     writeFileSync(picture, sheet);
     const head = readFileSync(table, "utf8").split(/^\| document/m)[0] ?? "";
     writeFileSync(

@@ -1,5 +1,5 @@
-// The three runtimes that show a document: ours, X_ITE and X3DOM, each as a page
-// that a server serves beside the document.
+// The three runtimes that display a document: imgeo, X_ITE and X3DOM, each as a page that a server serves with the
+// document.
 
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -16,7 +16,7 @@ export const size = { width: 320, height: 240 };
 
 const fill = "margin: 0; border: 0; padding: 0; display: block; width: 100vw; height: 100vh";
 
-/** Puts what the pages need on the server. */
+/** Puts the files that the pages need on the server. */
 export async function serveRuntimes(server: TestServer): Promise<void> {
   server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
   const bundle = await build({ ...runtimeBundle, write: false });
@@ -41,7 +41,7 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   server.put("/x3dom.css", of("x3dom-1.8/x3dom.css"));
 }
 
-/** The page in which a runtime shows the document of that path. */
+/** The page in which a runtime displays the document at `path`. */
 export function pageOf(runtime: Runtime, path: string, document: string): string {
   const scene = asHtml(document);
   switch (runtime) {
@@ -60,7 +60,7 @@ export function pageOf(runtime: Runtime, path: string, document: string): string
             "<X3D",
             `<X3D style="${fill}" width="${size.width}px" height="${size.height}px" showStat="false" showLog="false"`,
           )
-          // Its light would add up in linear numbers otherwise, which X3D 4 asks of PhysicalMaterial alone.
+          // By default X3DOM adds linear light, which X3D 4 requires only of PhysicalMaterial.
           .replace("<Scene>", '<Scene><Environment gammaCorrectionDefault="none"></Environment>'),
       );
   }
@@ -70,7 +70,7 @@ function html(head: string, body: string): string {
   return `<!doctype html><html><head><meta charset="utf-8"><style>html, body { margin: 0; overflow: hidden }</style>${head}</head><body>${body}</body></html>`;
 }
 
-/** In HTML no element of X3D is empty. */
+/** Converts XML to HTML, in which X3D elements need end tags. */
 function asHtml(document: string): string {
   return document.replace(/<\?xml[^>]*\?>\s*/, "").replace(/<(\w+)([^<>]*?)\/>/g, "<$1$2></$1>");
 }

@@ -1,9 +1,8 @@
-// A page of ours with its containers replaced by the source's own numbers,
-// written out as X3DOM's plain nodes: the picture that the containers must give.
+// Replaces the containers of a page by the source's numbers in X3DOM's plain nodes, for reference pictures.
 
 import type { PlainMesh } from "../browser/meshes.ts";
 
-/** Puts an inline copy of `mesh` in the place of everything in the only source shape. */
+/** Replaces everything in the only source shape by an inline copy of `mesh`. */
 export function referencePage(html: string, mesh: PlainMesh): string {
   const begin = html.search(/<(Group|Shape)\b/);
   const group = html.indexOf("</Group>", begin);
@@ -30,7 +29,7 @@ function plainNode({
   }
   if (triangles.length === 0) return `<PointSet>${coordinate}${color}</PointSet>`;
   if (!normals) throw new Error("a reference needs the normals that convert computes");
-  // X3DOM skips words that are no numbers: vertices without triangles have such normals.
+  // Normals of vertices without triangles are NaN, which X3DOM would skip.
   const vectors = normals.map((value) => (Number.isFinite(value) ? value : 0));
   const normal = `<Normal vector="${vectors.join(" ")}"></Normal>`;
   const texCoord = texCoords ? `<TextureCoordinate point="${texCoords.join(" ")}"></TextureCoordinate>` : "";

@@ -1,5 +1,4 @@
-// The two releases of X3DOM that pages are written for, as npm has them, and
-// pages of ours shown in them.
+// The two releases of X3DOM for which pages are written, from npm, and pictures of pages in them.
 
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
@@ -11,15 +10,15 @@ import type { Picture } from "../browser/png.ts";
 
 export type Container = "sig" | "bg";
 
-/** The last release that draws images, and the newest. */
+/** The last release that draws SIG, and the newest. */
 const folders: Record<Container, string> = { sig: "x3dom-1.7", bg: "x3dom-1.8" };
 
 export function fileOf(container: Container, name: "x3dom.js" | "x3dom.css"): Buffer {
   return readFileSync(join(repository, "node_modules", folders[container], name));
 }
 
-/** As an integrity attribute states it. */
-export function sumOf(container: Container, name: "x3dom.js" | "x3dom.css"): string {
+/** The hash for an integrity attribute. */
+export function hashOf(container: Container, name: "x3dom.js" | "x3dom.css"): string {
   return `sha384-${createHash("sha384").update(fileOf(container, name)).digest("base64")}`;
 }
 
@@ -36,7 +35,7 @@ async function withX3dom(
     {
       path: "page.html",
       server(server) {
-        // X3DOM's stylesheet holds an image and its code makes functions of text.
+        // X3DOM's style sheet contains a data URL, and its code uses eval.
         server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
         server.put("/page.html", html);
         server.put("/x3dom/x3dom.js", fileOf(container, "x3dom.js"));
@@ -48,8 +47,8 @@ async function withX3dom(
   );
 }
 
-/** What X3DOM shows of a page when everything has come and it draws no more.
- *  `bodies` are files beside the site's own. */
+/** X3DOM's picture of a page after everything has loaded and it has stopped drawing.
+ *  `bodies` are files in addition to the site's. */
 export async function pictureOf(
   site: string,
   container: Container,
@@ -66,13 +65,12 @@ export async function pictureOf(
   return picture;
 }
 
-/** X3DOM's own count of what is still to come, and its wish to draw again. */
+/** X3DOM's own count of pending downloads, and its flag for another frame. */
 interface X3domElement extends Element {
   runtime?: { canvas: { doc: { downloadCount: number; needRender: boolean } } };
 }
 
-/** Waits until every image and array has come and has been drawn. A busy machine
- *  may take minutes; throws after three. */
+/** Waits until every image and array has loaded and has been drawn; throws after three minutes. */
 async function loaded(page: Page): Promise<void> {
   await page.waitForFunction(
     () => {

@@ -1,5 +1,4 @@
-// Sites of `--target x3dom` in the releases of X3DOM that they are for, against
-// the same mesh written inline into the same page.
+// Compares sites of `--target x3dom` in X3DOM with the same mesh written inline into the same page.
 
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -19,7 +18,7 @@ import { modelDirectory, outputDirectory } from "../browser/paths.ts";
 import { decodePng, encodePng, type Picture } from "../browser/png.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "../browser/sites.ts";
 import { referencePage } from "./referencePage.ts";
-import { fileOf, pictureOf, sumOf, type Container } from "./releases.ts";
+import { fileOf, pictureOf, hashOf, type Container } from "./releases.ts";
 
 const options = (container: Container): string[] => [
   "--target",
@@ -32,7 +31,7 @@ const options = (container: Container): string[] => [
   "0",
 ];
 const containers: Container[] = ["sig", "bg"];
-/** The issue's bounds. */
+/** Maximum differences of pictures. */
 const bounds: Bounds = { mean: 0.05, offShare: 0.0001 };
 const patches = ["--patch-vertices", "700"];
 
@@ -41,7 +40,7 @@ function sourceOf(name: GeneratedMesh): PlainMesh {
   return mesh.normals || mesh.triangles.length === 0 ? mesh : { ...mesh, normals: areaWeightedNormals(mesh) };
 }
 
-/** An OBJ file of the mesh with a picture of soft stripes on it, in a folder of their own. */
+/** An OBJ file of the mesh with a texture of smooth stripes, in a folder of its own. */
 function texturedFile(name: string, mesh: PlainMesh): string {
   const folder = join(outputDirectory, name);
   mkdirSync(folder, { recursive: true });
@@ -58,7 +57,7 @@ function texturedFile(name: string, mesh: PlainMesh): string {
   return join(folder, `${name}.obj`);
 }
 
-/** Where a lattice begins, and the edge of its cube. */
+/** Origin of a lattice, and edge length of its cube. */
 interface Cube {
   readonly origin: readonly number[];
   readonly edge: number;
@@ -73,7 +72,7 @@ function cubeAround(mesh: PlainMesh): Cube {
   };
 }
 
-/** The one that the document states, in few digits: by less than a thousandth of a step beside the mesh's own. */
+/** The cube that the document states in few digits; it differs from the mesh's own by less than a thousandth of a step. */
 function statedCube(site: string): Cube {
   const [, node = ""] = /<(?:Binary|Image)Geometry([^>]*)>/.exec(pageOf(site)) ?? [];
   const numbersOf = (name: string): number[] =>
@@ -82,7 +81,7 @@ function statedCube(site: string): Cube {
   return { origin: numbersOf("position").map((center) => center - edge / 2), edge };
 }
 
-/** The mesh with its positions on the lattice that convert lays over it. */
+/** The mesh with its positions rounded to convert's lattice. */
 function onLattice(mesh: PlainMesh, bits: number, { origin, edge } = cubeAround(mesh)): PlainMesh {
   const step = edge / (2 ** bits - 1);
   const positions = mesh.positions.map((value, i) => {
@@ -94,7 +93,7 @@ function onLattice(mesh: PlainMesh, bits: number, { origin, edge } = cubeAround(
   return { ...mesh, positions };
 }
 
-/** Reference pictures, once a mesh and release. */
+/** Reference pictures by mesh and release. */
 const references = new Map<string, Picture>();
 async function referenceOf(site: string, container: Container, name: string, mesh: PlainMesh): Promise<Picture> {
   const key = `${name} ${container}`;
@@ -103,7 +102,7 @@ async function referenceOf(site: string, container: Container, name: string, mes
   return picture;
 }
 
-/** A picture in which at least so much of the ground is covered by something. */
+/** Asserts that the picture differs from the plain background. */
 function assertShowsSomething(picture: Picture): void {
   const ground = { ...picture, data: Uint8Array.from(picture.data, (_, i) => picture.data[i % picture.channels] ?? 0) };
   assert.ok(difference(picture, ground).mean > 1, "the reference is empty");
@@ -120,7 +119,7 @@ async function assertShows(name: string, site: string, container: Container, mes
 
 for (const container of containers) {
   describe(`A site for X3DOM in ${container === "sig" ? "images" : "arrays"}`, () => {
-    /** With `bits` the reference's positions are on the lattice, which is coarse enough to move pixels. */
+    /** With `bits` the reference's positions are on the lattice, whose steps are larger than pixels. */
     const cases: [what: string, mesh: GeneratedMesh, more: string[], bits?: number][] = [
       ["triangles", "trefoil", []],
       ["strips", "trefoil", ["--primitives", "strips"]],
@@ -232,7 +231,7 @@ for (const container of containers) {
     }
 
     test("shows coloured points as X3DOM shows them inline", async () => {
-      // A point is one pixel: half a step of the lattice puts some of them into the next.
+      // A point is one pixel: half a step of the lattice moves some of them to the next pixel.
       const site = siteOfGenerated("points", ...options(container));
       await assertShows("points-16", site, container, onLattice(sourceOf("points"), 16, statedCube(site)));
     });
@@ -245,7 +244,7 @@ for (const container of containers) {
     }
 
     if (container === "sig") {
-      test("shows normals of a palette as the RGB that it stands for", async () => {
+      test("shows normals of a palette as its RGB values", async () => {
         const site = siteOfGenerated("trefoil", ...options(container), "--normals", "palette");
         const page = pageOf(site);
         const [, normals = ""] = /containerField="normal" url='"([^"]+)"'/.exec(page) ?? [];
@@ -271,7 +270,7 @@ for (const container of containers) {
       },
     );
 
-    test("is found different when a file is another's", async () => {
+    test("differs if two files are swapped", async () => {
       const site = siteOfGenerated("trefoil", ...options(container), ...patches);
       const page = pageOf(site);
       // The second and third file: two byte planes, or coordinates and normals.
@@ -282,11 +281,11 @@ for (const container of containers) {
       assert.ok(!isWithin(difference(actual, expected), bounds));
     });
 
-    test("loads X3DOM as npm has it unless told otherwise", () => {
+    test("loads X3DOM's npm release by default", () => {
       const page = pageOf(siteOfGenerated("sphere", "--target", "x3dom", "--container", container));
       for (const name of ["x3dom.js", "x3dom.css"] as const) {
         assert.match(page, new RegExp(`https://[^"]*${name.replace(".", "\\.")}"`));
-        assert.ok(page.includes(sumOf(container, name)), `${name} has another sum`);
+        assert.ok(page.includes(hashOf(container, name)), `${name} has another hash`);
         assert.ok(fileOf(container, name).length > 0);
       }
     });

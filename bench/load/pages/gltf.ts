@@ -2,7 +2,7 @@ import { Mesh, MeshPhongMaterial, type Object3D } from "three";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 
-// Where the decoder runs in workers, as its author advises for large files.
+// meshoptimizer's author recommends workers for large files.
 MeshoptDecoder.useWorkers(1);
 const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
 

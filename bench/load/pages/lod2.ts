@@ -1,4 +1,4 @@
-// The few lines with which many make a large model appear sooner.
+// Displays a coarse model before the full one, as many three.js apps do for large models.
 
 import { load } from "./gltf.ts";
 import { show } from "./threePage.ts";

@@ -1,5 +1,5 @@
-// A three.js page's usual beginning: a canvas over the whole window, a light at
-// the camera, and a camera that frames what is shown first.
+// The common start of a three.js page: a canvas over the whole window, a light at the camera, and a camera that frames
+// the first object.
 
 import {
   Box3,
@@ -16,12 +16,12 @@ import {
 const renderer = new WebGLRenderer({ antialias: true });
 const camera = new PerspectiveCamera(45, innerWidth / innerHeight);
 const light = new DirectionalLight(0xffffff, 3);
-let shown: Object3D | undefined;
+let displayed: Object3D | undefined;
 
-/** Takes the place of what was shown before; `isAll`: nothing better follows. */
+/** Displays `object` instead of the one before; `isAll`: no finer object follows. */
 export function show(object: Object3D, isAll = true): void {
-  if (shown === undefined) begin(object);
-  shown = object;
+  if (displayed === undefined) setUp(object);
+  displayed = object;
   const scene = new Scene();
   scene.background = new Color(0.93, 0.94, 0.95);
   scene.add(object, light);
@@ -34,7 +34,7 @@ export function show(object: Object3D, isAll = true): void {
   });
 }
 
-function begin(object: Object3D): void {
+function setUp(object: Object3D): void {
   renderer.setPixelRatio(devicePixelRatio);
   renderer.setSize(innerWidth, innerHeight);
   document.body.append(renderer.domElement);

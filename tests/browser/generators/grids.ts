@@ -1,6 +1,5 @@
-// Images that are surfaces by themselves: a terrain, a sheet of points, and a
-// sculpted vase, as the files that an ImageGeometry names and as the plain mesh
-// that its picture must be of.
+// Generates images that define surfaces (a terrain, a sheet of points, a sculpted vase) as files of an ImageGeometry
+// and as the plain meshes that they must look like.
 
 import type { PlainPatch } from "../siteDecoder.ts";
 import { encodePng } from "../png.ts";
@@ -13,7 +12,7 @@ export interface GridExample {
   rows: number;
   position: Point;
   size: Point;
-  /** Byte planes, most significant first, by the name of their file. */
+  /** Byte planes, most significant first, by file name. */
   files: Map<string, Buffer>;
 }
 
@@ -39,11 +38,11 @@ export function sheet(columns = 50, rows = 40): GridExample {
   });
 }
 
-/** A vase, joined at its back, its ends drawn together into poles; 8 bits. */
+/** A vase with a seam at its back and a pole at either end; 8 bits. */
 export function vase(columns = 64, rows = 48): GridExample {
   return exampleOf("sculpt", columns, rows, [0, 0, 0], [2, 3, 2], 1, 3, (u, v) => {
     const radius = v === 0 || v === 1 ? 0 : 0.5 * Math.sin(Math.PI * v) * (0.6 + 0.4 * Math.cos(9 * v));
-    // Columns run right as one looks at it from outside, so around it against the clock.
+    // Columns run to the right seen from outside, so counterclockwise around the vase.
     const angle = (2 * Math.PI * u * (columns - 1)) / columns;
     return [0.5 + radius * Math.sin(angle), 1 - v, 0.5 + radius * Math.cos(angle)];
   });
@@ -75,7 +74,7 @@ function exampleOf(
   return { mode, columns, rows, position, size, files };
 }
 
-/** The Shape that shows it. */
+/** The Shape element of the example. */
 export function shapeOf({ mode, columns, rows, position, size, files }: GridExample, attributes = ""): string {
   const coord = [...files.keys()].map((path) => `"${path}"`).join(" ");
   return `<Shape><Appearance><Material diffuseColor="0.7 0.6 0.4" specularColor="0.2 0.2 0.2"></Material></Appearance>
@@ -83,7 +82,7 @@ export function shapeOf({ mode, columns, rows, position, size, files }: GridExam
       coord='${coord}' ${attributes}></ImageGeometry></Shape>`;
 }
 
-/** The same surface as plain buffers, from the bytes of the files. */
+/** The surface as plain buffers, computed from the bytes of the files. */
 export function meshOf(
   { mode, columns, rows, position, size }: GridExample,
   planes: { data: Uint8Array; channels: number }[],
@@ -127,7 +126,7 @@ export function meshOf(
   };
 }
 
-/** Central differences; where a row is one point, those of the row beside it. */
+/** Normals by central differences; a row that is a single point takes those of the next row. */
 function slopes(positions: Float32Array, columns: number, rows: number, isClosed: boolean): Float32Array {
   const at = (row: number, column: number): Point => {
     const n = row * columns + column;

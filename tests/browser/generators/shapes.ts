@@ -1,11 +1,11 @@
-// Many small shapes, no two alike, as objects of an OBJ file.
+// Generates many small and different shapes as objects of an OBJ file.
 
 import { closeSync, openSync, writeSync } from "node:fs";
 import { sphere } from "../meshes.ts";
 
 /**
- * Spheres of 32, 72 and 128 triangles in a square of rows, each with bumps of its own.
- * `node tests/browser/generators/shapes.ts COUNT FILE` writes them, too.
+ * Spheres of 32, 72 and 128 triangles on a square grid, each with different bumps.
+ * `node tests/browser/generators/shapes.ts COUNT FILE` writes them to a file.
  */
 export function writeShapes(count: number, file: string): void {
   const spheres = [2, 3, 4].map((splits) => sphere(splits));
