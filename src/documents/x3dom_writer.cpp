@@ -30,7 +30,7 @@ class X3domWriter : public SceneWriter {
 public:
   X3domWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
               std::optional<std::size_t> inlineNode)
-      : SceneWriter(document, level, kind, inlineNode), sampling_(defNames_.take("exactTexels")),
+      : SceneWriter(document, level, kind, inlineNode), samplingName_(defNames_.take("exactTexels")),
         emissiveNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
@@ -52,8 +52,8 @@ private:
     writer_.close(group);
   }
 
-  /// X3DOM has no other attribute for it. X3D's four values have no effect as an HTML style; other values of a source
-  /// might have one.
+  /// X3DOM reads the style of a FontStyle from this attribute only. X3D's four values have no effect as an HTML style;
+  /// other values of a source might have one.
   Attribute fontStyleAttribute(const std::string& style) const override {
     constexpr std::string_view styles[] = {"PLAIN", "BOLD", "ITALIC", "BOLDITALIC"};
     return {"style", std::ranges::find(styles, style) != std::end(styles) ? style : "PLAIN"};
@@ -107,13 +107,13 @@ private:
     writer_.close(element);
   }
 
-  static Attributes boxFields(const GeometryDescription& geometry, bool solid) {
+  static Attributes geometryFields(const GeometryDescription& geometry, bool solid) {
     Attributes fields = decodeAttributes(geometry);
     const std::uint32_t bits = geometry.lattice.bits;
-    const std::uint32_t stored = !hasElementTypes(geometry.encoding)          ? 8 * coordBytes(geometry.encoding, bits)
-                                 : geometry.coordType == ElementType::float32 ? sourceBits
-                                                                              : 8 * byteSizeOf(geometry.coordType);
-    if (bits != stored)
+    const std::uint32_t storedBits = !hasElementTypes(geometry.encoding) ? 8 * coordBytes(geometry.encoding, bits)
+                                     : geometry.coordType == ElementType::float32 ? sourceBits
+                                                                                  : 8 * byteSizeOf(geometry.coordType);
+    if (bits != storedBits)
       fields.push_back({"positionBits", std::to_string(bits)});
     addUnless(fields, "solid", solid, true, "false");
     return fields;
@@ -137,7 +137,7 @@ private:
     draws.push_back({"numColorComponents", std::to_string(geometry.colorComponents)});
     if (geometry.normalEncoding == NormalEncoding::palette)
       draws.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
-    const Element node{"ImageGeometry", {boxFields(geometry, solid), draws}};
+    const Element node{"ImageGeometry", {geometryFields(geometry, solid), draws}};
     writer_.open(node);
     const auto write = [&](const char* role, const std::optional<Reference>& image) {
       if (image)
@@ -158,22 +158,22 @@ private:
     const Element texture{"ImageTexture",
                           {{{"containerField", role}, {"url", strings({image.url})}, {"scale", "false"}}}};
     writer_.open(texture);
-    if (samplingIsDefined_)
-      writer_.leaf({"TextureProperties", {{{"USE", sampling_}}}});
+    if (isSamplingDefined_)
+      writer_.leaf({"TextureProperties", {{{"USE", samplingName_}}}});
     else
       writer_.leaf(
           {"TextureProperties",
-           {{{"DEF", sampling_},
+           {{{"DEF", samplingName_},
              {"boundaryModeS", "CLAMP_TO_EDGE"},
              {"boundaryModeT", "CLAMP_TO_EDGE"},
              {"boundaryModeR", "CLAMP_TO_EDGE"}},
             {{"magnificationFilter", "NEAREST"}, {"minificationFilter", "NEAREST"}, {"generateMipMaps", "false"}}}});
-    samplingIsDefined_ = true;
+    isSamplingDefined_ = true;
     writer_.close(texture);
   }
 
   /// Url with the stride as a query, since some hosts decode a '+' in a path as a space.
-  static std::string strided(const Reference& file) {
+  static std::string stridedUrl(const Reference& file) {
     const ByteLocation& location = std::get<ByteLocation>(file.location);
     assert(location.byteOffset == 0);
     return file.url + (location.byteStride == 0 ? "" : "?+" + std::to_string(location.byteStride));
@@ -181,23 +181,23 @@ private:
 
   /// Url with offset and stride of an attribute in interleaved records: X3DOM then reads all attributes from the
   /// coordinates' file.
-  static std::string interleaved(const Reference& file) {
+  static std::string interleavedUrl(const Reference& file) {
     const ByteLocation& location = std::get<ByteLocation>(file.location);
     return file.url + "#" + std::to_string(location.byteOffset) + "+" + std::to_string(location.byteStride);
   }
 
   static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
     const Reference& coord = patch.coord.at(0);
-    const auto isBeside = [&](const std::optional<Reference>& file) { return file && file->url == coord.url; };
-    const bool isInterleaved =
-        (isBeside(patch.normal) && !hasNormalsInCoords(geometry)) || isBeside(patch.texCoord) || isBeside(patch.color);
+    const auto isInCoordFile = [&](const std::optional<Reference>& file) { return file && file->url == coord.url; };
+    const bool isInterleaved = (isInCoordFile(patch.normal) && !hasNormalsInCoords(geometry)) ||
+                               isInCoordFile(patch.texCoord) || isInCoordFile(patch.color);
     Attributes types, urls;
     const auto add = [&](const char* role, const char* typeField, ElementType type,
                          const std::optional<Reference>& file) {
       if (!file)
         return;
       types.push_back({typeField, nameOf(type)});
-      urls.push_back({role, isInterleaved && role != std::string("index") ? interleaved(*file) : strided(*file)});
+      urls.push_back({role, isInterleaved && role != std::string("index") ? interleavedUrl(*file) : stridedUrl(*file)});
     };
     add("index", "indexType", geometry.indexType, patch.index);
     add("coord", "coordType", geometry.coordType, patch.coord.at(0));
@@ -209,11 +209,11 @@ private:
     add("color", "colorType", geometry.colorType, patch.color);
     if (geometry.colorComponents == 4)
       types.push_back({"rgbaColors", "true"});
-    return {"BinaryGeometry", {boxFields(geometry, solid), drawFields(patch), types, urls}};
+    return {"BinaryGeometry", {geometryFields(geometry, solid), drawFields(patch), types, urls}};
   }
 
-  std::string sampling_; ///< DEF of the TextureProperties that all images use
-  bool samplingIsDefined_ = false;
+  std::string samplingName_; ///< DEF of the TextureProperties that all images use
+  bool isSamplingDefined_ = false;
   Names emissiveNames_; ///< names of the variants of appearances with emissive colour
   Vec2<std::uint32_t> implicitMeshSize_;
 };

@@ -17,11 +17,11 @@ using testing::randomMesh;
 using testing::sceneOf;
 using testing::shapeName;
 
-/// Everything that a corner sees, whatever wedges and positions it shares.
+/// The values at a corner, which do not depend on how corners share wedges and positions.
 struct Corner {
   Vec3f position, normal;
   Vec2f texCoord;
-  Rgba8 color{255, 255, 255, 255}; ///< what readers give objects beside coloured ones
+  Rgba8 color{255, 255, 255, 255}; ///< readers give it to meshes without colours beside others with colours
 };
 
 std::vector<Corner> cornersOf(const Mesh& mesh) {
@@ -42,13 +42,13 @@ std::vector<Corner> cornersOf(const Mesh& mesh) {
 
 std::vector<Corner> cornersOf(const Scene& scene) {
   std::vector<Corner> corners;
-  for (const ShapeInstance& placed : shapeInstances(scene.graph))
-    for (const Corner& corner : cornersOf(scene.meshes[shapeOf(scene.graph, placed.node).mesh]))
+  for (const ShapeInstance& instance : shapeInstances(scene.graph))
+    for (const Corner& corner : cornersOf(scene.meshes[shapeOf(scene.graph, instance.node).mesh]))
       corners.push_back(corner);
   return corners;
 }
 
-/// Floats are written to come back exactly; readers may make normals unit length again.
+/// Expects exactly equal values except for normals, whose length readers may set to 1 again.
 void expectEqual(const std::vector<Corner>& read, const std::vector<Corner>& written) {
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -60,17 +60,17 @@ void expectEqual(const std::vector<Corner>& read, const std::vector<Corner>& wri
 }
 
 /// Gives the first shape of a scene an appearance.
-void setLook(Scene& scene, const AnyMaterial& material) {
+void setAppearance(Scene& scene, const AnyMaterial& material) {
   std::get<Shape>(scene.graph.nodes.at(0).content).appearance = scene.graph.appearances.size();
   scene.graph.appearances.push_back({"", material, {}, AlphaMode::automatic, 0.5f});
 }
 
-void writeLines(Mesh& mesh) {
+void makeLines(Mesh& mesh) {
   mesh.topology = Topology::lines;
   mesh.corners.resize(mesh.corners.size() / 2 * 2);
 }
 
-TEST(Export, TellsTheFormatFromTheFilesName) {
+TEST(Export, ChoosesTheFormatByTheFileName) {
   EXPECT_EQ(meshFormatOf("a/b.ply"), MeshFormat::ply);
   EXPECT_EQ(meshFormatOf("b.obj.GLB"), MeshFormat::glb);
   EXPECT_EQ(meshFormatOf("b.Obj"), MeshFormat::obj);
@@ -95,7 +95,7 @@ TEST(ExportedPly, IsReadBackByOurImport) {
     EXPECT_EQ(read.scene.meshes[0].texCoords.empty(), mesh.texCoords.empty());
     EXPECT_EQ(read.scene.meshes[0].colors.empty(), mesh.colors.empty());
     if (mesh.topology == Topology::points) {
-      // All vertices are points to PLY, in the order of wedges, used or not.
+      // In PLY, each vertex is a point, whether the mesh uses its wedge or not.
       mesh.corners.clear();
       for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
         mesh.corners.push_back(wedge);
@@ -108,7 +108,7 @@ TEST(ExportedPly, HoldsAllShapesAndAttributesThatOnlySomeHave) {
   Mesh plain = testing::grid(3), colored = testing::sphere(4, 5);
   colored.colors.assign(colored.wedgeCount(), {1, 2, 3, 255});
   Scene scene = sceneOf({plain, colored});
-  setLook(scene, Material{.diffuseColor{1, 0, 0.2f}});
+  setAppearance(scene, Material{.diffuseColor{1, 0, 0.2f}});
   const Imported read = importBytes(writePly(scene), "a.ply");
   ASSERT_EQ(read.scene.meshes.size(), 1u);
   const std::vector<Corner> corners = cornersOf(read.scene);
@@ -119,26 +119,26 @@ TEST(ExportedPly, HoldsAllShapesAndAttributesThatOnlySomeHave) {
 }
 
 TEST(ExportedPly, HasFurtherAttributes) {
-  Mesh plain = testing::grid(2), rich = testing::sphere(4, 5);
+  Mesh plain = testing::grid(2), attributed = testing::sphere(4, 5);
   testing::Random random(1);
-  const auto count = static_cast<std::uint32_t>(rich.wedgeCount());
+  const auto count = static_cast<std::uint32_t>(attributed.wedgeCount());
   for (const char* name : {"quality", "flow"})
-    rich.namedAttributes.push_back(testing::randomAttribute(random, name, count));
-  rich.namedAttributes[0] = {"quality", 1, std::vector<float>(count, 0.5f)};
+    attributed.namedAttributes.push_back(testing::randomAttribute(random, name, count));
+  attributed.namedAttributes[0] = {"quality", 1, std::vector<float>(count, 0.5f)};
   const Imported read =
-      importBytes(writePly(sceneOf({plain, rich})), "a.ply", {.attributes = {.all = true, .names = {}}});
+      importBytes(writePly(sceneOf({plain, attributed})), "a.ply", {.attributes = {.all = true, .names = {}}});
   const std::vector<NamedAttribute>& attributes = read.scene.meshes.at(0).namedAttributes;
   ASSERT_EQ(attributes.size(), 2u);
   EXPECT_EQ(attributes[0].name, "flow");
-  EXPECT_EQ(attributes[0].components, rich.namedAttributes[1].components);
-  EXPECT_EQ(attributes[0].values.back(), rich.namedAttributes[1].values.back());
+  EXPECT_EQ(attributes[0].components, attributed.namedAttributes[1].components);
+  EXPECT_EQ(attributes[0].values.back(), attributed.namedAttributes[1].values.back());
   EXPECT_EQ(attributes[1].values.front(), 0);
   EXPECT_EQ(attributes[1].values.back(), 0.5f);
 }
 
 TEST(ExportedPly, HasLinesAsEdges) {
   Mesh mesh = testing::grid(1);
-  writeLines(mesh);
+  makeLines(mesh);
   const Bytes ply = writePly(sceneOf({mesh}));
   const std::string_view text = asText(ply);
   EXPECT_NE(text.find("element vertex 4\n"), text.npos);
@@ -156,7 +156,7 @@ TEST(ExportedObj, IsReadBackByOurImport) {
     if (mesh.topology != Topology::triangles || other.topology != Topology::triangles)
       continue;
     SCOPED_TRACE(seed);
-    for (Mesh* each : {&mesh, &other}) // what OBJ leaves out
+    for (Mesh* each : {&mesh, &other}) // OBJ leaves out alpha
       for (Rgba8& color : each->colors)
         color.a = 255;
     const Scene scene = sceneOf({mesh, other});
@@ -177,7 +177,7 @@ TEST(ExportedObj, HasLinesAndPoints) {
                                      "o two lines\nv 7 8 9 1 0 0.2\np 3\n");
 }
 
-/// What Assimp, someone else's reader of glTF, finds in a GLB; null where it refuses it.
+/// The scene that Assimp reads from a GLB; null if Assimp refuses it.
 const aiScene* readGlb(Assimp::Importer& importer, const Bytes& glb) {
   return importer.ReadFileFromMemory(glb.data(), glb.size(), 0, "glb");
 }
@@ -216,7 +216,7 @@ TEST(ExportedGlb, IsReadByAssimp) {
     SCOPED_TRACE(seed);
     Mesh first = randomMesh(seed), second = randomMesh(seed + 1000);
     if (seed % 10 == 0)
-      writeLines(second);
+      makeLines(second);
     const Scene scene = sceneOf({first, second});
     Assimp::Importer importer;
     const aiScene* read = readGlb(importer, exportScene(scene, MeshFormat::glb));
@@ -237,9 +237,9 @@ TEST(ExportedGlb, IsReadByAssimp) {
   }
 }
 
-TEST(ExportedGlb, CarriesTheMaterial) {
+TEST(ExportedGlb, KeepsTheMaterial) {
   Scene scene = sceneOf({testing::grid(2)});
-  setLook(scene, Material{.diffuseColor{1, 0, 0.5f}, .transparency = 0.25f});
+  setAppearance(scene, Material{.diffuseColor{1, 0, 0.5f}, .transparency = 0.25f});
   Assimp::Importer importer;
   const aiScene* read = readGlb(importer, writeGlb(scene));
   ASSERT_NE(read, nullptr) << importer.GetErrorString();
@@ -251,7 +251,7 @@ TEST(ExportedGlb, CarriesTheMaterial) {
   EXPECT_NEAR(color.a, 0.75, 1e-6);
 }
 
-TEST(ExportedGlb, CarriesNamedAttributesAsItsOwn) {
+TEST(ExportedGlb, KeepsNamedAttributes) {
   testing::Random random(8);
   Mesh mesh = testing::torus(4, 5);
   for (std::uint32_t components = 1; components <= 4; ++components) {
@@ -265,7 +265,7 @@ TEST(ExportedGlb, CarriesNamedAttributesAsItsOwn) {
   const Imported read = importBytes(glb, "a.glb", {.attributes = {.all = true, .names = {}}});
   const Mesh& back = read.scene.meshes.at(0);
   ASSERT_EQ(back.namedAttributes.size(), 4u);
-  for (std::size_t a = 0; a < 4; ++a) { // corner by corner: the reader numbers wedges anew
+  for (std::size_t a = 0; a < 4; ++a) { // compared by corner, since the reader renumbers wedges
     const NamedAttribute &found = back.namedAttributes[a], &written = mesh.namedAttributes[a];
     EXPECT_EQ(found.name, written.name);
     ASSERT_EQ(found.components, a + 1);
@@ -275,7 +275,7 @@ TEST(ExportedGlb, CarriesNamedAttributesAsItsOwn) {
   }
 }
 
-TEST(ExportedGlb, HoldsMoreVerticesThanSixteenBitsCount) {
+TEST(ExportedGlb, HoldsMoreVerticesThanFit16BitIndices) {
   const Mesh mesh = testing::grid(300);
   ASSERT_GT(mesh.wedgeCount(), 65536u);
   Assimp::Importer importer;
@@ -284,7 +284,7 @@ TEST(ExportedGlb, HoldsMoreVerticesThanSixteenBitsCount) {
   expectEqual(cornersOf(*read->mMeshes[0], 3), cornersOf(mesh));
 }
 
-TEST(ExportedGlb, HasChunksOfWholeWordsAndTheLengthOfItsHeader) {
+TEST(ExportedGlb, HasChunksOfWholeWordsAndItsLengthInTheHeader) {
   const Bytes glb = writeGlb(sceneOf({testing::torus(3, 3)}));
   EXPECT_EQ(loadLittle<std::uint32_t>(&glb[8]), glb.size());
   const std::uint32_t json = loadLittle<std::uint32_t>(&glb[12]);
@@ -292,7 +292,7 @@ TEST(ExportedGlb, HasChunksOfWholeWordsAndTheLengthOfItsHeader) {
   EXPECT_EQ(20 + json + 8 + loadLittle<std::uint32_t>(&glb[20 + json]), glb.size());
 }
 
-TEST(Glb, KeepsViewpoints) {
+TEST(ExportedGlb, KeepsViewpoints) {
   Scene scene = sceneOf({testing::sphere(4, 6)});
   Viewpoint viewpoint;
   viewpoint.description = "Door";
@@ -310,47 +310,47 @@ TEST(Glb, KeepsViewpoints) {
   ADD_FAILURE() << "the viewpoint is lost";
 }
 
-TEST(Glb, MergesAShapeAndItsTransformIntoOneNodeUnlessBothHaveNames) {
+TEST(ExportedGlb, MergesAShapeAndItsTransformIntoOneNodeUnlessBothHaveNames) {
   Scene scene = sceneOf({testing::sphere(4, 6)});
   scene.graph.roots.clear();
   const std::size_t seat = addNode(scene.graph, {"seat", Shape{0, {}, true}, {}, ""});
-  const auto placed = [&](const char* name, double x) {
+  const auto addSeat = [&](const char* name, double x) {
     Transform transform;
     transform.translation = {x, 0, 0};
     addRoot(scene.graph, {name, transform, {seat}, ""});
   };
-  placed("", 1);
-  placed("", 2);
-  placed("row", 3);
+  addSeat("", 1);
+  addSeat("", 2);
+  addSeat("row", 3);
   const SceneGraph read = importBytes(exportScene(scene, MeshFormat::glb), "a.glb").scene.graph;
   std::vector<std::string> names;
-  std::vector<double> places;
+  std::vector<double> positions;
   for (const std::size_t root : read.roots) {
     names.push_back(read.nodes[root].name);
-    places.push_back(std::get<Transform>(read.nodes[root].content).translation.x);
+    positions.push_back(std::get<Transform>(read.nodes[root].content).translation.x);
   }
   EXPECT_EQ(names, (std::vector<std::string>{"seat", "seat-2", "row"}));
-  EXPECT_EQ(places, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(positions, (std::vector<double>{1, 2, 3}));
   const Node& inRow = read.nodes[read.nodes[read.roots[2]].children.at(0)];
   EXPECT_EQ(inRow.name, "seat-3");
   EXPECT_EQ(inRow.children, read.nodes[read.roots[0]].children) << "all instances use one shape";
 }
 
-TEST(Glb, KeepsTheLightsThatGltfCanExpress) {
+TEST(ExportedGlb, KeepsTheLightsThatGltfCanExpress) {
   Scene scene = sceneOf({testing::sphere(4, 6)});
   const Vec3d bySquare{0, 0, 1};
   addRoot(scene.graph, {"sun", DirectionalLight{{1, -2, 0.5}, {1, 0.5f, 0.25f}, 2, true}, {}, ""});
   addRoot(scene.graph, {"lamp", PointLight{{1, 2, 3}, bySquare, 12, {0, 1, 0}, 3, true}, {}, ""});
   addRoot(scene.graph, {"spot", SpotLight{{4, 5, 6}, {0, -1, 0}, 0.3, 0.5, bySquare, 9, {1, 1, 1}, 4, true}, {}, ""});
-  addRoot(scene.graph, {"near", DirectionalLight{}, {}, ""}); // of its group alone
-  addRoot(scene.graph, {"even", PointLight{}, {}, ""});       // does not fall off
+  addRoot(scene.graph, {"near", DirectionalLight{}, {}, ""}); // lights its group only
+  addRoot(scene.graph, {"even", PointLight{}, {}, ""});       // has no falloff
   EXPECT_EQ(lightsLeftOut(scene.graph), 2u);
   const Imported read = importBytes(exportScene(scene, MeshFormat::glb), "a.glb");
   std::map<std::string, NodeContent> lights;
   for (const Node& node : read.scene.graph.nodes)
-    if (const Transform* place = std::get_if<Transform>(&node.content)) {
+    if (const Transform* transform = std::get_if<Transform>(&node.content)) {
       NodeContent light = read.scene.graph.nodes.at(node.children.at(0)).content;
-      const Affine3d map = affineOf(*place);
+      const Affine3d map = affineOf(*transform);
       if (auto* sun = std::get_if<DirectionalLight>(&light))
         sun->direction = map.direction(sun->direction);
       if (auto* lamp = std::get_if<PointLight>(&light))

@@ -8,7 +8,7 @@ namespace imgeo {
 
 namespace {
 
-Vec3f encodedSrgb(Vec3f linear) {
+Vec3f srgbOf(Vec3f linear) {
   const auto encode = [](float value) { return static_cast<float>(srgbOfLinear(std::clamp(value, 0.0f, 1.0f))); };
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
@@ -18,13 +18,13 @@ Material phongOf(const PhysicalMaterial& material) {
   // diffuse reflection. Since a metal would be black without an environment map, half of its colour stays diffuse.
   const Vec3f base = material.baseColor;
   const float metallic = std::clamp(material.metallic, 0.0f, 1.0f);
-  const float smooth = 1 - std::clamp(material.roughness, 0.0f, 1.0f);
+  const float smoothness = 1 - std::clamp(material.roughness, 0.0f, 1.0f);
   Material phong;
-  phong.diffuseColor = encodedSrgb(base * (1 - metallic / 2));
+  phong.diffuseColor = srgbOf(base * (1 - metallic / 2));
   const float dielectric = 0.04f * (1 - metallic);
-  phong.specularColor = encodedSrgb((base * metallic + Vec3f{dielectric, dielectric, dielectric}) * smooth);
-  phong.emissiveColor = encodedSrgb(material.emissiveColor);
-  phong.shininess = std::max(smooth, 0.01f);
+  phong.specularColor = srgbOf((base * metallic + Vec3f{dielectric, dielectric, dielectric}) * smoothness);
+  phong.emissiveColor = srgbOf(material.emissiveColor);
+  phong.shininess = std::max(smoothness, 0.01f);
   phong.transparency = material.transparency;
   return phong;
 }

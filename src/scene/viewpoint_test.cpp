@@ -29,9 +29,9 @@ TEST(ViewpointFor, ShowsEveryCornerOfABoxAndFillsTheView) {
       ASSERT_LT(point.z, 0) << "a corner is behind the camera";
       maxTangent = std::max({maxTangent, std::abs(point.x / point.z), std::abs(point.y / point.z)});
     }
-    const double edge = std::tan(viewpoint.fieldOfView / 2);
-    EXPECT_LT(maxTangent, edge);
-    EXPECT_GT(maxTangent, 0.85 * edge);
+    const double viewTangent = std::tan(viewpoint.fieldOfView / 2);
+    EXPECT_LT(maxTangent, viewTangent);
+    EXPECT_GT(maxTangent, 0.85 * viewTangent);
   }
 }
 

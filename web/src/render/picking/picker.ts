@@ -1,5 +1,5 @@
-// Picking: renders the candidates into a target of one pixel, with the matrices and viewport of the
-// picture, so that the pixel is covered as on the screen.
+// Finds what is visible at a pixel: renders the candidates into a target of one pixel, with the
+// matrices and the viewport of the canvas, so that they cover the pixel as on the screen.
 
 import type { Camera, Group, WebGLRenderer } from "three";
 import {
@@ -30,6 +30,7 @@ export interface Hit {
   readonly element: SceneElement;
   /** The group of the shape instance that was hit. */
   readonly group: Group;
+  /** Index of the patch in its geometry. */
   readonly patch: number;
   /**
    * Index among the patch's triangles in draw order; each further element of a strip is a triangle. Undefined for
@@ -56,7 +57,7 @@ export interface CandidateInView extends PickCandidate {
   readonly worldFromStored: Matrix4;
 }
 
-/** A pixel of a picture of this size, in device pixels from its top left. */
+/** A pixel (x, y) from the top left of a canvas of this size, all in device pixels. */
 export interface PixelPosition {
   readonly x: number;
   readonly y: number;
@@ -68,7 +69,7 @@ export class Picker {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   #target: WebGLRenderTarget | undefined;
-  /** The draw whose buffer contents are kept. */
+  /** The last draw that was hit and whose buffer contents have been read; they are kept for the next hit. */
   #lastHit: PickDraw | undefined;
 
   constructor(renderer: WebGLRenderer) {
@@ -76,23 +77,24 @@ export class Picker {
     this.#scene.matrixWorldAutoUpdate = false;
   }
 
-  /** Blocks until the GPU is done. For clicks. */
+  /** Blocks until the GPU is done. `slack`: see ScreenPicker.pick. */
   pick(
     camera: PerspectiveCamera,
     pixel: PixelPosition,
     slack: number,
     candidates: Iterable<PickCandidate>,
   ): Hit | undefined {
-    const near = candidatesNearPixel(camera, pixel, slack, candidates);
-    if (near.length === 0) return undefined;
-    this.#draw(camera, pixel, near);
+    const nearby = candidatesNearPixel(camera, pixel, slack, candidates);
+    if (nearby.length === 0) return undefined;
+    this.#draw(camera, pixel, nearby);
     const words = readPixel(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
-    return this.#hitOf(words, camera, pixel, near);
+    return this.#hitOf(words, camera, pixel, nearby);
   }
 
   /**
-   * Does not block: the result is fetched when the GPU is done. "stale" where the hit draw has been disposed of
+   * Does not block: the result is read when the GPU is done. It is "stale" if the draw that was hit has been disposed
+   * of
    * meanwhile.
    */
   async pickAsync(
@@ -101,15 +103,15 @@ export class Picker {
     slack: number,
     candidates: Iterable<PickCandidate>,
   ): Promise<Hit | "stale" | undefined> {
-    const near = candidatesNearPixel(camera, pixel, slack, candidates);
-    if (near.length === 0) return undefined;
-    this.#draw(camera, pixel, near);
+    const nearby = candidatesNearPixel(camera, pixel, slack, candidates);
+    if (nearby.length === 0) return undefined;
+    this.#draw(camera, pixel, nearby);
     const reading = readPixelAsync(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
-    const seenBy = new PerspectiveCamera().copy(camera, false); // the original may move meanwhile
+    const pickCamera = new PerspectiveCamera().copy(camera, false); // the original may move meanwhile
     const words = await reading;
-    const hit = near[(words[pickedWordOffsets.pickId] ?? 0) - 1];
-    return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, pixel, near);
+    const hit = nearby[(words[pickedWordOffsets.pickId] ?? 0) - 1];
+    return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, pickCamera, pixel, nearby);
   }
 
   dispose(): void {
@@ -121,14 +123,14 @@ export class Picker {
     return this.#renderer.getContext() as WebGL2RenderingContext;
   }
 
-  /** Leaves the render target bound. */
+  /** Draws the candidates, and leaves the render target bound. */
   #draw(
     camera: PerspectiveCamera,
     { x, y, width, height }: PixelPosition,
     candidates: readonly CandidateInView[],
   ): void {
     this.#target ??= makePickTarget();
-    // The picture's viewport, shifted so that the requested pixel is the target's only one.
+    // The canvas's viewport, shifted so that the requested pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
     this.#scene.children = candidates.map(({ pick, worldFromStored }, index) =>
       pick.objectFor(index + 1, worldFromStored),
@@ -226,18 +228,18 @@ export function candidatesInView(
 ): CandidateInView[] {
   const frustum = frustumOf(projectionMatrix, matrixWorldInverse);
   const sphere = new Sphere();
-  const near: CandidateInView[] = [];
+  const nearby: CandidateInView[] = [];
   const worldFromStored = new Matrix4();
   for (const candidate of candidates) {
     const { group, pick } = candidate;
     worldFromStored.multiplyMatrices(group.matrixWorld, pick.shapeFromStored);
     if (!frustum.intersectsSphere(sphere.copy(pick.bounds).applyMatrix4(worldFromStored))) continue;
-    near.push({ ...candidate, worldFromStored: worldFromStored.clone() });
+    nearby.push({ ...candidate, worldFromStored: worldFromStored.clone() });
   }
-  return near;
+  return nearby;
 }
 
-/** Undefined for a zero normal. */
+/** The normal in scene coordinates, of length 1; undefined for a zero normal. */
 function worldNormalOf(normal: Vector3, worldFromStored: Matrix4): Vector3 | undefined {
   if (normal.lengthSq() === 0) return undefined;
   return normal.clone().applyMatrix3(new Matrix3().getNormalMatrix(worldFromStored)).normalize();
@@ -251,11 +253,11 @@ function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: PixelPos
 }
 
 /**
- * The intersection of the ray with a plane; undefined where they are parallel. GPUs snap vertices to fractions of a
- * pixel, so the interpolated point is slightly off the ray, and far off on a steep slope.
+ * The intersection of the ray with a plane; undefined if they are parallel. GPUs snap vertices to fractions of a
+ * pixel, so the interpolated point is slightly off the ray, and far off it on a face seen at a grazing angle.
  */
 function intersection(ray: Ray, point: Vector3, normal: Vector3): Vector3 | undefined {
-  const slope = normal.dot(ray.direction);
-  if (Math.abs(slope) < 1e-6) return undefined;
-  return ray.at(normal.dot(point.clone().sub(ray.origin)) / slope, new Vector3());
+  const cosine = normal.dot(ray.direction);
+  if (Math.abs(cosine) < 1e-6) return undefined;
+  return ray.at(normal.dot(point.clone().sub(ray.origin)) / cosine, new Vector3());
 }

@@ -1,4 +1,4 @@
-// Reads integer pixels (four 32-bit words each) of the bound framebuffer's attachments: either
+// Reads integer pixelCount (four 32-bit words each) of the bound framebuffer's attachments: either
 // blocking, or asynchronously through a pixel pack buffer and a fence.
 
 import { fencePassed } from "../frames/gpuFence.ts";
@@ -6,7 +6,7 @@ import { fencePassed } from "../frames/gpuFence.ts";
 const wordsPerPixel = 4;
 const bytesPerPixel = 16;
 
-/** Pixel (0, 0) of each attachment. Blocks until the GPU is done. */
+/** Reads pixel (0, 0) of the first `attachments` attachments. Blocks until the GPU is done. */
 export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint32Array {
   const words = new Uint32Array(attachments * wordsPerPixel);
   for (let n = 0; n < attachments; ++n) {
@@ -17,8 +17,8 @@ export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint
 }
 
 /**
- * The same without blocking; all zero where the context is lost meanwhile. The framebuffer may be reused when this
- * returns.
+ * Reads pixel (0, 0) of the first `attachments` attachments without blocking; all words are zero if the context is lost
+ * meanwhile. The framebuffer may be reused when this returns.
  */
 export function readPixelAsync(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
   return readBlocksAsync(
@@ -27,7 +27,7 @@ export function readPixelAsync(gl: WebGL2RenderingContext, attachments: number):
   );
 }
 
-/** A block of pixels of one attachment. */
+/** A block of pixelCount of one attachment. */
 export interface PixelBlock {
   readonly attachment: number;
   readonly x: number;
@@ -36,12 +36,16 @@ export interface PixelBlock {
   readonly height: number;
 }
 
-/** Pixels of several blocks, one after the other, each row by row from the bottom; zero where the context is lost. */
+/**
+ * Reads the pixelCount of several blocks without blocking, one block after the other, each row by row from the bottom.
+ * All
+ * words are zero if the context is lost meanwhile.
+ */
 export function readBlocksAsync(gl: WebGL2RenderingContext, blocks: readonly PixelBlock[]): Promise<Uint32Array> {
   const buffer = gl.createBuffer();
-  const pixels = blocks.reduce((sum, { width, height }) => sum + width * height, 0);
+  const pixelCount = blocks.reduce((sum, { width, height }) => sum + width * height, 0);
   gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
-  gl.bufferData(gl.PIXEL_PACK_BUFFER, pixels * bytesPerPixel, gl.STREAM_READ);
+  gl.bufferData(gl.PIXEL_PACK_BUFFER, pixelCount * bytesPerPixel, gl.STREAM_READ);
   let offset = 0;
   for (const { attachment, x, y, width, height } of blocks) {
     gl.readBuffer(gl.COLOR_ATTACHMENT0 + attachment);
@@ -52,7 +56,7 @@ export function readBlocksAsync(gl: WebGL2RenderingContext, blocks: readonly Pix
   const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.flush();
 
-  const words = new Uint32Array(pixels * wordsPerPixel);
+  const words = new Uint32Array(pixelCount * wordsPerPixel);
   return fencePassed(gl, fence).then(() => {
     gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
     gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, words);

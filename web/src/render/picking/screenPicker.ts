@@ -1,5 +1,5 @@
-// Picking in the last frame. Repeated blocking picks of one pixel of one frame are answered from a
-// cache: a click asks for what pointerdown has found.
+// Picks in the last frame. The result of a blocking pick is kept until the next frame, since a click
+// picks the pixel that its pointerdown has picked.
 
 import type { PerspectiveCamera, WebGLRenderer } from "three";
 import type { Hit, PickCandidate, PixelPosition } from "./picker.ts";
@@ -9,10 +9,10 @@ export class ScreenPicker {
   readonly #picker: Picker;
   readonly #camera: PerspectiveCamera;
   readonly #candidates: () => Iterable<PickCandidate>;
-  /** The last result, until the scene changes. */
-  #found: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
+  /** The last blocking pick, until the next frame may differ. */
+  #lastPick: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
 
-  /** `camera`: that of the last frame. */
+  /** `camera` is the camera of the last frame. */
   constructor(renderer: WebGLRenderer, camera: PerspectiveCamera, candidates: () => Iterable<PickCandidate>) {
     this.#picker = new Picker(renderer);
     this.#camera = camera;
@@ -20,22 +20,24 @@ export class ScreenPicker {
   }
 
   /**
-   * Blocks until the GPU is done. `slack`: how far, in device pixels, a vertex may be from the pixels that it covers.
+   * The hit at a pixel. Blocks until the GPU is done. `slack` is the maximum distance in device pixels between a vertex
+   * and a pixel that its point or line covers.
    */
   pick(pixel: PixelPosition, slack: number): Hit | undefined {
     if (!isInside(pixel)) return undefined;
     const { x, y } = pixel;
-    if (this.#found?.x !== x || this.#found.y !== y) {
-      this.#found = { x, y, hit: this.#picker.pick(this.#camera, pixel, slack, this.#candidates()) };
+    if (this.#lastPick?.x !== x || this.#lastPick.y !== y) {
+      this.#lastPick = { x, y, hit: this.#picker.pick(this.#camera, pixel, slack, this.#candidates()) };
     }
-    return this.#found.hit;
+    return this.#lastPick.hit;
   }
 
   /**
-   * The same without blocking. `positionNow` is asked again after a stale result, as the picture may have been resized.
+   * The hit at a pixel, without blocking. `currentPixel` is called again after a stale result, as the canvas may have
+   * been resized.
    */
-  async pickAsync(positionNow: () => PixelPosition, slack: number): Promise<Hit | undefined> {
-    for (let pixel = positionNow(); isInside(pixel); pixel = positionNow()) {
+  async pickAsync(currentPixel: () => PixelPosition, slack: number): Promise<Hit | undefined> {
+    for (let pixel = currentPixel(); isInside(pixel); pixel = currentPixel()) {
       const hit = await this.#picker.pickAsync(this.#camera, pixel, slack, this.#candidates());
       if (hit !== "stale") return hit;
     }
@@ -44,7 +46,7 @@ export class ScreenPicker {
 
   /** Call when the next frame may differ. */
   forget(): void {
-    this.#found = undefined;
+    this.#lastPick = undefined;
   }
 
   dispose(): void {

@@ -1,5 +1,5 @@
-// Images as textures on the GPU. Texels are uploaded in strips, so that no single step delays a
-// frame, with the bytes of the file. JavaScript keeps no copy.
+// Uploads images as textures, strip by strip, so that no single step delays a frame. Texels keep the
+// bytes of the file. JavaScript keeps no copy.
 
 import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
@@ -8,13 +8,16 @@ import { setDataSampling, setSampling } from "./textureSampling.ts";
 
 /** An image that is being uploaded. */
 export interface TextureUpload {
-  /** Stands for the texture, which is complete after the last step. Closing it frees the texture, also before that. */
+  /**
+   * Stands for the texture, which is complete after the last step. Closing it frees the texture, even before the last
+   * step.
+   */
   readonly image: DecodedImage;
   /** Each step yields the number of bytes that it has uploaded. */
   readonly steps: Generator<number, void, void>;
 }
 
-/** WebGL2 stores three channels as four. */
+/** Images of three channels have four on the GPU, too. */
 const bytesPerTexel = 4;
 const bytesPerStep = 2 ** 18;
 
@@ -22,19 +25,21 @@ export class TextureStore {
   readonly #textures = new WeakMap<DecodedImage, Texture>();
   #bytes = 0;
 
-  /** Total size of all open textures. */
+  /** Total size of all textures that are not closed. */
   get bytes(): number {
     return this.#bytes;
   }
 
-  /** Throws RangeError where the image is not from this store, or is closed. */
+  /** The texture of an image. Throws RangeError if the image is not from this store, or is closed. */
   textureOf(image: DecodedImage): Texture {
     const texture = this.#textures.get(image);
     if (texture === undefined) throw new RangeError("the image is not on the GPU");
     return texture;
   }
 
-  /** The bitmap may be closed after the last step. Without `sampling` the texels are vertex data. */
+  /**
+   * Begins the upload of a bitmap, which may be closed after the last step. Without `sampling`, texels are vertex data.
+   */
   begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
     const texture = emptyTexture(width, height);
@@ -51,25 +56,25 @@ export class TextureStore {
       },
     };
     this.#textures.set(image, texture);
-    return { image, steps: strips(new Texture(bitmap), texture, width, height, renderer) };
+    return { image, steps: uploadStrips(new Texture(bitmap), texture, width, height, renderer) };
   }
 }
 
-/** The last strip generates the mipmaps. */
-function* strips(
-  from: Texture,
-  to: Texture,
+/** Uploads `source` into `target` strip by strip; the last strip generates the mipmaps. */
+function* uploadStrips(
+  source: Texture,
+  target: Texture,
   width: number,
   height: number,
   renderer: WebGLRenderer,
 ): Generator<number, void, void> {
-  const { generateMipmaps } = to;
-  renderer.initTexture(to);
+  const { generateMipmaps } = target;
+  renderer.initTexture(target);
   const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
   for (let first = 0; first < height; first += rows) {
     const strip = new Box2(new Vector2(0, first), new Vector2(width, Math.min(first + rows, height)));
-    to.generateMipmaps = generateMipmaps && first + rows >= height;
-    renderer.copyTextureToTexture(from, to, strip, strip.min);
+    target.generateMipmaps = generateMipmaps && first + rows >= height;
+    renderer.copyTextureToTexture(source, target, strip, strip.min);
     yield width * (strip.max.y - strip.min.y) * bytesPerTexel;
   }
 }
