@@ -14,19 +14,19 @@ function refused(kind: DecodeError["kind"]): (error: unknown) => boolean {
 }
 
 describe("a PNG", () => {
-  test("of 8-bit gray, RGB, palette or RGBA tells its size and channels", () => {
+  test("of 8-bit gray, RGB, palette or RGBA has the size and channels of its header", () => {
     assert.deepEqual(checkPng(pngOf({ width: 256, height: 3 })), { width: 256, height: 3, channels: 3 });
     assert.deepEqual(checkPng(pngOf({ width: 2, height: 9, colorType: 0 })), { width: 2, height: 9, channels: 1 });
     assert.deepEqual(checkPng(pngOf({ width: 2, height: 9, colorType: 3 })), { width: 2, height: 9, channels: 3 });
     assert.deepEqual(checkPng(pngOf({ width: 1, height: 1, colorType: 6 })), { width: 1, height: 1, channels: 4 });
   });
 
-  test("may lie anywhere in a larger buffer", () => {
+  test("may be anywhere in a larger buffer", () => {
     const png = pngOf({ width: 5, height: 7 });
     assert.deepEqual(checkPng(joined([new Uint8Array(3), png]).subarray(3)), { width: 5, height: 7, channels: 3 });
   });
 
-  test("with further chunks is taken", () => {
+  test("with further chunks is accepted", () => {
     assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), {
       width: 2,
       height: 2,
@@ -35,15 +35,15 @@ describe("a PNG", () => {
   });
 
   for (const type of ["ABCD", "IHDR", "IDAT"]) {
-    test(`with ${type === "IDAT" ? "its data apart" : `a further ${type}`} is malformed`, () => {
+    test(`with ${type === "IDAT" ? "image data in separate runs" : `another ${type} chunk`} is malformed`, () => {
       const extra = [chunkOf(type, new Uint8Array(3)), chunkOf("tEXt", new Uint8Array(3))];
       assert.throws(() => checkPng(pngOf({ width: 2, height: 2, extra })), refused("malformed"));
     });
   }
 
   for (const [what, png] of Object.entries({
-    "a see-through palette": pngOf({ width: 2, height: 2, colorType: 3, extra: [chunkOf("tRNS", new Uint8Array(1))] }),
-    "grey with alpha": pngOf({ width: 2, height: 2, colorType: 4 }),
+    "a transparent palette": pngOf({ width: 2, height: 2, colorType: 3, extra: [chunkOf("tRNS", new Uint8Array(1))] }),
+    "gray with alpha": pngOf({ width: 2, height: 2, colorType: 4 }),
     "16 bits a channel": pngOf({ width: 2, height: 2, bitDepth: 16 }),
     interlacing: pngOf({ width: 2, height: 2, interlace: 1 }),
   })) {
@@ -63,7 +63,7 @@ describe("a PNG", () => {
     });
   }
 
-  test("is refused at every proper prefix and with anything behind it", () => {
+  test("is refused if it is cut anywhere, or if bytes follow it", () => {
     const png = pngOf({ width: 16, height: 4 });
     for (let length = 0; length < png.length; ++length) {
       assert.throws(() => checkPng(png.subarray(0, length)), DecodeError, `prefix of ${length} bytes`);
@@ -71,12 +71,12 @@ describe("a PNG", () => {
     assert.throws(() => checkPng(joined([png, new Uint8Array(1)])), refused("malformed"));
   });
 
-  test("with any byte changed is refused or keeps within the limits", () => {
+  test("with any byte changed is refused or stays within the limits", () => {
     const png = pngOf({ width: 16, height: 4 });
-    for (let place = 0; place < png.length; ++place) {
+    for (let byteOffset = 0; byteOffset < png.length; ++byteOffset) {
       for (const bits of [1, 0x80, 0xff]) {
         const changed = png.slice();
-        changed[place] = (changed[place] ?? 0) ^ bits;
+        changed[byteOffset] = (changed[byteOffset] ?? 0) ^ bits;
         try {
           const { width, height } = checkPng(changed);
           assert.ok(width >= 1 && height >= 1 && width <= maxImageEdge && height <= maxImageEdge);
@@ -87,7 +87,7 @@ describe("a PNG", () => {
     }
   });
 
-  test("another format under its name is refused", () => {
+  test("is refused if the bytes are of another format", () => {
     assert.throws(() => checkPng(new TextEncoder().encode("<!DOCTYPE html><title>404</title>")), refused("malformed"));
   });
 
@@ -97,7 +97,7 @@ describe("a PNG", () => {
     "an AVIF": [...Buffer.from("\0\0\0\x20ftypavif")],
     "a GIF": [...Buffer.from("GIF89a")],
   })) {
-    test(`that has become ${name} is refused by that name`, () => {
+    test(`that is ${name} is refused with the name of that format`, () => {
       assert.throws(
         () => checkPng(Uint8Array.from(head)),
         (error) =>
@@ -110,9 +110,9 @@ describe("a PNG", () => {
 describe("an image", () => {
   const png = pngOf({ width: 4, height: 2 });
 
-  test("that decodes to another size than it claims is refused and closed", async () => {
+  test("that decodes to another size than its header states is refused and closed", async () => {
     let closed = 0;
-    const liar = {
+    const wrongImage = {
       width: 2,
       height: 4,
       close: () => {
@@ -120,7 +120,7 @@ describe("an image", () => {
       },
     };
     await assert.rejects(
-      decodeImage(png, () => Promise.resolve(liar)),
+      decodeImage(png, () => Promise.resolve(wrongImage)),
       refused("malformed"),
     );
     assert.equal(closed, 1);
@@ -133,21 +133,21 @@ describe("an image", () => {
     );
   });
 
-  test("is not given to the browser when its header is refused", async () => {
-    let asked = 0;
+  test("is not passed to the browser if its header is refused", async () => {
+    let calls = 0;
     await assert.rejects(
       decodeImage(pngOf({ width: 4, height: 2, colorType: 4 }), () => {
-        asked += 1;
-        return Promise.reject(new Error("asked"));
+        calls += 1;
+        return Promise.reject(new Error("called"));
       }),
       refused("unsupported"),
     );
-    assert.equal(asked, 0);
+    assert.equal(calls, 0);
   });
 });
 
 describe("a typed array", () => {
-  const bytes = Uint8Array.from({ length: 40 }, (_, place) => place);
+  const bytes = Uint8Array.from({ length: 40 }, (_, index) => index);
   const range = (changes: Partial<ElementRange>): ElementRange => ({
     type: "Uint16",
     byteOffset: 0,
@@ -157,7 +157,7 @@ describe("a typed array", () => {
     ...changes,
   });
 
-  test("is viewed where its elements are aligned and copied where they are not", () => {
+  test("is a view where its elements are aligned, and a copy where they are not", () => {
     const aligned = vertexArrayOf(bytes, range({ byteOffset: 4, byteStride: 8, count: 2 }));
     assert.equal(aligned.stride, 4);
     assert.deepEqual(Array.from(aligned.array.slice(0, 3)), [0x0504, 0x0706, 0x0908]);
@@ -166,13 +166,13 @@ describe("a typed array", () => {
     assert.deepEqual(Array.from(odd.array), [0x0605, 0x0807, 0x0a09]);
   });
 
-  test("that is part of larger records is a view of the same bytes as the other parts", () => {
-    const parts = [0, 6, 12].map((byteOffset) => vertexArrayOf(bytes, range({ byteOffset, byteStride: 18, count: 2 })));
+  test("that is interleaved with others is a view of the same bytes as they are", () => {
+    const views = [0, 6, 12].map((byteOffset) => vertexArrayOf(bytes, range({ byteOffset, byteStride: 18, count: 2 })));
     assert.deepEqual(
-      parts.map(({ offset }) => offset),
+      views.map(({ offset }) => offset),
       [0, 3, 6],
     );
-    for (const { array, stride } of parts) {
+    for (const { array, stride } of views) {
       assert.equal(stride, 9);
       assert.deepEqual([array.buffer, array.byteOffset, array.length], [bytes.buffer, 0, 18]);
     }
@@ -185,14 +185,14 @@ describe("a typed array", () => {
     assert.deepEqual([across.offset, across.array[0]], [0, 0x0f0e]);
   });
 
-  test("whose last group lacks its padding is completed", () => {
+  test("is completed where the last group lacks its padding", () => {
     const { array, stride } = vertexArrayOf(bytes.slice(0, 14), range({ byteStride: 8 }));
     assert.equal(stride, 4);
     assert.equal(array.length, 8);
     assert.deepEqual(Array.from(array.slice(4)), [0x0908, 0x0b0a, 0x0d0c, 0]);
   });
 
-  test("counts what the bytes hold when the document does not say", () => {
+  test("has as many groups as the bytes hold if the document states no count", () => {
     assert.equal(countThatFits(40, range({})), 6);
     assert.equal(countThatFits(40, range({ byteStride: 8 })), 5);
     assert.equal(countThatFits(38, range({ byteStride: 8 })), 5);
@@ -201,18 +201,19 @@ describe("a typed array", () => {
     assert.equal(countThatFits(40, range({ byteOffset: 100 })), 0);
   });
 
-  test("is refused whenever the bytes end before the last vertex", () => {
+  test("is refused if the bytes end before the last vertex", () => {
     for (const type of ["Int8", "Uint16", "Float32"] as const) {
       for (const byteStride of [0, 16]) {
         for (const byteOffset of [0, 3, 8, 1000, 2 ** 40]) {
           const groups = range({ type, byteStride, byteOffset });
-          const fit = countThatFits(bytes.length, groups);
-          for (const count of [fit + 1, 2 ** 32, 2 ** 52]) {
+          const maxCount = countThatFits(bytes.length, groups);
+          for (const count of [maxCount + 1, 2 ** 32, 2 ** 52]) {
             assert.throws(() => vertexArrayOf(bytes, { ...groups, count }), refused("truncated"));
           }
-          if (fit > 0)
+          if (maxCount > 0)
             assert.equal(
-              vertexArrayOf(bytes, { ...groups, count: fit }).array.length % Math.max(3, byteStride / byteSizeOf(type)),
+              vertexArrayOf(bytes, { ...groups, count: maxCount }).array.length %
+                Math.max(3, byteStride / byteSizeOf(type)),
               0,
             );
         }
@@ -220,7 +221,7 @@ describe("a typed array", () => {
     }
   });
 
-  test("is refused with a stride that splits elements or is less than a group", () => {
+  test("is refused with a stride that splits elements or is shorter than a group", () => {
     for (const byteStride of [7, 4, 1])
       assert.throws(() => vertexArrayOf(bytes, range({ byteStride, count: 1 })), refused("malformed"));
   });
@@ -239,18 +240,18 @@ describe("indices", () => {
   const bytes = new Uint8Array(Uint16Array.from([0, 1, 2, 2, 1, 3]).buffer);
   const range: ElementRange = { type: "Uint16", byteOffset: 0, byteStride: 0, components: 1, count: 0 };
 
-  test("name vertices that exist", () => {
+  test("are refused if they name vertices that do not exist", () => {
     assert.deepEqual(Array.from(indexArrayOf(bytes, range, 4)), [0, 1, 2, 2, 1, 3]);
     assert.throws(() => indexArrayOf(bytes, range, 3), refused("malformed"));
   });
 
-  test("are unsigned integers", () => {
+  test("are refused if they are not unsigned integers", () => {
     for (const type of ["Int8", "Int16", "Int32", "Float32"] as const) {
       assert.throws(() => indexArrayOf(bytes, { ...range, type }, 4), refused("unsupported"));
     }
   });
 
-  test("of a strip become its triangles, each in its orientation, joins among them", () => {
+  test("of a strip become its triangles, with their orientation, and with degenerate ones", () => {
     const strip = Uint16Array.from([0, 1, 2, 3, 3, 4, 4, 5, 6]);
     assert.deepEqual(
       Array.from(trianglesFromStrip(strip)),

@@ -1,4 +1,4 @@
-// PNG files for tests that must not trust the code under test.
+// Writes PNG files for tests, independently of the code under test.
 
 import { crc32, deflateSync } from "node:zlib";
 
@@ -24,7 +24,7 @@ export function chunkOf(type: string, data: Uint8Array): Uint8Array<ArrayBuffer>
   return new Uint8Array(chunk);
 }
 
-/** An image of zeros. */
+/** A PNG of zeros. */
 export function pngOf({
   width,
   height,
@@ -48,11 +48,11 @@ export function pngOf({
   ]);
 }
 
-export function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
-  return new Uint8Array(Buffer.concat(parts));
+export function joined(chunks: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(Buffer.concat(chunks));
 }
 
-/** An image of the values that `byteOf` gives for texel n and channel. */
+/** A PNG with the values that `byteOf` returns for each texel and channel. */
 export function pngWithTexels(
   width: number,
   height: number,

@@ -21,7 +21,7 @@ function sampleOf(width: number, height: number, channels: 1 | 3 | 4): Sample {
   };
 }
 
-/** The specification's filters the other way round, written from its formulas. */
+/** Applies the filters of the specification, by its formulas. */
 function filtered(
   { width, height, channels, texels }: Sample,
   filterOf: (row: number) => number,
@@ -42,29 +42,30 @@ function filtered(
   return Uint8Array.from(bytes);
 }
 
+/** A PNG whose image data is `data`, deflated. */
 function pngWith(
   sample: Sample,
   data: Uint8Array,
-  { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], parts = 1, level = 6 } = {},
+  { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], chunkCount = 1, level = 6 } = {},
 ) {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(sample.width, 0);
   header.writeUInt32BE(sample.height, 4);
   header.set([8, colorType, 0, 0, 0], 8);
   const packed = deflateSync(data, { level });
-  const size = Math.ceil(packed.length / parts);
+  const size = Math.ceil(packed.length / chunkCount);
   return joined([
     Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
     chunkOf("IHDR", header),
     ...extra,
-    ...Array.from({ length: parts }, (_, part) => chunkOf("IDAT", packed.subarray(part * size, (part + 1) * size))),
+    ...Array.from({ length: chunkCount }, (_, n) => chunkOf("IDAT", packed.subarray(n * size, (n + 1) * size))),
     chunkOf("IEND", new Uint8Array()),
   ]);
 }
 
 describe("the texels of a PNG", () => {
   for (const channels of [1, 3, 4] as const) {
-    test(`of ${channels} channels come back from every filter, and from all of them mixed`, async () => {
+    test(`of ${channels} channels are decoded from every filter, and from all filters mixed`, async () => {
       const sample = sampleOf(23, 11, channels);
       for (const filterOf of [...[0, 1, 2, 3, 4].map((filter) => () => filter), (row: number) => row % 5]) {
         const pixels = await decodePixels(pngWith(sample, filtered(sample, filterOf)));
@@ -73,18 +74,18 @@ describe("the texels of a PNG", () => {
     });
   }
 
-  test("may come in several chunks, behind a view of a larger buffer", async () => {
+  test("may be in several chunks, and in a view of a larger buffer", async () => {
     const sample = sampleOf(9, 5, 3);
     const png = pngWith(
       sample,
       filtered(sample, () => 4),
-      { parts: 3 },
+      { chunkCount: 3 },
     );
     const larger = joined([new Uint8Array(7), png, new Uint8Array(5)]);
     assert.deepEqual((await decodePixels(larger.subarray(7, 7 + png.length))).data, sample.texels);
   });
 
-  test("are looked up in a palette", async () => {
+  test("are looked up in the palette", async () => {
     const numbers: Sample = { width: 4, height: 1, channels: 1, texels: Uint8Array.from([0, 2, 1, 2]) };
     const palette = chunkOf("PLTE", Uint8Array.from([1, 2, 3, 4, 5, 6, 7, 8, 9]));
     const png = (texels: number[]) =>
@@ -111,11 +112,11 @@ describe("the texels of a PNG", () => {
   const sample = sampleOf(6, 4, 3);
   const whole = filtered(sample, () => 1);
   for (const [what, data] of [
-    ["too few", whole.subarray(0, whole.length - 1)],
-    ["too many", joined([whole, Uint8Array.from([0])])],
-    ["an unknown filter", joined([Uint8Array.from([5]), whole.subarray(1)])],
+    ["too few bytes", whole.subarray(0, whole.length - 1)],
+    ["too many bytes", joined([whole, Uint8Array.from([0])])],
+    ["rows with an unknown filter", joined([Uint8Array.from([5]), whole.subarray(1)])],
   ] as const) {
-    test(`are refused where there is ${what}`, async () => {
+    test(`are refused if there are ${what}`, async () => {
       await assert.rejects(decodePixels(pngWith(sample, data)), (error) => error instanceof DecodeError);
     });
   }
@@ -124,7 +125,7 @@ describe("the texels of a PNG", () => {
     ["deflated", 6],
     ["stored", 0],
   ] as const) {
-    test(`${how}, are refused whichever byte of their stream is changed, or come back the same`, async () => {
+    test(`${how} are refused, or decoded to the same bytes, whichever byte of the stream is changed`, async () => {
       const png = pngWith(sample, whole, { level });
       assert.deepEqual((await decodePixels(png)).data, sample.texels);
       const begin = Buffer.from(png).indexOf("IDAT") + 4;
@@ -132,7 +133,7 @@ describe("the texels of a PNG", () => {
       for (let at = 0; at < length; ++at) {
         const changed = png.slice(begin, begin + length);
         changed[at] = (changed[at] ?? 0) ^ 0x41;
-        // With a sum of its own, so that what is inside has to tell.
+        // The chunk has a valid CRC, so that the decoder of the stream must detect the damage.
         const outcome = await decodePixels(
           joined([png.subarray(0, begin - 8), chunkOf("IDAT", changed), png.subarray(begin + length + 4)]),
         ).catch((error: unknown) => error);
@@ -142,7 +143,7 @@ describe("the texels of a PNG", () => {
     });
   }
 
-  test("stored in several blocks come back", async () => {
+  test("stored in several blocks are decoded", async () => {
     const large = sampleOf(300, 250, 1);
     assert.deepEqual(
       (

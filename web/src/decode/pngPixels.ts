@@ -31,7 +31,7 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   const filtered =
     (only && others.length === 0 ? unpackStored(only, length) : undefined) ?? (await inflate(packed, length));
   const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
-  return { width, height, channels, data: isPalette ? lookUpPalette(data, palette ?? new Uint8Array()) : data };
+  return { width, height, channels, data: isPalette ? paletteColorsOf(data, palette ?? new Uint8Array()) : data };
 }
 
 const signatureLength = 8;
@@ -218,8 +218,8 @@ function isPaletteLength(length: number): boolean {
   return length > 0 && length <= 3 * 256 && length % 3 === 0;
 }
 
-/** Looks up each palette index. */
-function lookUpPalette(indices: Uint8Array, palette: Uint8Array): Uint8Array<ArrayBuffer> {
+/** The colour of each palette index. Throws DecodeError. */
+function paletteColorsOf(indices: Uint8Array, palette: Uint8Array): Uint8Array<ArrayBuffer> {
   const colors = new Uint8Array(indices.length * 3);
   for (let n = 0; n < indices.length; ++n) {
     const entry = (indices[n] ?? 0) * 3;

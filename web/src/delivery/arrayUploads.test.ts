@@ -4,7 +4,10 @@ import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
 import { ArrayUploads } from "./arrayUploads.ts";
 
-function memory() {
+/**
+ * Uploads to a fake GPU, which counts calls and open arrays; `hold` delays further uploads until a promise resolves.
+ */
+function fakeGpu() {
   const open = new Set<StoredBytes>();
   let stored = 0;
   let gate: Promise<unknown> = Promise.resolve();
@@ -22,7 +25,7 @@ function memory() {
     return bytes;
   };
   return {
-    holdings: new ArrayUploads(store),
+    uploads: new ArrayUploads(store),
     open,
     stored: () => stored,
     hold: (promise: Promise<unknown>) => {
@@ -34,50 +37,50 @@ function memory() {
 const never = new AbortController().signal;
 const vertices = (array: ElementArray, offset = 0) => ({ array, components: 3, stride: 8, offset }) as const;
 
-describe("arrays that are held", () => {
-  test("are stored once for all attributes of their records, and closed with the last", async () => {
-    const { holdings, open, stored } = memory();
+describe("uploaded arrays", () => {
+  test("are stored once for all attributes that share a buffer, and closed with the last of them", async () => {
+    const { uploads, open, stored } = fakeGpu();
     const { buffer } = new Uint8Array(64);
     const all = await Promise.all(
       [vertices(new Uint16Array(buffer)), vertices(new Uint16Array(buffer), 4), vertices(new Int8Array(buffer))].map(
-        (array) => holdings.storeVertices(array, never),
+        (array) => uploads.storeVertices(array, never),
       ),
     );
-    assert.deepEqual([stored(), open.size, holdings.byteLength], [1, 1, 64]);
+    assert.deepEqual([stored(), open.size, uploads.byteLength], [1, 1, 64]);
     assert.deepEqual(
       all.map(({ type, offset }) => `${type} ${offset}`),
       ["Uint16 0", "Uint16 4", "Int8 0"],
     );
     for (const array of all) {
       assert.equal(open.size, 1);
-      holdings.retire(array);
-      holdings.sweep();
+      uploads.retire(array);
+      uploads.sweep();
     }
-    assert.deepEqual([open.size, holdings.byteLength], [0, 0]);
-    await holdings.storeIndex(new Uint16Array(buffer), never);
+    assert.deepEqual([open.size, uploads.byteLength], [0, 0]);
+    await uploads.storeIndex(new Uint16Array(buffer), never);
     assert.equal(stored(), 2);
   });
 
-  test("stay until they are swept", async () => {
-    const { holdings, open } = memory();
-    holdings.retire(await holdings.storeIndex(new Uint32Array(3), never), undefined);
+  test("stay stored after they are retired, until they are swept", async () => {
+    const { uploads, open } = fakeGpu();
+    uploads.retire(await uploads.storeIndex(new Uint32Array(3), never), undefined);
     assert.equal(open.size, 1);
-    holdings.sweep();
-    holdings.sweep();
+    uploads.sweep();
+    uploads.sweep();
     assert.equal(open.size, 0);
   });
 
-  test("are stored for those who still want them where the first was told to stop", async () => {
-    const { holdings, open, hold } = memory();
+  test("are stored for a second caller although the first one aborts", async () => {
+    const { uploads, open, hold } = fakeGpu();
     const { promise, resolve } = Promise.withResolvers<undefined>();
     hold(promise);
     const aborter = new AbortController();
     const array = new Uint8Array(8);
-    const [first, second] = [holdings.storeIndex(array, aborter.signal), holdings.storeIndex(array, never)];
+    const [first, second] = [uploads.storeIndex(array, aborter.signal), uploads.storeIndex(array, never)];
     aborter.abort();
     resolve(undefined);
     await assert.rejects(first, { name: "AbortError" });
     await second;
-    assert.deepEqual([open.size, holdings.byteLength], [1, 8]);
+    assert.deepEqual([open.size, uploads.byteLength], [1, 8]);
   });
 });

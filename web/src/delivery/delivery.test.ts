@@ -17,7 +17,7 @@ import type { Transfer } from "./progress.ts";
 import { noProgress, progressOf } from "./progress.ts";
 
 describe("the order of requests", () => {
-  test("is the first coordinate byte of all patches, index, normals, further bytes", async () => {
+  test("is: the first coordinate byte of all patches, then index, normals, and further bytes", async () => {
     const site = siteOf(sigFiles(3), 1);
     await record(sigGeometry(3), site.pool).settled;
     assert.deepEqual(
@@ -26,7 +26,7 @@ describe("the order of requests", () => {
     );
   });
 
-  test("holds across shapes that begin together", async () => {
+  test("applies across shapes that begin together", async () => {
     const site = siteOf(sigFiles(2), 1);
     const [first, second] = [0, 1].map((n) =>
       record(geometryOf(`<ImageGeometry>${sigPatch(n)}</ImageGeometry>`), site.pool),
@@ -35,7 +35,7 @@ describe("the order of requests", () => {
     assert.deepEqual(site.requested.slice(0, 2), ["a0.png", "a1.png"]);
   });
 
-  test("asks once for a file that several patches and shapes use", async () => {
+  test("has each file once, however many patches and shapes use it", async () => {
     const site = siteOf(sigFiles(1));
     const twice = geometryOf(`<ImageGeometry>${sigPatch(0)}${sigPatch(0)}</ImageGeometry>`);
     const all = [record(twice, site.pool), record(sigGeometry(1), site.pool)];
@@ -49,7 +49,7 @@ describe("the order of requests", () => {
 });
 
 describe("the stages of a patch of images", () => {
-  test("are points, a surface, a shaded surface, and all", async () => {
+  test("are points, a surface, a shaded surface, and the full patch", async () => {
     const site = siteOf(sigFiles(1), 1);
     const { stages, settled } = record(sigGeometry(1), site.pool);
     await settled;
@@ -72,7 +72,7 @@ describe("the stages of a patch of images", () => {
     assert.deepEqual([full.coord.length, full.missingBytesMidpoint], [2, 0]);
   });
 
-  test("use what came when files come in another order", async () => {
+  test("use the files that have arrived, in any order", async () => {
     const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "a0.png": first.promise });
     const { stages, settled } = record(sigGeometry(1), site.pool);
@@ -126,16 +126,16 @@ describe("the stages of a patch of images", () => {
   }
 });
 
-describe("an image that lies", () => {
-  const lies: Record<string, Uint8Array<ArrayBuffer>> = {
+describe("an image that does not match its document", () => {
+  const wrongImages: Record<string, Uint8Array<ArrayBuffer>> = {
     "is too small for the records": pngOf({ width: 256, height: 1 }),
     "has 16 bits": pngOf({ width: 256, height: 2, bitDepth: 16 }),
     "is gray": pngOf({ width: 256, height: 2, colorType: 0 }),
     "is cut short": records.slice(0, -1),
     "is a web page": new TextEncoder().encode("<!DOCTYPE html>"),
   };
-  for (const [what, bytes] of Object.entries(lies)) {
-    test(`and ${what} is an error, and the rest lives`, async () => {
+  for (const [what, bytes] of Object.entries(wrongImages)) {
+    test(`is an error if it ${what}, and the other files are used`, async () => {
       const site = siteOf({ ...sigFiles(1), "b0.png": bytes });
       const { stages, errors, settled } = record(sigGeometry(1), site.pool);
       await settled;
@@ -148,7 +148,7 @@ describe("an image that lies", () => {
     });
   }
 
-  test("about the index is an error: rows narrower or fewer than the draws need", async () => {
+  test("is an error if an index has narrower or fewer rows than the draws need", async () => {
     for (const size of [
       { width: 128, height: 8 },
       { width: 256, height: 2 },
@@ -164,7 +164,7 @@ describe("an image that lies", () => {
     }
   });
 
-  test("about normals of two numbers is an error: half of it ends before the records do", async () => {
+  test("is an error if half of an image of normal pairs has too few texels", async () => {
     const pairs = (fields: string) =>
       geometryOf(`<ImageGeometry normalEncoding="octahedral" ${fields}>${sigPatch(0)}</ImageGeometry>`);
     const gray = (height: number) => pngOf({ width: 256, height, colorType: 0 });
@@ -183,7 +183,7 @@ describe("an image that lies", () => {
     );
   });
 
-  test("about where a patch begins is an error", async () => {
+  test("is an error if the patch begins too late in it", async () => {
     const site = siteOf(sigFiles(1));
     const { errors, settled } = record(
       geometryOf(`<ImageGeometry><GeometryPatch recordCount="500" vertexCount="600"
@@ -222,7 +222,7 @@ describe("typed arrays", () => {
     assert.deepEqual([full.coord.components, full.coord.stride, full.attributes.normal?.stride], [3, 4, 4]);
   });
 
-  test("draw strips as the triangles they stand for, after what stands before them", async () => {
+  test("draw strips as triangles, after the triangles before them", async () => {
     const site = siteOf({
       "c.bin": coord,
       "i.bin": new Uint8Array(Uint16Array.from([0, 1, 2, 0, 1, 2, 3, 3, 4]).buffer),
@@ -243,7 +243,7 @@ describe("typed arrays", () => {
     assert.deepEqual(Array.from(site.arrayOf(full.index)), [0, 1, 2, 0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4]);
   });
 
-  test("with spherical normals are shaded with nothing but their coordinates", async () => {
+  test("with spherical normals have them in the coordinate records", async () => {
     const site = siteOf({ "c.bin": coord });
     const { stages, settled } = record(
       geometry('normalAsSphericalCoordinates="true" primType="POINTS" vertexCount="5" coord="c.bin#0+8"'),
@@ -261,7 +261,7 @@ describe("typed arrays", () => {
     );
   });
 
-  test("with octahedral normals of two numbers say how to read them", async () => {
+  test("with octahedral normals state how to read the two numbers", async () => {
     const site = siteOf({ "c.bin": coord, "n.bin": normal });
     const { stages, settled } = record(
       geometryOf(
@@ -279,7 +279,7 @@ describe("typed arrays", () => {
     );
   });
 
-  test("in the records of one file are views of the same bytes, fetched once", async () => {
+  test("that are interleaved in one file are views of the same bytes, fetched once", async () => {
     const site = siteOf({ "v.bin": new Uint8Array(5 * 16) });
     const { stages, settled } = record(
       geometryOf(
@@ -299,7 +299,7 @@ describe("typed arrays", () => {
     assert.equal(site.requested.length, 1);
   });
 
-  test("take all indices where vertexCount is 0, as X3DOM does", async () => {
+  test("draw all indices where vertexCount is 0, as X3DOM does", async () => {
     const site = siteOf({ "c.bin": coord, "i.bin": index });
     const { stages, settled } = record(geometry('coord="c.bin#0+8" index="i.bin"'), site.pool);
     await settled;
@@ -327,7 +327,7 @@ describe("typed arrays", () => {
 });
 
 describe("a cancelled delivery", () => {
-  test("aborts its requests, says nothing more, and closes its images", async () => {
+  test("aborts its requests, does not call its listener again, and closes its images", async () => {
     const late = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
     const { stages, errors, delivery } = record(sigGeometry(1), site.pool);
@@ -344,14 +344,14 @@ describe("a cancelled delivery", () => {
     assert.deepEqual([site.scheduler.runningCount, site.scheduler.waitingCount], [0, 0]);
   });
 
-  test("before anything was sent sends nothing", async () => {
+  test("sends nothing if it is cancelled at once", async () => {
     const site = siteOf(sigFiles(1));
     record(sigGeometry(1), site.pool).delivery.cancel();
     await shortDelay();
     assert.deepEqual(site.requested, []);
   });
 
-  test("leaves files alone that another one uses", async () => {
+  test("does not abort files that another delivery uses", async () => {
     const site = siteOf(sigFiles(1));
     const gone = record(sigGeometry(1), site.pool);
     const stays = record(sigGeometry(1), site.pool);
@@ -379,18 +379,18 @@ describe("progress", () => {
     });
   });
 
-  test("does not fall when a server tells a larger size than was expected", () => {
+  test("does not decrease when a server states a larger size than expected", () => {
     const before = progressOf([transfer(10, 20)], noProgress);
     assert.equal(progressOf([transfer(10, 100)], before).totalProgress, 0.5);
   });
 
-  test("is 1 when everything is settled, whatever came, and not before", () => {
+  test("is 1 only when everything has loaded or failed", () => {
     assert.ok(progressOf([transfer(40, 40), transfer(0, 0)], noProgress).totalProgress < 1);
     assert.equal(progressOf([transfer(40, 40, "ready"), transfer(0, 0, "failed")], noProgress).totalProgress, 1);
     assert.equal(progressOf([], noProgress).totalProgress, 1);
   });
 
-  test("of a delivery rises to 1 and ends with the bytes that came", async () => {
+  test("of a delivery rises to 1 and ends with the loaded bytes", async () => {
     const site = siteOf({ ...sigFiles(2), "n1.png": 404 }, 2);
     const { delivery, settled } = record(sigGeometry(2), site.pool);
     let progress = progressOf(delivery.transfers, noProgress);

@@ -23,7 +23,9 @@ import { ResourcePool } from "./resourcePool.ts";
 /** A file's bytes, at once or later, or an HTTP status. */
 export type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;
 
-/** A site in memory: its files by name, and a pool that records requests in order, jobs, and the resources it has open. */
+/**
+ * A site in memory: its files by name, and a pool that records requests in order, jobs, and the resources it has open.
+ */
 export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures = true) {
   const requested: string[] = [];
   const aborted: string[] = [];
@@ -118,7 +120,7 @@ export interface Recording {
 /** Requests all files, in the order of their content. */
 export const everything: FilePriority = (_, file) => priorityOf(1, file.chunk, unknownViewMetrics);
 
-export function record(geometry: GeometryDescription, pool: ResourcePool, demand = everything): Recording {
+export function record(geometry: GeometryDescription, pool: ResourcePool, filePriority = everything): Recording {
   const stages: Recording["stages"] = [];
   const errors: DeliveryError[] = [];
   const displayed: Recording["displayed"] = new Map();
@@ -136,7 +138,7 @@ export function record(geometry: GeometryDescription, pool: ResourcePool, demand
       resolve();
     },
   });
-  delivery.request(demand);
+  delivery.request(filePriority);
   return { stages, displayed, errors, delivery, settled };
 }
 

@@ -30,24 +30,24 @@ const camera: Camera = {
 
 const away = (distance: number, right = 0): Matrix => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, right, 0, -distance, 1];
 
-function demandAt(geometry: GeometryDescription, matrix: Matrix, content = 1): FilePriority {
+function priorityAt(geometry: GeometryDescription, matrix: Matrix, content = 1): FilePriority {
   return filePriorityFor([geometryInstance(geometry, matrix, content)], { camera, weights: defaultChunkWeights });
 }
 
-/** The parts of the first patch that are wanted, most important first. */
-function wanted(geometry: GeometryDescription, demand: FilePriority): string[] {
+/** The required files of the first patch, by role and plane, most important first. */
+function requiredFiles(geometry: GeometryDescription, filePriority: FilePriority): string[] {
   const [patch] = geometry.patches;
   return (patch ? deliveryOf(geometry).patchFilesOf(geometry, patch, 4096) : [])
-    .map((part) => ({ name: `${part.role}${part.plane || ""}`, priority: demand(0, part) }))
+    .map((file) => ({ name: `${file.role}${file.plane || ""}`, priority: filePriority(0, file) }))
     .filter(({ priority }) => priority !== undefined)
     .sort((a, b) => (b.priority ?? 0) - (a.priority ?? 0))
     .map(({ name }) => name);
 }
 
-function firstPart(geometry: GeometryDescription): PatchFile {
-  const [part] = geometry.patches.flatMap((each) => deliveryOf(geometry).patchFilesOf(geometry, each, 4096));
-  assert.ok(part);
-  return part;
+function firstFile(geometry: GeometryDescription): PatchFile {
+  const [file] = geometry.patches.flatMap((each) => deliveryOf(geometry).patchFilesOf(geometry, each, 4096));
+  assert.ok(file);
+  return file;
 }
 
 const cube = 'position="0 0 0" size="1 1 1"';
@@ -57,81 +57,81 @@ const lit = geometryOf(`<ImageGeometry ${cube}>${patch('index="i" normal="n"')}<
 
 describe("a byte plane", () => {
   // One pixel at a distance of 2 is 1/250: the first byte's step is 1/256 of the cube, which is about a pixel.
-  test("is fetched when the planes above it leave steps that can be seen", () => {
-    assert.deepEqual(wanted(lit, demandAt(lit, away(2))), ["coord", "index", "normal", "coord1"]);
+  test("is required when the planes above it leave visible steps", () => {
+    assert.deepEqual(requiredFiles(lit, priorityAt(lit, away(2))), ["coord", "index", "normal", "coord1"]);
   });
 
-  test("waits while a step is less than half a pixel", () => {
-    assert.deepEqual(wanted(lit, demandAt(lit, away(6))), ["coord", "index", "normal"]);
+  test("is not required while a step is less than half a pixel", () => {
+    assert.deepEqual(requiredFiles(lit, priorityAt(lit, away(6))), ["coord", "index", "normal"]);
   });
 
-  test("waits for its own step, not for the one above", () => {
-    assert.deepEqual(wanted(lit, demandAt(lit, away(0.51))), ["coord", "index", "normal", "coord1", "coord2"]);
+  test("is required only when the step of the plane above it is visible", () => {
+    assert.deepEqual(requiredFiles(lit, priorityAt(lit, away(0.51))), ["coord", "index", "normal", "coord1", "coord2"]);
   });
 
-  test("is needed where a shape is drawn larger", () => {
+  test("is required where the shape is scaled up", () => {
     const large = [4, 0, 0, 0, 0, 4, 0, 0, 0, 0, 4, 0, 0, 0, -10, 1];
-    assert.ok(wanted(lit, demandAt(lit, large)).includes("coord1"));
+    assert.ok(requiredFiles(lit, priorityAt(lit, large)).includes("coord1"));
   });
 
-  test("does not wait beside the view: the head turns faster than files come", () => {
-    assert.ok(wanted(lit, demandAt(lit, away(-2))).includes("coord1"));
+  test("is required next to the view, since the camera turns faster than files arrive", () => {
+    assert.ok(requiredFiles(lit, priorityAt(lit, away(-2))).includes("coord1"));
   });
 
-  test("does not wait where the slope between vertices is what shades the surface", () => {
+  test("is required where the slope between vertices shades the surface", () => {
     const bare = geometryOf(`<ImageGeometry ${cube}>${patch('index="i"')}</ImageGeometry>`);
-    assert.deepEqual(wanted(bare, demandAt(bare, away(500))), ["coord", "index", "coord1", "coord2"]);
+    assert.deepEqual(requiredFiles(bare, priorityAt(bare, away(500))), ["coord", "index", "coord1", "coord2"]);
   });
 
-  test("of points without normals waits: nothing is shaded", () => {
+  test("is not required for points without normals, which are not shaded", () => {
     const cloud = geometryOf(`<ImageGeometry ${cube}>${patch('primType="POINTS"')}</ImageGeometry>`);
-    assert.deepEqual(wanted(cloud, demandAt(cloud, away(500))), ["coord"]);
+    assert.deepEqual(requiredFiles(cloud, priorityAt(cloud, away(500))), ["coord"]);
   });
 
-  test("does not wait while there is no picture", () => {
-    const demand = filePriorityFor([geometryInstance(lit, away(500), 1)], {
+  test("is required as long as there is no camera", () => {
+    const filePriority = filePriorityFor([geometryInstance(lit, away(500), 1)], {
       camera: undefined,
       weights: defaultChunkWeights,
     });
-    assert.equal(wanted(lit, demand).length, 5);
+    assert.equal(requiredFiles(lit, filePriority).length, 5);
   });
 });
 
 describe("a shape", () => {
-  test("comes sooner when it is nearer, and when it is in the view", () => {
-    const part = firstPart(lit);
-    const at = (matrix: Matrix) => demandAt(lit, matrix)(0, part) ?? 0;
+  test("has a larger priority when it is nearer, and when it is in the view", () => {
+    const file = firstFile(lit);
+    const at = (matrix: Matrix) => priorityAt(lit, matrix)(0, file) ?? 0;
     assert.ok(at(away(3)) > at(away(9)));
     assert.ok(at(away(9)) > at(away(9, 20)));
     assert.ok(at(away(9, 20)) > at(away(9, 40)));
     assert.ok(at(away(9)) > at(away(-3)));
   });
 
-  test("comes sooner when its author says so", () => {
-    const part = firstPart(lit);
-    assert.equal(demandAt(lit, away(5), 4)(0, part), 4 * (demandAt(lit, away(5))(0, part) ?? NaN));
+  test("has a priority in proportion to the factor of the author", () => {
+    const file = firstFile(lit);
+    assert.equal(priorityAt(lit, away(5), 4)(0, file), 4 * (priorityAt(lit, away(5))(0, file) ?? NaN));
   });
 });
 
-describe("a geometry in several places", () => {
+describe("a geometry with several instances", () => {
   const viewing = { camera, weights: defaultChunkWeights };
 
-  test("is wanted as much as where it is wanted most", () => {
-    const places = [away(50), away(3), away(9)].map((matrix) => geometryInstance(lit, matrix, 1));
-    const part = firstPart(lit);
-    assert.equal(filePriorityFor(places, viewing)(0, part), demandAt(lit, away(3))(0, part));
-    assert.ok(wanted(lit, filePriorityFor(places, viewing)).includes("coord1"));
+  test("has the largest priority of its instances", () => {
+    const instances = [away(50), away(3), away(9)].map((matrix) => geometryInstance(lit, matrix, 1));
+    const file = firstFile(lit);
+    assert.equal(filePriorityFor(instances, viewing)(0, file), priorityAt(lit, away(3))(0, file));
+    assert.ok(requiredFiles(lit, filePriorityFor(instances, viewing)).includes("coord1"));
   });
 
-  test("is not wanted where it is seen in none", () => {
-    assert.deepEqual(wanted(lit, filePriorityFor([], viewing)), []);
+  test("is not required without visible instances", () => {
+    assert.deepEqual(requiredFiles(lit, filePriorityFor([], viewing)), []);
   });
 });
 
 describe("a delivery", () => {
-  const withoutSecondByte: FilePriority = (place, part) => (part.plane > 0 ? undefined : everything(place, part));
+  const withoutSecondByte: FilePriority = (patch, file) => (file.plane > 0 ? undefined : everything(patch, file));
 
-  test("asks for nothing before it is told to, and then for what is wanted", async () => {
+  test("requests nothing before the first call of `request`, and then the required files", async () => {
     const site = siteOf(sigFiles(1));
     const { delivery, settled, stages } = record(sigGeometry(1), site.pool, () => undefined);
     await shortDelay();
@@ -144,7 +144,7 @@ describe("a delivery", () => {
     assert.deepEqual([delivery.isSettled, delivery.isExhausted], [true, false]);
   });
 
-  test("settles again when a later demand has brought more", async () => {
+  test("settles again after a later request for more files", async () => {
     const site = siteOf(sigFiles(1));
     const { delivery, settled, stages } = record(sigGeometry(1), site.pool, withoutSecondByte);
     await settled;
@@ -155,7 +155,7 @@ describe("a delivery", () => {
     assert.deepEqual([delivery.isSettled, delivery.isExhausted], [true, true]);
   });
 
-  test("aborts what is no longer wanted, keeps what has come, and can want it again", async () => {
+  test("aborts files that are no longer required, keeps those that have arrived, and can request them again", async () => {
     const late = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
     const { delivery, errors, stages } = record(sigGeometry(1), site.pool);
@@ -178,23 +178,23 @@ describe("a delivery", () => {
     assert.equal(site.scheduler.runningCount, 0);
   });
 
-  test("that is no longer wanted while it waits never asks", async () => {
+  test("never requests a file that is no longer required when its turn comes", async () => {
     const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "a0.png": first.promise }, 1);
     const { delivery } = record(sigGeometry(1), site.pool);
     await shortDelay();
-    delivery.request((place, part) => (part.role === "coord" ? everything(place, part) : undefined));
+    delivery.request((patch, file) => (file.role === "coord" ? everything(patch, file) : undefined));
     first.release();
     await shortDelay();
     assert.deepEqual(site.requested, ["a0.png", "b0.png"]);
   });
 
-  test("sends what waits in its newest order", async () => {
+  test("sends waiting requests in the order of the latest priorities", async () => {
     const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(3), "a0.png": first.promise }, 1);
     const { delivery } = record(sigGeometry(3), site.pool);
     await shortDelay();
-    delivery.request((place, part) => (everything(place, part) ?? 0) * (place === 2 ? 1000 : 1));
+    delivery.request((patch, file) => (everything(patch, file) ?? 0) * (patch === 2 ? 1000 : 1));
     first.release();
     await shortDelay();
     assert.deepEqual(
@@ -203,7 +203,7 @@ describe("a delivery", () => {
     );
   });
 
-  test("shares a file with another at the larger of both priorities", async () => {
+  test("shares a file with another delivery at the larger of both priorities", async () => {
     const first = deferredFile(records);
     const site = siteOf({ ...sigFiles(2), "a0.png": first.promise }, 1);
     const files = (names: string) =>
@@ -221,7 +221,7 @@ describe("a delivery", () => {
     assert.deepEqual(site.requested, ["a0.png", "a1.png", "b0.png", "b1.png"]);
   });
 
-  test("gives back the room of what waits for its decoder, whatever becomes of it", async () => {
+  test("returns the bytes that wait for decoding to the limit, however decoding ends", async () => {
     const large = new Uint8Array(9 * 2 ** 20); // more than all the room, and no image
     const site = siteOf({ ...sigFiles(3), "a0.png": large, "a1.png": large, "i2.png": 404 });
     const { settled, errors, stages } = record(sigGeometry(3), site.pool);

@@ -85,14 +85,16 @@ export class GeometryDeliveries {
   }
 
   /** What all geometries need and have of the GPU. */
-  budgetRequests(demandOf: (geometry: GeometryDescription) => FilePriority): readonly (readonly BudgetRequest[])[] {
-    return Array.from(this.#shared).flatMap(([geometry, { delivery }]) => delivery.budgetRequests(demandOf(geometry)));
+  budgetRequests(priorityOf: (geometry: GeometryDescription) => FilePriority): readonly (readonly BudgetRequest[])[] {
+    return Array.from(this.#shared).flatMap(([geometry, { delivery }]) =>
+      delivery.budgetRequests(priorityOf(geometry)),
+    );
   }
 
   /** Updates the priorities of all files. Where `granted` is given, budget requests that are not in it are evicted. */
-  request(demandOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
+  request(priorityOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [geometry, { delivery }] of this.#shared) {
-      if (granted !== undefined || !delivery.isExhausted) delivery.request(demandOf(geometry), granted);
+      if (granted !== undefined || !delivery.isExhausted) delivery.request(priorityOf(geometry), granted);
     }
   }
 

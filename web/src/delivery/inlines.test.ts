@@ -57,7 +57,7 @@ function sceneOf(markup: string, files: Record<string, Answer>) {
 const x3d = (...inlines: string[]) => `<X3D><Scene>${inlines.join("")}</Scene></X3D>`;
 
 describe("documents that Inlines name", () => {
-  test("are asked for once each, those in them too, and those that are hidden are not", async () => {
+  test("are requested once each, including those inside of them, but not hidden ones", async () => {
     const scene = sceneOf(
       x3d(
         '<Inline DEF="a" url="part.x3d"/>',
@@ -78,7 +78,7 @@ describe("documents that Inlines name", () => {
     );
   });
 
-  test("are the first that a url leads to; one without tells why of its last", async () => {
+  test("are the first of their URLs that loads; the error is that of the last URL", async () => {
     const scene = sceneOf(
       x3d(`<Inline DEF="a" url='"data:," "lost.x3d" "part.x3d"'/>`, `<Inline DEF="b" url='"lost.x3d" "data:,"'/>`),
       { "part.x3d": shape },
@@ -92,7 +92,7 @@ describe("documents that Inlines name", () => {
     assert.ok(scene.inlines.isSettled);
   });
 
-  test("that inline themselves, or the document that they are in, are shown once", async () => {
+  test("that inline themselves or their own document are displayed once", async () => {
     const scene = sceneOf(x3d('<Inline DEF="a" url="circle.x3d"/>', '<Inline DEF="b" url="main.x3d"/>'), {
       "circle.x3d": bytesOf('<X3D><Scene><Shape><Box/></Shape><Inline url="circle.x3d"/></Scene></X3D>'),
     });
@@ -105,7 +105,7 @@ describe("documents that Inlines name", () => {
     ]);
   });
 
-  test("are given up when nobody is left to follow them", async () => {
+  test("are aborted on disposal", async () => {
     const scene = sceneOf(x3d('<Inline DEF="a" url="part.x3d"/>'), { "part.x3d": deferredFile(shape).promise });
     while (scene.requested.length === 0) await shortDelay();
     scene.inlines.dispose();

@@ -27,39 +27,39 @@ function textureOf(url: string, preview = "", role: TextureDescription["role"] =
   return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
 }
 
-const wanted: TexturePriority = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownViewMetrics);
+const everyTexture: TexturePriority = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownViewMetrics);
 
 /** A shape with these textures, and the width of what it shows of each role. */
 function shapeWith(textures: readonly TextureDescription[], files: Record<string, Answer>, slots = 6) {
   const site = siteOf(files, slots);
   const deliveries = { geometries: new GeometryDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
-  const told: string[] = [];
+  const events: string[] = [];
   const shape = new ShapeTextures(deliveries.textures, {
-    onTextureImage: (role, image) => told.push(`${role} ${image?.image.width ?? "none"}`),
-    onError: ({ url }) => told.push(`no ${url}`),
+    onTextureImage: (role, image) => events.push(`${role} ${image?.image.width ?? "none"}`),
+    onError: ({ url }) => events.push(`no ${url}`),
     onSettled: () => undefined,
   });
   shape.follow(textures);
-  const demand = async (mostBytes = Infinity, priority = wanted) => {
+  const eventsWithin = async (maxBytes = Infinity, priority = everyTexture) => {
     for (let turn = 0; turn < 3; ++turn) {
-      await shortDelay(); // who has joined is told in the next microtask
-      requestWithinBudget(deliveries, () => () => undefined, priority, mostBytes);
+      await shortDelay(); // listeners are called in the next microtask
+      requestWithinBudget(deliveries, () => () => undefined, priority, maxBytes);
       do await shortDelay();
       while (!shape.isSettled);
     }
-    return told.splice(0);
+    return events.splice(0);
   };
-  return { site, shape, deliveries, demand };
+  return { site, shape, deliveries, eventsWithin };
 }
 
 describe("a texture", () => {
-  test("shows its preview until it is there itself", async () => {
+  test("displays its preview until the full image arrives", async () => {
     const { promise, release } = deferredFile(large);
-    const { site, shape, demand } = shapeWith([textureOf("full.png", "small.png")], {
+    const { site, shape, eventsWithin } = shapeWith([textureOf("full.png", "small.png")], {
       "full.png": promise,
       "small.png": small,
     });
-    const end = demand();
+    const end = eventsWithin();
     while (site.textureImages.open === 0) await shortDelay();
     assert.deepEqual(site.requested, ["small.png", "full.png"]);
     release();
@@ -69,43 +69,49 @@ describe("a texture", () => {
     assert.equal(site.textureImages.open, 0);
   });
 
-  test("that does not come leaves the preview, which is no error where it does not come either", async () => {
+  test("keeps its preview if the full image fails; a preview that fails is no error", async () => {
     const missing = shapeWith([textureOf("full.png", "small.png")], { "small.png": small }, 1);
-    assert.deepEqual(await missing.demand(), ["color 8", "no full.png"]);
+    assert.deepEqual(await missing.eventsWithin(), ["color 8", "no full.png"]);
     const plain = shapeWith([textureOf("full.png", "small.png")], { "full.png": large }, 1);
-    assert.deepEqual(await plain.demand(), ["color 256"]);
+    assert.deepEqual(await plain.eventsWithin(), ["color 256"]);
   });
 
-  test("gives way to its preview where room is short, the preview last, and comes back", async () => {
-    const { site, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": large, "small.png": small });
-    assert.deepEqual(await demand(), ["color 8", "color 256"]);
+  test("is evicted before its preview when the budget shrinks, and fetched again when it grows", async () => {
+    const { site, eventsWithin } = shapeWith([textureOf("full.png", "small.png")], {
+      "full.png": large,
+      "small.png": small,
+    });
+    assert.deepEqual(await eventsWithin(), ["color 8", "color 256"]);
     const both = bytesOnGpu(256) + bytesOnGpu(8);
-    assert.deepEqual(await demand(both), []);
-    assert.deepEqual(await demand(both - 1), ["color 8"]);
+    assert.deepEqual(await eventsWithin(both), []);
+    assert.deepEqual(await eventsWithin(both - 1), ["color 8"]);
     assert.equal(site.textureImages.open, 1);
-    assert.deepEqual(await demand(bytesOnGpu(8) - 1), ["color none"]);
+    assert.deepEqual(await eventsWithin(bytesOnGpu(8) - 1), ["color none"]);
     assert.equal(site.textureImages.open, 0);
-    assert.deepEqual(await demand(), ["color 8", "color 256"]);
+    assert.deepEqual(await eventsWithin(), ["color 8", "color 256"]);
   });
 
-  test("of a shape that is not seen is not asked for; what is here stays", async () => {
-    const { site, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": large, "small.png": small });
-    assert.deepEqual(await demand(Infinity, () => undefined), []);
+  test("is not requested for an invisible shape, but stays once it is there", async () => {
+    const { site, eventsWithin } = shapeWith([textureOf("full.png", "small.png")], {
+      "full.png": large,
+      "small.png": small,
+    });
+    assert.deepEqual(await eventsWithin(Infinity, () => undefined), []);
     assert.deepEqual(site.requested, []);
-    await demand();
-    assert.deepEqual(await demand(Infinity, () => undefined), []);
+    await eventsWithin();
+    assert.deepEqual(await eventsWithin(Infinity, () => undefined), []);
     assert.equal(site.textureImages.open, 2);
   });
 
-  test("that several roles show is fetched once, and again for another one alone", async () => {
+  test("is fetched once for several roles, and replaced for one of them", async () => {
     const files = { "a.png": large, "b.png": large };
-    const { site, shape, demand } = shapeWith(
+    const { site, shape, eventsWithin } = shapeWith(
       [textureOf("a.png", "", "occlusion"), textureOf("a.png", "", "metallicRoughness")],
       files,
     );
-    assert.deepEqual(await demand(), ["occlusion 256", "metallicRoughness 256"]);
+    assert.deepEqual(await eventsWithin(), ["occlusion 256", "metallicRoughness 256"]);
     shape.follow([textureOf("a.png", "", "occlusion"), textureOf("b.png", "", "metallicRoughness")]);
-    assert.deepEqual(await demand(), ["metallicRoughness none", "metallicRoughness 256"]);
+    assert.deepEqual(await eventsWithin(), ["metallicRoughness none", "metallicRoughness 256"]);
     assert.deepEqual(site.requested, ["a.png", "b.png"]);
     shape.follow([]);
     await shortDelay();
@@ -113,14 +119,14 @@ describe("a texture", () => {
   });
 });
 
-test("textures are the last files that a scene asks for, and their previews come with its first shape", async () => {
+test("textures are the last files that a scene requests, and their previews come with its coordinates", async () => {
   const { site, shape, deliveries } = shapeWith(
     [textureOf("full.png", "small.png")],
     { ...sigFiles(2), "full.png": large, "small.png": small },
     1,
   );
   const { settled } = record(sigGeometry(2), site.pool);
-  deliveries.textures.request(wanted);
+  deliveries.textures.request(everyTexture);
   await settled;
   while (!shape.isSettled) await shortDelay();
   const kinds = site.requested.map(

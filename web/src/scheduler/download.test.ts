@@ -10,37 +10,37 @@ import { slotCountFor, http1SlotCount, http2SlotCount } from "./downloadSlots.ts
 describe("a download", () => {
   const { signal } = new AbortController();
 
-  /** Answers with each status in turn, the last one for ever. */
-  function inTurn(...codes: number[]): { options: DownloadOptions; asked: () => number } {
-    let asked = 0;
+  /** A server that answers with each status in turn, then always with the last one. */
+  function inTurn(...codes: number[]): { options: DownloadOptions; requestCount: () => number } {
+    let requestCount = 0;
     return {
       options: {
         ...optionsWithFetch(() => {
-          const code = codes[Math.min(asked, codes.length - 1)] ?? 200;
-          asked += 1;
+          const code = codes[Math.min(requestCount, codes.length - 1)] ?? 200;
+          requestCount += 1;
           return code === 0
             ? Promise.reject(new TypeError("fetch failed"))
             : Promise.resolve(new Response("bytes", { status: code }));
         }),
         retries: 2,
       },
-      asked: () => asked,
+      requestCount: () => requestCount,
     };
   }
 
   test("is tried again after a network error and after 5xx", async () => {
-    const { options, asked } = inTurn(0, 503, 200);
+    const { options, requestCount } = inTurn(0, 503, 200);
     assert.equal(await downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded), 5);
-    assert.equal(asked(), 3);
+    assert.equal(requestCount(), 3);
   });
 
   test("gives up after the last retry", async () => {
-    const { options, asked } = inTurn(503);
+    const { options, requestCount } = inTurn(503);
     await assert.rejects(
       downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
       (error) => error instanceof RequestError && error.kind === "http" && error.status === 503 && error.url === url,
     );
-    assert.equal(asked(), 3);
+    assert.equal(requestCount(), 3);
   });
 
   test("waits twice as long before each further attempt", async () => {
@@ -60,14 +60,14 @@ describe("a download", () => {
     assert.ok(second - first > 19 && third - second > 39, `${second - first} and ${third - second} ms`);
   });
 
-  test("of which no byte comes is given up as one that has fallen silent, and tried again", async () => {
-    let asked = 0;
+  test("times out if no byte arrives, and is tried again", async () => {
+    let requestCount = 0;
     const options: DownloadOptions = {
       ...unanswered,
       idleTimeoutMs: 5,
       retries: 1,
       fetch: (input, init) => {
-        asked += 1;
+        requestCount += 1;
         return unanswered.fetch(input, init);
       },
     };
@@ -75,28 +75,28 @@ describe("a download", () => {
       downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
       (error) => error instanceof RequestError && error.kind === "timeout" && error.url === url,
     );
-    assert.equal(asked, 2);
+    assert.equal(requestCount, 2);
   });
 
   for (const code of [404, 410, 416]) {
-    test(`is final after ${code}`, async () => {
-      const { options, asked } = inTurn(code);
+    test(`is not tried again after ${code}`, async () => {
+      const { options, requestCount } = inTurn(code);
       await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded));
-      assert.equal(asked(), 1);
+      assert.equal(requestCount(), 1);
     });
   }
 
-  test("is not asked for again when its bytes do not decode", async () => {
-    const { options, asked } = inTurn(200);
+  test("is not tried again if its bytes do not decode", async () => {
+    const { options, requestCount } = inTurn(200);
     await assert.rejects(
       downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, () =>
         Promise.reject(new Error("no image")),
       ),
     );
-    assert.equal(asked(), 1);
+    assert.equal(requestCount(), 1);
   });
 
-  test("tells where it stands", async () => {
+  test("reports its state", async () => {
     const states: DownloadState[] = [];
     const { options } = inTurn(503, 200);
     await downloadInSlot(
@@ -111,7 +111,7 @@ describe("a download", () => {
     assert.deepEqual(states, ["waiting", "loading", "retrying", "waiting", "loading"]);
   });
 
-  test("waits as long as the server asks for", async () => {
+  test("waits as long as the server requests", async () => {
     const times: number[] = [];
     const options = {
       ...optionsWithFetch(() => {
@@ -129,7 +129,7 @@ describe("a download", () => {
     assert.ok(second - first >= 950, `${second - first} ms`);
   });
 
-  test("lets another job have its slot while it waits to retry", async () => {
+  test("releases its slot while it waits to retry", async () => {
     const scheduler = new Scheduler(1);
     const order: string[] = [];
     const { options } = inTurn(503, 200);
@@ -149,7 +149,7 @@ describe("a download", () => {
     assert.deepEqual(order, ["other", "retried"]);
   });
 
-  test("counts the bytes as they come and knows the total where the server tells it", async () => {
+  test("reports the bytes as they arrive, and the total if the server states it", async () => {
     const counts: [number, number | undefined][] = [];
     const body = new ReadableStream({
       start(controller) {
@@ -174,7 +174,7 @@ describe("a download", () => {
     ]);
   });
 
-  test("does not take the length of a compressed body for its own", async () => {
+  test("ignores the length of a compressed body", async () => {
     const totals = new Set<number | undefined>();
     const options = optionsWithFetch(() =>
       Promise.resolve(new Response("bytes", { headers: { "content-length": "3", "content-encoding": "br" } })),
@@ -192,24 +192,24 @@ describe("a download", () => {
   });
 });
 
-describe("another attempt", () => {
+describe("a retry", () => {
   const failure = (status: number, retryAfter?: string) => ({ kind: "http" as const, status, retryAfter });
   const now = Date.parse("2026-01-02T03:04:05Z");
 
-  test("follows what passes: a lost connection, silence, a busy server", () => {
+  test("follows temporary failures: a lost connection, a timeout, a busy server", () => {
     assert.equal(retryDelayMs({ kind: "network", status: 0, retryAfter: undefined }, 400, now), 400);
     assert.equal(retryDelayMs({ kind: "timeout", status: 0, retryAfter: undefined }, 400, now), 400);
     for (const status of [408, 425, 429, 500, 502, 503, 504])
       assert.equal(retryDelayMs(failure(status), 400, now), 400, String(status));
   });
 
-  test("does not follow what stays", () => {
+  test("does not follow permanent failures", () => {
     for (const status of [400, 401, 403, 404, 410, 416, 501, 505])
       assert.equal(retryDelayMs(failure(status), 400, now), undefined, String(status));
     assert.equal(retryDelayMs({ kind: "limit", status: 0, retryAfter: undefined }, 400, now), undefined);
   });
 
-  test("comes when the server says, in seconds or at a date, but not before its own time", () => {
+  test("begins when the server requests, in seconds or at a date, but not before the backoff", () => {
     assert.equal(retryDelayMs(failure(503, "3"), 400, now), 3000);
     assert.equal(retryDelayMs(failure(503, " 0 "), 400, now), 400);
     assert.equal(retryDelayMs(failure(503, "Fri, 02 Jan 2026 03:04:15 GMT"), 400, now), 10_000);
@@ -217,12 +217,12 @@ describe("another attempt", () => {
     assert.equal(retryDelayMs(failure(503, "soon"), 400, now), 400);
   });
 
-  test("never comes where the server asks for more than people wait", () => {
+  test("does not follow if the server requests a longer delay than the limit", () => {
     assert.equal(retryDelayMs(failure(503, String(maxRetryAfterMs / 1000 + 1)), 400, now), undefined);
   });
 });
 
-test("there are more slots where one connection carries all requests", () => {
+test("there are more slots if one connection carries all requests", () => {
   for (const protocol of ["h2", "h3", "h3-29"]) assert.equal(slotCountFor(protocol), http2SlotCount);
   for (const protocol of ["http/1.1", "http/1.0", ""]) assert.equal(slotCountFor(protocol), http1SlotCount);
 });

@@ -2,15 +2,15 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { FrameTaskQueue } from "./frameTaskQueue.ts";
 
-/** Steps of so many bytes, each told to `note` by its number. */
+/** Steps of these sizes in bytes; calls `note` with the number of each. */
 function* stepsOf(bytes: number[], note: (number: number) => void): Generator<number> {
-  for (const [place, each] of bytes.entries()) {
-    note(place + 1);
+  for (const [index, each] of bytes.entries()) {
+    note(index + 1);
     yield each;
   }
 }
 
-/** Frames that come when the test says, and a clock on which each step takes a millisecond. */
+/** A queue with frames that the test triggers, and a clock on which each step takes a millisecond. */
 function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
   let due: ((isHidden: boolean) => void) | undefined;
   let clock = 0;
@@ -26,13 +26,13 @@ function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
   return {
     work,
     done,
-    /** Steps named a1, a2, …, each of so many bytes. */
+    /** Steps named a1, a2, …, of these sizes in bytes. */
     steps: (name: string, bytes: number[]) =>
       stepsOf(bytes, (number) => {
         clock += 1;
         done.push(`${name}${number}`);
       }),
-    /** What is done before the next frame; undefined where none was asked for. */
+    /** The steps that run before the next frame; undefined if no frame was requested. */
     frame: (isHidden = false): string[] | undefined => {
       const callback = due;
       due = undefined;
@@ -46,7 +46,7 @@ function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
 const { signal } = new AbortController();
 
 describe("work before frames", () => {
-  test("stops when so many bytes have been moved, and goes on before the next frame", async () => {
+  test("stops at the limit of bytes, and continues before the next frame", async () => {
     const { work, steps, frame } = framesOf(10, 1000);
     const first = work.run(steps("a", [4, 4, 4, 4]), signal);
     const second = work.run(steps("b", [4]), signal);
@@ -56,34 +56,34 @@ describe("work before frames", () => {
     assert.equal(frame(), undefined);
   });
 
-  test("stops when so much time has passed", () => {
+  test("stops at the limit of time", () => {
     const { work, steps, frame } = framesOf(1000, 2);
     void work.run(steps("a", [1, 1, 1]), signal);
     assert.deepEqual(frame(), ["a1", "a2"]);
     assert.deepEqual(frame(), ["a3"]);
   });
 
-  test("takes at least one step, however large, and however late the frame", () => {
+  test("runs at least one step, however large it is and however late the frame", () => {
     const { work, steps, frame } = framesOf(10, 0);
     void work.run(steps("a", [99, 99]), signal);
     assert.deepEqual(frame(), ["a1"]);
     assert.deepEqual(frame(), ["a2"]);
   });
 
-  test("is all done at once where nobody sees frames", () => {
+  test("runs completely where the page is hidden", () => {
     const { work, steps, frame } = framesOf(1, 1);
     void work.run(steps("a", [9, 9]), signal);
     void work.run(steps("b", [9]), signal);
     assert.deepEqual(frame(true), ["a1", "a2", "b1"]);
   });
 
-  test("is begun before a later frame, never at once", () => {
+  test("begins before a later frame, never at once", () => {
     const { work, steps, done } = framesOf(10, 10);
     void work.run(steps("a", [1]), signal);
     assert.deepEqual(done, []);
   });
 
-  test("that is aborted takes no further step, and the others go on", async () => {
+  test("runs no further step after an abort, and other work continues", async () => {
     const { work, steps, frame } = framesOf(4, 10);
     const aborter = new AbortController();
     const gone = work.run(steps("a", [4, 4, 4]), aborter.signal);
@@ -96,7 +96,7 @@ describe("work before frames", () => {
     await stays;
   });
 
-  test("that fails is told, and the others go on", async () => {
+  test("rejects with the error of a step, and other work continues", async () => {
     const { work, steps, frame } = framesOf(10, 10);
     const failing = work.run(
       (function* (): Generator<number> {

@@ -5,10 +5,10 @@ import { chunkWeightsOf, defaultChunkWeights, priorityOf, weightOfView } from ".
 import type { ViewMetrics } from "./viewMetrics.ts";
 
 const chunk = (type: Chunk["type"], plane = 1): Chunk => ({ type, plane });
-const seen = (pixels: number, isInView = true): ViewMetrics => ({ pixels, isInView, pixelsPerUnit: 1 });
+const viewOf = (pixels: number, isInView = true): ViewMetrics => ({ pixels, isInView, pixelsPerUnit: 1 });
 
-describe("the number of a request", () => {
-  test("orders what a file holds as the paper does", () => {
+describe("the priority of a request", () => {
+  test("orders files by content as the paper does", () => {
     const order = [
       chunk("coord"),
       chunk("index"),
@@ -19,7 +19,7 @@ describe("the number of a request", () => {
       chunk("refinement", 2),
       chunk("refinement", 3),
     ];
-    const values = order.map((each) => priorityOf(1, each, seen(100)));
+    const values = order.map((each) => priorityOf(1, each, viewOf(100)));
     assert.deepEqual(
       values,
       values.toSorted((a, b) => b - a),
@@ -27,49 +27,49 @@ describe("the number of a request", () => {
     assert.equal(new Set(values).size, values.length);
   });
 
-  test("makes objects of about the same size coarse before it makes one fine", () => {
-    const patches = [60, 150, 400, 800].map((pixels) => seen(pixels));
-    const least = Math.min(...patches.map((view) => priorityOf(1, chunk("coord"), view)));
-    const most = Math.max(...patches.map((view) => priorityOf(1, chunk("index"), view)));
-    assert.ok(least > most);
+  test("loads coarse data of objects of about the same size before fine data of any", () => {
+    const patches = [60, 150, 400, 800].map((pixels) => viewOf(pixels));
+    const minCoordPriority = Math.min(...patches.map((view) => priorityOf(1, chunk("coord"), view)));
+    const maxIndexPriority = Math.max(...patches.map((view) => priorityOf(1, chunk("index"), view)));
+    assert.ok(minCoordPriority > maxIndexPriority);
   });
 
-  test("prefers the surface of what fills the screen to the dots of what is hardly seen", () => {
-    assert.ok(priorityOf(1, chunk("index"), seen(800)) > priorityOf(1, chunk("coord"), seen(8)));
+  test("prefers the surface of an object that fills the screen to the points of a tiny one", () => {
+    assert.ok(priorityOf(1, chunk("index"), viewOf(800)) > priorityOf(1, chunk("coord"), viewOf(8)));
   });
 
-  test("prefers the first byte of all that is seen to the second byte of anything", () => {
-    assert.ok(priorityOf(1, chunk("coord"), seen(0)) > priorityOf(1, chunk("refinement"), seen(1e6)));
+  test("prefers the first byte of everything in view to the second byte of anything", () => {
+    assert.ok(priorityOf(1, chunk("coord"), viewOf(0)) > priorityOf(1, chunk("refinement"), viewOf(1e6)));
   });
 
-  test("puts what is seen before what lies beside the view, and there what is large first", () => {
-    assert.ok(priorityOf(1, chunk("refinement"), seen(1)) > priorityOf(1, chunk("normal"), seen(4096, false)));
-    assert.ok(weightOfView(seen(100, false)) > weightOfView(seen(10, false)));
+  test("prefers objects in view, and outside of the view larger objects", () => {
+    assert.ok(priorityOf(1, chunk("refinement"), viewOf(1)) > priorityOf(1, chunk("normal"), viewOf(4096, false)));
+    assert.ok(weightOfView(viewOf(100, false)) > weightOfView(viewOf(10, false)));
   });
 
-  test("follows the author in proportion, from nothing upwards", () => {
-    assert.equal(priorityOf(4, chunk("index"), seen(50)), priorityOf(1, chunk("coord"), seen(50)));
-    assert.equal(priorityOf(0, chunk("coord"), seen(50)), 0);
+  test("is proportional to the factor of the author, which may be 0", () => {
+    assert.equal(priorityOf(4, chunk("index"), viewOf(50)), priorityOf(1, chunk("coord"), viewOf(50)));
+    assert.equal(priorityOf(0, chunk("coord"), viewOf(50)), 0);
   });
 
-  test("is a number of 0 or more whatever is seen", () => {
+  test("is finite and positive for any size on the screen", () => {
     for (const pixels of [0, -1, 1e300, Infinity])
-      assert.ok(Number.isFinite(weightOfView(seen(pixels))) && weightOfView(seen(pixels)) > 0);
+      assert.ok(Number.isFinite(weightOfView(viewOf(pixels))) && weightOfView(viewOf(pixels)) > 0);
   });
 });
 
-describe("weights that an author writes", () => {
+describe("weights from an author", () => {
   const problems: string[] = [];
   const weightsOf = (text: string) => {
     problems.length = 0;
     return chunkWeightsOf(text, (problem) => problems.push(problem));
   };
 
-  test("change what they name and nothing else, in any case and spacing", () => {
+  test("change only the weights that they name, with any case and spacing", () => {
     assert.deepEqual(weightsOf(" Normal:8 ;texcoord : 0.5;; "), { ...defaultChunkWeights, normal: 8, texCoord: 0.5 });
     assert.deepEqual(problems, []);
     assert.deepEqual(weightsOf(""), defaultChunkWeights);
-    assert.equal(priorityOf(1, chunk("refinement", 2), seen(1), weightsOf("refinement: 100")), 25);
+    assert.equal(priorityOf(1, chunk("refinement", 2), viewOf(1), weightsOf("refinement: 100")), 25);
   });
 
   for (const text of [
@@ -81,7 +81,7 @@ describe("weights that an author writes", () => {
     "normal: 1: 2",
     "normal: Infinity",
   ]) {
-    test(`"${text}" is left out and told`, () => {
+    test(`"${text}" is ignored and reported`, () => {
       assert.deepEqual(weightsOf(`${text}; color: 3`), { ...defaultChunkWeights, color: 3 });
       assert.equal(problems.length, 1);
     });

@@ -9,12 +9,12 @@ interface Numbered {
   readonly turn: number;
 }
 
-/** Numbers that look random and are the same in every run. */
+/** Pseudorandom numbers, the same in every run. */
 function* numbers(seed: number): Generator<number, never> {
   for (let state = seed; ;) yield (state = (state * 48271) % 2147483647);
 }
 
-/** What a queue of these must give: the plainest way to say it. */
+/** The order in which a queue of these items must return them. */
 function sorted(items: readonly Numbered[]): Numbered[] {
   return items.toSorted((a, b) => b.priority - a.priority || a.turn - b.turn);
 }
@@ -26,7 +26,7 @@ function drained<Item extends Numbered>(queue: PriorityQueue<Item>): Item[] {
 }
 
 describe("a queue", () => {
-  test("gives what a sorted list gives, whatever is pushed, removed, changed and popped in between", () => {
+  test("behaves as a sorted list does, whatever is pushed, removed, changed and popped", () => {
     for (let seed = 1; seed <= 50; ++seed) {
       const random = numbers(seed);
       const below = (limit: number) => random.next().value % limit;
@@ -60,7 +60,7 @@ describe("a queue", () => {
     }
   });
 
-  test("is left once: a second leave does nothing", () => {
+  test("ignores a second removal of an entry", () => {
     const queue = new PriorityQueue<Numbered>();
     const entries = [1, 2, 3].map((priority, turn) => queue.push({ priority, turn }));
     for (const entry of entries.slice(1).flatMap((each) => [each, each])) queue.remove(entry);
@@ -73,63 +73,63 @@ describe("a queue", () => {
   });
 });
 
-describe("a backlog", () => {
+describe("a byte semaphore", () => {
   const { signal } = new AbortController();
   const soon = () => new Promise((resolve) => setTimeout(resolve, 0));
 
-  test("lets in what fits, in order, and the next when something leaves", async () => {
-    const backlog = new ByteSemaphore(10);
+  test("admits entries in order while they fit, and the next when one is released", async () => {
+    const semaphore = new ByteSemaphore(10);
     const inside: number[] = [];
     const entered = [6, 4, 5, 1].map(async (bytes) => {
-      const leave = await backlog.acquire(bytes, signal);
+      const release = await semaphore.acquire(bytes, signal);
       inside.push(bytes);
-      return leave;
+      return release;
     });
     await soon();
     assert.deepEqual(inside, [6, 4]); // 1 waits behind 5
     (await entered[0])?.();
     await soon();
     assert.deepEqual(inside, [6, 4, 5, 1]);
-    assert.equal(backlog.bytes, 10);
+    assert.equal(semaphore.bytes, 10);
   });
 
-  test("gets its room back once for each entry", async () => {
-    const backlog = new ByteSemaphore(10);
-    const leave = await backlog.acquire(10, signal);
-    const second = await backlog.acquire(0, signal);
-    leave();
-    leave();
-    assert.equal(backlog.bytes, 0);
+  test("gets the bytes of an entry back once", async () => {
+    const semaphore = new ByteSemaphore(10);
+    const release = await semaphore.acquire(10, signal);
+    const second = await semaphore.acquire(0, signal);
+    release();
+    release();
+    assert.equal(semaphore.bytes, 0);
     second();
-    assert.equal(backlog.bytes, 0);
+    assert.equal(semaphore.bytes, 0);
   });
 
-  test("lets in alone what is larger than all of it", async () => {
-    const backlog = new ByteSemaphore(10);
-    const small = await backlog.acquire(1, signal);
+  test("admits an entry that is larger than the limit alone", async () => {
+    const semaphore = new ByteSemaphore(10);
+    const small = await semaphore.acquire(1, signal);
     let isInside = false;
-    const large = backlog.acquire(100, signal).then((leave) => {
+    const large = semaphore.acquire(100, signal).then((release) => {
       isInside = true;
-      return leave;
+      return release;
     });
     await soon();
     assert.equal(isInside, false);
     small();
     (await large)();
-    assert.equal(backlog.bytes, 0);
+    assert.equal(semaphore.bytes, 0);
   });
 
-  test("is left by what is aborted while it waits, to the good of what is behind", async () => {
-    const backlog = new ByteSemaphore(10);
-    const leave = await backlog.acquire(8, signal);
+  test("drops an entry that is aborted while it waits, and admits those after it", async () => {
+    const semaphore = new ByteSemaphore(10);
+    const release = await semaphore.acquire(8, signal);
     const aborter = new AbortController();
-    const gone = backlog.acquire(9, aborter.signal);
-    const behind = backlog.acquire(2, signal);
+    const gone = semaphore.acquire(9, aborter.signal);
+    const behind = semaphore.acquire(2, signal);
     aborter.abort(new Error("removed"));
     await assert.rejects(gone, { message: "removed" });
     (await behind)();
-    leave();
-    assert.equal(backlog.bytes, 0);
-    await assert.rejects(backlog.acquire(1, aborter.signal), { message: "removed" });
+    release();
+    assert.equal(semaphore.bytes, 0);
+    await assert.rejects(semaphore.acquire(1, aborter.signal), { message: "removed" });
   });
 });

@@ -4,7 +4,7 @@ import { downloadInSlot } from "./download.ts";
 import { optionsWithFetch, decoded, listener, ok, unanswered, status, subject, url } from "./download.testing.ts";
 import { Scheduler } from "./scheduler.ts";
 
-/** Every way in which a job can end: what is asked, and what becomes of it. */
+/** Every way in which a job can end. */
 const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) => Promise<unknown>> = {
   ok: (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, ok, listener, decoded),
   "404": (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, status(404), listener, decoded),
@@ -22,7 +22,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
       listener,
       decoded,
     ),
-  "connection lost amid the body": (scheduler, { signal }) => {
+  "connection lost during the body": (scheduler, { signal }) => {
     const body = new ReadableStream({
       pull(controller) {
         controller.enqueue(new Uint8Array(3));
@@ -41,7 +41,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
   },
   silence: (scheduler, { signal }) =>
     downloadInSlot(scheduler, subject, url, signal, { ...unanswered, idleTimeoutMs: 5 }, listener, decoded),
-  "abort before asking": (scheduler, aborter) => {
+  "abort before the request": (scheduler, aborter) => {
     aborter.abort();
     return downloadInSlot(scheduler, subject, url, aborter.signal, ok, listener, decoded);
   },
@@ -119,7 +119,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
     ),
 };
 
-/** The slots that are free: as many jobs as hold one at the same time. */
+/** The number of free slots: that of jobs which run at the same time. */
 async function freeSlots(scheduler: Scheduler): Promise<number> {
   const aborter = new AbortController();
   let started = 0;
@@ -139,7 +139,7 @@ async function freeSlots(scheduler: Scheduler): Promise<number> {
   return started;
 }
 
-describe("a slot comes back exactly once", () => {
+describe("a slot is released exactly once", () => {
   for (const [name, run] of Object.entries(outcomes)) {
     test(`after: ${name}`, async () => {
       const scheduler = new Scheduler(2);
@@ -166,7 +166,7 @@ describe("a slot comes back exactly once", () => {
 describe("jobs", () => {
   const { signal } = new AbortController();
 
-  /** Sends jobs of these priorities through one slot and tells their order; `before` runs when all wait. */
+  /** Runs jobs of these priorities in one slot and returns their order; `before` runs while all are waiting. */
   async function orderOf(
     priorities: readonly number[],
     before?: (scheduler: Scheduler, subjects: { priority: number }[]) => void,
@@ -174,17 +174,17 @@ describe("jobs", () => {
     const scheduler = new Scheduler(1);
     const order: number[] = [];
     const subjects = priorities.map((priority) => ({ priority }));
-    const jobs = subjects.map((each, place) => scheduler.run(each, signal, () => Promise.resolve(order.push(place))));
+    const jobs = subjects.map((each, index) => scheduler.run(each, signal, () => Promise.resolve(order.push(index))));
     before?.(scheduler, subjects);
     await Promise.all(jobs);
     return order;
   }
 
-  test("of a larger priority go first, equals in their order", async () => {
+  test("run by priority, those of equal priority in their order", async () => {
     assert.deepEqual(await orderOf([0, 1, 0, 2, 1, 2]), [3, 5, 1, 4, 0, 2]);
   });
 
-  test("change places while they wait", async () => {
+  test("are reordered while they wait", async () => {
     assert.deepEqual(
       await orderOf([3, 2, 1], (scheduler, [first, , last]) => {
         Object.assign(first ?? {}, { priority: 0 });
@@ -195,7 +195,7 @@ describe("jobs", () => {
     );
   });
 
-  test("are ordered by what counted before until a change is told", async () => {
+  test("keep their order until `reorder` is called", async () => {
     assert.deepEqual(
       await orderOf([3, 2], (_, [first]) => {
         Object.assign(first ?? {}, { priority: 0 });
@@ -204,22 +204,22 @@ describe("jobs", () => {
     );
   });
 
-  test("never run in more slots than there are, and leave none idle", async () => {
+  test("use all slots, and never more", async () => {
     const scheduler = new Scheduler(3);
-    let most = 0;
+    let maxRunning = 0;
     await Promise.all(
       Array.from({ length: 20 }, () =>
         scheduler.run(subject, signal, async () => {
-          most = Math.max(most, scheduler.runningCount);
+          maxRunning = Math.max(maxRunning, scheduler.runningCount);
           await new Promise((resolve) => setTimeout(resolve, 1));
         }),
       ),
     );
-    assert.equal(most, 3);
+    assert.equal(maxRunning, 3);
     assert.equal(scheduler.startedCount, 20);
   });
 
-  test("get further slots at once, and lose them when they end", async () => {
+  test("use additional slots at once, and give up removed slots when they end", async () => {
     const scheduler = new Scheduler(1);
     const pause = () => new Promise((resolve) => setTimeout(resolve, 5));
     const jobs = Array.from({ length: 12 }, () => scheduler.run(subject, signal, pause));
@@ -235,7 +235,7 @@ describe("jobs", () => {
     assert.equal(await freeSlots(scheduler), 2);
   });
 
-  test("that are aborted while they wait never start, and leave the others alone", async () => {
+  test("that are aborted while they wait never start, and others run", async () => {
     const scheduler = new Scheduler(1);
     const aborter = new AbortController();
     const ran: string[] = [];
@@ -249,7 +249,7 @@ describe("jobs", () => {
     assert.deepEqual(ran, ["first", "last"]);
   });
 
-  test("by the ten thousands are reordered, aborted and run", async () => {
+  test("are reordered, aborted and run by the ten thousands", async () => {
     const scheduler = new Scheduler(6);
     const count = 20_000;
     const aborters = Array.from({ length: count }, () => new AbortController());
@@ -269,7 +269,7 @@ describe("jobs", () => {
       if (n % 2 === 1) aborter.abort();
     });
     await Promise.allSettled(jobs);
-    // With a list that is sorted or searched for each job this would take minutes.
+    // If a list were sorted or searched for each job, this would take minutes.
     assert.equal(ran, count / 2);
   });
 });

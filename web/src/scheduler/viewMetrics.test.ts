@@ -5,14 +5,14 @@ import { planesOf, scaleOf, sphereOf, viewMetricsOf } from "./viewMetrics.ts";
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-/** At the origin, looking along -z, 90 degrees both ways, 1000 pixels; sees z from -1 to -100. */
+/** A camera at the origin that looks along -z, with 90 degrees and 1000 pixels both ways, and z from -1 to -100. */
 const clipFromScene = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -101 / 99, -1, 0, 0, -200 / 99, 0];
 const camera: Camera = { position: [0, 0, 0], planes: planesOf(clipFromScene), pixelsPerUnit: 500, near: 1 };
 
 const ball = (center: Point, radius: number) => viewMetricsOf({ center, radius }, camera);
 
-describe("what a camera sees", () => {
-  test("is inside of its six planes, or reaches into them", () => {
+describe("the view metrics of a sphere", () => {
+  test("are those of a sphere in view if it is inside of the six planes or crosses them", () => {
     for (const center of [
       [0, 0, -10],
       [9.9, -9.9, -10],
@@ -32,25 +32,25 @@ describe("what a camera sees", () => {
     assert.ok(!ball([12, 0, -10], 1).isInView);
   });
 
-  test("is half as large at twice the distance, wherever the camera looks", () => {
+  test("halve its size at twice the distance, wherever the camera looks", () => {
     assert.equal(ball([0, 0, -10], 1).pixels, 100);
     assert.equal(ball([0, 0, -20], 1).pixels, 50);
     assert.equal(ball([0, 20, 0], 1).pixels, 50);
   });
 
-  test("is as large as can be, and finite, from inside", () => {
+  test("give it the maximum size, which is finite, around the camera", () => {
     assert.equal(ball([0, 0, -0.5], 4).pixels, 1000);
     assert.equal(ball([0, 0, 0], 0).pixels, 0);
     assert.equal(ball([0, 0, -3], 5).pixelsPerUnit, 500);
   });
 
-  test("is as fine as its nearest point", () => {
+  test("give it the scale at its nearest point", () => {
     assert.equal(ball([0, 0, -10], 5).pixelsPerUnit, 100);
   });
 });
 
 describe("the sphere around a box", () => {
-  test("holds all corners, and touches one, under any matrix", () => {
+  test("holds all corners, and touches one, with any matrix", () => {
     for (const matrix of [
       identity,
       [2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1],
@@ -62,12 +62,12 @@ describe("the sphere around a box", () => {
       const { center, radius } = sphereOf({ min, max }, matrix);
       const distances = Array.from({ length: 8 }, (_, corner) => {
         const point = [0, 1, 2].map((axis) => (((corner >> axis) & 1) === 1 ? max : min)[axis] ?? 0);
-        const placed = [0, 1, 2].map(
+        const transformed = [0, 1, 2].map(
           (row) =>
             (matrix[12 + row] ?? 0) +
             [0, 1, 2].reduce((sum, axis) => sum + (matrix[4 * axis + row] ?? 0) * (point[axis] ?? 0), 0),
         );
-        return Math.hypot(...placed.map((value, axis) => value - (center[axis] ?? 0)));
+        return Math.hypot(...transformed.map((value, axis) => value - (center[axis] ?? 0)));
       });
       assert.ok(Math.abs(Math.max(...distances) - radius) < 1e-9, `${distances.join(" ")} in ${radius}`);
     }

@@ -9,10 +9,10 @@ import { runJob } from "./worker.ts";
 import type { JobWorker } from "./workerPool.ts";
 import { WorkerPool } from "./workerPool.ts";
 
-/** Workers that answer when they are told to. */
-function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
-  const workers: { asked: JobMessage[]; isEnded: boolean; answer: (answer: AnswerMessage) => void }[] = [];
-  const here: JobMessage[] = [];
+/** A pool with fake workers, which answer when the test calls `answer`. */
+function poolWithFakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
+  const workers: { received: JobMessage[]; isEnded: boolean; answer: (answer: AnswerMessage) => void }[] = [];
+  const onMainThread: JobMessage[] = [];
   const pool = new WorkerPool({
     size,
     idleMs,
@@ -22,7 +22,7 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
         onmessage: null,
         onerror: null,
         postMessage: (message) => {
-          fake.asked.push(message);
+          fake.received.push(message);
           if (broken) setTimeout(() => worker.onerror?.({ preventDefault: () => undefined } as ErrorEvent));
         },
         terminate: () => {
@@ -30,7 +30,7 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
         },
       };
       const fake = {
-        asked: [] as JobMessage[],
+        received: [] as JobMessage[],
         isEnded: false,
         answer: (answer: AnswerMessage) => worker.onmessage?.({ data: answer } as MessageEvent<AnswerMessage>),
       };
@@ -39,11 +39,11 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
     },
     prepareMainThread: () => undefined,
     runOnMainThread: (message) => {
-      here.push(message);
+      onMainThread.push(message);
       return runJob(message);
     },
   });
-  return { pool, workers, here };
+  return { pool, workers, onMainThread };
 }
 
 const input = (n: number): NormalJob => ({
@@ -52,21 +52,21 @@ const input = (n: number): NormalJob => ({
   count: 2,
   rowLength: 0,
 });
-const forever = new AbortController().signal;
+const noAbort = new AbortController().signal;
 const output = (n: number) => ({ output: { array: Uint8Array.from([n]), components: 3, stride: 4, offset: 0 } });
 const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 describe("jobs", () => {
-  test("run in as many workers as there are jobs, and as are allowed; the rest wait", async () => {
-    const { pool, workers } = fakes();
-    const jobs = [1, 2, 3].map((n) => pool.run("classicNormals", input(n), forever));
+  test("run in one worker each, up to the limit; the rest wait", async () => {
+    const { pool, workers } = poolWithFakes();
+    const jobs = [1, 2, 3].map((n) => pool.run("classicNormals", input(n), noAbort));
     assert.deepEqual(
-      workers.map(({ asked }) => asked.length),
+      workers.map(({ received }) => received.length),
       [1, 1],
     );
     workers[1]?.answer(output(2));
     assert.deepEqual(
-      workers.map(({ asked }) => asked.length),
+      workers.map(({ received }) => received.length),
       [1, 2],
     );
     workers[0]?.answer(output(1));
@@ -79,10 +79,10 @@ describe("jobs", () => {
     assert.ok(workers.every(({ isEnded }) => isEnded));
   });
 
-  test("fail with their own errors, and the worker goes on", async () => {
-    const { pool, workers } = fakes({ size: 1 });
-    const failing = pool.run("classicNormals", input(1), forever);
-    const next = pool.run("classicNormals", input(2), forever);
+  test("reject with their own errors, and the worker continues", async () => {
+    const { pool, workers } = poolWithFakes({ size: 1 });
+    const failing = pool.run("classicNormals", input(1), noAbort);
+    const next = pool.run("classicNormals", input(2), noAbort);
     workers[0]?.answer(asAnswer(new DecodeError("truncated", "is short")));
     await assert.rejects(
       failing,
@@ -93,51 +93,51 @@ describe("jobs", () => {
     pool.dispose();
   });
 
-  test("that are aborted are not begun; those that run are dropped, and their worker is free after", async () => {
-    const { pool, workers } = fakes({ size: 1 });
+  test("that are aborted do not begin; the result of a running one is dropped, and its worker is then free", async () => {
+    const { pool, workers } = poolWithFakes({ size: 1 });
     const aborter = new AbortController();
     const running = pool.run("classicNormals", input(1), aborter.signal);
     const waiting = pool.run("classicNormals", input(2), aborter.signal);
-    const other = pool.run("classicNormals", input(3), forever);
+    const other = pool.run("classicNormals", input(3), noAbort);
     aborter.abort();
     await assert.rejects(running, { name: "AbortError" });
     await assert.rejects(waiting, { name: "AbortError" });
     await assert.rejects(pool.run("classicNormals", input(4), aborter.signal), { name: "AbortError" });
-    assert.equal(workers[0]?.asked.length, 1);
+    assert.equal(workers[0]?.received.length, 1);
     workers[0].answer(output(1));
     workers[0].answer(output(3));
     assert.equal((await other).array[0], 3);
     pool.dispose();
   });
 
-  test("find workers that were started for them, no more than are allowed", async () => {
-    const { pool, workers } = fakes({ size: 2, idleMs: 1 });
+  test("use workers that were prepared for them, up to the limit", async () => {
+    const { pool, workers } = poolWithFakes({ size: 2, idleMs: 1 });
     pool.prepare(1);
     assert.equal(workers.length, 1);
     pool.prepare(5);
     assert.equal(workers.length, 2);
-    const job = pool.run("classicNormals", input(1), forever);
+    const job = pool.run("classicNormals", input(1), noAbort);
     assert.deepEqual(
-      workers.map(({ asked }) => asked.length),
+      workers.map(({ received }) => received.length),
       [1, 0],
     );
     workers[0]?.answer(output(1));
     await job;
     await soon();
     assert.deepEqual([pool.workerCount, workers.every(({ isEnded }) => isEnded)], [0, true]);
-    const none = fakes({ start: false });
+    const none = poolWithFakes({ start: false });
     none.pool.prepare(2);
     assert.equal(none.pool.workerCount, 0);
   });
 
-  test("end the workers that have none for a while", async () => {
-    const { pool, workers } = fakes({ idleMs: 1 });
-    const job = pool.run("classicNormals", input(1), forever);
+  test("leave workers idle, which end after a while", async () => {
+    const { pool, workers } = poolWithFakes({ idleMs: 1 });
+    const job = pool.run("classicNormals", input(1), noAbort);
     workers[0]?.answer(output(1));
     await job;
     await soon();
     assert.deepEqual([pool.workerCount, workers[0]?.isEnded], [0, true]);
-    const again = pool.run("classicNormals", input(2), forever);
+    const again = pool.run("classicNormals", input(2), noAbort);
     workers[1]?.answer(output(2));
     assert.equal((await again).array[0], 2);
     pool.dispose();
@@ -147,14 +147,14 @@ describe("jobs", () => {
     ["cannot be started", { start: false }],
     ["do not load", { broken: true }],
   ] as const) {
-    test(`are done in the page where workers ${why}`, async () => {
-      const { pool, here } = fakes(options);
-      const results = await Promise.all([1, 20, 40].map((n) => pool.run("classicNormals", input(n), forever)));
+    test(`run on the main thread where workers ${why}`, async () => {
+      const { pool, onMainThread } = poolWithFakes(options);
+      const results = await Promise.all([1, 20, 40].map((n) => pool.run("classicNormals", input(n), noAbort)));
       assert.deepEqual(
         results.map(({ array }) => array[4]),
         [2, 21, 41],
       );
-      assert.equal(here.length, 3);
+      assert.equal(onMainThread.length, 3);
       assert.equal(pool.workerCount, 0);
       const bad: IndexJob = {
         file: { png: pngWithTexels(4, 1, 3, () => 255), firstTexel: 0 },
@@ -165,12 +165,12 @@ describe("jobs", () => {
         coordHeight: 1,
         recordCount: 1,
       };
-      await assert.rejects(pool.run("classicIndex", bad, forever), { name: "DecodeError" });
+      await assert.rejects(pool.run("classicIndex", bad, noAbort), { name: "DecodeError" });
     });
   }
 });
 
-test("messages hand over the memory of all arrays in them, once, and errors keep their kind", () => {
+test("messages transfer the buffer of each array once, and errors keep their kind", () => {
   const shared = new ArrayBuffer(8);
   const value = {
     a: new Uint8Array(shared),

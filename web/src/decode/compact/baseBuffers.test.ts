@@ -1,4 +1,4 @@
-// The parts of a base against the vectors' plain numbers.
+// Compares the segments of base meshes with the plain numbers that the vectors state.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -13,28 +13,34 @@ interface Expected {
   readonly partCount: number;
 }
 
-describe("the parts of a base", () => {
+describe("the segments of a base mesh", () => {
   for (const name of ["base", "base-colors", "base-seams"]) {
-    test(`of "${name}" have the triangles of the whole, each once, over vertices of their own`, () => {
-      const { positions, wedgePositions, corners, parts, partCount } = (readVector(name) as Expected[])[0]!;
-      const placeOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
-      const expected = Array.from({ length: partCount }, (_, part) =>
-        parts.flatMap((p, t) =>
-          p === part
+    test(`in "${name}" have each triangle of the base mesh once, with vertices of their own`, () => {
+      const {
+        positions,
+        wedgePositions,
+        corners,
+        parts: segments,
+        partCount: segmentCount,
+      } = (readVector(name) as Expected[])[0]!;
+      const positionOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
+      const expected = Array.from({ length: segmentCount }, (_, segment) =>
+        segments.flatMap((s, t) =>
+          s === segment
             ? [
                 corners
                   .slice(3 * t, 3 * t + 3)
-                  .map(placeOf)
+                  .map(positionOf)
                   .join(" "),
               ]
             : [],
         ),
       );
       const buffers = new Base(decodeVector(name)[0]!).segments;
-      assert.equal(buffers.length, partCount);
+      assert.equal(buffers.length, segmentCount);
       assert.deepEqual(
-        buffers.map((part) => {
-          if (part === undefined) return [];
+        buffers.map((segment) => {
+          if (segment === undefined) return [];
           const {
             coord: { array, stride },
             vertexCount,
@@ -42,10 +48,10 @@ describe("the parts of a base", () => {
             color,
             texCoord,
             others,
-          } = part;
-          for (const vertices of [part.coord, normal, color, texCoord, ...others.map((other) => other.vertices)])
+          } = segment;
+          for (const vertices of [segment.coord, normal, color, texCoord, ...others.map((other) => other.vertices)])
             if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
-          const index = Array.from(part.index!);
+          const index = Array.from(segment.index!);
           assert.deepEqual(new Set(index), new Set(Array.from({ length: vertexCount }, (_, n) => n)));
           return Array.from({ length: index.length / 3 }, (_, t) =>
             index
@@ -59,28 +65,28 @@ describe("the parts of a base", () => {
     });
   }
 
-  test("are all in one at first", () => {
+  test("are joined in the whole base mesh", () => {
     const { corners, wedgePositions, positions } = (readVector("base-seams") as Expected[])[0]!;
-    const { whole, segmentCount: partCount } = new Base(decodeVector("base-seams")[0]!);
+    const { whole, segmentCount } = new Base(decodeVector("base-seams")[0]!);
     assert.deepEqual(Array.from(whole.index!), corners);
     const { array, stride } = whole.coord;
-    const places = Array.from({ length: whole.vertexCount }, (_, w) =>
+    const vertexPositions = Array.from({ length: whole.vertexCount }, (_, w) =>
       Array.from(array.subarray(stride * w, stride * w + 3)),
     );
     assert.deepEqual(
-      places,
+      vertexPositions,
       wedgePositions.map((v) => positions.slice(3 * v, 3 * v + 3)),
     );
-    assert.ok(partCount > 1);
+    assert.ok(segmentCount > 1);
   });
 
-  test("have one normal at each place, whatever seams the texture has", () => {
+  test("have one normal at each position, whatever seams the texture has", () => {
     const normals = new Map<string, string>();
     let seams = 0;
-    for (const part of new Base(decodeVector("base-seams")[0]!).segments) {
-      if (part?.normal === undefined) continue;
-      const { coord, normal } = part;
-      for (let n = 0; n < part.vertexCount; ++n) {
+    for (const segment of new Base(decodeVector("base-seams")[0]!).segments) {
+      if (segment?.normal === undefined) continue;
+      const { coord, normal } = segment;
+      for (let n = 0; n < segment.vertexCount; ++n) {
         const at = ({ array, stride }: typeof coord) => array.subarray(n * stride, n * stride + 3).join();
         const known = normals.get(at(coord));
         if (known === undefined) normals.set(at(coord), at(normal));
@@ -91,7 +97,7 @@ describe("the parts of a base", () => {
     assert.ok(seams > 10);
   });
 
-  test("are not those of a patch", () => {
+  test("are refused in a patch that is no base mesh", () => {
     assert.throws(() => new Base(decodeVector("sphere")[0]!), /a patch where a base should be/);
   });
 });

@@ -1,5 +1,5 @@
-// The decoder against vectors/, which the encoder's tests wrote and the C++
-// decoder reads as well, and against damage of every kind.
+// Tests the decoder with vectors/compact-1, which the tests of the encoder write and the C++ decoder reads as well, and
+// with damaged files of every kind.
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "../decodeError.ts";
@@ -16,22 +16,22 @@ const headersOf = (payload: Uint8Array) => decodePatches(payload, ({ header }) =
 
 interface Edit {
   readonly file: string;
-  /** Bytes and what to put there. */
+  /** Byte offsets, and the new values of the bytes. */
   readonly edits: [number, number][];
-  /** Where to cut, after that. */
+  /** The length to cut the payload to after that. */
   readonly length?: number;
   readonly verdict: number | DecodeError["kind"];
 }
 
-/** A whole payload. */
+/** A payload that is refused. */
 interface Refused {
   readonly name: string;
-  /** In base 16. */
+  /** In hexadecimal. */
   readonly payload: string;
   readonly verdict: DecodeError["kind"];
 }
 
-/** All that a reader has to refuse in a payload (docs/formats/compact.md), in this one's words. */
+/** Everything that a reader must refuse in a payload (docs/formats/compact.md), by the messages of this reader. */
 const refusals = [
   /is no image of compact/,
   /of version \d+ of compact/,
@@ -81,7 +81,7 @@ const refusals = [
   /value that its bits cannot hold/,
 ];
 
-/** What is said of a payload that is refused. */
+/** The message with which a payload is refused; empty if it is not. */
 function refusalOf(payload: Uint8Array): string {
   try {
     decodePatches(payload, () => undefined);
@@ -93,7 +93,7 @@ function refusalOf(payload: Uint8Array): string {
 
 function edited({ file, edits, length }: Edit): Uint8Array {
   const payload = payloads.get(file)!.slice();
-  for (const [place, value] of edits) payload[place] = value;
+  for (const [byteOffset, value] of edits) payload[byteOffset] = value;
   return payload.subarray(0, length);
 }
 
@@ -104,7 +104,7 @@ describe("a file of compact", () => {
     });
   }
 
-  test("there are vectors of every topology, of several patches, with and without a grid, seams and every attribute", () => {
+  test("has vectors of every topology, of several patches, with and without a grid, with seams and every attribute", () => {
     assert.ok(names.length > 15);
     const files = names.map((name) => headersOf(readPayload(name)));
     assert.ok(files.some((headers) => headers.length > 1));
@@ -125,42 +125,42 @@ describe("a file of compact", () => {
     assert.ok(attributes.some(({ isUniform }) => isUniform) && attributes.some(({ isDerived }) => isDerived));
   });
 
-  test("is refused as it should be, or decodes as it should, after every edit that the vectors state", () => {
+  test("is refused or decoded as the vectors state, after every edit that they state", () => {
     for (const edit of readVector("edits") as Edit[])
       assert.equal(verdictOn(edited(edit)), edit.verdict, JSON.stringify(edit));
   });
 
-  test("is refused where the vectors are made to be, and for everything that there is to refuse", () => {
+  test("is refused as the vectors state, which cover every reason to refuse it", () => {
     const refused = (readVector("refused") as Refused[]).map((each) => ({
       ...each,
       payload: Uint8Array.from(Buffer.from(each.payload, "hex")),
     }));
     for (const { name, payload, verdict } of refused) assert.equal(verdictOn(payload), verdict, name);
-    const said = new Set(
+    const messages = new Set(
       [...refused.map(({ payload }) => payload), ...(readVector("edits") as Edit[]).map(edited)].map(refusalOf),
     );
     for (const refusal of refusals)
       assert.ok(
-        [...said].some((message) => refusal.test(message)),
+        [...messages].some((message) => refusal.test(message)),
         `no vector is refused with ${String(refusal)}`,
       );
-    for (const message of said)
+    for (const message of messages)
       assert.ok(
         message === "" || refusals.some((refusal) => refusal.test(message)),
-        `"${message}" is of no kind that is listed`,
+        `the list of refusals lacks "${message}"`,
       );
   });
 
-  test("is decoded or refused, quickly, whatever its bytes", () => {
+  test("is decoded or refused in a short time, whatever its bytes", () => {
     const random = new TestRandom(1);
-    // Processor time, since a busy machine may take any.
+    // Processor time, since other processes delay the wall clock.
     const milliseconds = () => process.cpuUsage().user / 1000;
     const started = milliseconds();
     let refusals = 0;
     for (let round = 0; round < 4000; ++round) {
       const payload = payloads.get(names[random.below(names.length)]!)!.slice();
       for (let edit = random.below(4); edit >= 0; --edit) {
-        // Headers are what hostile counts come from.
+        // Half of the edits change the header, which holds the counts.
         payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] =
           random.below(256);
       }
@@ -172,22 +172,22 @@ describe("a file of compact", () => {
     assert.ok(milliseconds() - started < 60_000);
   });
 
-  test("is refused with a sentence that names what is wrong", () => {
+  test("is refused with a message that names the problem", () => {
     const payload = readPayload("sphere");
-    const at = (place: number, value: number) => {
+    const withByte = (byteOffset: number, value: number) => {
       const changed = payload.slice();
-      changed[place] = value;
+      changed[byteOffset] = value;
       return changed;
     };
     for (const [changed, kind, message] of [
-      [at(0, 0), "malformed", /no image of compact/],
-      [at(3, 2), "unsupported", /version 2 of compact, not 1/],
-      [at(5, 4), "malformed", /4 as kind of an attribute; 0 to 3/],
-      [at(10, 4), "malformed", /4 as topology; 1 to 3/],
-      [at(11, 31), "malformed", /31 as bits of a position/],
-      [at(13, 17), "malformed", /17 as number of attributes/],
-      [at(14, 1), "malformed", /1 as attribute/],
-      [at(15, 0), "malformed", /0 as number of patches/],
+      [withByte(0, 0), "malformed", /no image of compact/],
+      [withByte(3, 2), "unsupported", /version 2 of compact, not 1/],
+      [withByte(5, 4), "malformed", /4 as kind of an attribute; 0 to 3/],
+      [withByte(10, 4), "malformed", /4 as topology; 1 to 3/],
+      [withByte(11, 31), "malformed", /31 as bits of a position/],
+      [withByte(13, 17), "malformed", /17 as number of attributes/],
+      [withByte(14, 1), "malformed", /1 as attribute/],
+      [withByte(15, 0), "malformed", /0 as number of patches/],
       [payload.slice(0, 20), "truncated", /ends before its streams do/],
     ] as const) {
       assert.throws(

@@ -8,7 +8,7 @@ function at({ array, components, stride, offset }: VertexArray, n: number): numb
   return Array.from(array.subarray(stride * n + offset, stride * n + offset + components));
 }
 
-/** Elements as what a GPU would make of them, in an order of their own. */
+/** The vertices of each element as text, in sorted order. */
 function elementsOf(corners: ArrayLike<number>, perElement: number, textOf: (wedge: number) => string): string[] {
   return Array.from({ length: corners.length / perElement }, (_, element) =>
     Array.from({ length: perElement }, (_, i) => textOf(corners[perElement * element + i]!)).join(" | "),
@@ -17,7 +17,7 @@ function elementsOf(corners: ArrayLike<number>, perElement: number, textOf: (wed
 
 describe("buffers", () => {
   for (const name of vectorNames()) {
-    test(`of "${name}" draw the patch's elements at its places`, () => {
+    test(`of "${name}" draw the elements of the patch at its positions`, () => {
       const patch = decodeVector(name)[0]!;
       const {
         header,
@@ -28,7 +28,7 @@ describe("buffers", () => {
       const buffers = buffersOf(patch);
       const perElement = { points: 1, lines: 2, triangles: 3 }[header.topology];
       const running = Array.from({ length: header.wedgeCount }, (_, n) => n);
-      const placeOf = (w: number) => {
+      const positionOf = (w: number) => {
         const v = seams ? vertex[seams.corner[w]!]! : w;
         return coordinates.subarray(3 * v, 3 * v + 3);
       };
@@ -37,7 +37,7 @@ describe("buffers", () => {
         elementsOf(
           header.topology === "points" ? running : wedge,
           perElement,
-          (w) => `${w}: ${Array.from(placeOf(w), Math.fround).join()}`,
+          (w) => `${w}: ${Array.from(positionOf(w), Math.fround).join()}`,
         ),
       );
       assert.equal(buffers.vertexCount, header.wedgeCount);
@@ -45,18 +45,19 @@ describe("buffers", () => {
       assert.equal(BYTES_PER_ELEMENT, header.positionBits <= 8 ? 1 : header.positionBits <= 16 ? 2 : 4);
     });
 
-    test(`of "${name}" hold its normals and colours to half a step`, () => {
+    test(`of "${name}" hold its normals and colours, rounded to half a step`, () => {
       const patch = decodeVector(name)[0]!;
       const buffers = buffersOf(patch);
-      for (const [place, { kind, bits, components }] of patch.header.attributes.entries()) {
-        if (kind === "other" || patch.header.attributes.findIndex((type) => type.kind === kind) < place) continue;
+      for (const [attributeIndex, { kind, bits, components }] of patch.header.attributes.entries()) {
+        if (kind === "other" || patch.header.attributes.findIndex((type) => type.kind === kind) < attributeIndex)
+          continue;
         const buffer = buffers[kind];
         assert.ok(buffer);
-        const largest = kind === "normal" ? 1 : buffer.array.BYTES_PER_ELEMENT === 1 ? 255 : 65535;
-        const most = kind === "normal" ? 1 : 2 ** bits - 1;
+        const maxOutput = kind === "normal" ? 1 : buffer.array.BYTES_PER_ELEMENT === 1 ? 255 : 65535;
+        const maxStored = kind === "normal" ? 1 : 2 ** bits - 1;
         for (let n = 0; n < buffers.vertexCount; ++n) {
           at(buffer, n).forEach((value, i) => {
-            const exact = (patch.attributes[place]![components * n + i]! * largest) / most;
+            const exact = (patch.attributes[attributeIndex]![components * n + i]! * maxOutput) / maxStored;
             assert.ok(Math.abs(value - exact) <= 0.5, `${kind} ${n}: ${value} for ${exact}`);
           });
         }
@@ -64,7 +65,7 @@ describe("buffers", () => {
     });
   }
 
-  test("index up to 65,535 vertices with two bytes", () => {
+  test("have 16-bit indices up to 65,535 vertices", () => {
     const patch = decodeVector("triangle")[0]!;
     const indexOf = (wedgeCount: number) =>
       buffersOf({

@@ -9,7 +9,7 @@ interface Call {
   readonly check: (decoder: RangeDecoder) => void;
 }
 
-/** Any of the decoder's calls, in models of its own, with a value that is small more often than not. */
+/** A random call of the decoder, with random models and a value that is mostly small. */
 function randomCall(random: TestRandom): Call {
   const models = 32 * random.below(4);
   const value = random.below(2 ** random.below(31));
@@ -84,7 +84,7 @@ function decode(bytes: Uint8Array, calls: readonly Call[]): void {
 }
 
 describe("a stream", () => {
-  test("gives back whatever was written, in the same order", () => {
+  test("returns the written values in their order", () => {
     for (let seed = 0; seed < 300; ++seed) {
       const random = new TestRandom(seed);
       const calls = Array.from({ length: random.below(400) }, () => randomCall(random));
@@ -92,13 +92,13 @@ describe("a stream", () => {
     }
   });
 
-  test("of bits that are nearly always the same is short, and long ones have their carries", () => {
-    const calls = Array.from({ length: 200_000 }, (_, place): Call => ({
+  test("of nearly constant bits is short, and carries run through it", () => {
+    const calls = Array.from({ length: 200_000 }, (_, index): Call => ({
       encode: (encoder) => {
-        encoder.bit(0, place % 997 === 0);
+        encoder.bit(0, index % 997 === 0);
       },
       check: (decoder) => {
-        assert.ok(decoder.bit(0) === Number(place % 997 === 0));
+        assert.ok(decoder.bit(0) === Number(index % 997 === 0));
       },
     }));
     const bytes = encoded(calls);
@@ -106,7 +106,7 @@ describe("a stream", () => {
     decode(bytes, calls);
   });
 
-  test("is refused with a byte more or less at either end", () => {
+  test("is refused with one byte more or less at either end", () => {
     const refused = (error: unknown) => error instanceof DecodeError && error.kind === "malformed";
     for (const calls of [
       [],
@@ -136,7 +136,7 @@ describe("a stream", () => {
     }
   });
 
-  test("ends every attempt to read on", () => {
+  test("ends every attempt to read beyond it", () => {
     const calls: ((decoder: RangeDecoder) => void)[] = [
       (decoder) => decoder.bit(0),
       (decoder) => decoder.raw(1),

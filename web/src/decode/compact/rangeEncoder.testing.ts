@@ -1,5 +1,5 @@
-// Writes streams for tests of the decoder: docs/formats/compact.md, "Stream", the
-// other way round. Slow and plain, so that it can be checked by eye.
+// Encodes streams for tests of the decoder, by the inverse of docs/formats/compact.md, "Stream". Slow and simple, so
+// that it can be compared with the text.
 
 const one = 1 << 24;
 
@@ -32,7 +32,7 @@ export class TestEncoder {
   }
 
   raw(count: number, value: number): void {
-    for (let place = 0; place < count; ++place) this.#rawBits.push((value >>> place) & 1);
+    for (let i = 0; i < count; ++i) this.#rawBits.push((value >>> i) & 1);
   }
 
   tree(models: number, depth: number, value: number): void {
@@ -57,15 +57,15 @@ export class TestEncoder {
 
   small(models: number, value: number): void {
     const length = lengthOf(value);
-    for (let place = 0; place < Math.min(length + 1, 30); ++place) this.bit(models + place, place === length);
+    for (let i = 0; i < Math.min(length + 1, 30); ++i) this.bit(models + i, i === length);
     this.#rest(length, value);
   }
 
   finish(): Uint8Array<ArrayBuffer> {
-    for (let place = 0; place < 3; ++place) this.#shiftOut();
+    for (let i = 0; i < 3; ++i) this.#shiftOut();
     const back: number[] = [];
-    this.#rawBits.forEach((bit, place) => {
-      back[place >>> 3] = (back[place >>> 3] ?? 0) | (bit << (place & 7));
+    this.#rawBits.forEach((bit, i) => {
+      back[i >>> 3] = (back[i >>> 3] ?? 0) | (bit << (i & 7));
     });
     return Uint8Array.from([...this.#front, ...back.reverse()]);
   }
@@ -93,12 +93,12 @@ export class TestEncoder {
   }
 }
 
-/** In bits. */
+/** The bit length of a magnitude. */
 function lengthOf(value: number): number {
   return value === 0 ? 0 : Math.floor(Math.log2(Math.abs(value))) + 1;
 }
 
-/** Numbers that look random and are the same every time: Marsaglia, "Xorshift RNGs", 2003. */
+/** Pseudorandom numbers, the same in every run: Marsaglia, "Xorshift RNGs", 2003. */
 export class TestRandom {
   #state: number;
 
@@ -106,7 +106,7 @@ export class TestRandom {
     this.#state = Math.imul(seed + 1, 0x9e3779b1) | 1;
   }
 
-  /** 0 … limit - 1. */
+  /** A number 0 … limit - 1. */
   below(limit: number): number {
     this.#state ^= this.#state << 13;
     this.#state ^= this.#state >>> 17;

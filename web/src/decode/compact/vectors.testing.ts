@@ -1,4 +1,4 @@
-// The files of vectors/ (docs/formats/compact.md, "Conformance").
+// Reads the files of vectors/compact-1 (docs/formats/compact.md, "Conformance").
 
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -8,14 +8,14 @@ import { decodePatches } from "./patch.ts";
 
 const folder = join(import.meta.dirname, "../../../../vectors/compact-1");
 
-/** Of the files that hold patches. */
+/** The names of the files that hold patches. */
 export function vectorNames(): string[] {
   return readdirSync(folder)
     .filter((name) => name.endsWith(".png"))
     .map((name) => name.slice(0, -".png".length));
 }
 
-/** What NAME.json states. */
+/** The content of NAME.json. */
 export function readVector(name: string): unknown {
   return JSON.parse(readFileSync(join(folder, `${name}.json`), "utf8")) as unknown;
 }
@@ -40,7 +40,7 @@ export function decodeVector(name: string): CompactPatch[] {
   return decodePatches(readPayload(name), (patch) => patch);
 }
 
-/** NAME.png as it stands. */
+/** The bytes of NAME.png. */
 export function readVectorFile(name: string): Uint8Array<ArrayBuffer> {
   return new Uint8Array(readFileSync(join(folder, `${name}.png`)));
 }

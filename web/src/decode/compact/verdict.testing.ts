@@ -1,18 +1,18 @@
-// What comes of a file of compact, in one word that every reader is held to
-// (src/containers/compact/verdict.h has the same).
+// The outcome of decoding a file of compact as one value, which is the same for all readers
+// (src/containers/compact/verdict.h computes it in C++).
 
 import { DecodeError } from "../decodeError.ts";
 import type { CompactPatch } from "./patch.ts";
 import { decodePatches } from "./patch.ts";
 
-/** What a vector's JSON states of each patch. */
+/** A patch as the JSON of a vector states it. */
 export interface StatedPatch {
   readonly topology: number;
   readonly positionBits: number;
   readonly positions: number[];
   readonly wedgePositions: number[];
   readonly corners: number[];
-  /** Of a base. */
+  /** Base meshes only: the segment of each triangle, and the number of segments. */
   readonly parts?: number[];
   readonly partCount?: number;
   readonly attributes: {
@@ -24,14 +24,14 @@ export interface StatedPatch {
   }[];
 }
 
-/** A patch in the words of the vectors; for `decodePatches`. */
+/** Converts a patch to the form of the vectors; for `decodePatches`. */
 export function stated({
   header,
   coordinates,
   connectivity,
   wedges: { wedge, seams },
   attributes,
-  segments: parts,
+  segments,
 }: CompactPatch): StatedPatch {
   const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
   return {
@@ -40,9 +40,9 @@ export function stated({
     positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
     wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : running,
     corners: header.topology === "points" ? running : Array.from(wedge),
-    ...(parts && { parts: Array.from(parts.segment), partCount: header.segmentCount }),
-    attributes: attributes.map((values, place) => {
-      const { kind, components, bits, isUniform, isDerived } = header.attributes[place]!;
+    ...(segments && { parts: Array.from(segments.segment), partCount: header.segmentCount }),
+    attributes: attributes.map((values, attributeIndex) => {
+      const { kind, components, bits, isUniform, isDerived } = header.attributes[attributeIndex]!;
       return {
         kind: ["normal", "texCoord", "color", "other"].indexOf(kind),
         components,
@@ -54,8 +54,8 @@ export function stated({
   };
 }
 
-/** FNV-1a over every number that decodes, as four little-endian bytes each. */
-function sumOf(patches: readonly StatedPatch[]): number {
+/** The FNV-1a hash of all decoded numbers, as four little-endian bytes each. */
+function hashOf(patches: readonly StatedPatch[]): number {
   let hash = 2166136261;
   const add = (numbers: readonly number[]) => {
     for (const number of numbers) {
@@ -69,10 +69,10 @@ function sumOf(patches: readonly StatedPatch[]): number {
   return hash >>> 0;
 }
 
-/** The sum of what a payload decodes to, or the kind of its refusal. Throws what is no DecodeError. */
+/** The hash of what a payload decodes to, or the kind of the DecodeError. Rethrows other errors. */
 export function verdictOn(payload: Uint8Array): number | DecodeError["kind"] {
   try {
-    return sumOf(decodePatches(payload, stated));
+    return hashOf(decodePatches(payload, stated));
   } catch (error) {
     if (error instanceof DecodeError) return error.kind;
     throw error;

@@ -7,7 +7,7 @@ function trianglesOf(corners: Int32Array | Uint32Array): string[] {
   return Array.from({ length: corners.length / 3 }, (_, t) => corners.subarray(3 * t, 3 * t + 3).join(" ")).sort();
 }
 
-/** Vertices that a cache of the latest `size` must fetch, for each triangle. */
+/** Vertices for each triangle that a cache of the latest `size` vertices must fetch. */
 function missesPerTriangle(corners: Int32Array | Uint32Array, size: number): number {
   const cache: number[] = [];
   let misses = 0;
@@ -25,7 +25,7 @@ interface Fans {
   readonly fans: Int32Array;
 }
 
-/** A square of n x n quads, row by row as if they were rings: longer than a cache. */
+/** A square of n x n quads, row by row as if rows were rings; they are longer than a cache. */
 function squareOf(n: number): Fans {
   const corners: number[] = [];
   const fans: number[] = [];
@@ -33,23 +33,22 @@ function squareOf(n: number): Fans {
     for (let x = 0; x <= n; ++x) {
       const a = y * (n + 1) + x;
       if (x < n) corners.push(a, a + 1, a + n + 2, a, a + n + 2, a + n + 1);
-      // Under the first place stand all of the first row, under each one of the next row.
+      // The nodes after the first node are the first row; each node is followed by one node of the next row.
       fans.push(corners.length / 3, Math.min(a + n + 2, n * (n + 1)));
     }
   }
   return { corners: Int32Array.from(corners), fans: Int32Array.from(fans) };
 }
 
-/** Places that have any number of triangles and of places under them. */
+/** Nodes that have random numbers of triangles and of nodes in their fans. */
 function randomFans(random: TestRandom): Fans {
-  const placeCount = 1 + random.below(60);
+  const nodeCount = 1 + random.below(60);
   const fans: number[] = [];
-  let [triangles, places] = [0, 1];
-  for (let place = 0; place < placeCount; ++place) {
+  let [triangles, nodes] = [0, 1];
+  for (let node = 0; node < nodeCount; ++node) {
     triangles += random.below(4);
-    places =
-      place + 1 === placeCount ? placeCount : Math.min(placeCount, Math.max(places + random.below(4), place + 2));
-    fans.push(triangles, places);
+    nodes = node + 1 === nodeCount ? nodeCount : Math.min(nodeCount, Math.max(nodes + random.below(4), node + 2));
+    fans.push(triangles, nodes);
   }
   return { corners: Int32Array.from({ length: 3 * triangles }, () => random.below(40)), fans: Int32Array.from(fans) };
 }
@@ -59,7 +58,7 @@ function order({ corners, fans }: Fans): Uint32Array {
 }
 
 describe("the order for the vertex cache", () => {
-  test("keeps every triangle and how it is turned, whatever the fans are", () => {
+  test("keeps every triangle and the order of its corners, whatever the fans are", () => {
     const random = new TestRandom(3);
     for (let round = 0; round < 300; ++round) {
       const mesh = randomFans(random);
@@ -67,7 +66,7 @@ describe("the order for the vertex cache", () => {
     }
   });
 
-  test("makes less than two thirds of a vertex fetch of more than one", () => {
+  test("reduces fetches from more than one vertex per triangle to less than two thirds", () => {
     const square = squareOf(100);
     assert.ok(missesPerTriangle(square.corners, 16) > 1);
     for (const size of [16, 32]) {

@@ -15,10 +15,10 @@ describe("images that are decoded on the CPU", () => {
   });
 
   for (const [why, attribute, readsTextures] of [
-    ["the document says so", 'decode="cpu"', true],
-    ["textures are not read right", "", false],
+    ["the document requests it", 'decode="cpu"', true],
+    ["vertex shaders read textures wrongly", "", false],
   ] as const) {
-    test(`give stages of buffers where ${why}`, async () => {
+    test(`become stages of buffers where ${why}`, async () => {
       const site = siteOf(files(), 6, readsTextures);
       const { stages, errors, settled } = record(
         geometryOf(`<ImageGeometry ${attribute}>${sigPatch(0)}</ImageGeometry>`),
@@ -37,7 +37,7 @@ describe("images that are decoded on the CPU", () => {
     });
   }
 
-  test("are textures where the document insists", async () => {
+  test("become textures where the document requires the GPU", async () => {
     const site = siteOf(files(), 6, false);
     const { stages, settled } = record(
       geometryOf(`<ImageGeometry decode="gpu">${sigPatch(0)}</ImageGeometry>`),
@@ -47,7 +47,7 @@ describe("images that are decoded on the CPU", () => {
     assert.equal(stages.at(-1)?.stage.kind, "textures");
   });
 
-  test("need not fit into a texture", async () => {
+  test("may be larger than a texture", async () => {
     const site = siteOf({ "c.png": pngWithTexels(16, 8, 3, (n, channel) => n + channel) });
     const patch = (width: number) =>
       `<ImageGeometry primType="POINTS" vertexCount="20" implicitMeshSize="${width} 2" coord="c.png"/>`;
@@ -57,7 +57,7 @@ describe("images that are decoded on the CPU", () => {
     ] as const) {
       const { stages, errors, settled } = record(geometryOf(patch(width)), site.pool);
       await settled;
-      // The file itself is too narrow for the rows that it is said to have.
+      // The file itself is narrower than the rows that the document states.
       if (width > 16) assert.match(errors[0]?.message ?? "", /is 16 texels wide/);
       else assert.equal(stages.at(-1)?.stage.kind, kind);
     }
@@ -81,7 +81,7 @@ describe("images that are decoded on the CPU", () => {
     }
   });
 
-  test("of a grid take slopes with the positions they are of, whichever job ends first", async () => {
+  test("of a grid replace slopes and positions together, whichever job ends first", async () => {
     const files = ["a.png", "b.png"].map((_, plane) =>
       pngWithTexels(8, 8, 3, (n, channel) => (plane ? 40 * n * n : 9 * n + 70 * channel) % 256),
     );
@@ -101,8 +101,8 @@ describe("images that are decoded on the CPU", () => {
       const { signal } = new AbortController();
       const accepted = deliveryOf(geometry)
         .patchFilesOf(geometry, patch, 4096)
-        .map((part) =>
-          builder.accept(part, { kind: "bytes", bytes: files[part.plane] ?? assert.fail("no such plane") }, signal),
+        .map((file) =>
+          builder.accept(file, { kind: "bytes", bytes: files[file.plane] ?? assert.fail("no such plane") }, signal),
         );
       for (const job of order) {
         gates[job]?.release();
@@ -119,7 +119,7 @@ describe("images that are decoded on the CPU", () => {
     assert.deepEqual(await bytesOf([1, 0]), await bytesOf([0, 1]));
   });
 
-  test("name the file that is wrong, whichever it was that led to it", async () => {
+  test("name the wrong file, whichever file triggered its decoding", async () => {
     const site = siteOf({ ...files(), "i0.png": pngWithTexels(256, 4, 3, () => 255) });
     const { stages, errors, settled } = record(
       geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`),

@@ -86,32 +86,32 @@ class BufferStageBuilder implements StageBuilder {
     this.#uploads = new ArrayUploads(storeBytes);
   }
 
-  async accept(part: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
+  async accept(file: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
     const available = this.#available;
-    const file = { png: content.bytes, firstTexel: firstTexelOf(part.reference) };
-    const header = checkPng(file.png);
-    switch (part.role) {
+    const image = { png: content.bytes, firstTexel: firstTexelOf(file.reference) };
+    const header = checkPng(image.png);
+    switch (file.role) {
       case "coord":
-        available.planes[part.plane] = file;
-        if (part.plane === 0) available.coordHeader = header;
+        available.planes[file.plane] = image;
+        if (file.plane === 0) available.coordHeader = header;
         await Promise.all([this.#decodeCoords(available, signal), this.#decodeIndex(available, signal)]);
         return;
       case "index":
-        available.waitingIndex = file;
+        available.waitingIndex = image;
         await this.#decodeIndex(available, signal);
         return;
       case "value":
-        available.valuePlanes[part.plane] = file;
+        available.valuePlanes[file.plane] = image;
         await this.#decodeValues(available, header, signal);
         return;
       case "patch":
       case "base":
         return;
       default: {
-        const image = { file, ...this.#layout(header) };
-        const vertices = await attributeDecoders[part.role](this.#run, image, this.#geometry, signal);
-        available.attributes[part.role] = await this.#uploads.storeVertices(vertices, signal);
+        const input = { file: image, ...this.#layout(header) };
+        const vertices = await attributeDecoders[file.role](this.#run, input, this.#geometry, signal);
+        available.attributes[file.role] = await this.#uploads.storeVertices(vertices, signal);
       }
     }
   }

@@ -33,7 +33,7 @@ function geometryFor(
   );
 }
 
-const hasParts = (name: string) => decodeVector(name).some(({ segments: parts }) => parts);
+const isBase = (name: string) => decodeVector(name).some(({ segments }) => segments);
 const filesOf = (...names: string[]) => Object.fromEntries(names.map((name) => [`${name}.png`, readVectorFile(name)]));
 
 async function until(condition: () => boolean): Promise<void> {
@@ -41,8 +41,8 @@ async function until(condition: () => boolean): Promise<void> {
 }
 
 describe("a geometry of compact", () => {
-  test("becomes whole stages of buffers, whatever it holds", async () => {
-    for (const name of vectorNames().filter((name) => !hasParts(name))) {
+  test("becomes one full stage of buffers, whatever the patch holds", async () => {
+    for (const name of vectorNames().filter((name) => !isBase(name))) {
       const site = siteOf(filesOf(name));
       const { stages, errors, settled } = record(geometryFor([[name, 0]]), site.pool);
       await settled;
@@ -64,7 +64,7 @@ describe("a geometry of compact", () => {
     }
   });
 
-  test("asks once for a file of several patches, and decodes it once for all who show one", async () => {
+  test("requests and decodes a file of several patches once", async () => {
     const site = siteOf(filesOf("alike"));
     const numbers = [3, 0, 8];
     const recordings = numbers.map((number) => record(geometryFor([["alike", number]]), site.pool));
@@ -72,7 +72,7 @@ describe("a geometry of compact", () => {
     assert.deepEqual([site.requested, site.jobs], [["alike.png"], ["compactPatches"]]);
     const patches = decodeVector("alike");
     for (const [
-      place,
+      recordingIndex,
       {
         stages: [only, ...others],
         errors,
@@ -80,7 +80,7 @@ describe("a geometry of compact", () => {
     ] of recordings.entries()) {
       assert.ok(only?.stage.kind === "buffers");
       assert.deepEqual([errors, others.length], [[], 0]);
-      const { index, coord } = buffersOf(patches[numbers[place] ?? 0] ?? assert.fail());
+      const { index, coord } = buffersOf(patches[numbers[recordingIndex] ?? 0] ?? assert.fail());
       assert.deepEqual(
         [only.stage.index, only.stage.coord].map((stored) => site.arrayOf(stored)),
         [index, coord.array],
@@ -100,7 +100,7 @@ describe("a geometry of compact", () => {
     );
   });
 
-  test("that shares a file leaves and comes back alone, for which the file is fetched again, and counts what it takes itself", async () => {
+  test("that shares a file is evicted and fetched again alone, and counts only its own bytes", async () => {
     const site = siteOf(filesOf("alike"));
     const recordings = [3, 0, 8].map((number) => record(geometryFor([["alike", number]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
@@ -121,7 +121,7 @@ describe("a geometry of compact", () => {
     assert.equal(site.arrays.size, 0);
   });
 
-  test("fails with the file that it shares, each with an error of its own", async () => {
+  test("fails with a shared file, each geometry with its own error", async () => {
     const site = siteOf({ "alike.png": 404 });
     const recordings = [1, 2].map((number) => record(geometryFor([["alike", number]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
@@ -135,18 +135,18 @@ describe("a geometry of compact", () => {
     assert.deepEqual(site.requested, ["alike.png"]);
   });
 
-  test("is asked for as soon as any who share its file want it, and given up with the last of them", async () => {
+  test("requests a shared file at the largest priority of its geometries, and aborts it with the last one", async () => {
     const { promise, release } = deferredFile(readVectorFile("sphere"));
     const site = siteOf({ ...filesOf("alike", "torus"), "sphere.png": promise }, 1);
-    const wanted = (priority: number) => () => priority;
-    const first = record(geometryFor([["sphere", 0]]), site.pool, wanted(9));
-    const low = record(geometryFor([["alike", 4]]), site.pool, wanted(1));
-    const middle = record(geometryFor([["torus", 0]]), site.pool, wanted(5));
-    const high = record(geometryFor([["alike", 5]]), site.pool, wanted(7));
+    const withPriority = (priority: number) => () => priority;
+    const first = record(geometryFor([["sphere", 0]]), site.pool, withPriority(9));
+    const low = record(geometryFor([["alike", 4]]), site.pool, withPriority(1));
+    const middle = record(geometryFor([["torus", 0]]), site.pool, withPriority(5));
+    const high = record(geometryFor([["alike", 5]]), site.pool, withPriority(7));
     const totals = low.delivery.transfers.map(({ totalBytes }) => totalBytes);
     high.delivery.cancel();
     assert.ok((low.delivery.transfers[0]?.totalBytes ?? 0) < (totals[0] ?? 0), "what one waits for is added up");
-    low.delivery.request(wanted(8));
+    low.delivery.request(withPriority(8));
     release();
     await Promise.all([first.settled, low.settled, middle.settled]);
     assert.deepEqual(site.requested, ["sphere.png", "alike.png", "torus.png"]);
@@ -159,7 +159,7 @@ describe("a geometry of compact", () => {
     assert.deepEqual(gone.aborted, ["alike.png"]);
   });
 
-  test("has beside its vertices the values that colour it, and no others", async () => {
+  test("has the values that colour it, and no other values", async () => {
     const patch = decodeVector("others")[0] ?? assert.fail();
     const plain = geometryFor([["others", 0]]);
     const box = { fileCount: 0, min: [0], size: [1] };
@@ -203,13 +203,13 @@ describe("a geometry of compact", () => {
   });
 
   for (const [what, changes] of Object.entries({
-    "position bits": { positionBits: "15" },
-    "a number of vertices": { recordCount: "7" },
-    "a number of corners": { vertexCount: "3" },
-    "a primitive": { primType: "LINES" },
-    "a number": { data: "torus.png#1" },
+    "its position bits": { positionBits: "15" },
+    "its number of vertices": { recordCount: "7" },
+    "its number of corners": { vertexCount: "3" },
+    "its primitive type": { primType: "LINES" },
+    "its number of patches": { data: "torus.png#1" },
   })) {
-    test(`refuses a file that has not ${what} which the document states`, async () => {
+    test(`refuses a file that differs from the document in ${what}`, async () => {
       const { stages, errors, settled } = record(geometryFor([["torus", 0]], changes), siteOf(filesOf("torus")).pool);
       await settled;
       assert.deepEqual([stages.length, errors.length, errors[0]?.url], [0, 1, "torus.png"]);
@@ -217,7 +217,7 @@ describe("a geometry of compact", () => {
     });
   }
 
-  test("shows the other patches where one file is damaged, of colours, or missing", async () => {
+  test("displays the other patches if a file is damaged, not gray, or missing", async () => {
     const damaged = readVectorFile("sphere");
     damaged[damaged.length >> 1] = (damaged[damaged.length >> 1] ?? 0) ^ 1;
     const geometry = geometryFor(
@@ -248,7 +248,7 @@ describe("a geometry of compact", () => {
     ]);
   });
 
-  test("is shown by its base, of one file, part by part until the patches are there", async () => {
+  test("displays the segments of its base mesh until the patches arrive", async () => {
     const sphere = deferredFile(readVectorFile("sphere"));
     const soup = deferredFile(readVectorFile("soup"));
     const site = siteOf({ ...filesOf("base"), "sphere.png": sphere.promise, "soup.png": soup.promise });
@@ -271,20 +271,20 @@ describe("a geometry of compact", () => {
     await settled;
     assert.deepEqual(errors, []);
     assert.deepEqual(site.requested, ["base.png", "sphere.png", "soup.png"]);
-    const parts = new Base(decodeVector("base")[0] ?? assert.fail()).segments;
+    const segments = new Base(decodeVector("base")[0] ?? assert.fail()).segments;
     for (const patch of [0, 1, 2]) {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
       assert.ok(first?.kind === "buffers");
       assert.deepEqual(
         [first.index, first.coord, first.attributes.normal].map((stored) => site.arrayOf(stored)),
-        [parts[patch]?.index, parts[patch]?.coord.array, parts[patch]?.normal?.array],
+        [segments[patch]?.index, segments[patch]?.coord.array, segments[patch]?.normal?.array],
       );
-      assert.deepEqual(first.draws, [{ primitive: "triangles", first: 0, count: parts[patch]?.index?.length }]);
+      assert.deepEqual(first.draws, [{ primitive: "triangles", first: 0, count: segments[patch]?.index?.length }]);
     }
   });
 
-  test("has the texture and the values of its base, in the bits that this has of them", async () => {
+  test("has the texture coordinates and values of its base mesh, with the bits of the base mesh", async () => {
     const site = siteOf({ ...filesOf("base-seams"), "sphere.png": 404 });
     const plain = geometryFor(
       [
@@ -298,22 +298,22 @@ describe("a geometry of compact", () => {
     const value = { name: "flow", components: 2, bits: 16, fileCount: 0, min: [0, 0], size: [1, 1] } as const;
     const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
     await settled;
-    const parts = new Base(decodeVector("base-seams")[0] ?? assert.fail()).segments;
+    const segments = new Base(decodeVector("base-seams")[0] ?? assert.fail()).segments;
     assert.deepEqual(
       new Set(stages.map(({ patch }) => patch)),
-      new Set(parts.flatMap((part, place) => (part ? [place] : []))),
+      new Set(segments.flatMap((segment, segmentIndex) => (segment ? [segmentIndex] : []))),
     );
     for (const { patch, stage } of stages) {
       assert.ok(stage.kind === "buffers" && stage.name === "base");
       assert.deepEqual(
         [site.arrayOf(stage.attributes.texCoord), site.arrayOf(stage.value)],
-        [parts[patch]?.texCoord?.array, parts[patch]?.others[0]?.vertices.array],
+        [segments[patch]?.texCoord?.array, segments[patch]?.others[0]?.vertices.array],
       );
       assert.equal(stage.value?.maxStored, 2 ** 11 - 1);
     }
   });
 
-  test("goes back to its base where there is no room for a patch", async () => {
+  test("falls back to its base mesh where the budget has no room for a patch", async () => {
     const site = siteOf(filesOf("base", "sphere"));
     const { stages, delivery, settled } = record(
       geometryFor(
@@ -329,19 +329,19 @@ describe("a geometry of compact", () => {
     );
     await settled;
     const held = site.arrays.size;
-    const claims = delivery.budgetRequests(everything);
+    const requestsByPatch = delivery.budgetRequests(everything);
     assert.deepEqual(
-      claims.map((each) => each.length),
+      requestsByPatch.map((each) => each.length),
       [2, 2, 2],
     );
-    const all = claims.flat();
-    const bytes = all.reduce((sum, claim) => sum + claim.bytes, 0);
+    const all = requestsByPatch.flat();
+    const bytes = all.reduce((sum, { bytes }) => sum + bytes, 0);
     assert.equal(
       bytes,
       Array.from(site.arrays.values(), (array) => array.byteLength).reduce((sum, length) => sum + length, 0),
     );
     stages.length = 0;
-    delivery.request(everything, new Set(all.filter((claim) => claim !== claims[1]?.[1])));
+    delivery.request(everything, new Set(all.filter((request) => request !== requestsByPatch[1]?.[1])));
     assert.deepEqual(
       stages.map(({ patch, stage }) => [patch, stage.name]),
       [[1, "base"]],
@@ -355,7 +355,7 @@ describe("a geometry of compact", () => {
     assert.equal(site.arrays.size, 0);
   });
 
-  test("does not go back to a base that comes late", async () => {
+  test("ignores a base mesh that arrives after the patches", async () => {
     const { promise, release } = deferredFile(readVectorFile("base"));
     const site = siteOf({ ...filesOf("sphere"), "base.png": promise });
     const { stages, settled } = record(
@@ -379,7 +379,7 @@ describe("a geometry of compact", () => {
     );
   });
 
-  test("does without a base that is missing or not its own", async () => {
+  test("does without a base mesh that is missing or belongs to another geometry", async () => {
     for (const [base, kind, patches] of [
       ["none.png", "http", 3],
       ["sphere.png", "malformed", 3],
@@ -404,13 +404,13 @@ describe("a geometry of compact", () => {
     }
   });
 
-  test("refuses a base in the place of a patch", async () => {
+  test("refuses a base mesh where a patch should be", async () => {
     const { stages, errors, settled } = record(geometryFor([["base", 0]]), siteOf(filesOf("base")).pool);
     await settled;
     assert.deepEqual([stages.length, errors[0]?.kind], [0, "malformed"]);
   });
 
-  test("says nothing more once it is cancelled", async () => {
+  test("does not call its listener after it is cancelled", async () => {
     const { promise, release } = deferredFile(readVectorFile("torus"));
     const { stages, errors, delivery } = record(geometryFor([["torus", 0]]), siteOf({ "torus.png": promise }).pool);
     await shortDelay();
@@ -420,7 +420,7 @@ describe("a geometry of compact", () => {
     assert.deepEqual([stages, errors], [[], []]);
   });
 
-  test("spreads its lattice as classic does: over whole bytes, of which it has the upper bits", () => {
+  test("maps its lattice to the bounding box as classic does: over whole bytes, of which it has the upper bits", () => {
     for (const bits of [8, 10, 16, 20]) {
       const geometry = geometryOf(
         `<ImageGeometry profile="compact" position="1 2 3" size="4 4 4" positionBits="${bits}" data="x.png"/>`,

@@ -66,7 +66,10 @@ export function compactStageBuilder(
       if (content.kind === "bases") {
         const segments = patchAt(content.bases, reference);
         if (segments.length !== geometry.patches.length) {
-          throw new DecodeError("malformed", `holds ${segments.length} parts for ${geometry.patches.length} patches`);
+          throw new DecodeError(
+            "malformed",
+            `holds ${segments.length} segments for ${geometry.patches.length} patches`,
+          );
         }
         const buffers = segments[patchIndex];
         if (buffers) checkBits(buffers, geometry);
