@@ -33,12 +33,12 @@ const camera = new PerspectiveCamera(40);
 const controls = new OrbitControls(camera, renderer.domElement);
 
 // Draws when something has changed: the camera, the window's size, or the model.
-let isDue = false;
+let isFrameDue = false;
 function draw(): void {
-  if (isDue) return;
-  isDue = true;
+  if (isFrameDue) return;
+  isFrameDue = true;
   requestAnimationFrame(() => {
-    isDue = false;
+    isFrameDue = false;
     renderer.render(scene, camera);
   });
 }
@@ -60,14 +60,14 @@ model.castShadow = true;
 model.receiveShadow = true;
 scene.add(model);
 model.addEventListener("change", draw);
-fitSceneTo(model.box);
+addSurroundings(model.box);
 fitWindow();
 
 await model.complete;
-status.textContent = "Complete. Drag to turn, click to mark a place.";
+status.textContent = "Complete. Drag to turn, click to mark a point.";
 
-/** Adapts floor, lights and camera to the size of the model. */
-function fitSceneTo(box: Box3): void {
+/** Places the camera, and adds lights, a floor and the marker in sizes that fit the model. */
+function addSurroundings(box: Box3): void {
   const { center, radius } = box.getBoundingSphere(new Sphere());
   camera.near = radius / 50;
   camera.far = radius * 50;
@@ -100,13 +100,13 @@ function fitSceneTo(box: Box3): void {
   floor.receiveShadow = true;
   scene.add(floor);
 
-  const mark = new Mesh(new SphereGeometry(radius / 60), new MeshBasicMaterial({ color: 0xd0342c }));
-  mark.visible = false;
-  scene.add(mark);
+  const marker = new Mesh(new SphereGeometry(radius / 60), new MeshBasicMaterial({ color: 0xd0342c }));
+  marker.visible = false;
+  scene.add(marker);
   renderer.domElement.addEventListener("click", ({ offsetX, offsetY }) => {
     const hit = model.pick(renderer, camera, offsetX, offsetY);
-    mark.visible = hit !== undefined;
-    if (hit) mark.position.copy(hit.point);
+    marker.visible = hit !== undefined;
+    if (hit) marker.position.copy(hit.point);
     draw();
   });
 }

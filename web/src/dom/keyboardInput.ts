@@ -7,43 +7,45 @@ import type { MovementInput } from "../navigation/firstPerson.ts";
 import { noMovement } from "../navigation/firstPerson.ts";
 import type { CameraInput } from "./cameraInput.ts";
 
+/** Steps of a key press in EXAMINE: radians, a fraction of the view's shorter side, and a factor of the distance. */
 const turnStep = Math.PI / 36;
 const panStep = 0.05;
 const zoomStep = 1.1;
 
 /** Listens until `signal` aborts. */
 export function listenToKeyboard(canvas: HTMLElement, input: CameraInput, signal: AbortSignal): void {
-  const held = new Map<string, Partial<MovementInput>>();
-  const applyHeld = () => {
-    input.move(Array.from(held.values()).reduce<MovementInput>(sumOf, noMovement));
+  /** The motion of each held key, by code. */
+  const heldMotions = new Map<string, Partial<MovementInput>>();
+  const applyMotions = () => {
+    input.move(Array.from(heldMotions.values()).reduce<MovementInput>(sumOf, noMovement));
   };
   const releaseAll = () => {
-    if (held.size === 0) return;
-    held.clear();
-    applyHeld();
+    if (heldMotions.size === 0) return;
+    heldMotions.clear();
+    applyMotions();
   };
   canvas.addEventListener(
     "keydown",
     (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       const motion = isTravelling(input.type) ? motionOf(event) : undefined;
-      const act = motion
+      const action = motion
         ? () => {
-            held.set(event.code, motion);
-            applyHeld();
+            heldMotions.set(event.code, motion);
+            applyMotions();
           }
         : actionOf(event, input, canvas);
-      if (act === undefined) return;
+      if (action === undefined) return;
       event.preventDefault();
-      if (motion === undefined) releaseAll(); // a reset ends movements
-      act();
+      if (motion === undefined) releaseAll(); // any other action ends movements
+      action();
     },
     { signal },
   );
   canvas.addEventListener(
     "keyup",
     (event) => {
-      if (held.delete(event.code)) applyHeld();
+      if (heldMotions.delete(event.code)) applyMotions();
     },
     { signal },
   );
@@ -55,7 +57,7 @@ function isTravelling(type: NavigationType): boolean {
   return type === "walk" || type === "fly";
 }
 
-/** The motion of a held key in WALK and FLY. */
+/** The motion of a held key in WALK and FLY; undefined for other keys. */
 function motionOf({ key, shiftKey }: KeyboardEvent): Partial<MovementInput> | undefined {
   switch (key) {
     case "ArrowUp":
@@ -80,7 +82,7 @@ function sumOf(motion: MovementInput, other: Partial<MovementInput>): MovementIn
   return { forward: sum("forward"), right: sum("right"), up: sum("up"), turn: sum("turn"), look: sum("look") };
 }
 
-/** The action of a key press, in any navigation type. */
+/** The action of a key that is not held to move; undefined where the key keeps its meaning in the browser. */
 function actionOf(event: KeyboardEvent, input: CameraInput, canvas: HTMLElement): (() => void) | undefined {
   const arrow = (right: number, up: number) =>
     event.shiftKey

@@ -3,7 +3,7 @@ import { describe, test } from "node:test";
 import type { Loadable } from "./loadingEvents.ts";
 import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
 
-/** An element that keeps what it is told. */
+/** An element, and a log of the events that it gets. */
 function elementWithLog() {
   const element = new EventTarget() as Element & Loadable;
   const log: string[] = [];
@@ -24,13 +24,13 @@ const isShape = false;
 async function stateOf(promise: Promise<unknown>): Promise<string> {
   const pending = {};
   return Promise.race([promise, Promise.resolve(pending)]).then(
-    (value) => (value === pending ? "pending" : "kept"),
-    () => "broken",
+    (value) => (value === pending ? "pending" : "resolved"),
+    () => "rejected",
   );
 }
 
-describe("loading", () => {
-  test("tells of a picture after the frame that shows it, and of each rise once", async () => {
+describe("the loading of an element", () => {
+  test("sends first-image and refine after the frame that displays a stage, each once", async () => {
     const { element, log } = elementWithLog();
     const loading = new LoadingEvents(element);
     loading.onFrame(isShape);
@@ -39,7 +39,7 @@ describe("loading", () => {
     loading.onFrame(isShape);
     loading.onFrame(isShape);
     loading.reach("shaded");
-    loading.reach("surface"); // a stage never falls
+    loading.reach("surface"); // a lower stage is ignored
     loading.updateProgress(half);
     loading.onFrame(isShape);
     loading.reach("full");
@@ -48,10 +48,10 @@ describe("loading", () => {
     loading.onFrame(isShape);
     loading.onFrame(isShape);
     assert.deepEqual(log, ["first-image points", "progress points", "refine shaded", "refine full", "load"]);
-    assert.deepEqual([await stateOf(element.firstImage), await stateOf(element.complete)], ["kept", "kept"]);
+    assert.deepEqual([await stateOf(element.firstImage), await stateOf(element.complete)], ["resolved", "resolved"]);
   });
 
-  test("tells the same progress once", () => {
+  test("sends the same progress once", () => {
     const { element, log } = elementWithLog();
     const loading = new LoadingEvents(element);
     loading.updateProgress(half);
@@ -59,25 +59,25 @@ describe("loading", () => {
     assert.deepEqual(log, ["progress none"]);
   });
 
-  test("that failed breaks a shape's promise but keeps the scene's, after the error events", async () => {
-    for (const [who, complete, last] of [
-      [isShape, "broken", "error"],
-      [isScene, "kept", "load"],
+  test("rejects a shape's promise after an error, but resolves the scene's, after the error events", async () => {
+    for (const [isOfScene, complete, lastEvent] of [
+      [isShape, "rejected", "first-image points"],
+      [isScene, "resolved", "load"],
     ] as const) {
       const { element, log } = elementWithLog();
       const loading = new LoadingEvents(element);
       loading.reach("points");
       loading.fail({ type: "http", url: "a.png", element, message: "a.png: 404" }, new Error("a.png: 404"));
       loading.settle();
-      loading.onFrame(who);
+      loading.onFrame(isOfScene);
       assert.equal(await stateOf(element.complete), complete);
-      assert.equal(await stateOf(element.firstImage), "kept");
-      assert.equal(log.at(-1), last === "error" ? "first-image points" : last);
+      assert.equal(await stateOf(element.firstImage), "resolved");
+      assert.equal(log.at(-1), lastEvent);
       assert.equal(log[0], "error");
     }
   });
 
-  test("goes on to tell of finer stages after its end, once each", () => {
+  test("sends refine once for each finer stage after load", () => {
     const { element, log } = elementWithLog();
     const loading = new LoadingEvents(element);
     loading.reach("shaded");
@@ -92,7 +92,7 @@ describe("loading", () => {
     assert.equal(log.length, 3);
   });
 
-  test("keeps what failed on the element", () => {
+  test("lists errors on the element until it loads again", () => {
     const { element } = elementWithLog();
     const loading = new LoadingEvents(element);
     assert.deepEqual(element.errors, []);
@@ -103,7 +103,7 @@ describe("loading", () => {
     assert.deepEqual(element.errors, []);
   });
 
-  test("that is abandoned breaks its promises and falls silent", async () => {
+  test("rejects its promises and sends no event after it was abandoned", async () => {
     const { element, log } = elementWithLog();
     const loading = new LoadingEvents(element);
     loading.reach("points");
@@ -114,7 +114,7 @@ describe("loading", () => {
     await assert.rejects(element.complete, { name: "AbortError" });
   });
 
-  test("that begins anew puts new promises on the element", () => {
+  test("puts new promises on the element when it begins again", () => {
     const { element } = elementWithLog();
     new LoadingEvents(element).abandon();
     const { complete } = element;
@@ -123,7 +123,7 @@ describe("loading", () => {
   });
 });
 
-test("a scene is as far as its last shape", () => {
+test("the lowest of several stages is found; of none it is none", () => {
   assert.equal(lowestStageOf(["full", "points", "shaded"]), "points");
   assert.equal(lowestStageOf(["full", "none"]), "none");
   assert.equal(lowestStageOf([]), "none");

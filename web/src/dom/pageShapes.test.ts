@@ -8,15 +8,15 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { sceneDeliveriesOf } from "../viewer/viewerCore.ts";
 import { PageShapes } from "./pageShapes.ts";
 
-/** The shapes of a scene, each with files of its own, and the frames that they request of the renderer while they load. */
+/** The shapes of a scene, each with files of its own, and counts of the frames that they request from the renderer. */
 function loadingShapes(count: number) {
   const markup = Array.from(
     { length: count },
     (_, n) => `<Shape><ImageGeometry>${sigPatch(n)}</ImageGeometry></Shape>`,
   );
-  const described = shapesOf(readScene(elementsOf(`<X3D>${markup.join("")}</X3D>`)).root);
+  const descriptions = shapesOf(readScene(elementsOf(`<X3D>${markup.join("")}</X3D>`)).root);
   const loadEvents: string[] = [];
-  for (const { element } of described) {
+  for (const { element } of descriptions) {
     Object.assign(element, {
       dispatchEvent: ({ type }: Event) => {
         if (type === "load") loadEvents.push(type);
@@ -24,17 +24,17 @@ function loadingShapes(count: number) {
       },
     });
   }
-  const frames = { requested: 0, atPace: 0 };
+  const frames = { immediate: 0, paced: 0 };
   const renderer = {
     isContextLost: false,
     setStage: () => {
-      frames.atPace += 1;
+      frames.paced += 1;
     },
     requestFrame: () => {
-      frames.requested += 1;
+      frames.immediate += 1;
     },
     requestPacedFrame: () => {
-      frames.atPace += 1;
+      frames.paced += 1;
     },
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));
@@ -52,7 +52,7 @@ function loadingShapes(count: number) {
     [],
   );
   shapes.follow({
-    shapes: new Map(described.map((shape) => [shape.element, shape])),
+    shapes: new Map(descriptions.map((shape) => [shape.element, shape])),
     removed: [],
     instances: new Map(),
   });
@@ -60,15 +60,15 @@ function loadingShapes(count: number) {
   return { shapes, frames, loadEvents };
 }
 
-test("shapes request frames at the GPU's pace for stages and completion, and the last one a frame at once", async () => {
+test("shapes request paced frames for stages and completion, and the last shape an immediate frame", async () => {
   const { shapes, frames, loadEvents } = loadingShapes(20);
   while (shapes.isLoading)
     await new Promise((resolve) => {
       setTimeout(resolve, 1);
     });
   assert.deepEqual(loadEvents, []); // events wait for the frame
-  assert.equal(frames.requested, 1);
-  assert.ok(frames.atPace > 20 * 4); // a stage for each file, and the end
+  assert.equal(frames.immediate, 1);
+  assert.ok(frames.paced > 20 * 4); // one for each file, and one for each completion but the last
   shapes.onFrame();
   assert.equal(loadEvents.length, 20);
   assert.ok(shapes.isQuiet);

@@ -42,12 +42,13 @@ export class ViewController {
   readonly #warned = new Set<string>();
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
   #settings: ViewSettings;
+  /** Size of the canvas in CSS pixels. */
   #size = { width: 0, height: 0 };
   #lastPose: unknown;
   #lastType: string | undefined;
   #announcementTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
-  /** Covers the canvas until that displays as much. */
+  /** The preview, which covers the canvas until the canvas displays the same shapes. */
   #preview: Preview | undefined;
 
   /** `host`: the view element in `x3d`, in whose shadow root `ui` is. */
@@ -81,7 +82,7 @@ export class ViewController {
           this.#onFrame();
         },
         onNavigation: () => {
-          this.#describe();
+          this.#updateDescription();
         },
         onAnchors: (anchors) => {
           this.#links.update(anchors);
@@ -113,8 +114,8 @@ export class ViewController {
       signal,
     );
     adoptSlotted(x3d, host);
-    this.#observe(host);
-    this.#apply();
+    this.#followChanges(host);
+    this.#applySettings();
     if (preview !== undefined) this.#coverWith(preview);
     this.poster.show(this.#settings.poster, this.#label);
     x3d.addEventListener(
@@ -174,7 +175,10 @@ export class ViewController {
     this.poster.onPicture();
   }
 
-  /** Begins to follow the document. A scene far outside of the viewport is loaded later. */
+  /**
+   * Begins to follow the document, and to load files once the canvas is near enough to the viewport for the attribute
+   * `loading`.
+   */
   start(): void {
     // Before the first request: the order of requests depends on the view.
     this.viewer.renderer.setSize(...deviceSizeOf(this.#ui.canvas));
@@ -185,10 +189,10 @@ export class ViewController {
       whenNearViewport(this.#ui.canvas, margin, this.#listeners.signal, () => {
         this.viewer.load();
       });
-    if (this.#preview?.shapes.length === 0) this.#preview.end(); // the viewer has taken over its files
+    if (this.#preview?.shapes.length === 0) this.#preview.end(); // not drawn yet; the viewer has taken over its files
   }
 
-  /** Starts to turn the scene. */
+  /** Starts automatic rotation without delay. */
   play(): void {
     this.viewer.navigator.autoRotation.start(false);
   }
@@ -215,36 +219,36 @@ export class ViewController {
     return labels.find((label) => label !== "" && label !== null && label !== undefined) ?? "3D scene";
   }
 
-  /** Camera input that the page's author has disabled. */
+  /** Which camera input the attributes allow. */
   readonly #limits = (): CameraInputLimits => ({
     isDisabled: !this.#settings["camera-controls"],
     canZoom: !this.#settings["disable-zoom"],
     canPan: !this.#settings["disable-pan"],
   });
 
-  /** Observes attributes, and elements for slots, that change later. */
-  #observe(host: Element): void {
-    const onChildren = new MutationObserver(() => {
+  /** Follows later changes of attributes and of slotted elements. */
+  #followChanges(host: Element): void {
+    const childObserver = new MutationObserver(() => {
       adoptSlotted(this.#x3d, host);
     });
-    onChildren.observe(this.#x3d, { childList: true });
-    const onAttributes = new MutationObserver(() => {
+    childObserver.observe(this.#x3d, { childList: true });
+    const attributeObserver = new MutationObserver(() => {
       this.#settings = this.#readSettings();
-      this.#apply();
+      this.#applySettings();
     });
-    onAttributes.observe(this.#x3d, { attributeFilter: [...Object.keys(viewAttributes), "aria-label", "title"] });
-    const onHotspots = new MutationObserver(() => {
+    attributeObserver.observe(this.#x3d, { attributeFilter: [...Object.keys(viewAttributes), "aria-label", "title"] });
+    const hotspotObserver = new MutationObserver(() => {
       this.#hotspots.read();
       this.viewer.renderer.requestFrame();
     });
-    onHotspots.observe(host, {
+    hotspotObserver.observe(host, {
       childList: true,
       subtree: true,
       attributeFilter: ["slot", "data-position", "data-normal"],
     });
     this.#hotspots.read();
     this.#listeners.signal.addEventListener("abort", () => {
-      for (const observer of [onChildren, onAttributes, onHotspots]) observer.disconnect();
+      for (const observer of [childObserver, attributeObserver, hotspotObserver]) observer.disconnect();
     });
   }
 
@@ -260,7 +264,7 @@ export class ViewController {
     console.warn(`imgeo: ${sentence}`);
   }
 
-  /** Shows whether a click follows a link. */
+  /** Shows by cursor and tooltip whether a click follows a link. */
   #onHover(hit: Hit | undefined): void {
     const { canvas } = this.#ui;
     const anchor = hit && this.viewer.renderer.anchorOf(hit);
@@ -269,7 +273,7 @@ export class ViewController {
     canvas.title = link?.textContent ?? "";
   }
 
-  #apply(): void {
+  #applySettings(): void {
     const { renderer, navigator } = this.viewer;
     const settings = this.#settings;
     navigator.setCamera(cameraSettingOf(settings));
@@ -279,34 +283,39 @@ export class ViewController {
     renderer.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
     this.poster.reveal = settings.reveal;
-    this.#describe();
+    this.#updateDescription();
     this.#updateRotation();
   }
 
-  /** Starts or stops the turntable: it turns by `auto-rotate`, once the scene is visible, unless the user prefers reduced motion. */
+  /**
+   * Starts or stops automatic rotation: on with `auto-rotate`, once the scene is visible, unless the user prefers
+   * reduced motion.
+   */
   #updateRotation(): void {
-    const { autoRotation: turntable } = this.viewer.navigator;
-    const isRotating =
+    const { autoRotation } = this.viewer.navigator;
+    const shouldRotate =
       this.#settings["auto-rotate"] &&
       this.poster.isModelVisible &&
       this.#preview === undefined &&
       !this.#reducedMotion.matches;
-    if (!isRotating) turntable.stop();
-    else if (turntable.isStopped) turntable.start(true);
+    if (!shouldRotate) autoRotation.stop();
+    else if (autoRotation.isStopped) autoRotation.start(true);
   }
 
-  /** Describes the canvas and its keys to screen readers, and updates what depends on the navigation type. */
-  #describe(): void {
+  /**
+   * Updates the description of the canvas and its keys for screen readers, and the cursor, touch gestures and menus.
+   */
+  #updateDescription(): void {
     const { canvas } = this.#ui;
     const { type } = this.viewer.navigator;
-    const isStill = this.#cameraInput.type === "none";
+    const isStatic = this.#cameraInput.type === "none";
     canvas.setAttribute("aria-label", this.#label);
     // Screen readers pass arrow keys on to the role `application` only.
-    canvas.setAttribute("role", isStill ? "img" : "application");
-    canvas.ariaRoleDescription = isStill ? null : "3D view";
-    canvas.ariaDescription = isStill ? null : keyLabels[type];
-    canvas.tabIndex = isStill ? -1 : 0;
-    canvas.classList.toggle("moves", !isStill);
+    canvas.setAttribute("role", isStatic ? "img" : "application");
+    canvas.ariaRoleDescription = isStatic ? null : "3D view";
+    canvas.ariaDescription = isStatic ? null : keyLabels[type];
+    canvas.tabIndex = isStatic ? -1 : 0;
+    canvas.classList.toggle("moves", !isStatic);
     this.#applyTouchAction();
     this.#menus.update();
     if (this.#lastType !== undefined && this.#lastType !== type)

@@ -10,14 +10,14 @@ function settingsOf(attributes: Record<string, string>): { settings: ViewSetting
 }
 
 describe("a view's attributes", () => {
-  test("have the table's defaults where they are absent", () => {
+  test("have the defaults of the table if they are absent", () => {
     const { settings, warnings } = settingsOf({});
     assert.deepEqual(warnings, []);
     for (const [name, { defaultValue }] of Object.entries(viewAttributes))
       assert.equal(settings[name as keyof ViewSettings], defaultValue, name);
   });
 
-  test("for an orbit parse two angles with units and a length or a share, each of which may be auto", () => {
+  test("parse camera-orbit as two angles and a length or a percentage, each of which may be auto", () => {
     for (const [text, expected] of [
       ["0deg 75deg 105%", { theta: 0, phi: (75 * Math.PI) / 180, radius: { share: 1.05 } }],
       [" -0.5rad  1.2rad 250cm ", { theta: -0.5, phi: 1.2, radius: { length: 2.5 } }],
@@ -51,7 +51,7 @@ describe("a view's attributes", () => {
     });
   }
 
-  test("that are flags are true when present, except for false, off and none", () => {
+  test("that are flags are true if present, unless their value is false, off or none", () => {
     for (const [text, expected] of [
       ["", true],
       ["true", true],
@@ -65,7 +65,7 @@ describe("a view's attributes", () => {
     assert.equal(settingsOf({ "auto-rotate": "" }).settings["auto-rotate"], true);
   });
 
-  test("for a target parse three lengths in metres", () => {
+  test("parse camera-target as three lengths in metres", () => {
     for (const text of ["1m 0.5m -2m", "1 0.5 -2"]) {
       assert.deepEqual(settingsOf({ "camera-target": text }).settings["camera-target"], [1, 0.5, -2]);
     }

@@ -1,6 +1,6 @@
 // The MaterialFactory of three.js apps: three.js' own materials, so that the app's lights, shadows,
 // tone mapping and colour space apply. The vertex chunk is added to the materials of every pass, so
-// that shadows have the shape of what is seen.
+// that shadows have the shape of the visible surface.
 
 import type { Camera, Material, Sphere, Texture, WebGLRenderer } from "three";
 import {
@@ -67,7 +67,7 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
   });
 }
 
-/** Properties of the scene in the app. */
+/** Properties of the scene's Object3D that materials need. */
 export interface SceneShadowOptions {
   readonly castShadow: boolean;
   readonly receiveShadow: boolean;
@@ -75,7 +75,7 @@ export interface SceneShadowOptions {
   readonly sphere: Sphere;
 }
 
-export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings: SceneShadowOptions): MaterialFactory {
+export function makeStandardMaterials(makeMaterial: MaterialMaker, shadowOptions: SceneShadowOptions): MaterialFactory {
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
     batching: undefined, // three.js' Raycaster, and passes with their own materials, need one object per instance
@@ -102,31 +102,34 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings:
       setTextureMaps(material, shadowMaterials.get(material), appearance, surfaceTextures);
     },
     prepareObject(object, request, material) {
-      object.castShadow = surroundings.castShadow;
-      object.receiveShadow = surroundings.receiveShadow;
+      object.castShadow = shadowOptions.castShadow;
+      object.receiveShadow = shadowOptions.receiveShadow;
       const { depth, distance } = shadowMaterials.get(material) ?? {};
       object.customDepthMaterial = depth;
       object.customDistanceMaterial = distance;
-      // JavaScript has no vertices to intersect, and three.js would fail on that.
+      // There are no vertices in JavaScript to intersect: three.js' own `raycast` would throw.
       if (request.isFromImages || request.wideLineStep > 0) object.raycast = () => undefined;
       if (object instanceof Points || request.wideLineStep > 0)
         object.onBeforeRender = (renderer, _, camera) => {
-          measure(renderer, camera, request);
+          updateSharedUniforms(renderer, camera, request);
         };
     },
   };
 
-  /** Points are equally large in every app, and depth shading spans the depth of the scene. */
-  function measure(renderer: WebGLRenderer, camera: Camera, { shared }: MaterialRequest): void {
+  /**
+   * Sets the pixel ratio, by which points have their size in CSS pixels, and the range of depth shading, which spans
+   * the scene.
+   */
+  function updateSharedUniforms(renderer: WebGLRenderer, camera: Camera, { shared }: MaterialRequest): void {
     shared.pixelRatio.value = renderer.getPixelRatio();
-    const { center, radius } = surroundings.sphere;
-    const ahead = -center.applyMatrix4(camera.matrixWorldInverse).z;
-    shared.depthRange.value.set(Math.max(ahead - radius, 0), ahead + radius);
+    const { center, radius } = shadowOptions.sphere;
+    const depth = -center.applyMatrix4(camera.matrixWorldInverse).z;
+    shared.depthRange.value.set(Math.max(depth - radius, 0), depth + radius);
   }
 }
 
 /** The maps of three.js' materials for each role; each is multiplied with the field beside it, as in X3D. */
-const slots: Readonly<Record<TextureRole, readonly string[]>> = {
+const mapNames: Readonly<Record<TextureRole, readonly string[]>> = {
   color: ["map"],
   emissive: ["emissiveMap"],
   metallicRoughness: ["roughnessMap", "metalnessMap"],
@@ -147,8 +150,9 @@ function setTextureMaps(
   const { alpha, material: description } = appearance;
   setGlyphDefine(material, appearance);
   for (const role of textureRoles) {
-    const isMain = role === "color" || description.kind !== "unlit";
-    for (const slot of slots[role]) if (isMain) setTextureMap(material, slot, surfaceTextures.get(role)?.texture);
+    const isUsed = role === "color" || description.kind !== "unlit";
+    for (const mapName of mapNames[role])
+      if (isUsed) setTextureMap(material, mapName, surfaceTextures.get(role)?.texture);
   }
   if (material instanceof MeshStandardMaterial && description.kind !== "unlit") {
     material.normalScale.set(description.normalScale, description.normalScale);
@@ -162,23 +166,23 @@ function setTextureMaps(
   }
   const areGlyphs = hasGlyphs(appearance);
   if (alpha.mode !== "MASK" && !areGlyphs) return;
-  // Holes let light through; the outline of a glyph is at half of its field.
-  for (const drawn of [areGlyphs ? undefined : material, shadows?.depth, shadows?.distance]) {
-    if (drawn === undefined) continue;
-    drawn.alphaTest = areGlyphs ? 0.5 : alpha.cutoff;
-    setTextureMap(drawn, "map", color.texture);
+  // Shadow materials have the same holes. The outline of a glyph is at half of its distance field.
+  for (const tested of [areGlyphs ? undefined : material, shadows?.depth, shadows?.distance]) {
+    if (tested === undefined) continue;
+    tested.alphaTest = areGlyphs ? 0.5 : alpha.cutoff;
+    setTextureMap(tested, "map", color.texture);
   }
 }
 
-/** `texture` undefined: removes the scene's texture, but not the app's. */
-function setTextureMap(material: Material, slot: string, texture: Texture | undefined): void {
-  if (!(slot in material)) return;
+/** Sets a map of a material. `texture` undefined: removes a texture of the scene, but not one of the app. */
+function setTextureMap(material: Material, mapName: string, texture: Texture | undefined): void {
+  if (!(mapName in material)) return;
   const maps = material as unknown as Record<string, Texture | null>;
   const sceneTextures = (material.userData.imgeoMaps ??= {}) as Record<string, Texture>;
-  const before = maps[slot] ?? null;
-  if (before === texture || (texture === undefined && (before === null || before !== sceneTextures[slot]))) return;
-  maps[slot] = texture ?? null;
-  if (texture) sceneTextures[slot] = texture;
+  const before = maps[mapName] ?? null;
+  if (before === texture || (texture === undefined && (before === null || before !== sceneTextures[mapName]))) return;
+  maps[mapName] = texture ?? null;
+  if (texture) sceneTextures[mapName] = texture;
   if ((before === null) !== (texture === undefined)) material.needsUpdate = true;
 }
 
@@ -187,7 +191,10 @@ interface ShadowMaterials {
   readonly distance: Material;
 }
 
-/** For shadows of directional and spot lights, and of point lights; disposed of with the visible material. */
+/**
+ * The materials for shadows of directional and spot lights (`depth`) and of point lights (`distance`). They are
+ * disposed of with `material`.
+ */
 function shadowMaterialsOf(material: Material, request: MaterialRequest): ShadowMaterials {
   const depth = addVertexReadingTo(new MeshDepthMaterial(), request, false);
   const distance = addVertexReadingTo(new MeshDistanceMaterial(), request, false);
@@ -202,7 +209,7 @@ function shadowMaterialsOf(material: Material, request: MaterialRequest): Shadow
 
 /** Adds the vertex chunk to a material, and keeps its own `onBeforeCompile`. */
 function addVertexReadingTo<Any extends Material>(material: Any, request: MaterialRequest, readsNormals: boolean): Any {
-  const own = material.onBeforeCompile.bind(material);
+  const ownOnBeforeCompile = material.onBeforeCompile.bind(material);
   const ownKey = material.customProgramCacheKey();
   material.defines = {
     ...material.defines,
@@ -213,7 +220,7 @@ function addVertexReadingTo<Any extends Material>(material: Any, request: Materi
     ...request.valueDefines,
   };
   material.onBeforeCompile = (shader, renderer) => {
-    own(shader, renderer);
+    ownOnBeforeCompile(shader, renderer);
     Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
     addVertexReading(shader);
     addPrimitiveChunks(shader);

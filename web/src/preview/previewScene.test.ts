@@ -14,8 +14,8 @@ import { previewSceneOf, maxLights } from "./previewScene.ts";
 
 const geometry = (base = 'base="b.png"') => `<ImageGeometry profile="compact" position="0 0 0" size="2 2 2" ${base}>
   <GeometryPatch bboxCenter="0 0 0" bboxSize="2 2 1" recordCount="3" vertexCount="3" data="p.png"/></ImageGeometry>`;
-const shape = (appearance = "<Appearance><Material/></Appearance>", drawn = geometry(), attributes = "") =>
-  `<Shape ${attributes}>${appearance}${drawn}</Shape>`;
+const shape = (appearance = "<Appearance><Material/></Appearance>", geometryMarkup = geometry(), attributes = "") =>
+  `<Shape ${attributes}>${appearance}${geometryMarkup}</Shape>`;
 
 function previewSceneIn(markup: string, camera: CameraSetting = unsetCamera): PreviewScene | undefined {
   return previewSceneOf(new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read(), camera);
@@ -35,7 +35,7 @@ describe("the scene of a preview", () => {
     );
   });
 
-  test("maps lattice coordinates as the geometry's node says", () => {
+  test("maps lattice coordinates by the geometry's position and size", () => {
     const [first] = previewSceneIn(shape())?.shapes ?? [];
     assert.ok(first);
     const { elements } = first.shapeFromStored;
@@ -48,24 +48,25 @@ describe("the scene of a preview", () => {
     assert.equal(previewSceneIn(`<Switch whichChoice="-1">${shape()}</Switch>`), undefined);
   });
 
-  const refused: Readonly<Record<string, string>> = {
-    nothing: "",
+  /** Scenes that only the runtime can display. */
+  const unsupported: Readonly<Record<string, string>> = {
+    "no shape": "",
     "a shape without a base": shape(undefined, geometry("")),
     "a shape without a base beside one with": shape() + shape(undefined, geometry("")),
     "inline geometry": shape() + shape(undefined, "<Box/>"),
     "a text": shape() + shape(undefined, '<Text string="letters"/>'),
     "geometry of another shape": `<Shape><Sphere DEF="s"/></Shape>${shape(undefined, '<Sphere USE="s"/>')}${shape()}`,
     "a texture": shape('<Appearance><Material/><ImageTexture url="t.png"/></Appearance>'),
-    glass: shape('<Appearance><Material transparency="0.5"/></Appearance>'),
+    "a transparent shape": shape('<Appearance><Material transparency="0.5"/></Appearance>'),
     "a mask": shape('<Appearance alphaMode="MASK"><Material/></Appearance>'),
     "a LOD": `<LOD range="1">${shape()}${shape()}</LOD>`,
     "an Inline": `${shape()}<Inline url="other.x3d"/>`,
     "a sky of several colours": `<Background skyColor="0 0 1 1 1 1" skyAngle="1.5"/>${shape()}`,
-    "more lights than a shader should have": "<DirectionalLight/>".repeat(maxLights + 1) + shape(),
-    "more shapes than are quickly drawn": shape().repeat(300),
+    "one light above the limit": "<DirectionalLight/>".repeat(maxLights + 1) + shape(),
+    "more shapes than the limit": shape().repeat(300),
   };
-  for (const [what, markup] of Object.entries(refused)) {
-    test(`is undefined where there is ${what}`, () => {
+  for (const [what, markup] of Object.entries(unsupported)) {
+    test(`is undefined for ${what}`, () => {
       assert.equal(previewSceneIn(markup), undefined);
     });
   }
@@ -75,7 +76,7 @@ describe("the camera of a preview", () => {
   const scenes: Readonly<Record<string, string>> = {
     "no viewpoint": shape(),
     "two viewpoints": `<Viewpoint position="0 0 9"/><Viewpoint position="3 1 9" orientation="0 1 0 0.3"/>${shape()}`,
-    "a viewpoint that wants to be bound": `<Viewpoint position="0 0 9"/><Transform rotation="0 1 0 1"><Viewpoint bind="true" position="0 0 4"/></Transform>${shape()}`,
+    "a viewpoint with bind": `<Viewpoint position="0 0 9"/><Transform rotation="0 1 0 1"><Viewpoint bind="true" position="0 0 4"/></Transform>${shape()}`,
     "an avatar that walks": `<NavigationInfo type="WALK" avatarSize="0.5 1.6 0.7"/><Viewpoint position="0 0 9"/>${shape()}`,
     lights: `<NavigationInfo headlight="false"/><PointLight location="1 2 3" on="false"/><SpotLight/>${shape()}`,
   };
@@ -84,7 +85,7 @@ describe("the camera of a preview", () => {
     { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { share: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
   ];
   for (const [what, markup] of Object.entries(scenes)) {
-    test(`has the pose of the runtime's camera, with ${what}`, () => {
+    test(`has the pose of the runtime's camera for ${what}`, () => {
       for (const camera of cameras) {
         const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
         const preview = previewSceneOf(description, camera);

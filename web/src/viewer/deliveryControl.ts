@@ -1,6 +1,6 @@
-// Controls the deliveries of a scene: requests files of geometries and textures, in
-// the order of what the camera sees and within a budget of GPU memory, whenever the
-// scene or the view has changed.
+// Controls the deliveries of a scene: whenever the scene or the view has changed, requests
+// the files of geometries and textures, ordered by what the camera sees and within a budget
+// of GPU memory.
 
 import type { ViewState } from "../delivery/filePriority.ts";
 import { filePriorityFor, texturePriorityFor } from "../delivery/filePriority.ts";
@@ -13,14 +13,14 @@ import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";
 import { planesOf } from "../scheduler/viewMetrics.ts";
 import { VisibleInstances } from "./visibleInstances.ts";
 
-/** While the camera moves, requests are ordered anew this often; a fast connection takes as long for a few files. */
+/** Time between two orders of requests while the camera moves. In this time a fast connection fetches a few files. */
 const cameraIntervalMs = 100;
 
 export interface DeliveryControlOptions {
   readonly deliveries: SceneDeliveries;
-  /** What the camera sees; undefined where that is not known: all that is visible is then requested. */
+  /** The view of the camera; undefined if there is no single camera: files of all visible shapes are then requested. */
   readonly view: () => View | undefined;
-  /** Files may have been added to those that are requested, or taken from them. */
+  /** The set of requested files may have changed. */
   readonly onRequests: () => void;
 }
 
@@ -32,7 +32,7 @@ export class DeliveryControl {
   /** The view of the last requests. */
   #view: View | undefined;
   #maxBytes = Infinity;
-  /** GPU memory of all deliveries, as far as was known at the last requests. */
+  /** GPU memory of all deliveries at the last requests. */
   #storedBytes = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStarted = false;
@@ -41,7 +41,10 @@ export class DeliveryControl {
     this.#options = options;
   }
 
-  /** Follows a changed scene, its bound viewpoint too; `onProblem` gets a sentence for what `chunkPriority` has that cannot be read. */
+  /**
+   * Requests what a changed scene needs, or a changed view of its bound viewpoint. `onProblem` gets a sentence for each
+   * part of `chunkPriority` that cannot be read.
+   */
   follow(chunkPriority: string, { instances }: SceneChanges, onProblem: (problem: string) => void): void {
     const isSame = instances.size === 0 && chunkPriority === this.#chunkPriority;
     if (isSame && isSameView(this.#options.view(), this.#view)) return;
@@ -64,7 +67,10 @@ export class DeliveryControl {
     this.request();
   }
 
-  /** Requests soon where, since the last requests, the camera has moved or deliveries have come to exceed the budget. */
+  /**
+   * Schedules new requests if, since the last requests, the camera has moved or the deliveries have grown beyond the
+   * budget.
+   */
   followCamera(): void {
     if (this.#timer !== undefined) return;
     const storedBytes = storedBytesOf(this.#options.deliveries);
@@ -75,7 +81,7 @@ export class DeliveryControl {
     }, cameraIntervalMs);
   }
 
-  /** Requests now what the view needs, unless control has not been started. */
+  /** Requests what the view needs, at once; without effect before `start`. */
   request(): void {
     this.#cancelTimer();
     if (!this.#isStarted) return;
@@ -92,12 +98,12 @@ export class DeliveryControl {
     onRequests();
   }
 
-  /** Gives up all requests, and makes no more. What has come stays. */
+  /** Aborts all requests, and makes no more. What has loaded stays. */
   stop(): void {
     this.#cancelTimer();
     this.#isStarted = false;
-    const nothing = () => undefined;
-    requestWithinBudget(this.#options.deliveries, () => nothing, nothing);
+    const noPriority = () => undefined;
+    requestWithinBudget(this.#options.deliveries, () => noPriority, noPriority);
   }
 
   #cancelTimer(): void {

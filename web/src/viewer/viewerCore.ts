@@ -29,7 +29,7 @@ export const progressIntervalMs = 50;
 
 /** Displays a scene, and receives what happens to its files. */
 export interface ViewerHost {
-  /** The view of the camera; undefined in an app, which has any number of cameras. */
+  /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
   /** Displays a scene that differs from the previous one, and returns the differences. */
   display(scene: SceneDescription): SceneChanges;

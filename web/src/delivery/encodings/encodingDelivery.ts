@@ -2,7 +2,10 @@ import type { GeometryDescription, PatchDescription } from "../../document/descr
 import type { PatchFile } from "../patchFiles.ts";
 import type { BuilderTools, StageBuilder } from "../stageBuilder.ts";
 
-/** How the files of an encoding become stages. What documents say of it is in document/encodings.ts. */
+/**
+ * Delivery of one encoding: lists the files of a patch and builds stages from them. document/encodings.ts reads the
+ * encoding's elements.
+ */
 export interface EncodingDelivery {
   /** The files that a patch needs. `maxTextureSize`: the longest edge of a texture, in texels. */
   patchFilesOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): PatchFile[];
@@ -12,6 +15,6 @@ export interface EncodingDelivery {
     patchIndex: number,
     tools: BuilderTools,
   ): StageBuilder;
-  /** Whether workers decode the patches whatever the GPU can do. */
+  /** Whether workers decode the patches on every GPU. */
   needsWorkers(geometry: GeometryDescription): boolean;
 }

@@ -1,4 +1,4 @@
-// The registry of encodings in delivery: one row each.
+// The registry of encodings in delivery: one entry for each encoding.
 
 import type { Encoding, GeometryDescription } from "../../document/description.ts";
 import { bgDelivery } from "./bg/bgDelivery.ts";
@@ -16,7 +16,7 @@ export function deliveryOf({ encoding }: Pick<GeometryDescription, "encoding">):
   return encodingDeliveries[encoding];
 }
 
-/** Whether workers decode the geometry's patches whatever the GPU can do. */
+/** Whether workers decode the geometry's patches on every GPU, not only on those that cannot read images exactly. */
 export function needsWorkers(geometry: GeometryDescription): boolean {
   return deliveryOf(geometry).needsWorkers(geometry);
 }
