@@ -123,7 +123,7 @@ describe("the loading of an element", () => {
   });
 });
 
-test("the lowest of several stages is found; of none it is none", () => {
+test('lowestStageOf gives the lowest stage, and "none" for no stages', () => {
   assert.equal(lowestStageOf(["full", "points", "shaded"]), "points");
   assert.equal(lowestStageOf(["full", "none"]), "none");
   assert.equal(lowestStageOf([]), "none");
