@@ -24,7 +24,9 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
     .map(({ attributes }) => {
       const [url, first] = attributes.data!.split("#");
       const { data } = decodePng(readFileSync(join(directory, url!)));
-      const { topology, coord, normal, index, vertexCount } = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
+      const buffers = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
+      const { topology, coord, index, vertexCount } = buffers;
+      const { normal } = buffers.attributes;
       const elementsOf = (kind: typeof topology): Uint32Array =>
         Uint32Array.from(topology === kind ? (index ?? running(vertexCount)) : []);
       return {

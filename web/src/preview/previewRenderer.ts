@@ -24,7 +24,7 @@ export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | 
   return (
     base?.segmentCount === geometry.patches.length &&
     base.whole.positionBits === latticeBitsOf(geometry) &&
-    !isBlended(appearance, base.whole.color?.components === 4)
+    !isBlended(appearance, base.whole.attributes.color?.components === 4)
   );
 }
 
@@ -90,7 +90,7 @@ export class PreviewRenderer {
       gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
       gl.uniform1f(program.uniform("exposure"), exposure);
       setLightUniforms(gl, program, lights);
-      setMaterialUniforms(gl, program, shape, buffers.color !== undefined);
+      setMaterialUniforms(gl, program, shape, buffers.attributes.color !== undefined);
       setGeometryState(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
       this.#drawBuffers(buffers);
     }
@@ -120,7 +120,7 @@ export class PreviewRenderer {
     gl.drawElements(gl.TRIANGLES, stored.count, stored.indexType, 0);
   }
 
-  #uploadMesh({ coord, normal, color, index }: PatchBuffers): GpuMesh {
+  #uploadMesh({ coord, attributes: { normal, color }, index }: PatchBuffers): GpuMesh {
     const gl = this.#gl;
     const vertices = gl.createVertexArray();
     gl.bindVertexArray(vertices);
@@ -175,10 +175,10 @@ const glTypes = {
 function kindOf(
   { geometry, appearance }: PreviewShape,
   scene: PreviewScene,
-  { normal }: PatchBuffers,
+  { attributes }: PatchBuffers,
 ): PreviewProgramKind {
   return {
-    hasNormals: normal !== undefined,
+    hasNormals: attributes.normal !== undefined,
     material: appearance.material.kind,
     isTwoSided: !geometry.solid,
     lights: lightKindsOf(scene),

@@ -10,9 +10,7 @@ export const warmUpBuffers: PatchBuffers = {
   vertexCount: 1,
   index: new Uint16Array(3),
   coord: { array: new Uint16Array(4), components: 3, stride: 4, offset: 0 },
-  normal: { array: new Int8Array(4), components: 3, stride: 4, offset: 0 },
-  color: undefined,
-  texCoord: undefined,
+  attributes: { normal: { array: new Int8Array(4), components: 3, stride: 4, offset: 0 } },
   others: [],
 };
 

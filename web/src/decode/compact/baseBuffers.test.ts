@@ -44,12 +44,14 @@ describe("the segments of a base mesh", () => {
           const {
             coord: { array, stride },
             vertexCount,
-            normal,
-            color,
-            texCoord,
+            attributes,
             others,
           } = segment;
-          for (const vertices of [segment.coord, normal, color, texCoord, ...others.map((other) => other.vertices)])
+          for (const vertices of [
+            segment.coord,
+            ...Object.values(attributes),
+            ...others.map((other) => other.vertices),
+          ])
             if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
           const index = Array.from(segment.index!);
           assert.deepEqual(new Set(index), new Set(Array.from({ length: vertexCount }, (_, n) => n)));
@@ -84,8 +86,9 @@ describe("the segments of a base mesh", () => {
     const normals = new Map<string, string>();
     let seams = 0;
     for (const segment of new Base(decodeVector("base-seams")[0]!).segments) {
-      if (segment?.normal === undefined) continue;
-      const { coord, normal } = segment;
+      if (segment?.attributes.normal === undefined) continue;
+      const { coord } = segment;
+      const { normal } = segment.attributes;
       for (let n = 0; n < segment.vertexCount; ++n) {
         const at = ({ array, stride }: typeof coord) => array.subarray(n * stride, n * stride + 3).join();
         const known = normals.get(at(coord));

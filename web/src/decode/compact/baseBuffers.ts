@@ -1,6 +1,7 @@
 // Converts a decoded base mesh to arrays for the GPU: whole for the preview, and by segment for the runtime, which
 // replaces each segment when its patch arrives.
 
+import { byVertexRole } from "../../stage/attributeRows.ts";
 import type { ElementArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
 import type { CompactPatch } from "./patch.ts";
@@ -57,9 +58,7 @@ function segmentsOf(whole: PatchBuffers, wedge: Int32Array, segment: Int32Array,
       vertexCount: used.length,
       index: indexOf(corners, used.length),
       coord: gather(whole.coord, used),
-      normal: gathered(whole.normal),
-      color: gathered(whole.color),
-      texCoord: gathered(whole.texCoord),
+      attributes: byVertexRole((role) => gathered(whole.attributes[role])),
       others: whole.others.map((other) => ({ ...other, vertices: gather(other.vertices, used) })),
     };
   });

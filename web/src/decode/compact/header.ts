@@ -1,11 +1,13 @@
 // Reads the header of a file, which precedes its streams: docs/formats/compact.md, "File".
 
+import type { VertexRole } from "../../stage/attributeRows.ts";
+import { attributeRows } from "../../stage/attributeRows.ts";
 import { DecodeError } from "../decodeError.ts";
 
 export type Topology = "points" | "lines" | "triangles";
 const topologies: readonly (Topology | undefined)[] = [undefined, "points", "lines", "triangles"];
 
-export type AttributeKind = "normal" | "texCoord" | "color" | "other";
+export type AttributeKind = VertexRole | "other";
 const attributeKinds: readonly (AttributeKind | undefined)[] = ["normal", "texCoord", "color", "other"];
 
 export interface AttributeType {
@@ -106,9 +108,8 @@ function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
 
 function readAttributeType(reader: FieldReader): AttributeType {
   const kind = attributeKinds[within("kind of an attribute", reader.byte(), 0, 3)] ?? "other";
-  const [minComponents, maxComponents] = ({ normal: [3, 3], texCoord: [2, 2], color: [3, 4], other: [1, 4] } as const)[
-    kind
-  ];
+  const { components: minComponents, maxComponents } =
+    kind === "other" ? { components: 1, maxComponents: 4 } : attributeRows[kind];
   const components = within("number of components", reader.byte(), minComponents, maxComponents);
   const bits = within("bits of an attribute", reader.byte(), kind === "normal" ? 4 : 1, kind === "other" ? 24 : 16);
   const mode = within("mode of an attribute", reader.byte(), 0, kind === "normal" ? 3 : 0);

@@ -51,7 +51,7 @@ describe("buffers", () => {
       for (const [attributeIndex, { kind, bits, components }] of patch.header.attributes.entries()) {
         if (kind === "other" || patch.header.attributes.findIndex((type) => type.kind === kind) < attributeIndex)
           continue;
-        const buffer = buffers[kind];
+        const buffer = buffers.attributes[kind];
         assert.ok(buffer);
         const maxOutput = kind === "normal" ? 1 : buffer.array.BYTES_PER_ELEMENT === 1 ? 255 : 65535;
         const maxStored = kind === "normal" ? 1 : 2 ** bits - 1;

@@ -1,6 +1,8 @@
 // Converts a decoded patch to arrays for the GPU: its wedges are the vertices. Attributes keep the smallest type that
 // holds their bits; positions stay lattice integers.
 
+import type { ByVertexRole, VertexRole } from "../../stage/attributeRows.ts";
+import { byVertexRole } from "../../stage/attributeRows.ts";
 import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { AttributeType, Topology } from "./header.ts";
 import type { CompactPatch } from "./patch.ts";
@@ -14,11 +16,8 @@ export interface PatchBuffers {
   readonly index: IndexArray | undefined;
   /** Lattice integers; floats where they have more than 16 bits. */
   readonly coord: VertexArray;
-  /** Directions of any length, in a signed integer type. */
-  readonly normal: VertexArray | undefined;
-  /** Normalized unsigned integers, as texture coordinates. */
-  readonly color: VertexArray | undefined;
-  readonly texCoord: VertexArray | undefined;
+  /** Normals: directions of any length, in a signed integer type. The others: normalized unsigned integers. */
+  readonly attributes: ByVertexRole<VertexArray>;
   /** Further attributes, in the order of the file. */
   readonly others: readonly OtherValues[];
 }
@@ -37,24 +36,28 @@ export function buffersOf(patch: CompactPatch): PatchBuffers {
   return { ...verticesOf(patch), index: patch.header.topology === "points" ? undefined : orderedIndexOf(patch) };
 }
 
+/** Makes the array of an attribute from its decoded values. */
+const makeArray: Readonly<Record<VertexRole, (values: Int32Array, type: AttributeType) => VertexArray>> = {
+  normal: directionsOf,
+  texCoord: sharesOf,
+  color: sharesOf,
+};
+
 /** All arrays except the index. */
 export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
   const { header } = patch;
-  const attribute = <Array>(kind: AttributeType["kind"], make: (values: Int32Array, type: AttributeType) => Array) => {
-    const attributeIndex = header.attributes.findIndex((type) => type.kind === kind);
-    return attributeIndex < 0 ? undefined : make(patch.attributes[attributeIndex]!, header.attributes[attributeIndex]!);
+  const attribute = (role: VertexRole) => {
+    const attributeIndex = header.attributes.findIndex(({ kind }) => kind === role);
+    return attributeIndex < 0
+      ? undefined
+      : makeArray[role](patch.attributes[attributeIndex]!, header.attributes[attributeIndex]!);
   };
   return {
     topology: header.topology,
     positionBits: header.positionBits,
     vertexCount: header.wedgeCount,
     coord: coordOf(patch),
-    normal: attribute("normal", (values, { bits }) => {
-      const array = bits <= 8 ? new Int8Array(4 * header.wedgeCount) : new Int16Array(4 * header.wedgeCount);
-      return interleaved(values, 3, array, 1);
-    }),
-    color: attribute("color", sharesOf),
-    texCoord: attribute("texCoord", sharesOf),
+    attributes: byVertexRole(attribute),
     others: header.attributes.flatMap((type, attributeIndex) =>
       type.kind === "other" ? [othersOf(patch.attributes[attributeIndex]!, type)] : [],
     ),
@@ -93,6 +96,12 @@ function coordOf({ header, coordinates, connectivity, wedges: { seams } }: Compa
     array[stride * w + 2] = coordinates[from + 2]!;
   }
   return { array, components: 3, stride, offset: 0 };
+}
+
+/** Keeps signed numbers as they are. */
+function directionsOf(values: Int32Array, { bits }: AttributeType): VertexArray {
+  const count = values.length / 3;
+  return interleaved(values, 3, bits <= 8 ? new Int8Array(4 * count) : new Int16Array(4 * count), 1);
 }
 
 /** Scales numbers of `bits` bits to the whole range of bytes or 16-bit words. */

@@ -49,12 +49,12 @@ describe("a geometry of compact", () => {
       assert.deepEqual(errors, []);
       const [{ stage } = assert.fail("no stage")] = stages;
       assert.ok(stages.length === 1 && stage.kind === "buffers" && stage.name === "full");
-      const { index, coord, normal, color } = buffersOf(decodeVector(name)[0] ?? assert.fail());
+      const { index, coord, attributes } = buffersOf(decodeVector(name)[0] ?? assert.fail());
       assert.deepEqual(
         [stage.index, stage.coord, stage.attributes.normal, stage.attributes.color].map(
           (stored) => stored && site.arrayOf(stored),
         ),
-        [index, coord.array, normal?.array, color?.array],
+        [index, coord.array, attributes.normal?.array, attributes.color?.array],
       );
       const { type, components, stride, offset } = stage.coord;
       assert.deepEqual(
@@ -278,7 +278,7 @@ describe("a geometry of compact", () => {
       assert.ok(first?.kind === "buffers");
       assert.deepEqual(
         [first.index, first.coord, first.attributes.normal].map((stored) => site.arrayOf(stored)),
-        [segments[patch]?.index, segments[patch]?.coord.array, segments[patch]?.normal?.array],
+        [segments[patch]?.index, segments[patch]?.coord.array, segments[patch]?.attributes.normal?.array],
       );
       assert.deepEqual(first.draws, [{ primitive: "triangles", first: 0, count: segments[patch]?.index?.length }]);
     }
@@ -307,7 +307,7 @@ describe("a geometry of compact", () => {
       assert.ok(stage.kind === "buffers" && stage.name === "base");
       assert.deepEqual(
         [site.arrayOf(stage.attributes.texCoord), site.arrayOf(stage.value)],
-        [segments[patch]?.texCoord?.array, segments[patch]?.others[0]?.vertices.array],
+        [segments[patch]?.attributes.texCoord?.array, segments[patch]?.others[0]?.vertices.array],
       );
       assert.equal(stage.value?.maxStored, 2 ** 11 - 1);
     }

@@ -30,8 +30,7 @@ export function compactStageBuilder(
     draws: readonly DrawRange[],
     signal: AbortSignal,
   ): Promise<BufferStage> => {
-    const { index, coord, normal, color, texCoord } = buffers;
-    const attributes = { normal, color, texCoord };
+    const { index, coord, attributes } = buffers;
     const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
     const [ownIndex, ownCoord, ownAttributes, ownValue] = await Promise.all([
       index && uploads.storeIndex(index, signal),
