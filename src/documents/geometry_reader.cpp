@@ -34,7 +34,7 @@ NormalEncoding normalEncodingOf(const FieldReader& fields) {
   return NormalEncoding::rgb;
 }
 
-bool parseWhole(std::string_view text, std::uint32_t& value) {
+bool parseInteger(std::string_view text, std::uint32_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size();
 }
@@ -45,26 +45,27 @@ bool parseWhole(std::string_view text, std::uint32_t& value) {
 Reference stridedReference(const std::string& url) {
   const std::size_t plus = url.rfind('+');
   ByteLocation location;
-  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), location.byteStride))
+  if (plus == std::string::npos || !parseInteger(std::string_view(url).substr(plus + 1), location.byteStride))
     return {url, ByteLocation{}};
   const bool isQuery = plus > 0 && url[plus - 1] == '?';
   return {isQuery ? url.substr(0, plus - 1) : url, location};
 }
 
-/// Reads the fragment of a url; false where it is malformed.
+/// Reads the fragment of a url; returns false if it is malformed.
 bool parseFragment(std::string_view fragment, TexelLocation& location) {
-  return parseWhole(fragment, location.firstTexel);
+  return parseInteger(fragment, location.firstTexel);
 }
 bool parseFragment(std::string_view fragment, PatchLocation& location) {
-  return parseWhole(fragment, location.patchIndex);
+  return parseInteger(fragment, location.patchIndex);
 }
 bool parseFragment(std::string_view fragment, ByteLocation& location) {
   const std::size_t plus = fragment.find('+');
-  return plus != std::string_view::npos && parseWhole(fragment.substr(0, plus), location.byteOffset) &&
-         parseWhole(fragment.substr(plus + 1), location.byteStride);
+  return plus != std::string_view::npos && parseInteger(fragment.substr(0, plus), location.byteOffset) &&
+         parseInteger(fragment.substr(plus + 1), location.byteStride);
 }
 
-/// classic and compact: url, url#N. bg: url, url+S, url?+S, url#O+S.
+/// Parses a reference: url or url#N in classic and compact; url, url+S, url?+S or url#O+S in BG, with the byte offset O
+/// and the stride S.
 Reference referenceOf(const FieldReader& fields, const std::string& url, Encoding encoding) {
   Reference reference{url, rowOf(encoding).location};
   const std::size_t hash = url.rfind('#');
@@ -104,7 +105,7 @@ std::vector<Draw> drawsOf(const FieldReader& fields) {
   return draws;
 }
 
-/// An ImageTexture child: X3DOM's way to name an image.
+/// Reads an ImageTexture child, which names an image as in X3DOM.
 void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
   const FieldReader fields(source, node);
   const std::vector<std::string> urls = fields.strings("url");
@@ -201,11 +202,11 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
 Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
   const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
   const PatchStorage storage = rowOf(geometry).storage;
-  const bool isHeld = storage == PatchStorage::arrays
-                          ? holdsLattice(geometry.coordType, bits)
-                          : bits >= 8 && bits <= 32 &&
-                                (storage == PatchStorage::packed || 8 * coordBytes(geometry.encoding, bits) == stored);
-  if (!isHeld)
+  const bool canHoldLattice = storage == PatchStorage::arrays ? holdsLattice(geometry.coordType, bits)
+                                                              : bits >= 8 && bits <= 32 &&
+                                                                    (storage == PatchStorage::packed ||
+                                                                     8 * coordBytes(geometry.encoding, bits) == stored);
+  if (!canHoldLattice)
     fields.fail(ErrorKind::malformed,
                 "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
   const DecodeFields box{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})};

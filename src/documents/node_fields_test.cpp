@@ -1,5 +1,6 @@
-// The fields of every node in node_fields.h, as vectors/nodes.json has them for tests/nodes.test.ts, which compares
-// them with the runtime's and the documentation's. IMGEO_REWRITE_GOLDEN=1 writes the file anew.
+// Compares the fields of the nodes in node_fields.h with vectors/nodes.json, which tests/nodes.test.ts compares with
+// the fields of the runtime and of the documentation. IMGEO_REWRITE_GOLDEN=1 rewrites the file.
+
 #include "documents/node_fields.h"
 
 #include "base/file.h"
@@ -54,7 +55,7 @@ template <typename Node> std::string rowsOf(const char* name) {
 }
 
 TEST(NodeFields, AreThoseOfTheSharedTable) {
-  const std::string now =
+  const std::string fields =
       "{\n" + rowsOf<Transform>("Transform") + ",\n" + rowsOf<Viewpoint>("Viewpoint") + ",\n" +
       rowsOf<OrthoViewpoint>("OrthoViewpoint") + ",\n" + rowsOf<DirectionalLight>("DirectionalLight") + ",\n" +
       rowsOf<PointLight>("PointLight") + ",\n" + rowsOf<SpotLight>("SpotLight") + ",\n" + rowsOf<Material>("Material") +
@@ -62,8 +63,8 @@ TEST(NodeFields, AreThoseOfTheSharedTable) {
       rowsOf<TextureTransform>("TextureTransform") + "\n}\n";
   const std::filesystem::path table = IMGEO_VECTORS "/nodes.json";
   if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)
-    writeFile(table, asBytes(now));
-  EXPECT_EQ(asText(readFile(table)), now);
+    writeFile(table, asBytes(fields));
+  EXPECT_EQ(asText(readFile(table)), fields);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Writing of the fields in node_fields.h: text of values, and elements of nodes.
+// Writes the fields in node_fields.h: texts of values, and elements of nodes.
 
 #include "documents/element_writer.h"
 #include "documents/node_fields.h"

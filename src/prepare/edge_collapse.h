@@ -22,13 +22,13 @@ struct CollapsingSurface {
   static constexpr std::uint32_t none = UINT32_MAX;
 
   std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> corners; ///< three vertices a triangle, all different
+  std::vector<std::uint32_t> corners; ///< three different vertices for each triangle
   std::vector<std::uint32_t> sources; ///< by triangle: for the caller; not used here
 };
 
 /// Collapses edges until `triangleCount` triangles are left or no edge can be collapsed. Two fixed vertices are never
 /// merged. Afterwards `corners` and `sources` hold the remaining triangles; vertices keep their indices. Planes
-/// through the border's edges keep the border in position.
+/// through the border's edges keep the border close to its position.
 void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount);
 
 } // namespace imgeo

@@ -1,27 +1,29 @@
 // Frame pacing for frames that only refine the picture. A scene of many patches changes many times
 // a second while it loads. A GPU that needs longer than a frame for each of these changes would
 // have no time left for uploads. So after a frame that takes longer than `quickFrameMs`, the next
-// refinement waits twice as long as that frame took. No change is lost: the delayed frame shows all
-// changes that came meanwhile.
+// refinement waits twice as long as that frame durationMs. No change is lost: the delayed frame shows all
+// changes that have come meanwhile.
 
 import { fencePassed } from "./gpuFence.ts";
 
 /** Frames of up to this duration cause no delay. */
 const quickFrameMs = 16;
-const delayPerFrame = 2;
+/** Delay after a slower frame, as a multiple of its duration. */
+const delayFactor = 2;
 const maxDelayMs = 2000;
 
 export class FramePacer {
   readonly #gl: WebGL2RenderingContext;
   #delay: Promise<void> | undefined;
   #isPending = false;
-  #wasPending = false;
+  /** Whether the frame that is being drawn was requested. */
+  #wasRequested = false;
 
   constructor(gl: WebGL2RenderingContext) {
     this.#gl = gl;
   }
 
-  /** A frame has been requested and has not been drawn yet. */
+  /** Whether a frame has been requested and has not been drawn yet. */
   get isFramePending(): boolean {
     return this.#isPending;
   }
@@ -37,15 +39,15 @@ export class FramePacer {
       });
   }
 
-  /** Call before any frame is submitted to the GPU, whether or not it was requested here. */
+  /** Call before any frame is submitted to the GPU, whether or not it was requested with `request`. */
   begin(): void {
-    this.#wasPending = this.#isPending;
+    this.#wasRequested = this.#isPending;
     this.#isPending = false;
   }
 
   /** Call after the frame has been submitted to the GPU. `begunAt`: when `begin` was called, by `performance.now()`. */
   end(begunAt: number): void {
-    if (!this.#wasPending || this.#delay !== undefined) return;
+    if (!this.#wasRequested || this.#delay !== undefined) return;
     this.#delay = delayAfter(this.#gl, begunAt).then(() => {
       this.#delay = undefined;
     });
@@ -57,9 +59,9 @@ async function delayAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<
   gl.flush();
   await fencePassed(gl, fence);
   gl.deleteSync(fence);
-  const took = performance.now() - begunAt;
-  if (took > quickFrameMs)
+  const durationMs = performance.now() - begunAt;
+  if (durationMs > quickFrameMs)
     await new Promise((resolve) => {
-      setTimeout(resolve, Math.min(delayPerFrame * took, maxDelayMs));
+      setTimeout(resolve, Math.min(delayFactor * durationMs, maxDelayMs));
     });
 }

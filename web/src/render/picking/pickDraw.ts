@@ -1,6 +1,6 @@
-// One draw in the picking pass, and access to its buffers. For indexed buffers WebGL tells the
-// shader only the last vertex of a primitive, so index and coordinates are read back for the draw
-// under the pointer. JavaScript keeps vertex data of small meshes only.
+// One draw in the picking pass, and access to its buffers. If vertices have an index buffer, the
+// shader gets only the last vertex of a primitive, so index and coordinates of the draw that is hit
+// are read back. JavaScript keeps vertex data of small meshes only.
 
 import type { BufferGeometry, Matrix4, Sphere } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
@@ -16,12 +16,13 @@ export interface BufferContents {
   /** The index of this draw only. */
   readonly index: IndexArray | undefined;
   readonly coord: ElementArray;
-  /** In elements: the distance from one vertex to the next, and the offset of the first. */
+  /** Elements from one vertex to the next. */
   readonly coordStride: number;
+  /** Index of the first vertex's first element. */
   readonly coordOffset: number;
 }
 
-/** What the picking pass draws with; created when the pointer comes near for the first time. */
+/** The resources of a draw in the picking pass; acquired when the pointer comes near for the first time. */
 export interface PickResources {
   readonly geometry: BufferGeometry;
   readonly request: Omit<PickMaterialRequest, "primitive">;
@@ -33,38 +34,38 @@ export interface PickDrawOptions {
   readonly buffers: BufferProvider;
   /** Bounds of the vertices, in stored coordinates. */
   readonly bounds: Sphere;
-  /** Transforms stored coordinates into the shape's. */
+  /** Transforms stored coordinates into those of the shape. */
   readonly shapeFromStored: Matrix4;
   acquireResources(): PickResources;
 }
 
 export class PickDraw {
   readonly range: DrawRange;
-  /** The stage is a base: its triangle and vertex indices are not those of the patch. */
-  readonly isStandIn: boolean;
+  /** Whether the stage is a base, whose triangle and vertex indices are not those of the patch. */
+  readonly isBase: boolean;
   /** The number of triangles in the patch's earlier draws. */
   readonly trianglesBefore: number;
   readonly bounds: Sphere;
   readonly shapeFromStored: Matrix4;
   /** Undefined for vertices from images. */
   readonly #stage: BufferStage | undefined;
-  readonly #context: PickDrawOptions;
-  #made: { readonly resources: PickResources; readonly material: PickMaterial } | undefined;
+  readonly #options: PickDrawOptions;
+  #acquired: { readonly resources: PickResources; readonly material: PickMaterial } | undefined;
   #contents: BufferContents | undefined;
   #isDisposed = false;
 
-  constructor(stage: Stage, range: DrawRange, context: PickDrawOptions) {
+  constructor(stage: Stage, range: DrawRange, options: PickDrawOptions) {
     this.range = range;
-    this.isStandIn = stage.name === "base";
-    this.bounds = context.bounds;
-    this.shapeFromStored = context.shapeFromStored;
-    this.#context = context;
+    this.isBase = stage.name === "base";
+    this.bounds = options.bounds;
+    this.shapeFromStored = options.shapeFromStored;
+    this.#options = options;
     this.#stage = stage.kind === "buffers" ? stage : undefined;
     const before = stage.draws.slice(0, stage.draws.indexOf(range));
     this.trianglesBefore = before.reduce((sum, draw) => sum + trianglesOf(draw), 0);
   }
 
-  /** The vertices come from buffers, so the primitive must be looked up in `contents`. */
+  /** Whether the vertices come from buffers, so that the primitive must be looked up in `contents`. */
   get hasContents(): boolean {
     return this.#stage !== undefined;
   }
@@ -75,7 +76,7 @@ export class PickDraw {
 
   /** The object to draw in the picking pass; its pixels get this id. */
   objectFor(pickId: number, worldFromStored: Matrix4): DrawnObject {
-    const { resources, material } = (this.#made ??= this.#make());
+    const { resources, material } = (this.#acquired ??= this.#make());
     const object = makeDrawnObject(this.range, resources.geometry, material);
     object.frustumCulled = false; // candidatesInView has already culled
     object.matrixAutoUpdate = false;
@@ -93,7 +94,7 @@ export class PickDraw {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;
     const { first, count } = this.range;
-    const { buffers } = this.#context;
+    const { buffers } = this.#options;
     this.#contents ??= {
       index: index && (buffers.read(index.bytes, index.type, first, count) as IndexArray),
       coord: buffers.read(coord.bytes, coord.type, 0),
@@ -103,15 +104,16 @@ export class PickDraw {
     return this.#contents;
   }
 
+  /** Frees the memory of `contents`. */
   forgetContents(): void {
     this.#contents = undefined;
   }
 
-  /** Releases what it draws with, until it is drawn again. */
+  /** Releases the resources, which are acquired again when it is drawn. */
   releaseResources(): void {
-    this.#made?.material.dispose();
-    this.#made?.resources.release();
-    this.#made = undefined;
+    this.#acquired?.material.dispose();
+    this.#acquired?.resources.release();
+    this.#acquired = undefined;
   }
 
   dispose(): void {
@@ -121,7 +123,7 @@ export class PickDraw {
   }
 
   #make(): { resources: PickResources; material: PickMaterial } {
-    const resources = this.#context.acquireResources();
+    const resources = this.#options.acquireResources();
     return { resources, material: makePickMaterial({ ...resources.request, primitive: this.range.primitive }) };
   }
 }

@@ -161,8 +161,8 @@ export class Picker {
       element,
       group,
       patch,
-      vertex: pick.isStandIn ? -1 : vertex,
-      triangle: cornersOf(pick.range) === 3 && !pick.isStandIn ? pick.trianglesBefore + number : undefined,
+      vertex: pick.isBase ? -1 : vertex,
+      triangle: cornersOf(pick.range) === 3 && !pick.isBase ? pick.trianglesBefore + number : undefined,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
       normal: worldNormalOf(new Vector3().fromArray(floats, pickedWordOffsets.normal), worldFromStored) ?? faceNormal,
     };
