@@ -9,10 +9,10 @@ import { ArrayUploads } from "./arrayUploads.ts";
  */
 function fakeGpu() {
   const open = new Set<StoredBytes>();
-  let stored = 0;
+  let storeCount = 0;
   let gate: Promise<unknown> = Promise.resolve();
   const store = async ({ byteLength }: ElementArray, _: ArrayUse, signal: AbortSignal): Promise<StoredBytes> => {
-    stored += 1;
+    storeCount += 1;
     await gate;
     signal.throwIfAborted();
     const bytes = {
@@ -27,26 +27,26 @@ function fakeGpu() {
   return {
     uploads: new ArrayUploads(store),
     open,
-    stored: () => stored,
+    storeCount: () => storeCount,
     hold: (promise: Promise<unknown>) => {
       gate = promise;
     },
   };
 }
 
-const never = new AbortController().signal;
+const neverAborted = new AbortController().signal;
 const vertices = (array: ElementArray, offset = 0) => ({ array, components: 3, stride: 8, offset }) as const;
 
 describe("uploaded arrays", () => {
   test("are stored once for all attributes that share a buffer, and closed with the last of them", async () => {
-    const { uploads, open, stored } = fakeGpu();
+    const { uploads, open, storeCount } = fakeGpu();
     const { buffer } = new Uint8Array(64);
     const all = await Promise.all(
       [vertices(new Uint16Array(buffer)), vertices(new Uint16Array(buffer), 4), vertices(new Int8Array(buffer))].map(
-        (array) => uploads.storeVertices(array, never),
+        (array) => uploads.storeVertices(array, neverAborted),
       ),
     );
-    assert.deepEqual([stored(), open.size, uploads.byteLength], [1, 1, 64]);
+    assert.deepEqual([storeCount(), open.size, uploads.byteLength], [1, 1, 64]);
     assert.deepEqual(
       all.map(({ type, offset }) => `${type} ${offset}`),
       ["Uint16 0", "Uint16 4", "Int8 0"],
@@ -57,13 +57,13 @@ describe("uploaded arrays", () => {
       uploads.sweep();
     }
     assert.deepEqual([open.size, uploads.byteLength], [0, 0]);
-    await uploads.storeIndex(new Uint16Array(buffer), never);
-    assert.equal(stored(), 2);
+    await uploads.storeIndex(new Uint16Array(buffer), neverAborted);
+    assert.equal(storeCount(), 2);
   });
 
   test("stay stored after they are retired, until they are swept", async () => {
     const { uploads, open } = fakeGpu();
-    uploads.retire(await uploads.storeIndex(new Uint32Array(3), never), undefined);
+    uploads.retire(await uploads.storeIndex(new Uint32Array(3), neverAborted), undefined);
     assert.equal(open.size, 1);
     uploads.sweep();
     uploads.sweep();
@@ -76,7 +76,7 @@ describe("uploaded arrays", () => {
     hold(promise);
     const aborter = new AbortController();
     const array = new Uint8Array(8);
-    const [first, second] = [uploads.storeIndex(array, aborter.signal), uploads.storeIndex(array, never)];
+    const [first, second] = [uploads.storeIndex(array, aborter.signal), uploads.storeIndex(array, neverAborted)];
     aborter.abort();
     resolve(undefined);
     await assert.rejects(first, { name: "AbortError" });

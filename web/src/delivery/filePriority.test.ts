@@ -20,7 +20,9 @@ import {
 import type { PatchFile } from "./patchFiles.ts";
 import { deliveryOf } from "./encodings/encodings.ts";
 
-/** At the origin, looking along -z with 90 degrees and 1000 pixels both ways. */
+/**
+ * A camera at the origin that looks along -z, with a field of view of 90 degrees and 1000 pixels in both directions.
+ */
 const camera: Camera = {
   position: [0, 0, 0],
   pixelsPerUnit: 500,
@@ -28,7 +30,8 @@ const camera: Camera = {
   planes: planesOf([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -2e-3, 0]),
 };
 
-const away = (distance: number, right = 0): Matrix => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, right, 0, -distance, 1];
+/** The matrix of a shape at a distance in front of the camera. */
+const matrixAt = (distance: number, right = 0): Matrix => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, right, 0, -distance, 1];
 
 function priorityAt(geometry: GeometryDescription, matrix: Matrix, content = 1): FilePriority {
   return filePriorityFor([geometryInstance(geometry, matrix, content)], { camera, weights: defaultChunkWeights });
@@ -45,7 +48,7 @@ function requiredFiles(geometry: GeometryDescription, filePriority: FilePriority
 }
 
 function firstFile(geometry: GeometryDescription): PatchFile {
-  const [file] = geometry.patches.flatMap((each) => deliveryOf(geometry).patchFilesOf(geometry, each, 4096));
+  const [file] = geometry.patches.flatMap((described) => deliveryOf(geometry).patchFilesOf(geometry, described, 4096));
   assert.ok(file);
   return file;
 }
@@ -56,17 +59,23 @@ const patch = (fields: string) =>
 const lit = geometryOf(`<ImageGeometry ${cube}>${patch('index="i" normal="n"')}</ImageGeometry>`);
 
 describe("a byte plane", () => {
-  // One pixel at a distance of 2 is 1/250: the first byte's step is 1/256 of the cube, which is about a pixel.
+  // At a distance of 2 a pixel covers 1/250 units. The first byte's step is 1/256 of the cube, about as much.
   test("is required when the planes above it leave visible steps", () => {
-    assert.deepEqual(requiredFiles(lit, priorityAt(lit, away(2))), ["coord", "index", "normal", "coord1"]);
+    assert.deepEqual(requiredFiles(lit, priorityAt(lit, matrixAt(2))), ["coord", "index", "normal", "coord1"]);
   });
 
   test("is not required while a step is less than half a pixel", () => {
-    assert.deepEqual(requiredFiles(lit, priorityAt(lit, away(6))), ["coord", "index", "normal"]);
+    assert.deepEqual(requiredFiles(lit, priorityAt(lit, matrixAt(6))), ["coord", "index", "normal"]);
   });
 
   test("is required only when the step of the plane above it is visible", () => {
-    assert.deepEqual(requiredFiles(lit, priorityAt(lit, away(0.51))), ["coord", "index", "normal", "coord1", "coord2"]);
+    assert.deepEqual(requiredFiles(lit, priorityAt(lit, matrixAt(0.51))), [
+      "coord",
+      "index",
+      "normal",
+      "coord1",
+      "coord2",
+    ]);
   });
 
   test("is required where the shape is scaled up", () => {
@@ -75,21 +84,21 @@ describe("a byte plane", () => {
   });
 
   test("is required next to the view, since the camera turns faster than files arrive", () => {
-    assert.ok(requiredFiles(lit, priorityAt(lit, away(-2))).includes("coord1"));
+    assert.ok(requiredFiles(lit, priorityAt(lit, matrixAt(-2))).includes("coord1"));
   });
 
   test("is required where the slope between vertices shades the surface", () => {
     const bare = geometryOf(`<ImageGeometry ${cube}>${patch('index="i"')}</ImageGeometry>`);
-    assert.deepEqual(requiredFiles(bare, priorityAt(bare, away(500))), ["coord", "index", "coord1", "coord2"]);
+    assert.deepEqual(requiredFiles(bare, priorityAt(bare, matrixAt(500))), ["coord", "index", "coord1", "coord2"]);
   });
 
   test("is not required for points without normals, which are not shaded", () => {
     const cloud = geometryOf(`<ImageGeometry ${cube}>${patch('primType="POINTS"')}</ImageGeometry>`);
-    assert.deepEqual(requiredFiles(cloud, priorityAt(cloud, away(500))), ["coord"]);
+    assert.deepEqual(requiredFiles(cloud, priorityAt(cloud, matrixAt(500))), ["coord"]);
   });
 
   test("is required as long as there is no camera", () => {
-    const filePriority = filePriorityFor([geometryInstance(lit, away(500), 1)], {
+    const filePriority = filePriorityFor([geometryInstance(lit, matrixAt(500), 1)], {
       camera: undefined,
       weights: defaultChunkWeights,
     });
@@ -101,30 +110,30 @@ describe("a shape", () => {
   test("has a larger priority when it is nearer, and when it is in the view", () => {
     const file = firstFile(lit);
     const at = (matrix: Matrix) => priorityAt(lit, matrix)(0, file) ?? 0;
-    assert.ok(at(away(3)) > at(away(9)));
-    assert.ok(at(away(9)) > at(away(9, 20)));
-    assert.ok(at(away(9, 20)) > at(away(9, 40)));
-    assert.ok(at(away(9)) > at(away(-3)));
+    assert.ok(at(matrixAt(3)) > at(matrixAt(9)));
+    assert.ok(at(matrixAt(9)) > at(matrixAt(9, 20)));
+    assert.ok(at(matrixAt(9, 20)) > at(matrixAt(9, 40)));
+    assert.ok(at(matrixAt(9)) > at(matrixAt(-3)));
   });
 
   test("has a priority in proportion to the factor of the author", () => {
     const file = firstFile(lit);
-    assert.equal(priorityAt(lit, away(5), 4)(0, file), 4 * (priorityAt(lit, away(5))(0, file) ?? NaN));
+    assert.equal(priorityAt(lit, matrixAt(5), 4)(0, file), 4 * (priorityAt(lit, matrixAt(5))(0, file) ?? NaN));
   });
 });
 
 describe("a geometry with several instances", () => {
-  const viewing = { camera, weights: defaultChunkWeights };
+  const viewState = { camera, weights: defaultChunkWeights };
 
   test("has the largest priority of its instances", () => {
-    const instances = [away(50), away(3), away(9)].map((matrix) => geometryInstance(lit, matrix, 1));
+    const instances = [matrixAt(50), matrixAt(3), matrixAt(9)].map((matrix) => geometryInstance(lit, matrix, 1));
     const file = firstFile(lit);
-    assert.equal(filePriorityFor(instances, viewing)(0, file), priorityAt(lit, away(3))(0, file));
-    assert.ok(requiredFiles(lit, filePriorityFor(instances, viewing)).includes("coord1"));
+    assert.equal(filePriorityFor(instances, viewState)(0, file), priorityAt(lit, matrixAt(3))(0, file));
+    assert.ok(requiredFiles(lit, filePriorityFor(instances, viewState)).includes("coord1"));
   });
 
   test("is not required without visible instances", () => {
-    assert.deepEqual(requiredFiles(lit, filePriorityFor([], viewing)), []);
+    assert.deepEqual(requiredFiles(lit, filePriorityFor([], viewState)), []);
   });
 });
 
@@ -221,8 +230,8 @@ describe("a delivery", () => {
     assert.deepEqual(site.requested, ["a0.png", "a1.png", "b0.png", "b1.png"]);
   });
 
-  test("returns the bytes that wait for decoding to the limit, however decoding ends", async () => {
-    const large = new Uint8Array(9 * 2 ** 20); // more than all the room, and no image
+  test("releases the memory limit of undecoded bytes whether decoding succeeds or fails", async () => {
+    const large = new Uint8Array(9 * 2 ** 20); // larger than the whole limit, and no PNG
     const site = siteOf({ ...sigFiles(3), "a0.png": large, "a1.png": large, "i2.png": 404 });
     const { settled, errors, stages } = record(sigGeometry(3), site.pool);
     await settled;

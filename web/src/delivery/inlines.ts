@@ -1,4 +1,5 @@
-// Loads the documents that Inlines name, through the same queue as all files and before them. They are kept outside the
+// Loads the documents that Inlines name, through the same queue as all files but with a higher priority. They are kept
+// outside the
 // page's DOM, and freed with the last Inline that names them.
 
 import type { InlineDescription } from "../document/description.ts";
@@ -15,17 +16,17 @@ const documentWeight = 2 ** 24;
 const expectedBytes = 30_000;
 
 export interface InlinesListener {
-  /** Its document is requested. Not called again for the same Inline before `onRemove`. */
+  /** The Inline's document is requested. Not called again for the same Inline before `onRemove`. */
   onBegin?(inline: SceneElement): void;
-  /** Its document is ready, or all its urls have failed: the Inline is to be read again. */
+  /** The Inline's document has loaded, or all its URLs have failed. The listener reads the Inline again. */
   onEnd(inline: SceneElement, error: DeliveryError | undefined): void;
-  /** The scene no longer contains it, or its urls have changed. */
+  /** The scene no longer contains the Inline, or its URLs have changed. */
   onRemove?(inline: SceneElement): void;
 }
 
 export interface InlinesOptions {
   readonly pool: ResourcePool;
-  /** The absolute URL of one that an Inline names. Throws DecodeError for a URL that must not be requested. */
+  /** Makes a URL of an Inline absolute. Throws DecodeError for a URL that must not be requested. */
   readonly urlOf: (url: string) => string;
   /** The document of the scene itself, which need not be loaded. */
   readonly ownDocument?: InlinedDocument;
@@ -33,7 +34,8 @@ export interface InlinesOptions {
   readonly parse?: (bytes: Uint8Array, url: string) => SceneElement;
 }
 
-interface Followed {
+/** The loading of one Inline. */
+interface InlineLoad {
   readonly urls: readonly string[];
   handle: ResourceHandle | undefined;
   document: InlinedDocument | undefined;
@@ -43,7 +45,7 @@ interface Followed {
 export class Inlines {
   readonly #options: InlinesOptions;
   readonly #listener: InlinesListener;
-  readonly #followed = new Map<SceneElement, Followed>();
+  readonly #loads = new Map<SceneElement, InlineLoad>();
   /** By absolute URL: Inlines of one document share its shapes. */
   readonly #documents = new Map<string, InlinedDocument>();
 
@@ -52,29 +54,29 @@ export class Inlines {
     this.#listener = listener;
   }
 
-  /** The document of an Inline, once it is ready. */
+  /** The document of an Inline; undefined until it has loaded. */
   documentOf(inline: SceneElement): InlinedDocument | undefined {
-    return this.#followed.get(inline)?.document;
+    return this.#loads.get(inline)?.document;
   }
 
-  /** Its document is ready, or all its urls have failed. */
+  /** Whether the Inline's document has loaded or all its URLs have failed. */
   isEnded(inline: SceneElement): boolean {
-    return this.#followed.get(inline)?.isEnded === true;
+    return this.#loads.get(inline)?.isEnded === true;
   }
 
-  /** Every requested document is ready or has failed. */
+  /** Whether every requested document has loaded or failed. */
   get isSettled(): boolean {
-    return Array.from(this.#followed.values()).every(({ isEnded }) => isEnded);
+    return Array.from(this.#loads.values()).every(({ isEnded }) => isEnded);
   }
 
   /** The transfer of the URL that the Inline requested last. */
   transfersOf(inline: SceneElement): readonly Readonly<Transfer>[] {
-    const handle = this.#followed.get(inline)?.handle;
+    const handle = this.#loads.get(inline)?.handle;
     return handle === undefined ? [] : [handle.transfer];
   }
 
   get transfers(): readonly Readonly<Transfer>[] {
-    return Array.from(this.#followed.keys()).flatMap((inline) => this.transfersOf(inline));
+    return Array.from(this.#loads.keys()).flatMap((inline) => this.transfersOf(inline));
   }
 
   /** Requests the documents of visible Inlines, and releases those of Inlines that the scene no longer contains. */
@@ -84,15 +86,15 @@ export class Inlines {
       const before = present.get(inline.element);
       if (before === undefined || inline.visible) present.set(inline.element, inline);
     }
-    for (const [element, followed] of this.#followed) {
+    for (const [element, load] of this.#loads) {
       const inline = present.get(element);
-      if (inline !== undefined && isSame(inline.urls, followed.urls)) continue;
-      this.#followed.delete(element);
-      followed.handle?.release();
+      if (inline !== undefined && isSame(inline.urls, load.urls)) continue;
+      this.#loads.delete(element);
+      load.handle?.release();
       this.#listener.onRemove?.(element);
     }
     for (const inline of present.values()) this.#request(inline);
-    const inUse = new Set(Array.from(this.#followed.values(), ({ document }) => document));
+    const inUse = new Set(Array.from(this.#loads.values(), ({ document }) => document));
     for (const [url, document] of this.#documents) if (!inUse.has(document)) this.#documents.delete(url);
   }
 
@@ -101,44 +103,44 @@ export class Inlines {
   }
 
   #request({ element, urls, visible, priority }: InlineDescription): void {
-    const known = this.#followed.get(element);
+    const known = this.#loads.get(element);
     known?.handle?.setPriority(priority * documentWeight);
     if (known !== undefined || !visible) return;
-    const followed: Followed = { urls, handle: undefined, document: undefined, isEnded: false };
-    this.#followed.set(element, followed);
+    const load: InlineLoad = { urls, handle: undefined, document: undefined, isEnded: false };
+    this.#loads.set(element, load);
     this.#listener.onBegin?.(element);
-    void this.#load(element, followed, priority * documentWeight);
+    void this.#load(element, load, priority * documentWeight);
   }
 
   /** Tries one URL after the other until one leads to a document. */
-  async #load(element: SceneElement, followed: Followed, priority: number): Promise<void> {
-    const isOver = () => this.#followed.get(element) !== followed;
+  async #load(element: SceneElement, load: InlineLoad, priority: number): Promise<void> {
+    const isReplaced = () => this.#loads.get(element) !== load;
     let failure: DeliveryError | undefined;
-    for (const url of followed.urls) {
+    for (const url of load.urls) {
       try {
-        followed.document = await this.#documentAt(url, followed, priority);
+        load.document = await this.#documentAt(url, load, priority);
         break;
       } catch (error) {
-        if (isOver()) return;
+        if (isReplaced()) return;
         failure = asDeliveryError(error, url);
       }
     }
-    if (isOver()) return;
-    followed.isEnded = true;
-    this.#listener.onEnd(element, followed.document === undefined ? failure : undefined);
+    if (isReplaced()) return;
+    load.isEnded = true;
+    this.#listener.onEnd(element, load.document === undefined ? failure : undefined);
   }
 
-  async #documentAt(named: string, followed: Followed, priority: number): Promise<InlinedDocument> {
+  async #documentAt(relativeUrl: string, load: InlineLoad, priority: number): Promise<InlinedDocument> {
     const { pool, urlOf, ownDocument: own, parse = parseInlined } = this.#options;
-    const url = urlOf(named);
+    const url = urlOf(relativeUrl);
     const known = url === own?.url ? own : this.#documents.get(url);
     if (known !== undefined) return known;
     const handle = pool.acquire({ kind: "bytes", url, priority, expectedBytes });
-    followed.handle?.release();
-    followed.handle = handle;
+    load.handle?.release();
+    load.handle = handle;
     const content = await handle.content;
     try {
-      const loaded = this.#documents.get(url); // by another Inline meanwhile
+      const loaded = this.#documents.get(url); // loaded by another Inline meanwhile
       if (loaded !== undefined) return loaded;
       if (content.kind !== "bytes") throw new TypeError("the pool gave no bytes");
       const document = { url, x3d: parse(content.bytes, url) };

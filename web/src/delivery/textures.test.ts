@@ -29,7 +29,10 @@ function textureOf(url: string, preview = "", role: TextureDescription["role"] =
 
 const everyTexture: TexturePriority = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownViewMetrics);
 
-/** A shape with these textures, and the width of what it shows of each role. */
+/**
+ * A shape with these textures. `eventsWithin` requests them within a budget and returns, by role, the widths of the
+ * images that are then displayed, and errors.
+ */
 function shapeWith(textures: readonly TextureDescription[], files: Record<string, Answer>, slots = 6) {
   const site = siteOf(files, slots);
   const deliveries = { geometries: new GeometryDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
@@ -41,7 +44,7 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
   });
   shape.follow(textures);
   const eventsWithin = async (maxBytes = Infinity, priority = everyTexture) => {
-    for (let turn = 0; turn < 3; ++turn) {
+    for (let round = 0; round < 3; ++round) {
       await shortDelay(); // listeners are called in the next microtask
       requestWithinBudget(deliveries, () => () => undefined, priority, maxBytes);
       do await shortDelay();
@@ -91,7 +94,7 @@ describe("a texture", () => {
     assert.deepEqual(await eventsWithin(), ["color 8", "color 256"]);
   });
 
-  test("is not requested for an invisible shape, but stays once it is there", async () => {
+  test("is not requested for an invisible shape, but stays once it has loaded", async () => {
     const { site, eventsWithin } = shapeWith([textureOf("full.png", "small.png")], {
       "full.png": large,
       "small.png": small,
@@ -129,10 +132,11 @@ test("textures are the last files that a scene requests, and their previews come
   deliveries.textures.request(everyTexture);
   await settled;
   while (!shape.isSettled) await shortDelay();
-  const kinds = site.requested.map(
+  // The first letter of a file name tells its content.
+  const contents = site.requested.map(
     (name) => ({ a: "coord", s: "preview", i: "index", n: "normal", b: "refinement", f: "texture" })[name[0] ?? ""],
   );
-  assert.deepEqual(kinds, [
+  assert.deepEqual(contents, [
     "coord",
     "coord",
     "preview",

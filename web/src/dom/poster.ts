@@ -25,15 +25,18 @@ export class Poster {
     this.#send = send;
   }
 
-  /** Shows the image at `url`, or the page's slotted poster. Shows nothing where there is neither, or already a picture. */
+  /**
+   * Shows the image at `url`, or the page's slotted poster. Shows nothing if there is neither, or if the scene already
+   * has a picture and `reveal` is "auto".
+   */
   show(url: string, alt: string): void {
-    const hasOwn = Array.from(this.#host.children).some((child) => child.slot === "poster");
+    const hasSlottedPoster = Array.from(this.#host.children).some((child) => child.slot === "poster");
     if (url !== "") this.#ui.posterImage.src = url;
     this.#ui.posterImage.hidden = url === "";
     this.#ui.posterImage.alt = alt;
     const { poster } = this.#ui;
     poster.classList.remove("leaving");
-    poster.hidden = this.reveal === "auto" && (this.#hasPicture || (url === "" && !hasOwn));
+    poster.hidden = this.reveal === "auto" && (this.#hasPicture || (url === "" && !hasSlottedPoster));
     this.#ui.canvas.inert = this.#isCovering;
     this.#sendVisibility();
   }

@@ -1,6 +1,8 @@
 // Where an element is in the page's viewport, and its size in device pixels.
 
-/** Calls back once, when the element is within `margin` viewport sizes of the viewport; synchronously where it is already. */
+/**
+ * Calls back once, when the element is within `margin` viewport sizes of the viewport; synchronously if it already is.
+ */
 export function whenNearViewport(element: Element, margin: number, signal: AbortSignal, onNear: () => void): void {
   if (isNearViewport(element.getBoundingClientRect(), margin)) {
     onNear();
@@ -32,7 +34,10 @@ export function isNearViewport({ left, right, top, bottom, width, height }: DOMR
   );
 }
 
-/** Calls back with the element's size in device pixels, soon and whenever the size or the pixel ratio changes. */
+/**
+ * Calls back with the element's size in device pixels, soon after the call and whenever the size or the pixel ratio
+ * changes.
+ */
 export function observeDeviceSize(
   element: Element,
   signal: AbortSignal,
@@ -65,7 +70,10 @@ export function deviceSizeOf(element: Element): [width: number, height: number, 
   return [devicePixels(width, undefined), devicePixels(height, undefined), devicePixelRatio];
 }
 
-/** The exact size that the browser reports, unless it differs by more than rounding: it does not include an emulated pixel ratio. */
+/**
+ * The exact size that the browser reports, unless it differs by more than rounding: it does not include an emulated
+ * pixel ratio.
+ */
 function devicePixels(cssPixels: number, exact: number | undefined): number {
   const product = cssPixels * devicePixelRatio;
   return exact !== undefined && Math.abs(exact - product) <= 1 ? exact : Math.round(product);

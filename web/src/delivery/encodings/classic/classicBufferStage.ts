@@ -38,7 +38,7 @@ const attributeDecoders: Readonly<Record<VertexRole, AttributeDecoder>> = {
     run("classicColors", { ...image, components: colorComponents }, signal),
 };
 
-interface Drawn {
+interface IndexedDraws {
   readonly index: StoredIndex | undefined;
   readonly draws: readonly DrawRange[];
 }
@@ -48,17 +48,18 @@ type CoordArrays = Pick<GridArrays, "coord"> & Partial<GridArrays>;
 
 /** The decoded arrays of a patch, and images that wait for others. */
 class AvailableArrays {
-  /** Undecoded images, until all byte planes are available. */
-  planes: (ImageFile | undefined)[] = [];
+  /** Undecoded images of the coordinates, until all byte planes are available. */
+  coordPlanes: (ImageFile | undefined)[] = [];
+  /** The undecoded index image, until the first coordinate image is available. */
   waitingIndex: ImageFile | undefined;
   coordHeader: PngHeader | undefined;
   coord: StoredVertices | undefined;
   coordPlaneCount = 0;
-  drawn: Drawn | undefined;
+  drawn: IndexedDraws | undefined;
   attributes: Partial<Record<VertexRole, StoredVertices>> = {};
-  /** Normals of the slope of a grid that has no others. */
-  slope: StoredVertices | undefined;
-  /** Undecoded images, until all byte planes are available. */
+  /** Normals computed from the slope of a grid without stored normals. */
+  slopeNormals: StoredVertices | undefined;
+  /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
   value: StoredVertices | undefined;
 }
@@ -93,7 +94,7 @@ class BufferStageBuilder implements StageBuilder {
     const header = checkPng(image.png);
     switch (file.role) {
       case "coord":
-        available.planes[file.plane] = image;
+        available.coordPlanes[file.plane] = image;
         if (file.plane === 0) available.coordHeader = header;
         await Promise.all([this.#decodeCoords(available, signal), this.#decodeIndex(available, signal)]);
         return;
@@ -125,8 +126,8 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   clear(): void {
-    const { drawn, coord, attributes, slope, value } = this.#available;
-    this.#uploads.retire(drawn?.index, coord, ...Object.values(attributes), slope, value);
+    const { drawn, coord, attributes, slopeNormals, value } = this.#available;
+    this.#uploads.retire(drawn?.index, coord, ...Object.values(attributes), slopeNormals, value);
     this.#available = new AvailableArrays();
   }
 
@@ -155,7 +156,7 @@ class BufferStageBuilder implements StageBuilder {
       index,
       draws,
       coord,
-      attributes: { ...attributes, normal: attributes.normal ?? available.slope },
+      attributes: { ...attributes, normal: attributes.normal ?? available.slopeNormals },
       normalFormat,
       value: value && { ...value, maxStored: undefined },
     };
@@ -164,10 +165,13 @@ class BufferStageBuilder implements StageBuilder {
   /** Decodes the byte planes from the most significant on, as far as they are available. */
   async #decodeCoords(available: AvailableArrays, signal: AbortSignal): Promise<void> {
     const header = available.coordHeader;
-    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => available.planes[plane]).indexOf(
-      undefined,
-    );
-    const planes = available.planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
+    const missing = Array.from(
+      { length: this.#patch.coord.length },
+      (_, plane) => available.coordPlanes[plane],
+    ).indexOf(undefined);
+    const planes = available.coordPlanes
+      .slice(0, missing < 0 ? undefined : missing)
+      .filter((plane) => plane !== undefined);
     if (header === undefined || planes.length <= available.coordPlaneCount) return;
     const planeCount = this.#patch.coord.length;
     const job = {
@@ -191,21 +195,21 @@ class BufferStageBuilder implements StageBuilder {
             signal,
           );
     const drawn = await this.#drawsWithoutFile(available, arrays.index, signal);
-    const slope = arrays.normal && (await this.#uploads.storeVertices(arrays.normal, signal));
+    const slopeNormals = arrays.normal && (await this.#uploads.storeVertices(arrays.normal, signal));
     const coord = await this.#uploads.storeVertices(arrays.coord, signal);
-    // Jobs of fewer and of more planes may end in any order. Coordinates and slopes are replaced together, so that
-    // slopes are those of the positions.
+    // Jobs of fewer and of more planes may end in any order. Coordinates and the
+    // normals computed from them are replaced together.
     if (available.drawn === undefined) available.drawn = drawn;
     else this.#uploads.retire(drawn?.index);
     if (planes.length <= available.coordPlaneCount) {
-      this.#uploads.retire(coord, slope);
+      this.#uploads.retire(coord, slopeNormals);
       return;
     }
-    this.#uploads.retire(available.coord, available.slope);
+    this.#uploads.retire(available.coord, available.slopeNormals);
     available.coord = coord;
-    available.slope = slope;
+    available.slopeNormals = slopeNormals;
     available.coordPlaneCount = planes.length;
-    if (planes.length === planeCount) available.planes = [];
+    if (planes.length === planeCount) available.coordPlanes = [];
   }
 
   /** Decodes the values once all their planes are available. */
@@ -224,14 +228,14 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   /**
-   * The draws of a patch without an index file: a grid, or records in their order. Undefined where there is a file, or
-   * they are known.
+   * The draws of a patch without an index file: a grid, or records in their order. Undefined if there is an index file,
+   * or if the draws have been found before.
    */
   async #drawsWithoutFile(
     available: AvailableArrays,
     gridIndex: IndexArray | undefined,
     signal: AbortSignal,
-  ): Promise<Drawn | undefined> {
+  ): Promise<IndexedDraws | undefined> {
     if (available.drawn !== undefined || this.#patch.index !== undefined) return undefined;
     const { index, draws } = gridIndex
       ? { index: gridIndex, draws: drawRangesOf(this.#patch) }

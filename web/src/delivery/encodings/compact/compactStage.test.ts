@@ -7,21 +7,24 @@ import { pngWithTexels } from "../../../decode/png.testing.ts";
 import { dequantizationOf } from "../../../document/dequantization.ts";
 import { everything, geometryOf, deferredFile, record, siteOf, shortDelay } from "../../delivery.testing.ts";
 
-/** A geometry of patches of files, as documents describe them. */
+/**
+ * A geometry whose patches are those of test vectors, by file and patch index, as a document would describe them;
+ * `changes` replaces fields.
+ */
 function geometryFor(
-  patches: readonly (readonly [file: string, number: number])[],
+  patches: readonly (readonly [file: string, patchIndex: number])[],
   changes: Record<string, string> = {},
   base = "",
 ) {
-  const patchAt = (file: string, number: number) => decodeVector(file)[number] ?? assert.fail("no such patch");
+  const patchAt = (file: string, patchIndex: number) => decodeVector(file)[patchIndex] ?? assert.fail("no such patch");
   const { header } = patchAt(...(patches[0] ?? assert.fail("no patches")));
-  const markup = patches.map(([file, number]) => {
-    const { index, vertexCount, topology } = buffersOf(patchAt(file, number));
+  const markup = patches.map(([file, patchIndex]) => {
+    const { index, vertexCount, topology } = buffersOf(patchAt(file, patchIndex));
     const fields = {
       recordCount: String(vertexCount),
       vertexCount: String(index?.length ?? vertexCount),
       primType: topology.toUpperCase(),
-      data: `${file}.png#${number}`,
+      data: `${file}.png#${patchIndex}`,
       ...changes,
     };
     return `<GeometryPatch ${Object.entries(fields)
@@ -41,7 +44,7 @@ async function until(condition: () => boolean): Promise<void> {
 }
 
 describe("a geometry of compact", () => {
-  test("becomes one full stage of buffers, whatever the patch holds", async () => {
+  test("becomes one stage, full, of buffers, for every test vector", async () => {
     for (const name of vectorNames().filter((name) => !isBase(name))) {
       const site = siteOf(filesOf(name));
       const { stages, errors, settled } = record(geometryFor([[name, 0]]), site.pool);
@@ -66,8 +69,8 @@ describe("a geometry of compact", () => {
 
   test("requests and decodes a file of several patches once", async () => {
     const site = siteOf(filesOf("alike"));
-    const numbers = [3, 0, 8];
-    const recordings = numbers.map((number) => record(geometryFor([["alike", number]]), site.pool));
+    const patchIndices = [3, 0, 8];
+    const recordings = patchIndices.map((patchIndex) => record(geometryFor([["alike", patchIndex]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
     assert.deepEqual([site.requested, site.jobs], [["alike.png"], ["compactPatches"]]);
     const patches = decodeVector("alike");
@@ -80,7 +83,7 @@ describe("a geometry of compact", () => {
     ] of recordings.entries()) {
       assert.ok(only?.stage.kind === "buffers");
       assert.deepEqual([errors, others.length], [[], 0]);
-      const { index, coord } = buffersOf(patches[numbers[recordingIndex] ?? 0] ?? assert.fail());
+      const { index, coord } = buffersOf(patches[patchIndices[recordingIndex] ?? 0] ?? assert.fail());
       assert.deepEqual(
         [only.stage.index, only.stage.coord].map((stored) => site.arrayOf(stored)),
         [index, coord.array],
@@ -102,7 +105,7 @@ describe("a geometry of compact", () => {
 
   test("that shares a file is evicted and fetched again alone, and counts only its own bytes", async () => {
     const site = siteOf(filesOf("alike"));
-    const recordings = [3, 0, 8].map((number) => record(geometryFor([["alike", number]]), site.pool));
+    const recordings = [3, 0, 8].map((patchIndex) => record(geometryFor([["alike", patchIndex]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
     const stored = () => Array.from(site.arrays.values()).reduce((sum, { byteLength }) => sum + byteLength, 0);
     const each = recordings.map(({ delivery }) => delivery.storedBytes);
@@ -115,7 +118,7 @@ describe("a geometry of compact", () => {
     delivery.budgetRequests(everything);
     delivery.request(everything);
     await until(() => stages.length === 2);
-    assert.deepEqual([stored(), recordings.map(({ stages: shown }) => shown.length)], [all, [1, 2, 1]]);
+    assert.deepEqual([stored(), recordings.map((recording) => recording.stages.length)], [all, [1, 2, 1]]);
     assert.deepEqual(site.requested, ["alike.png", "alike.png"]);
     for (const { delivery: one } of recordings) one.cancel();
     assert.equal(site.arrays.size, 0);
@@ -123,7 +126,7 @@ describe("a geometry of compact", () => {
 
   test("fails with a shared file, each geometry with its own error", async () => {
     const site = siteOf({ "alike.png": 404 });
-    const recordings = [1, 2].map((number) => record(geometryFor([["alike", number]]), site.pool));
+    const recordings = [1, 2].map((patchIndex) => record(geometryFor([["alike", patchIndex]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
     assert.deepEqual(
       recordings.map(({ errors, stages }) => [errors.length, errors[0]?.url, errors[0]?.kind, stages.length]),
@@ -145,27 +148,30 @@ describe("a geometry of compact", () => {
     const high = record(geometryFor([["alike", 5]]), site.pool, withPriority(7));
     const totals = low.delivery.transfers.map(({ totalBytes }) => totalBytes);
     high.delivery.cancel();
-    assert.ok((low.delivery.transfers[0]?.totalBytes ?? 0) < (totals[0] ?? 0), "what one waits for is added up");
+    assert.ok(
+      (low.delivery.transfers[0]?.totalBytes ?? 0) < (totals[0] ?? 0),
+      "the expected bytes of a shared file are the sum over the deliveries that wait for it",
+    );
     low.delivery.request(withPriority(8));
     release();
     await Promise.all([first.settled, low.settled, middle.settled]);
     assert.deepEqual(site.requested, ["sphere.png", "alike.png", "torus.png"]);
-    const gone = siteOf({ "alike.png": new Promise(() => undefined) });
-    const both = [1, 2].map((number) => record(geometryFor([["alike", number]]), gone.pool));
-    await until(() => gone.requested.length === 1);
+    const silent = siteOf({ "alike.png": new Promise(() => undefined) });
+    const both = [1, 2].map((patchIndex) => record(geometryFor([["alike", patchIndex]]), silent.pool));
+    await until(() => silent.requested.length === 1);
     both[0]?.delivery.cancel();
-    assert.deepEqual(gone.aborted, []);
+    assert.deepEqual(silent.aborted, []);
     both[1]?.delivery.cancel();
-    assert.deepEqual(gone.aborted, ["alike.png"]);
+    assert.deepEqual(silent.aborted, ["alike.png"]);
   });
 
-  test("has the values that colour it, and no other values", async () => {
+  test("stores the values that colour it, and no other values", async () => {
     const patch = decodeVector("others")[0] ?? assert.fail();
     const plain = geometryFor([["others", 0]]);
-    const box = { fileCount: 0, min: [0], size: [1] };
+    const common = { fileCount: 0, min: [0], size: [1] };
     const [bits24, bits3] = [
-      { ...box, name: "heat", components: 1, bits: 24 },
-      { ...box, name: "flow", components: 4, bits: 3 },
+      { ...common, name: "heat", components: 1, bits: 24 },
+      { ...common, name: "flow", components: 4, bits: 3 },
     ] as const;
     for (const value of [bits24, bits3]) {
       const site = siteOf(filesOf("others"));
@@ -174,8 +180,8 @@ describe("a geometry of compact", () => {
       assert.deepEqual(errors, []);
       const stage = stages[0]?.stage;
       assert.ok(stage?.kind === "buffers" && stage.value);
-      const { components, stride, offset, maxStored: largest } = stage.value;
-      assert.deepEqual([components, largest], [value.components, 2 ** value.bits - 1]);
+      const { components, stride, offset, maxStored } = stage.value;
+      assert.deepEqual([components, maxStored], [value.components, 2 ** value.bits - 1]);
       const array = site.arrayOf(stage.value);
       const values = Array.from(
         { length: patch.header.wedgeCount * components },
@@ -313,7 +319,7 @@ describe("a geometry of compact", () => {
     }
   });
 
-  test("falls back to its base mesh where the budget has no room for a patch", async () => {
+  test("falls back to its base mesh if the budget does not allow a patch", async () => {
     const site = siteOf(filesOf("base", "sphere"));
     const { stages, delivery, settled } = record(
       geometryFor(
@@ -328,7 +334,7 @@ describe("a geometry of compact", () => {
       site.pool,
     );
     await settled;
-    const held = site.arrays.size;
+    const arrayCount = site.arrays.size;
     const requestsByPatch = delivery.budgetRequests(everything);
     assert.deepEqual(
       requestsByPatch.map((each) => each.length),
@@ -346,7 +352,7 @@ describe("a geometry of compact", () => {
       stages.map(({ patch, stage }) => [patch, stage.name]),
       [[1, "base"]],
     );
-    assert.equal(site.arrays.size, held - 3);
+    assert.equal(site.arrays.size, arrayCount - 3);
     delivery.budgetRequests(everything);
     delivery.request(everything);
     await until(() => stages.length === 2);
@@ -420,17 +426,19 @@ describe("a geometry of compact", () => {
     assert.deepEqual([stages, errors], [[], []]);
   });
 
-  test("maps its lattice to the bounding box as classic does: over whole bytes, of which it has the upper bits", () => {
+  test("has the lattice of classic, whose stored numbers fill whole bytes with the position in the upper bits", () => {
     for (const bits of [8, 10, 16, 20]) {
       const geometry = geometryOf(
         `<ImageGeometry profile="compact" position="1 2 3" size="4 4 4" positionBits="${bits}" data="x.png"/>`,
       );
       const classic = geometryOf(`<ImageGeometry position="1 2 3" size="4 4 4" positionBits="${bits}"
         coord='${Array.from({ length: Math.ceil(bits / 8) }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
-      const [frame, same] = [geometry, classic].map((one) => dequantizationOf(one, one.patches[0] ?? assert.fail()));
-      assert.deepEqual(frame?.origin, same?.origin);
-      const stored = 2 ** (8 * Math.ceil(bits / 8) - bits);
-      assert.ok(Math.abs((frame?.step[0] ?? 0) - (same?.step[0] ?? 0) * stored) < 1e-15);
+      const [compactFrame, classicFrame] = [geometry, classic].map((one) =>
+        dequantizationOf(one, one.patches[0] ?? assert.fail()),
+      );
+      assert.deepEqual(compactFrame?.origin, classicFrame?.origin);
+      const stepRatio = 2 ** (8 * Math.ceil(bits / 8) - bits);
+      assert.ok(Math.abs((compactFrame?.step[0] ?? 0) - (classicFrame?.step[0] ?? 0) * stepRatio) < 1e-15);
     }
   });
 });

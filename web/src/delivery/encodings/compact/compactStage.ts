@@ -1,5 +1,5 @@
 // Stages of SIG compact. One file holds patches of one or more geometries, which a worker decodes together; another
-// holds base meshes, whose segments stand in for the patches until they are there.
+// holds base meshes, whose segments stand in for the patches until these have loaded.
 
 import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
@@ -22,8 +22,8 @@ export function compactStageBuilder(
   { storeBytes }: Pick<BuilderTools, "storeBytes">,
 ): StageBuilder {
   const uploads = new ArrayUploads(storeBytes);
-  let standIn: BufferStage | undefined;
-  let full: BufferStage | undefined;
+  let baseStage: BufferStage | undefined;
+  let fullStage: BufferStage | undefined;
   const store = async (
     name: StageName,
     buffers: PatchBuffers,
@@ -32,7 +32,7 @@ export function compactStageBuilder(
   ): Promise<BufferStage> => {
     const { index, coord, attributes } = buffers;
     const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
-    const [ownIndex, ownCoord, ownAttributes, ownValue] = await Promise.all([
+    const [storedIndex, storedCoord, storedAttributes, storedValue] = await Promise.all([
       index && uploads.storeIndex(index, signal),
       uploads.storeVertices(coord, signal),
       uploads.storeAttributes(attributes, signal),
@@ -44,19 +44,19 @@ export function compactStageBuilder(
       name,
       draws,
       normalFormat: { kind: "vector" },
-      index: ownIndex,
-      coord: ownCoord,
-      attributes: ownAttributes,
-      value: value && ownValue && { ...ownValue, maxStored: 2 ** value.bits - 1 },
+      index: storedIndex,
+      coord: storedCoord,
+      attributes: storedAttributes,
+      value: value && storedValue && { ...storedValue, maxStored: 2 ** value.bits - 1 },
     };
   };
   const retire = (stage: BufferStage | undefined) => {
     if (stage !== undefined) uploads.retire(stage.index, stage.coord, ...Object.values(stage.attributes), stage.value);
   };
   const drop = (role: string) => {
-    retire(role === "base" ? standIn : full);
-    if (role === "base") standIn = undefined;
-    else full = undefined;
+    retire(role === "base" ? baseStage : fullStage);
+    if (role === "base") baseStage = undefined;
+    else fullStage = undefined;
   };
   return {
     isDivisible: true,
@@ -73,16 +73,16 @@ export function compactStageBuilder(
         const buffers = segments[patchIndex];
         if (buffers) checkBits(buffers, geometry);
         const draws: DrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
-        standIn = buffers && (await store("base", buffers, draws, signal));
+        baseStage = buffers && (await store("base", buffers, draws, signal));
       } else if (content.kind === "patches") {
         const buffers = patchAt(content.patches, reference);
-        check(buffers, geometry, patch);
-        full = await store("full", buffers, drawRangesOf(patch), signal);
+        checkAgainstDocument(buffers, geometry, patch);
+        fullStage = await store("full", buffers, drawRangesOf(patch), signal);
       } else {
         throw new DecodeError("malformed", "is no file of compact");
       }
     },
-    stage: () => full ?? standIn,
+    stage: () => fullStage ?? baseStage,
     get storedBytes() {
       return uploads.byteLength;
     },
@@ -124,8 +124,14 @@ function valuesOf(
   return values;
 }
 
-/** The file of a patch must hold what the document states of it: draws rely on that. */
-function check(buffers: PatchBuffers, geometry: GeometryDescription, { vertexCount, draws }: PatchDescription): void {
+/**
+ * Throws unless a decoded patch has the counts, bits and primitives that the document states: its draws rely on them.
+ */
+function checkAgainstDocument(
+  buffers: PatchBuffers,
+  geometry: GeometryDescription,
+  { vertexCount, draws }: PatchDescription,
+): void {
   checkBits(buffers, geometry);
   if (geometry.value && valuesOf(buffers, geometry, geometry.value)?.bits !== geometry.value.bits) {
     throw new DecodeError("malformed", `holds other values of "${geometry.value.name}" than the document states`);
@@ -136,18 +142,18 @@ function check(buffers: PatchBuffers, geometry: GeometryDescription, { vertexCou
       `holds ${buffers.vertexCount} vertices where the document states ${vertexCount}`,
     );
   }
-  const corners = buffers.index?.length ?? buffers.vertexCount;
+  const cornerCount = buffers.index?.length ?? buffers.vertexCount;
   const [draw, ...others] = draws;
-  if (others.length > 0 || draw?.primitive !== buffers.topology || draw.count !== corners) {
+  if (others.length > 0 || draw?.primitive !== buffers.topology || draw.count !== cornerCount) {
     throw new DecodeError(
       "malformed",
-      `draws ${corners} corners of ${buffers.topology}, other than the document states`,
+      `draws ${cornerCount} corners of ${buffers.topology}, other than the document states`,
     );
   }
 }
 
 function checkBits({ positionBits }: PatchBuffers, geometry: GeometryDescription): void {
-  const stated = latticeBitsOf(geometry);
-  if (positionBits !== stated)
-    throw new DecodeError("malformed", `has positions of ${positionBits} bits where the node states ${stated}`);
+  const statedBits = latticeBitsOf(geometry);
+  if (positionBits !== statedBits)
+    throw new DecodeError("malformed", `has positions of ${positionBits} bits where the node states ${statedBits}`);
 }
