@@ -35,14 +35,14 @@ Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_
 }
 
 void expectEqualWithinSteps(const NamedAttribute& decoded, const NamedAttribute& source,
-                            const GeometryDescription& geometry, std::size_t place) {
+                            const GeometryDescription& geometry, std::size_t attributeIndex) {
   EXPECT_EQ(decoded.name, source.name);
   ASSERT_EQ(decoded.components, source.components);
   ASSERT_EQ(decoded.values.size(), source.values.size());
   for (std::size_t i = 0; i < source.values.size(); ++i) {
     const auto component = static_cast<std::uint32_t>(i % source.components);
     ASSERT_NEAR(decoded.values[i], source.values[i],
-                numberBound(geometry.encoding, geometry.attributes[place], component));
+                numberBound(geometry.encoding, geometry.attributes[attributeIndex], component));
   }
 }
 
@@ -254,11 +254,11 @@ TEST(Containers, GiveBackIndicesOf32Bits) {
 }
 
 TEST(Containers, RefuseMoreVerticesThanTheLargestImageHolds) {
-  const std::uint32_t most = 2048 * 2048;
+  const std::uint32_t maxVertexCount = 2048 * 2048;
   PatchedMesh mesh;
   IndexedPatch patch;
-  patch.positions.resize(most + 1);
-  patch.draws = {{Primitive::points, most + 1}};
+  patch.positions.resize(maxVertexCount + 1);
+  patch.draws = {{Primitive::points, maxVertexCount + 1}};
   try {
     encodePatch(patch, describe(mesh, {}), {});
     ADD_FAILURE();

@@ -56,8 +56,8 @@ TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
     const DecodeFields fields = decodeFields(geometry);
     const StoredCoords stored = storedCoords(geometry.encoding, geometry.coordType, geometry.lattice.bits);
     const bool isSigned = geometry.encoding == Encoding::bg && !isUnsigned(geometry.coordType);
-    const std::uint32_t most = geometry.lattice.maximum();
-    for (const std::uint32_t q : {0u, 1u, most / 3, most - 1, most}) {
+    const std::uint32_t maximum = geometry.lattice.maximum();
+    for (const std::uint32_t q : {0u, 1u, maximum / 3, maximum - 1, maximum}) {
       // docs/formats/nodes.md, in X3DOM's words.
       const double share = static_cast<double>(storeCoord(q, stored)) / stored.maximum;
       const double x = fields.position.x + fields.size.x * (isSigned ? share : share - 0.5);
@@ -71,10 +71,10 @@ TEST(StoredCoords, FitTheirTypeAndComeBack) {
     if (isFloat(geometry) || geometry.encoding == Encoding::classic)
       continue;
     SCOPED_TRACE(nameOf(geometry));
-    const std::uint32_t most = geometry.lattice.maximum();
+    const std::uint32_t maximum = geometry.lattice.maximum();
     const StoredCoords stored = storedCoords(Encoding::bg, geometry.coordType, geometry.lattice.bits);
     const double lowest = isUnsigned(geometry.coordType) ? 0 : -maximumOf(geometry.coordType) - 1;
-    for (const std::uint32_t q : {0u, 1u, most / 3, most}) {
+    for (const std::uint32_t q : {0u, 1u, maximum / 3, maximum}) {
       const std::int64_t value = storeCoord(q, stored);
       EXPECT_GE(static_cast<double>(value), lowest);
       EXPECT_LE(static_cast<double>(value), maximumOf(geometry.coordType));
@@ -84,7 +84,7 @@ TEST(StoredCoords, FitTheirTypeAndComeBack) {
       EXPECT_THROW(loadCoord(storeCoord(1, stored) + 1, stored, ""), Error);
     }
     EXPECT_THROW(loadCoord(stored.bias - 1, stored, ""), Error);
-    EXPECT_THROW(loadCoord(storeCoord(most, stored) + (std::int64_t{1} << stored.shift), stored, ""), Error);
+    EXPECT_THROW(loadCoord(storeCoord(maximum, stored) + (std::int64_t{1} << stored.shift), stored, ""), Error);
   }
 }
 
@@ -100,7 +100,7 @@ TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
   }
 }
 
-TEST(LatticeFor, IsSaidInFewDigits) {
+TEST(LatticeFor, HasOriginAndStepWithFewDecimalDigits) {
   // What single precision makes of 0.1, 2.01 and 5.505, of which the last is coarser than a 1024th of a step;
   // and far from the origin, where a step is less than what single precision tells apart.
   Box3d box;

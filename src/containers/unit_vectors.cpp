@@ -45,8 +45,8 @@ double toGrid(std::uint32_t encoded, std::uint32_t last) {
 Vec2<std::uint32_t> octahedralFromUnit(Vec3f unit, std::uint32_t bits) {
   assert(bits >= 2 && bits <= 16);
   const std::uint32_t last = (1u << bits) - 2;
-  const Vec3d wanted = normalised(Vec3d(unit));
-  const Vec2<double> p = unfold(wanted);
+  const Vec3d direction = normalised(Vec3d(unit));
+  const Vec2<double> p = unfold(direction);
   const auto below = [last](double value) {
     const double scaled = std::floor((value * 0.5 + 0.5) * last);
     return static_cast<std::uint32_t>(std::clamp(scaled, 0.0, static_cast<double>(last)));
@@ -57,7 +57,7 @@ Vec2<std::uint32_t> octahedralFromUnit(Vec3f unit, std::uint32_t bits) {
   for (std::uint32_t dy = 0; dy < 2; ++dy) {
     for (std::uint32_t dx = 0; dx < 2; ++dx) {
       const Vec2<std::uint32_t> tried{std::min(corner.x + dx, last), std::min(corner.y + dy, last)};
-      const double cosine = dot(fold({toGrid(tried.x, last), toGrid(tried.y, last)}), wanted);
+      const double cosine = dot(fold({toGrid(tried.x, last), toGrid(tried.y, last)}), direction);
       if (cosine > bestCosine) {
         bestCosine = cosine;
         best = tried;

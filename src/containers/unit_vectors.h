@@ -12,7 +12,7 @@ namespace imgeo {
 
 /// Octahedral coordinates of a unit vector on a grid of 2^bits - 1 points an axis,
 /// so that the axes themselves are exact: 0 .. 2^bits - 2, the middle is zero.
-/// Of the four neighbouring grid points the one nearest in angle is taken. `bits` is 2..16.
+/// Takes the neighbouring grid point with the smallest angle. `bits` is 2..16.
 Vec2<std::uint32_t> octahedralFromUnit(Vec3f unit, std::uint32_t bits);
 
 /// The unit vector of octahedral coordinates; values above 2^bits - 2 count as that.

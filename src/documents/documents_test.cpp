@@ -484,7 +484,7 @@ TEST(Html, PreloadsABaseMeshAndItsDecoderInsteadOfPatches) {
   EXPECT_NE(writeHtml(document, options).find("<link rel=\"modulepreload\" href=\"later.js\">"), html.npos);
 }
 
-TEST(Html, PreloadsAtMostSixteenFiles) {
+TEST(Html, PreloadsUpToSixteenFiles) {
   SceneDocument document = documentNamed("a");
   for (int i = 0; i < 100; ++i) {
     document.geometries[0].patches.push_back(document.geometries[0].patches[0]);
@@ -538,7 +538,7 @@ TEST(ReadScene, ReadsImagesFromImageTextures) {
   EXPECT_EQ(shapeName(document.graph, 0), "S");
 }
 
-TEST(ReadScene, IgnoresTextThatOnlyLooksLikeTheElement) {
+TEST(ReadScene, IgnoresTextThatOnlyResemblesTheElement) {
   const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
                                            "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
                                            "x");

@@ -21,7 +21,7 @@ int hexDigit(char c) {
                                 : -1;
 }
 
-/// Whether a URL has a scheme (RFC 3986): a letter, then letters, digits and "+-.", then a colon.
+/// Whether a URL has a scheme (RFC 3986): a letter, then alphabet, digits and "+-.", then a colon.
 bool hasScheme(std::string_view url) {
   const std::size_t colon = url.find(':');
   return colon != url.npos && colon > 0 && std::isalpha(static_cast<unsigned char>(url[0])) &&
@@ -62,9 +62,9 @@ Bytes base64Decoded(std::string_view text, const std::string& location) {
   static constexpr auto values = [] {
     std::array<std::int8_t, 256> table{};
     table.fill(-1);
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < letters.size(); ++i)
-      table[static_cast<unsigned char>(letters[i])] = static_cast<std::int8_t>(i);
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < alphabet.size(); ++i)
+      table[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
     table['-'] = 62, table['_'] = 63; // the url-safe alphabet
     return table;
   }();

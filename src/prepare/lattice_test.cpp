@@ -7,7 +7,7 @@
 namespace imgeo {
 namespace {
 
-TEST(Lattice, MovesPositionsByAtMostHalfAStep) {
+TEST(Lattice, MovesPositionsByNoMoreThanHalfAStep) {
   for (std::uint32_t seed = 0; seed < 60; ++seed) {
     const Mesh mesh = testing::randomMesh(seed);
     const Box3d box = boxOf(mesh);

@@ -156,10 +156,10 @@ TEST(Strips, DrawThePatchsTriangles) {
 /// Triangles whose corners have three different positions; without indices the others look like the strip's joins.
 std::vector<Triangle> withArea(std::vector<Triangle> triangles) {
   std::erase_if(triangles, [](const Triangle& t) {
-    const auto atOnePlace = [](const Corner& a, const Corner& b) {
+    const auto haveEqualPositions = [](const Corner& a, const Corner& b) {
       return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
     };
-    return atOnePlace(t[0], t[1]) || atOnePlace(t[1], t[2]) || atOnePlace(t[2], t[0]);
+    return haveEqualPositions(t[0], t[1]) || haveEqualPositions(t[1], t[2]) || haveEqualPositions(t[2], t[0]);
   });
   return triangles;
 }

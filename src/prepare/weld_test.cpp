@@ -125,18 +125,18 @@ TEST(Weld, CountsRepeatedElementsWhateverTheirFirstCorner) {
     const std::uint32_t count = cornersPerElement(mesh.topology);
     std::set<std::vector<std::uint32_t>> distinct;
     for (std::size_t first = 0; first < mesh.corners.size(); first += count) {
-      std::vector<std::uint32_t> corners(&mesh.corners[first], &mesh.corners[first] + count), least = corners;
+      std::vector<std::uint32_t> corners(&mesh.corners[first], &mesh.corners[first] + count), smallest = corners;
       for (std::uint32_t turn = 1; turn < count; ++turn) {
         std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-        least = std::min(least, corners);
+        smallest = std::min(smallest, corners);
       }
-      distinct.insert(least);
+      distinct.insert(smallest);
     }
     EXPECT_EQ(report.duplicateElements, mesh.elementCount() - distinct.size()) << seed;
   }
 }
 
-/// The values of each element's corners, rotated so that the least comes first.
+/// The values of each element's corners, rotated so that the smallest comes first.
 auto elementsOf(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   std::vector<std::vector<decltype(valueOf(mesh, 0))>> elements;

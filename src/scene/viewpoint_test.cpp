@@ -35,7 +35,7 @@ TEST(ViewpointFor, ShowsEveryCornerOfABoxAndFillsTheView) {
   }
 }
 
-TEST(ViewpointFor, LooksAtTheMiddleOfTheBox) {
+TEST(ViewpointFor, FacesTheCenterOfTheBox) {
   Box3d box;
   box.add({1, 2, 3});
   box.add({2, 5, 4});

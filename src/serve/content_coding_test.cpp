@@ -69,7 +69,7 @@ TEST(CodingCache, EachContentIsEncodedOnce) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(CodingCache, TheLeastRecentlyUsedEntryIsEvictedFirst) {
+TEST(CodingCache, TheEntryUnusedForLongestIsEvictedFirst) {
   CodingCache cache(100);
   int calls = 0;
   const auto encode = [&] { return ++calls, Bytes(40, 1); };

@@ -73,9 +73,9 @@ std::vector<std::uint32_t> decodeWideIndices(const PatchDescription& patch, cons
 }
 
 std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch, const Image& records,
-                                         const std::string& recordsPlace) {
+                                         const std::string& recordsLocation) {
   if (records.width > recordColumns || records.height > recordColumns)
-    throw Error(ErrorKind::malformed, recordsPlace,
+    throw Error(ErrorKind::malformed, recordsLocation,
                 "a coordinate image that is indexed is at most 256 texels wide and 256 high");
   const std::vector<std::uint32_t> columnOf = texelsByByte(records.width), rowOf = texelsByByte(records.height);
   const std::uint64_t count = drawnCount(patch.draws);

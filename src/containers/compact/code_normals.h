@@ -19,7 +19,7 @@ struct OctahedronPoint {
 };
 
 /// The point in a direction; (0, 0, 1) for a zero vector.
-inline OctahedronPoint octahedronPoint(const Place& direction, std::int64_t radius) {
+inline OctahedronPoint octahedronPoint(const Vec3i64& direction, std::int64_t radius) {
   OctahedronPoint point;
   point.axis = dominantAxis(direction);
   point.u = (point.axis + 1) % 3;
@@ -66,7 +66,7 @@ inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& 
     const auto position = [&](std::size_t i) { return surface.positions[surface.connectivity.vertex[corner + i]]; };
     Vec3<std::int32_t> normal = sums.normalOf(position(0), position(1), position(2));
     if (isUniform) {
-      const Place n(normal);
+      const Vec3i64 n(normal);
       const std::int64_t size = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
       for (int axis = 0; axis < 3 && size > 0; ++axis)
         normal[axis] = static_cast<std::int32_t>(4096 * n[axis] / size);
@@ -117,9 +117,9 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
       values[wedge] = values[wedges.previous[wedge]];
       continue;
     }
-    Place direction;
+    Vec3i64 direction;
     if (hasTriangles)
-      direction = Place(sums[wedge]);
+      direction = Vec3i64(sums[wedge]);
     else if (wedge > 0)
       direction = {values[wedge - 1][0], values[wedge - 1][1], values[wedge - 1][2]};
     const OctahedronPoint point = octahedronPoint(direction, radius);

@@ -40,8 +40,8 @@ struct VertexContext {
     normal = inOrder(slope.normal);
   }
 
-  template <typename T> Coordinates inOrder(const Vec3<T>& place) const {
-    return {place[order[0]], place[order[1]], place[order[2]]};
+  template <typename T> Coordinates inOrder(const Vec3<T>& vector) const {
+    return {vector[order[0]], vector[order[1]], vector[order[2]]};
   }
 };
 
@@ -100,7 +100,7 @@ private:
       choice = cheapest(candidates, context, coordinates);
     }
     choice = codeChoice(coder_, candidates, context, choice);
-    codeCoordinates(coder_, context.inOrder(candidates.places[choice]), context, coordinates);
+    codeCoordinates(coder_, context.inOrder(candidates.positions[choice]), context, coordinates);
     for (std::size_t turn = 0; turn < 3; ++turn)
       positions_[vertex][context.order[turn]] = static_cast<std::uint32_t>(coordinates[turn]);
   }
@@ -126,7 +126,7 @@ private:
       CostMeter meter(coder_, minCost);
       codeChoice(meter, candidates, context, i);
       Coordinates coded = coordinates;
-      codeCoordinates(meter, context.inOrder(candidates.places[i]), context, coded);
+      codeCoordinates(meter, context.inOrder(candidates.positions[i]), context, coded);
       if (meter.cost() < minCost)
         minCost = meter.cost(), best = i;
     }

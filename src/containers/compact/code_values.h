@@ -33,7 +33,7 @@ struct EdgeFrame {
   std::int64_t along = 0, beside = 0, unit = 0;
 
   EdgeFrame(const Vec3u& a, const Vec3u& b, const Vec3u& c) {
-    Place e = Place(b) - Place(a), f = Place(c) - Place(a);
+    Vec3i64 e = Vec3i64(b) - Vec3i64(a), f = Vec3i64(c) - Vec3i64(a);
     const std::uint32_t length = lengthInBits(std::max(largestComponent(e), largestComponent(f)));
     for (int axis = 0; axis < 3 && length > 12; ++axis) {
       e[axis] >>= length - 12;
@@ -121,8 +121,8 @@ private:
 
   /// Lays the triangle out in its own shape on both sides of its edge in texture space.
   void addSides(Guesses& guesses, std::uint32_t wedge, std::uint32_t a, std::uint32_t b) const {
-    const auto place = [&](std::uint32_t w) { return surface_.positions[surface_.wedges.vertex[w]]; };
-    const EdgeFrame frame(place(a), place(b), place(wedge));
+    const auto positionOf = [&](std::uint32_t w) { return surface_.positions[surface_.wedges.vertex[w]]; };
+    const EdgeFrame frame(positionOf(a), positionOf(b), positionOf(wedge));
     const std::int64_t u = values_[b][0] - values_[a][0], v = values_[b][1] - values_[a][1];
     for (const std::int64_t beside : {frame.beside, -frame.beside}) {
       if (frame.unit == 0) {

@@ -11,9 +11,9 @@ namespace {
 
 class FileDecoder {
 public:
-  FileDecoder(ByteSpan payload, const PlacedHeader& placed, const std::string& location)
-      : header_(placed.header), location_(location),
-        streams_(payload.subspan(placed.streams), placed.header.streamLengths, location) {}
+  FileDecoder(ByteSpan payload, const ParsedHeader& parsed, const std::string& location)
+      : header_(parsed.header), location_(location),
+        streams_(payload.subspan(parsed.streamsByteOffset), parsed.header.streamLengths, location) {}
 
   std::vector<CompactPatch> run() {
     std::vector<CompactPatch> patches;
@@ -110,12 +110,12 @@ std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& loc
 }
 
 std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& location) {
-  const PlacedHeader placed = readHeader(payload, location);
+  const ParsedHeader parsed = readHeader(payload, location);
   std::vector<std::vector<AttributeType>> all;
-  for (const PatchSizes& sizes : FileDecoder(payload, placed, location).decodeSizes()) {
+  for (const PatchSizes& sizes : FileDecoder(payload, parsed, location).decodeSizes()) {
     all.emplace_back();
-    for (const std::uint32_t attribute : placed.header.types[sizes.type].attributes)
-      all.back().push_back(placed.header.attributes[attribute]);
+    for (const std::uint32_t attribute : parsed.header.types[sizes.type].attributes)
+      all.back().push_back(parsed.header.attributes[attribute]);
   }
   return all;
 }

@@ -73,7 +73,7 @@ private:
   /// stays linear; every choice is valid.
   std::uint32_t findNode(const Gate& gate, const std::vector<Node>& nodes) const {
     std::uint32_t node = latestNodes_[targetVertex_];
-    for (int looks = 16; looks > 0 && node != none && node > gate.k; --looks, node = olderNodes_[node])
+    for (int tries = 16; tries > 0 && node != none && node > gate.k; --tries, node = olderNodes_[node])
       if (nodes[node].isAlive() && node != gate.p)
         return node;
     return none;

@@ -59,12 +59,12 @@ bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& 
   constexpr std::int64_t limit = 1 << 30;
   std::vector<std::int64_t> sums(patch.positions.size());
   for (std::size_t corner = 0; corner < vertices.size(); corner += 3) {
-    const Place a(patch.positions[vertices[corner]]);
+    const Vec3i64 a(patch.positions[vertices[corner]]);
     const auto edge = [&](std::size_t i) {
-      const Place e = Place(patch.positions[vertices[corner + i]]) - a;
-      return Place{std::abs(e.x >> shift), std::abs(e.y >> shift), std::abs(e.z >> shift)};
+      const Vec3i64 e = Vec3i64(patch.positions[vertices[corner + i]]) - a;
+      return Vec3i64{std::abs(e.x >> shift), std::abs(e.y >> shift), std::abs(e.z >> shift)};
     };
-    const Place e = edge(1), f = edge(2); // below 2^30 each
+    const Vec3i64 e = edge(1), f = edge(2); // below 2^30 each
     const std::int64_t size = std::max({e.y * f.z + e.z * f.y, e.z * f.x + e.x * f.z, e.x * f.y + e.y * f.x});
     for (std::size_t i = 0; i < 3; ++i)
       if ((sums[vertices[corner + i]] += size) >= limit)
@@ -125,7 +125,7 @@ std::optional<Grid> gridOf(const CompactPatch& patch) {
 }
 
 /// The index of a value in a list, to which it is appended if it is missing.
-template <typename T> std::uint32_t placeIn(std::vector<T>& list, const T& value) {
+template <typename T> std::uint32_t indexIn(std::vector<T>& list, const T& value) {
   const auto found = std::ranges::find(list, value);
   if (found != list.end())
     return static_cast<std::uint32_t>(found - list.begin());
@@ -145,7 +145,7 @@ public:
     header_.patchCount = static_cast<std::uint32_t>(patches.size());
     std::vector<std::uint32_t> types;
     for (const CompactPatch& patch : patches)
-      types.push_back(placeIn(header_.types, typeOf(patch)));
+      types.push_back(indexIn(header_.types, typeOf(patch)));
     streams_ = StreamEncoders(header_.streamCount());
     coded_.reserve(patches.size());
     for (std::size_t i = 0; i < patches.size(); ++i)
@@ -154,8 +154,8 @@ public:
 
   EncodedPatches run() {
     EncodedPatches result{{}, std::vector<double>(coded_.size())};
-    for (std::uint32_t place = 0; place < header_.attributes.size(); ++place)
-      encodeAttribute(place, result.normalErrors);
+    for (std::uint32_t attributeIndex = 0; attributeIndex < header_.attributes.size(); ++attributeIndex)
+      encodeAttribute(attributeIndex, result.normalErrors);
     const std::vector<Bytes> streams = streams_.finish();
     for (const Bytes& stream : streams)
       header_.streamLengths.push_back(static_cast<std::uint32_t>(stream.size()));
@@ -170,16 +170,16 @@ private:
   PatchType typeOf(const CompactPatch& patch) {
     PatchType type{patch.topology, patch.positionBits, patch.segmentCount > 0, {}};
     for (const Attribute& attribute : patch.attributes) {
-      const auto isOther = [&](std::uint32_t place) {
-        return header_.attributes[place] == attribute.type &&
-               std::ranges::find(type.attributes, place) == type.attributes.end();
+      const auto isOther = [&](std::uint32_t attributeIndex) {
+        return header_.attributes[attributeIndex] == attribute.type &&
+               std::ranges::find(type.attributes, attributeIndex) == type.attributes.end();
       };
-      std::uint32_t place = 0;
-      while (place < header_.attributes.size() && !isOther(place))
-        ++place;
-      if (place == header_.attributes.size())
+      std::uint32_t attributeIndex = 0;
+      while (attributeIndex < header_.attributes.size() && !isOther(attributeIndex))
+        ++attributeIndex;
+      if (attributeIndex == header_.attributes.size())
         header_.attributes.push_back(attribute.type);
-      type.attributes.push_back(place);
+      type.attributes.push_back(attributeIndex);
     }
     return type;
   }
@@ -225,28 +225,28 @@ private:
   }
 
   /// Calls visit(patch, values, patch index) for all patches that have an attribute of the header.
-  template <typename Visit> void forEachWith(std::uint32_t place, Visit visit) const {
+  template <typename Visit> void forEachWith(std::uint32_t attributeIndex, Visit visit) const {
     for (std::size_t i = 0; i < coded_.size(); ++i) {
       const CodedPatch& coded = coded_[i];
-      const std::vector<std::uint32_t>& places = header_.types[coded.sizes.type].attributes;
-      for (std::size_t attribute = 0; attribute < places.size(); ++attribute)
-        if (places[attribute] == place)
-          visit(coded, coded.valuesOf(coded.source.attributes[attribute]), i);
+      const std::vector<std::uint32_t>& attributeIndices = header_.types[coded.sizes.type].attributes;
+      for (std::size_t a = 0; a < attributeIndices.size(); ++a)
+        if (attributeIndices[a] == attributeIndex)
+          visit(coded, coded.valuesOf(coded.source.attributes[a]), i);
     }
   }
 
-  void encodeAttribute(std::uint32_t place, std::vector<double>& normalErrors) {
-    AttributeType& type = header_.attributes[place];
+  void encodeAttribute(std::uint32_t attributeIndex, std::vector<double>& normalErrors) {
+    AttributeType& type = header_.attributes[attributeIndex];
     const bool isNormal = type.kind == AttributeKind::normal;
     if (isNormal && effort_ > 0)
-      type.mode = bestModeOf(place);
-    forEachWith(place, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t i) {
+      type.mode = bestModeOf(attributeIndex);
+    forEachWith(attributeIndex, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t i) {
       if (!isNormal)
-        ValueCoder(streams_[streamOfAttribute(place)], coded.surface(), type, values).run();
+        ValueCoder(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values).run();
       else if (type.isDerived())
         normalErrors[i] = std::max(normalErrors[i], derivedError(coded, type, values));
       else
-        codeNormals(streams_[streamOfAttribute(place)], coded.surface(), type, values);
+        codeNormals(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values);
       if (isNormal && !type.isDerived())
         normalErrors[i] = std::max(normalErrors[i], octahedronErrorBound(type.bits));
     });
@@ -261,22 +261,22 @@ private:
   }
 
   /// The weighting with the smaller stream or, for derived normals, with the smaller error.
-  NormalMode bestModeOf(std::uint32_t place) const {
-    const AttributeType& given = header_.attributes[place];
+  NormalMode bestModeOf(std::uint32_t attributeIndex) const {
+    const AttributeType& given = header_.attributes[attributeIndex];
     AttributeType other = given;
     other.mode = static_cast<NormalMode>(static_cast<unsigned>(given.mode) ^ 1u);
-    const double cost = costOf(place, given);
+    const double cost = costOf(attributeIndex, given);
     if (!given.isDerived() && effort_ < effortOfWholeTrials && cost <= smallSample)
       return given.mode;
-    return costOf(place, other) < cost ? other.mode : given.mode;
+    return costOf(attributeIndex, other) < cost ? other.mode : given.mode;
   }
 
   /// The cost of a mode: bytes, or radians for derived normals. Lower efforts measure only the first normals.
-  double costOf(std::uint32_t place, const AttributeType& as) const {
+  double costOf(std::uint32_t attributeIndex, const AttributeType& as) const {
     std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxPatchCount;
     double error = 0;
     RangeEncoder encoder(attributeModels::count);
-    forEachWith(place, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t) {
+    forEachWith(attributeIndex, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t) {
       if (coded.source.topology != Topology::triangles)
         return;
       if (as.isDerived()) {

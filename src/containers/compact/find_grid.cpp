@@ -55,7 +55,8 @@ std::int64_t numberLines(std::vector<Line>& lines) {
   return distance;
 }
 
-Axis leastSquares(const std::vector<Line>& lines) {
+/// The least-squares fit of coordinates over grid indices.
+Axis fittedTo(const std::vector<Line>& lines) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const Line& line : lines) {
     const auto x = static_cast<double>(line.number), y = static_cast<double>(line.coordinate);
@@ -91,7 +92,7 @@ std::optional<Axis> findAxis(std::span<const Vec3u> positions, int axis) {
   std::vector<Line> lines = popularCoordinates(positions, axis);
   if (lines.size() < minLineCount || lines.size() > 65536 / minStep || numberLines(lines) == 0)
     return std::nullopt;
-  const Axis fitted = leastSquares(lines);
+  const Axis fitted = fittedTo(lines);
   if (!(fitted.step >= minStep))
     return std::nullopt;
   std::erase_if(lines, [&](const Line& line) {

@@ -119,7 +119,7 @@ void appendHeader(Bytes& out, const FileHeader& header) {
     appendNumber(out, length);
 }
 
-PlacedHeader readHeader(ByteSpan payload, const std::string& location) {
+ParsedHeader readHeader(ByteSpan payload, const std::string& location) {
   FieldReader reader(payload, location);
   std::uint8_t begin[4];
   for (std::uint8_t& byte : begin)

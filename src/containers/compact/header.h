@@ -37,10 +37,10 @@ void appendHeader(Bytes& out, const FileHeader& header);
 
 /// Reads the header of a payload and the offset of its first stream; checks that all streams lie within the payload.
 /// Throws Error{truncated, malformed, unsupported, limit}.
-struct PlacedHeader {
+struct ParsedHeader {
   FileHeader header;
-  std::size_t streams = 0;
+  std::size_t streamsByteOffset = 0;
 };
-PlacedHeader readHeader(ByteSpan payload, const std::string& location);
+ParsedHeader readHeader(ByteSpan payload, const std::string& location);
 
 } // namespace imgeo::compact

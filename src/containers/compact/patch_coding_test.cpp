@@ -24,7 +24,7 @@ CornerText textOf(const CompactPatch& patch, std::uint32_t wedge) {
   return text;
 }
 
-/// The elements in an order of their own, each turned to its least rotation.
+/// The elements in an order of their own, each turned to its lexicographically smallest rotation.
 std::vector<ElementText> elementsOf(const CompactPatch& patch) {
   const std::size_t count = cornersPerElement(patch.topology);
   std::vector<ElementText> elements;
@@ -32,12 +32,12 @@ std::vector<ElementText> elementsOf(const CompactPatch& patch) {
     ElementText element;
     for (std::size_t i = 0; i < count; ++i)
       element.push_back(textOf(patch, patch.corners[first + i]));
-    ElementText least = element;
+    ElementText smallest = element;
     for (std::size_t turn = 1; turn < count && count == 3; ++turn) {
       std::rotate(element.begin(), element.begin() + 1, element.end());
-      least = std::min(least, element);
+      smallest = std::min(smallest, element);
     }
-    elements.push_back(least);
+    elements.push_back(smallest);
   }
   std::ranges::sort(elements);
   return elements;
@@ -105,11 +105,11 @@ TEST(Compact, TakesLessForPatchesTogetherThanForEachAlone) {
 }
 
 TEST(Compact, TakesNoMoreBytesForMoreEffort) {
-  std::size_t usual = 0, least = 0;
+  std::size_t bytesWithLowEffort = 0, bytesWithHighEffort = 0;
   for (const testing::Sample& sample : testing::files()) {
     SCOPED_TRACE(sample.name);
     std::size_t before = encodePatches(sample.patches, 5).bytes.size();
-    usual += before;
+    bytesWithLowEffort += before;
     for (const int effort : {7, 8, 9}) {
       const Bytes bytes = encodePatches(sample.patches, effort).bytes;
       EXPECT_LE(bytes.size(), before) << effort;
@@ -121,9 +121,9 @@ TEST(Compact, TakesNoMoreBytesForMoreEffort) {
           EXPECT_EQ(elementsOf(back[i]), elementsOf(sample.patches[i])) << effort;
         }
     }
-    least += before;
+    bytesWithHighEffort += before;
   }
-  EXPECT_LT(least, usual);
+  EXPECT_LT(bytesWithHighEffort, bytesWithLowEffort);
 }
 
 TEST(Compact, TellsTheAttributesOfPatchesWithoutDecodingThem) {
@@ -153,14 +153,14 @@ CompactPatch patchOver(std::uint32_t vertexCount, std::vector<std::uint32_t> cor
 struct Hostile {
   const char* name;
   CompactPatch patch;
-  double mostBytes; ///< a triangle, positions and all
+  double maxBytesPerTriangle; ///< positions and connectivity
 };
 
 std::vector<Hostile> hostilePatches() {
   std::vector<Hostile> patches;
   std::vector<std::uint32_t> corners;
-  const auto add = [&](const char* name, std::uint32_t vertexCount, double mostBytes) {
-    patches.push_back({name, patchOver(vertexCount, std::exchange(corners, {})), mostBytes});
+  const auto add = [&](const char* name, std::uint32_t vertexCount, double maxBytesPerTriangle) {
+    patches.push_back({name, patchOver(vertexCount, std::exchange(corners, {})), maxBytesPerTriangle});
   };
   const auto addTriangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     corners.insert(corners.end(), {a, b, c});
@@ -207,7 +207,7 @@ TEST(Compact, GivesBackWhatNoSurfaceIs) {
     SCOPED_TRACE(hostile.name);
     expectComesBack(hostile.patch);
     const double bytes = static_cast<double>(bytesOf(hostile.patch).size());
-    EXPECT_LT(bytes / static_cast<double>(hostile.patch.elementCount()), hostile.mostBytes);
+    EXPECT_LT(bytes / static_cast<double>(hostile.patch.elementCount()), hostile.maxBytesPerTriangle);
     // Words for coordinates and for indices: what no coding at all would take.
     const auto plain = 6.0 * static_cast<double>(hostile.patch.positions.size() + hostile.patch.elementCount());
     EXPECT_LT(bytes, plain);

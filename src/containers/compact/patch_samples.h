@@ -268,7 +268,7 @@ inline std::vector<Sample> rareSamples() {
   return samples;
 }
 
-/// Of one patch and of several.
+/// Files of one patch and files of several patches.
 inline std::vector<Sample> files() {
   std::vector<Sample> files = samples();
   const auto of = [&](std::initializer_list<const char*> names) {

@@ -14,13 +14,13 @@
 namespace imgeo::compact {
 
 /// Lattice coordinates and their differences; 64 bits do not overflow.
-using Place = Vec3<std::int64_t>;
+using Vec3i64 = Vec3<std::int64_t>;
 
 inline std::uint32_t lengthInBits(std::int64_t value) {
   return static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint64_t>(value < 0 ? -value : value)));
 }
 
-inline std::int64_t largestComponent(const Place& v) {
+inline std::int64_t largestComponent(const Vec3i64& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
@@ -33,27 +33,27 @@ template <typename T> int dominantAxis(const Vec3<T>& v) {
 }
 
 struct Candidates {
-  std::array<Place, 4> places;
+  std::array<Vec3i64, 4> positions;
   std::uint32_t count = 0, set = 0;
 
-  void add(const Place& place, std::uint32_t flag) {
-    places[count++] = place;
+  void add(const Vec3i64& position, std::uint32_t flag) {
+    positions[count++] = position;
     set += flag;
   }
   /// The distance of the first two candidates as a context; 0: there is only one.
   std::uint32_t agreement() const {
-    return count == 1 ? 0 : 1 + std::min(14u, lengthInBits(largestComponent(places[1] - places[0])));
+    return count == 1 ? 0 : 1 + std::min(14u, lengthInBits(largestComponent(positions[1] - positions[0])));
   }
 };
 
 /// The candidates of a vertex; `across` is the corner opposite the edge across which a triangle introduces it, or none.
 inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, const Connectivity& connectivity,
                                 const std::vector<Vec3u>& positions, std::uint32_t positionBits) {
-  const auto at = [&](std::uint32_t v) { return Place(positions[v]); };
+  const auto at = [&](std::uint32_t v) { return Vec3i64(positions[v]); };
   Candidates candidates;
   if (across != none) {
-    const Place o = at(connectivity.vertex[across]), p = at(connectivity.vertex[after(across)]),
-                k = at(connectivity.vertex[before(across)]);
+    const Vec3i64 o = at(connectivity.vertex[across]), p = at(connectivity.vertex[after(across)]),
+                  k = at(connectivity.vertex[before(across)]);
     candidates.add(k + p - o, 0);
     if (const std::uint32_t s = connectivity.second[vertex]; s != none)
       candidates.add(
@@ -72,7 +72,7 @@ inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, cons
     return candidates;
   }
   const std::int64_t middle = std::int64_t{1} << (positionBits - 1);
-  candidates.add(vertex > 0 ? at(vertex - 1) : Place{middle, middle, middle}, 0);
+  candidates.add(vertex > 0 ? at(vertex - 1) : Vec3i64{middle, middle, middle}, 0);
   return candidates;
 }
 
@@ -108,7 +108,7 @@ private:
 
 /// The surface normal at an edge, shifted right to 15 bits.
 struct Slope {
-  Place normal;
+  Vec3i64 normal;
   int axis = 2; ///< the dominant axis
 
   Slope() = default;

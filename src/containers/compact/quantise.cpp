@@ -23,7 +23,7 @@ AttributeType typeOf(AttributeKind kind, std::uint32_t components, std::uint32_t
 /// of the same triangles give the same point.
 Value quantiseNormal(const Vec3f& normal, std::uint32_t bits) {
   constexpr double fine = 1 << 24;
-  const Place direction{std::llround(normal.x * fine), std::llround(normal.y * fine), std::llround(normal.z * fine)};
+  const Vec3i64 direction{std::llround(normal.x * fine), std::llround(normal.y * fine), std::llround(normal.z * fine)};
   const std::int64_t radius = (std::int64_t{1} << (bits - 1)) - 1;
   return valueOf(octahedronPoint(direction, radius), radius);
 }

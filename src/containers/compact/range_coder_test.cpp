@@ -14,7 +14,7 @@ struct Item {
   std::uint32_t value;
 };
 
-/// Of the bits that models see, one in `rarity` is not as most are.
+/// Random items; one modelled bit in `rarity` is 1, the others are 0.
 std::vector<Item> randomItems(std::mt19937& random, std::size_t count, std::uint32_t rarity) {
   const auto rareBit = [&] { return std::uint32_t{random() % rarity == 0}; };
   std::vector<Item> items;

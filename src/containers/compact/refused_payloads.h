@@ -84,7 +84,6 @@ inline Bytes wedgeOfAnotherVertex() {
 }
 
 inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
-  constexpr std::uint32_t most = maxPatchCount;
   const PatchType points{Topology::points, 30, false, {}}, lines{Topology::lines, 30, false, {}},
       onGrid{Topology::points, 16, false, {}};
   const auto ofSizes = [](const PatchType& type, const std::vector<PatchSizes>& sizes) {
@@ -102,9 +101,9 @@ inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
     return bytes;
   };
   return {
-      {"more vertices", ofSizes(points, {{0, most, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
-      {"more wedges", ofSizes(lines, {{0, 1, most + 1, most, 0, {}, 0, 0}})},
-      {"more elements", ofSizes(lines, {{0, 1, 1, most + 1, 0, {}, 0, 0}})},
+      {"more vertices", ofSizes(points, {{0, maxPatchCount, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
+      {"more wedges", ofSizes(lines, {{0, 1, maxPatchCount + 1, maxPatchCount, 0, {}, 0, 0}})},
+      {"more elements", ofSizes(lines, {{0, 1, 1, maxPatchCount + 1, 0, {}, 0, 0}})},
       {"another format", {'I', 'G', 'D', 1, 0, 0}},
       {"another version", {'I', 'G', 'C', 2, 0, 0}},
       {"half a header", {'I', 'G', 'C', 1, 1, 0}},

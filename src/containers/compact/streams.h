@@ -24,8 +24,8 @@ inline std::size_t streamOf(StreamName name) {
   return static_cast<std::size_t>(name);
 }
 /// The stream of the attribute with this index in the header.
-inline std::size_t streamOfAttribute(std::size_t place) {
-  return streamOf(StreamName::attributes) + place;
+inline std::size_t streamOfAttribute(std::size_t attribute) {
+  return streamOf(StreamName::attributes) + attribute;
 }
 
 class StreamEncoders {

@@ -91,16 +91,16 @@ public:
   }
 
   static std::string dataUrl(const Bytes& bytes) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string url = "data:application/octet-stream;base64,";
     std::uint32_t bits = 0, count = 0;
     for (const std::uint8_t byte : bytes) {
       bits = bits << 8 | byte;
       for (count += 8; count >= 6; count -= 6)
-        url += letters[bits >> (count - 6) & 63];
+        url += alphabet[bits >> (count - 6) & 63];
     }
     if (count > 0)
-      url += letters[bits << (6 - count) & 63];
+      url += alphabet[bits << (6 - count) & 63];
     return url;
   }
 };

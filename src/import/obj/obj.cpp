@@ -97,10 +97,10 @@ private:
   }
 
   /// Reads the numbers up to the end of the line, at most as many as fit into `out`.
-  std::size_t readNumbers(std::span<float> out, std::size_t atLeast) {
+  std::size_t readNumbers(std::span<float> out, std::size_t minCount) {
     std::size_t count = 0;
     for (scanner_.skipBlanks(); count < out.size(); scanner_.skipBlanks()) {
-      if (count >= atLeast && scanner_.atLineEnd())
+      if (count >= minCount && scanner_.atLineEnd())
         break;
       out[count++] = scanner_.float32("a number");
     }

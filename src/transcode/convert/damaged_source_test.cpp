@@ -25,7 +25,7 @@ protected:
     writeFile(directory_ / name, asBytes(text));
     return directory_ / name;
   }
-  /// Of a document with these nodes.
+  /// Converts a document with these nodes.
   ConvertReport convertNodes(const std::string& nodes, const ConvertOptions& options = {}) {
     return convert(write("a.x3d", "<X3D><Scene>\n" + nodes + "</Scene></X3D>"), directory_ / "site", options);
   }

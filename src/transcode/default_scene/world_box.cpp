@@ -24,15 +24,16 @@ bool canBeDrawn(const Affine3d& worldFromShape) {
 
 WorldBox worldBoxOf(const SceneDocument& document) {
   WorldBox world;
-  for (const ShapeInstance& placed : shapeInstances(document.graph)) {
-    const Box3d& box = document.geometries[shapeOf(document.graph, placed.node).mesh].box;
-    if (!canBeDrawn(placed.worldFromShape)) {
+  for (const ShapeInstance& instance : shapeInstances(document.graph)) {
+    const Box3d& box = document.geometries[shapeOf(document.graph, instance.node).mesh].box;
+    if (!canBeDrawn(instance.worldFromShape)) {
       ++world.undrawableShapes;
       continue;
     }
     for (int corner = 0; corner < 8; ++corner)
-      world.box.add(placed.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                                 corner & 4 ? box.max.z : box.min.z}));
+      world.box.add(
+          instance.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                         corner & 4 ? box.max.z : box.min.z}));
   }
   return world;
 }

@@ -13,8 +13,8 @@ namespace {
 TEST(SampleHall, HasOneMeshForAllItsSeats) {
   const Scene scene = hallScene(95);
   std::size_t seats = 0;
-  for (const ShapeInstance& placed : shapeInstances(scene.graph))
-    seats += scene.graph.nodes[placed.node].name == "seat";
+  for (const ShapeInstance& instance : shapeInstances(scene.graph))
+    seats += scene.graph.nodes[instance.node].name == "seat";
   EXPECT_EQ(seats, 95u);
   EXPECT_LT(scene.meshes.size(), 10u);
   for (const Mesh& mesh : scene.meshes) {

@@ -96,12 +96,12 @@ void removeAbandoned(const fs::path& folder, const std::string& prefix) {
 }
 
 std::string randomSuffix() {
-  static constexpr char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789";
+  static constexpr char alphabet[] = "abcdefghijklmnopqrstuvwxyz0123456789";
   std::random_device random;
-  std::uniform_int_distribution<std::size_t> pick(0, sizeof letters - 2);
+  std::uniform_int_distribution<std::size_t> pick(0, sizeof alphabet - 2);
   std::string suffix(6, ' ');
-  for (char& letter : suffix)
-    letter = letters[pick(random)];
+  for (char& character : suffix)
+    character = alphabet[pick(random)];
   return suffix;
 }
 
@@ -135,11 +135,12 @@ StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
   requireReplaceable(target_, force);
   const bool exists = fs::is_directory(target_, unknown);
   const fs::path above = target_.parent_path();
-  inPlace_ = exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
+  keepsTarget_ =
+      exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
   try {
     if (!exists)
       makeFoldersAbove();
-    if (inPlace_)
+    if (keepsTarget_)
       create(target_, ".imgeo-");
     else
       create(above, fmt::format(".{}.imgeo-", target_.filename().string()));
@@ -190,8 +191,8 @@ void StagedSite::publish(const Rename& rename) {
   struct stat old {};
   if (stat(target_.c_str(), &old) == 0)
     fs::permissions(staging_, fs::perms(old.st_mode & 07777), none);
-  if (inPlace_ || !exchange(rename))
-    publishInPlace(rename);
+  if (keepsTarget_ || !exchange(rename))
+    publishFileByFile(rename);
   published_ = true;
 }
 
@@ -222,7 +223,7 @@ bool StagedSite::exchange(const Rename& rename) {
   return true;
 }
 
-void StagedSite::publishInPlace(const Rename& rename) {
+void StagedSite::publishFileByFile(const Rename& rename) {
   const std::vector<fs::path> files = filesInDependencyOrder(staging_);
   std::set<fs::path> kept;
   for (const fs::path& file : files) {

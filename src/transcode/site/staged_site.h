@@ -46,12 +46,12 @@ private:
   void makeFoldersAbove();
   void create(const std::filesystem::path& folder, const std::string& prefix);
   bool exchange(const Rename& rename);
-  void publishInPlace(const Rename& rename);
+  void publishFileByFile(const Rename& rename);
   void discard() noexcept;
 
   std::filesystem::path target_, staging_;
   std::vector<std::filesystem::path> foldersMade_; ///< above the target, outermost first
-  bool force_ = false, inPlace_ = false, published_ = false;
+  bool force_ = false, keepsTarget_ = false, published_ = false;
   int lock_ = -1; ///< held on the staging directory: tells a living run from a killed one
 };
 

@@ -156,7 +156,7 @@ TEST(StagedSite, FollowsASymbolicLink) {
   EXPECT_EQ(wholeVersionAt(directory / "releases/one"), "new");
 }
 
-TEST(StagedSite, IsPublishedInPlaceIfItIsTheWorkingDirectory) {
+TEST(StagedSite, IsPublishedFileByFileIfTheTargetIsTheWorkingDirectory) {
   const TemporaryDirectory directory;
   publish(directory / "site", "old");
   const fs::path before = fs::current_path();

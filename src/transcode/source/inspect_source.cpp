@@ -13,11 +13,11 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   info.format = imported.format;
   info.warnings = imported.warnings;
   info.attributes = imported.attributes;
-  const std::vector<ShapeInstance> placed = shapeInstances(imported.scene.graph);
-  info.shapes = placed.size();
-  for (const ShapeInstance& shape : placed)
-    for (const Vec3f& position : imported.scene.meshes[shapeOf(imported.scene.graph, shape.node).mesh].positions)
-      info.box.add(shape.worldFromShape.point(Vec3d(position)));
+  const std::vector<ShapeInstance> instances = shapeInstances(imported.scene.graph);
+  info.shapes = instances.size();
+  for (const ShapeInstance& instance : instances)
+    for (const Vec3f& position : imported.scene.meshes[shapeOf(imported.scene.graph, instance.node).mesh].positions)
+      info.box.add(instance.worldFromShape.point(Vec3d(position)));
   for (const Mesh& mesh : imported.scene.meshes) {
     info.elements.of(mesh.topology) += mesh.elementCount();
     info.vertices += mesh.wedgeCount();

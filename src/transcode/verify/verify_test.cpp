@@ -81,8 +81,10 @@ private:
 void expectFinding(const DamagedSite& site, const std::string& words) {
   const VerifyReport report = site.verified();
   EXPECT_FALSE(report.equal);
-  const bool said = std::ranges::any_of(report.findings, [&](const std::string& f) { return f.find(words) != f.npos; });
-  EXPECT_TRUE(said) << words << "; said instead: " << (report.findings.empty() ? "nothing" : report.findings.front());
+  const bool isReported =
+      std::ranges::any_of(report.findings, [&](const std::string& f) { return f.find(words) != f.npos; });
+  EXPECT_TRUE(isReported) << words
+                          << "; said instead: " << (report.findings.empty() ? "nothing" : report.findings.front());
 }
 
 TEST(Verify, FindsNoDifferenceInAnUndamagedSite) {
