@@ -1,6 +1,6 @@
 // Tests the decoder with the files of vectors/png, which src/containers/png/png_vectors_test.cpp reads as well: both
-// decoders return the same texels, and refuse the same files with the same kind of error. In verdicts.json, `crc32` is
-// that of the texels.
+// decoders return the same texels, and refuse the same files with the same kind of error.
+// tests/generators/pngVectors.ts writes them. In verdicts.json, `crc32` is that of the texels.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,4 +1,6 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { describe, test } from "node:test";
 import type { Chunk } from "./priority.ts";
 import { chunkWeightsOf, defaultChunkWeights, priorityOf, weightOfView } from "./priority.ts";
@@ -56,6 +58,13 @@ describe("the priority of a request", () => {
     for (const pixels of [0, -1, 1e300, Infinity])
       assert.ok(Number.isFinite(weightOfView(viewOf(pixels))) && weightOfView(viewOf(pixels)) > 0);
   });
+});
+
+test("the default weights are those of docs/formats/nodes.md", () => {
+  const text = readFileSync(join(import.meta.dirname, "../../../docs/formats/nodes.md"), "utf8");
+  const [line = ""] = text.split("\n## Order of requests\n")[1]?.match(/^- \*\*chunk type\*\*: .*$/m) ?? [];
+  const documented = Array.from(line.matchAll(/`(\w+)` (\d+)/g), ([, type, weight]) => [type, Number(weight)]);
+  assert.deepEqual(Object.fromEntries(documented), defaultChunkWeights);
 });
 
 describe("weights from an author", () => {
