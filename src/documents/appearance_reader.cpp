@@ -24,7 +24,6 @@ void readProperties(const FieldReader& fields, Texture& texture) {
 
 } // namespace
 
-/// The value that the element's USE refers to; null if it has no USE, or the name is unknown.
 template <typename T>
 const T* AppearanceReader::definitionOf(const FieldReader& fields, const std::map<std::string, T>& defined) const {
   const std::string use = fields.text("USE");

@@ -31,7 +31,7 @@ private:
   void readTextures(const FieldReader& material, DefinedMaterial& read);
   std::size_t readTexture(const FieldReader& fields);
   void readTransforms(const FieldReader& fields, std::map<std::string, TextureTransform>& transforms) const;
-  /// The definition that the element USEs; nullptr if it is not a USE.
+  /// The definition that the element USEs; nullptr if it is not a USE or, with a warning, if the name is unknown.
   template <typename T> const T* definitionOf(const FieldReader& fields, const std::map<std::string, T>& defined) const;
 
   const DocumentText& source_;

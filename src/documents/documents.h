@@ -1,6 +1,6 @@
 #pragma once
-// Writing and reading of X3D documents: a scene graph with the descriptions of its geometry files <-> HTML and X3D
-// text.
+// Writes and reads X3D documents, HTML pages and X3D files, which hold a scene graph and the descriptions of its
+// geometry files.
 
 #include "containers/geometry_description.h"
 #include "scene/scene.h"
@@ -22,16 +22,16 @@ struct SceneDocument {
 struct PageOptions {
   std::string runtimeUrl;                     ///< url of the runtime's ES module, relative
   std::string stylesheetUrl;                  ///< relative
-  std::vector<std::string> eagerModuleUrls{}; ///< urls of modules that it needs at once; relative
+  std::vector<std::string> eagerModuleUrls{}; ///< urls of modules that the runtime needs at once; relative
   std::vector<std::string>
-      deferredModuleUrls{}; ///< urls of modules that it needs after it has shown base meshes; relative
+      deferredModuleUrls{}; ///< urls of modules that the runtime needs after it has displayed base meshes; relative
 };
 
 /// `scene.x3d`: the scene as XML, laid out for readability.
 std::string writeX3d(const SceneDocument& document);
 
-/// The document of the Inline node `inlineNode` as a file of its own beside the others. Documents that it inlines
-/// itself must have been written, so that their urls are known.
+/// The document of the Inline node `inlineNode` as a file of its own beside the others. Documents that this
+/// document inlines must have been written, so that their urls are known.
 std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode);
 
 /// `index.html`: the same <X3D> element in an HTML page that loads the runtime's modules and has preload hints for the
@@ -44,7 +44,7 @@ struct X3domFiles {
   std::string stylesheetUrl, stylesheetIntegrity;
 };
 
-/// The same two documents for X3DOM (docs/formats/x3dom.md). The containers must have been encoded for X3DOM.
+/// The same documents for X3DOM (docs/formats/x3dom.md). The containers must have been encoded for X3DOM.
 std::string writeX3domX3d(const SceneDocument& document);
 std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode);
 std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl);

@@ -141,12 +141,12 @@ Appearance randomAppearance(Random& random, std::size_t textures) {
   default:
     appearance.material = UnlitMaterial{.emissiveColor = randomColor(random)};
   }
-  const bool oneTransform = random.once(2);
+  const bool haveSameTransform = random.once(2);
   TextureTransform transform;
   for (int role = 0; role < 8 && textures > 0; ++role) {
     if (textureField(appearance.material, static_cast<TextureRole>(role)).empty() || random.once(2))
       continue;
-    if (!oneTransform)
+    if (!haveSameTransform)
       transform = {{random.between(-2, 2), 0}, {random.between(1, 2), 1}, {0, 0}, random.between(-1, 1)};
     appearance.textures.push_back({static_cast<TextureRole>(role), random.below(textures), transform});
   }
@@ -215,7 +215,7 @@ SceneDocument randomDocument(std::uint32_t seed) {
   for (std::uint32_t count = 1 + random.below(3); count > 0; --count)
     document.geometries.push_back(randomGeometry(random));
 
-  std::vector<std::size_t> made; // children come before their parents, so there are no cycles
+  std::vector<std::size_t> added; // children come before their parents, so there are no cycles
   for (std::uint32_t count = random.below(12); count > 0; --count) {
     Node node;
     if (!random.once(3))
@@ -240,17 +240,17 @@ SceneDocument randomDocument(std::uint32_t seed) {
                                random.once(2) ? Rotation{} : randomRotation(random),
                                {}};
     if (kind >= 2)
-      for (std::uint32_t children = random.below(4); children > 0 && !made.empty(); --children)
-        node.children.push_back(made[random.below(made.size())]);
-    made.push_back(addNode(graph, std::move(node)));
+      for (std::uint32_t children = random.below(4); children > 0 && !added.empty(); --children)
+        node.children.push_back(added[random.below(added.size())]);
+    added.push_back(addNode(graph, std::move(node)));
   }
-  for (const std::size_t node : made)
+  for (const std::size_t node : added)
     if (random.once(2))
       graph.roots.push_back(node);
   return document;
 }
 
-/// Boxes are written with the precision of their lattice, as centre and size.
+/// Expects boxes that are equal up to the precision with which they are written: that of their lattice.
 void expectNear(const Box3d& a, const Box3d& b, double step) {
   EXPECT_EQ(a.empty(), b.empty());
   if (a.empty() || b.empty())
@@ -265,8 +265,8 @@ void expectNear(const Box3d& a, const Box3d& b, double step) {
 void expectEqual(const GeometryDescription& read, GeometryDescription written) {
   expectNear(read.box, written.box, written.lattice.step);
   EXPECT_EQ(read.lattice.bits, written.lattice.bits);
-  const double reach = length(written.lattice.origin) + written.lattice.step * written.lattice.maximum();
-  const double tolerance = 1e-15 * reach + 2e-7 * written.lattice.step;
+  const double extent = length(written.lattice.origin) + written.lattice.step * written.lattice.maximum();
+  const double tolerance = 1e-15 * extent + 2e-7 * written.lattice.step;
   for (int axis = 0; axis < 3; ++axis)
     EXPECT_NEAR(read.lattice.origin[axis], written.lattice.origin[axis], tolerance);
   EXPECT_NEAR(read.lattice.step * read.lattice.maximum(), written.lattice.step * written.lattice.maximum(), tolerance);
@@ -288,20 +288,20 @@ void expectEqual(const SceneDocument& read, const SceneDocument& written) {
   EXPECT_EQ(read.graph.headlight, written.graph.headlight);
   const std::vector<std::size_t> readNodes = nodesInOrder(read.graph), nodes = nodesInOrder(written.graph);
   ASSERT_EQ(readNodes.size(), nodes.size());
-  std::map<std::size_t, std::size_t> readOf;
+  std::map<std::size_t, std::size_t> readNodeOf;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    readOf[nodes[i]] = readNodes[i];
+    readNodeOf[nodes[i]] = readNodes[i];
   std::map<std::size_t, std::size_t> readAppearanceOf, readTextureOf;
   const auto expectSame = [](std::map<std::size_t, std::size_t>& known, std::size_t key, std::size_t value) {
     EXPECT_EQ(known.try_emplace(key, value).first->second, value);
   };
   for (const std::size_t index : nodes) {
-    const Node &a = read.graph.nodes[readOf[index]], &b = written.graph.nodes[index];
+    const Node &a = read.graph.nodes[readNodeOf[index]], &b = written.graph.nodes[index];
     EXPECT_TRUE(b.name.empty() || a.name == b.name) << a.name << b.name;
     EXPECT_EQ(a.extras, b.extras);
     std::vector<std::size_t> children;
     for (const std::size_t child : b.children)
-      children.push_back(readOf[child]);
+      children.push_back(readNodeOf[child]);
     EXPECT_EQ(a.children, children);
     ASSERT_EQ(a.content.index(), b.content.index());
     const Shape* shape = std::get_if<Shape>(&b.content);
@@ -408,14 +408,14 @@ TEST(Documents, WriteAnOnlyChildOnTheLineOfItsParent) {
   EXPECT_EQ(writer.text(),
             "  <Transform translation=\"1 2 3\"><Group><Shape USE=\"seat\"></Shape></Group></Transform>\n");
 
-  ElementWriter twoOrLong(0);
-  twoOrLong.open(transform);
-  twoOrLong.leaf(shape);
-  twoOrLong.open({"Group", {}});
-  twoOrLong.leaf({"Shape", {{{"USE", std::string(90, 'x')}}}});
-  twoOrLong.close({"Group", {}});
-  twoOrLong.close(transform);
-  EXPECT_EQ(twoOrLong.text(), "<Transform translation=\"1 2 3\">\n"
+  ElementWriter multiLine(0);
+  multiLine.open(transform);
+  multiLine.leaf(shape);
+  multiLine.open({"Group", {}});
+  multiLine.leaf({"Shape", {{{"USE", std::string(90, 'x')}}}});
+  multiLine.close({"Group", {}});
+  multiLine.close(transform);
+  EXPECT_EQ(multiLine.text(), "<Transform translation=\"1 2 3\">\n"
                               "  <Shape USE=\"seat\"></Shape>\n"
                               "  <Group>\n"
                               "    <Shape USE=\"" +
@@ -470,7 +470,7 @@ TEST(Html, PreloadsABaseMeshAndItsDecoderInsteadOfPatches) {
   document.geometries[0].patches[0].data = Reference{"patch.png", PatchLocation{}};
   const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}};
   const std::string html = writeHtml(document, options);
-  std::size_t at = 0; // modules come first: they have work to do before they need the base mesh
+  std::size_t at = 0; // modules come first, since they have work to do before they need the base mesh
   for (const char* link : {"modulepreload\" href=\"first.js\">", "modulepreload\" href=\"r.js\">",
                            "stylesheet\" href=\"s.css\">", "fetchpriority=\"high\" href=\"base.png\">"}) {
     EXPECT_LT(at, html.find(link)) << link;
@@ -506,7 +506,7 @@ TEST(Html, HasNoInlineScriptOrStyle) {
   EXPECT_NE(pageStylesheet().find("x3d {"), std::string::npos);
 }
 
-ErrorKind kindOfReading(const std::string& text, const std::string& location = "") {
+ErrorKind errorKindOf(const std::string& text, const std::string& location = "") {
   try {
     readScene(text, "s.x3d");
   } catch (const Error& error) {
@@ -546,11 +546,11 @@ TEST(ReadScene, IgnoresTextThatOnlyResemblesTheElement) {
 }
 
 TEST(ReadScene, RefusesDocumentTypesAndEntities) {
-  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D [<!ENTITY a 'aaaaaaaa'>]><X3D><Scene/></X3D>", "s.x3d:1"),
+  EXPECT_EQ(errorKindOf("<!DOCTYPE X3D [<!ENTITY a 'aaaaaaaa'>]><X3D><Scene/></X3D>", "s.x3d:1"),
             ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"), ErrorKind::malformed);
-  EXPECT_EQ(kindOfReading("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
 }
 
 TEST(ReadScene, ReportsTheLineOfAMalformedField) {
@@ -563,7 +563,7 @@ TEST(ReadScene, ReportsTheLineOfAMalformedField) {
        {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'", "index='a#b'",
         "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'",
         "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
-    EXPECT_EQ(kindOfReading(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
+    EXPECT_EQ(errorKindOf(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
 }
 
 GeometryDescription readBinaryGeometry(const std::string& fields) {
@@ -632,7 +632,7 @@ TEST(ReadScene, RefusesAttributesThatPatchesLack) {
   EXPECT_NE(messageOf("name='heat' numComponents='1' valueBits='12'", "b").find("8, 16"), std::string::npos);
 }
 
-TEST(ReadScene, HasX3domsDefaultsForABinaryGeometry) {
+TEST(ReadScene, UsesX3domsDefaultsForABinaryGeometry) {
   const GeometryDescription geometry = readBinaryGeometry("coord='a' index='i'");
   EXPECT_EQ(geometry.coordType, ElementType::float32);
   EXPECT_EQ(geometry.indexType, ElementType::uint16);
@@ -697,13 +697,13 @@ TEST(ReadScene, RefusesGeometryWithoutALattice) {
   const auto geometry = [](const std::string& fields, const std::string& coord) {
     return "<X3D><Scene><Shape><ImageGeometry " + fields + " coord='" + coord + "'/></Shape></Scene></X3D>";
   };
-  EXPECT_EQ(kindOfReading(geometry("size='1 -2 1'", "a")), ErrorKind::malformed);
-  EXPECT_EQ(kindOfReading(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
-  EXPECT_EQ(kindOfReading(geometry("positionBits='16'", "a")), ErrorKind::malformed);
-  EXPECT_EQ(kindOfReading(geometry("positionBits='7'", "a")), ErrorKind::malformed);
-  EXPECT_EQ(kindOfReading(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading(geometry("", "")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("size='1 -2 1'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("positionBits='16'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("positionBits='7'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(geometry("", "")), ErrorKind::malformed);
 }
 
 TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {
@@ -727,18 +727,18 @@ TEST(ReadScene, RefusesExcessiveDepth) {
     text += "<Group>";
   for (int i = 0; i < 100000; ++i)
     text += "</Group>";
-  EXPECT_EQ(kindOfReading(text + "</Scene></X3D>"), ErrorKind::limit);
+  EXPECT_EQ(errorKindOf(text + "</Scene></X3D>"), ErrorKind::limit);
 
   std::string chain = "<X3D><Scene><Group DEF='g0'></Group>";
   for (int i = 1; i < 100000; ++i)
     chain += "<Group DEF='g" + std::to_string(i) + "'><Group USE='g" + std::to_string(i - 1) + "'/></Group>";
-  EXPECT_EQ(kindOfReading(chain + "</Scene></X3D>"), ErrorKind::limit);
+  EXPECT_EQ(errorKindOf(chain + "</Scene></X3D>"), ErrorKind::limit);
 }
 
 TEST(ReadScene, RefusesAUseWithoutADefBefore) {
   for (const std::string use : {"<Shape USE='a'/>", "<Group DEF='a'><Group USE='a'/></Group>",
                                 "<Transform USE='a'/><Transform DEF='a'/>", "<Shape><ImageGeometry USE='a'/></Shape>"})
-    EXPECT_EQ(kindOfReading("<X3D><Scene>" + use + "</Scene></X3D>"), ErrorKind::malformed) << use;
+    EXPECT_EQ(errorKindOf("<X3D><Scene>" + use + "</Scene></X3D>"), ErrorKind::malformed) << use;
 }
 
 TEST(Documents, WriteSharedNodesOnce) {

@@ -152,7 +152,7 @@ private:
       return gltfIndex;
     const auto [imageIndex, isNew] = imageOf_.try_emplace(texture.image, images.size());
     if (isNew)
-      images.push_back({{"bufferView", arrays.addBytes(image.bytes)}, {"mimeType", type}});
+      images.push_back({{"bufferView", arrays.addFile(image.bytes)}, {"mimeType", type}});
     samplers.push_back(gltfSampler(texture));
     textures.push_back({{"sampler", samplers.size() - 1}});
     if (type == std::string_view("image/webp"))

@@ -17,11 +17,12 @@ public:
   Json views = Json::array(), accessors = Json::array();
 
   /// Call before appending the bytes of an array.
-  void begin() { first_ = bytes.size(); }
+  void begin() { beginOffset_ = bytes.size(); }
 
   /// Describes the bytes appended since begin(). Returns the accessor's index.
   std::size_t end(int target, int componentType, const char* type, std::size_t count) {
-    views.push_back({{"buffer", 0}, {"byteOffset", first_}, {"byteLength", bytes.size() - first_}, {"target", target}});
+    views.push_back(
+        {{"buffer", 0}, {"byteOffset", beginOffset_}, {"byteLength", bytes.size() - beginOffset_}, {"target", target}});
     accessors.push_back(
         {{"bufferView", views.size() - 1}, {"componentType", componentType}, {"count", count}, {"type", type}});
     bytes.resize((bytes.size() + 3) / 4 * 4); // the next array begins at a multiple of 4 bytes
@@ -29,7 +30,7 @@ public:
   }
 
   /// Appends a file. Returns the index of its buffer view.
-  std::size_t addBytes(const Bytes& file) {
+  std::size_t addFile(const Bytes& file) {
     views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", file.size()}});
     bytes.insert(bytes.end(), file.begin(), file.end());
     bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -37,7 +38,7 @@ public:
   }
 
 private:
-  std::size_t first_ = 0;
+  std::size_t beginOffset_ = 0; ///< set by begin()
 };
 
 /// Appends the arrays of a mesh and returns its primitive, without a material.

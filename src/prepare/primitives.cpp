@@ -152,7 +152,7 @@ IndexedPatch asLineStrips(const Patch& patch) {
 
 /// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose
 /// coordinates differ in the highest bit decides the Morton order.
-bool beforeInMortonOrder(Vec3u a, Vec3u b) {
+bool isBeforeInMortonOrder(Vec3u a, Vec3u b) {
   const auto lowerHighestBit = [](std::uint32_t x, std::uint32_t y) { return x < y && x < (x ^ y); };
   int deciding = 0;
   for (int axis = 1; axis < 3; ++axis)
@@ -165,7 +165,7 @@ std::vector<std::uint32_t> mortonOrder(const Patch& patch) {
   std::vector<std::uint32_t> order(patch.wedgeCount());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return beforeInMortonOrder(patch.positions[patch.wedgePositions[a]], patch.positions[patch.wedgePositions[b]]);
+    return isBeforeInMortonOrder(patch.positions[patch.wedgePositions[a]], patch.positions[patch.wedgePositions[b]]);
   });
   return order;
 }

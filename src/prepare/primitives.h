@@ -25,7 +25,7 @@ struct Draw {
 struct IndexedPatch : VertexAttributes {
   std::vector<Vec3u> positions;       ///< by vertex, on the lattice
   std::vector<std::uint32_t> indices; ///< empty: vertices are drawn in order
-  std::vector<Draw> draws;            ///< counts sum to indices.size(), or positions.size() where it is empty
+  std::vector<Draw> draws;            ///< counts sum to indices.size(), or to positions.size() if there are none
 
   std::size_t vertexCount() const { return positions.size(); }
 };
@@ -36,8 +36,8 @@ struct IndexedPatch : VertexAttributes {
 IndexedPatch asTriangles(const Patch& patch);
 
 /// One triangle strip, then separate triangles that would lengthen it (docs/decisions/strips.md). Draws exactly the
-/// patch's non-degenerate triangles in their orientation. On scans 1.16 to 1.34 indices a triangle at effort 5, which
-/// takes a microsecond a triangle; 1.13 to 1.3 at effort 9, which takes fifteen. Effort is 0 .. 9.
+/// patch's non-degenerate triangles in their orientation. On scans 1.16 to 1.34 indices per triangle at effort 5, which
+/// takes a microsecond per triangle; 1.13 to 1.3 at effort 9, which takes 15 microseconds. Effort is 0 .. 9.
 IndexedPatch asStrips(const Patch& patch, int effort);
 
 /// Indexed lines in the order of line strips (prepare/line_strips.h). A line keeps its wedges, but not always its
@@ -48,16 +48,15 @@ IndexedPatch asLines(const Patch& patch);
 IndexedPatch asLineStrips(const Patch& patch);
 
 /// Whether a comes before b in Morton order (Z-order), which keeps neighbours in space close together.
-bool beforeInMortonOrder(Vec3u a, Vec3u b);
+bool isBeforeInMortonOrder(Vec3u a, Vec3u b);
 
 /// The wedges of a patch in the Morton order of their positions.
 std::vector<std::uint32_t> mortonOrder(const Patch& patch);
 
-/// Every wedge as a point, in Morton order, without indices; for point clouds
-/// and for meshes shown as points.
+/// Every wedge as a point, in Morton order, without indices; for point clouds and for meshes drawn as points.
 IndexedPatch asPoints(const Patch& patch);
 
-/// The same draws without indices: vertices are repeated instead.
+/// The patch with the same draws but without indices: vertices are repeated instead.
 IndexedPatch withoutIndices(const IndexedPatch& patch);
 
 /// Number of elements of a draw; in a triangle strip degenerate triangles are included.
@@ -67,7 +66,7 @@ ElementCounts elementsOf(const Draw& draw);
 /// triangles (two equal indices or, without indices, two equal positions) are left out.
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch);
 
-/// The lines that the draws of a patch produce, as pairs of vertex indices. Degenerate lines are left out likewise.
+/// The lines that the draws of a patch produce, as pairs of vertex indices. Degenerate lines are left out.
 std::vector<Vec2<std::uint32_t>> linesOf(const IndexedPatch& patch);
 
 } // namespace imgeo

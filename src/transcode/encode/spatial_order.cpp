@@ -49,7 +49,7 @@ std::vector<std::size_t> spatialOrder(const SceneGraph& graph, const std::vector
   std::vector<std::pair<Vec3u, std::size_t>> order;
   for (std::size_t i = 0; i < shapes.size(); ++i)
     order.push_back({latticePoints[i], shapes[i]});
-  std::ranges::stable_sort(order, beforeInMortonOrder, &std::pair<Vec3u, std::size_t>::first);
+  std::ranges::stable_sort(order, isBeforeInMortonOrder, &std::pair<Vec3u, std::size_t>::first);
   std::vector<std::size_t> sorted;
   for (const auto& [point, shape] : order)
     sorted.push_back(shape);

@@ -1,5 +1,5 @@
-// X3D's Extrusion (ISO/IEC 19775-1, 13.3.5): sweeps a cross-section along a spine. The vertices and faces are those of
-// src/import/x3d/extrusion.cpp: vectors/tessellation/extrusion.json holds both to that.
+// X3D's Extrusion (ISO/IEC 19775-1, 13.3.5): sweeps a cross-section along a spine. src/import/x3d/extrusion.cpp makes
+// the same vertices and faces: vectors/tessellation/extrusion.json tests both.
 
 import type { Surface } from "./elevationGrid.ts";
 import type { Corner } from "./faces.ts";
@@ -24,7 +24,7 @@ export interface ExtrusionFields {
 
 /**
  * Vertices row by row along the spine, quadrilaterals between the rows, then the caps, which have vertices of their
- * own. Undefined where the spine or the cross-section has fewer than two points.
+ * own. Undefined if the spine or the cross-section has fewer than two points.
  */
 export function extrusion(values: ExtrusionFields): Surface | undefined {
   const spine = vectorsOf(values.spine, 3).map(([x = 0, y = 0, z = 0]): Vec3 => [x, y, z]);
@@ -65,12 +65,12 @@ function isClosed(first: readonly number[] | undefined, last: readonly number[] 
 /** The spine-aligned cross-section planes (13.3.5.4): y is tangent to the spine, z normal to its bend. */
 function framesAlong(spine: readonly Vec3[]): Frame[] {
   const count = spine.length,
-    closed = count > 2 && isClosed(spine[0], spine[count - 1]);
-  const at = (i: number) =>
-    spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? origin;
-  const tangents = withGapsFilled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
+    isLoop = count > 2 && isClosed(spine[0], spine[count - 1]);
+  const pointAt = (i: number) =>
+    spine[isLoop ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? origin;
+  const tangents = withGapsFilled(spine.map((_, i) => unit(minus(pointAt(i + 1), pointAt(i - 1)))));
   const bendNormals = withGapsFilled(
-    spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))),
+    spine.map((_, i) => unit(cross(minus(pointAt(i + 1), pointAt(i)), minus(pointAt(i - 1), pointAt(i))))),
   );
   if (tangents === undefined)
     return spine.map(() => [
@@ -90,8 +90,7 @@ function framesAlong(spine: readonly Vec3[]): Frame[] {
 }
 
 /**
- * Replaces a missing vector by the one before it, or by the first where none is before. Undefined where all are
- * missing.
+ * Replaces a missing vector by the one before it, or by the first if none is before. Undefined if all are missing.
  */
 function withGapsFilled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
   let previous = vectors.find((vector) => vector !== undefined);
@@ -122,18 +121,18 @@ class FaceBuilder {
   }
 
   /**
-   * The quadrilaterals between rows. Where a curve is closed its ends share positions, so that the surface is smooth
+   * Adds the quadrilaterals between rows. If a curve is closed, its ends share positions, so that the surface is smooth
    * there.
    */
   addSides(): void {
     const [rows, columns] = [this.#spine.length, this.#section.length];
-    const ringClosed = columns > 2 && isClosed(this.#section[0], this.#section[columns - 1]);
-    const spineClosed =
+    const isSectionClosed = columns > 2 && isClosed(this.#section[0], this.#section[columns - 1]);
+    const isSpineClosed =
       rows > 2 && isClosed(this.#positions.slice(0, 3 * columns), this.#positions.slice(-3 * columns));
     for (let i = 0; i < rows; ++i)
       for (let j = 0; j < columns; ++j) this.#texCoords.push(j / (columns - 1), i / (rows - 1));
     const corner = (i: number, j: number): Corner => ({
-      position: (spineClosed ? i % (rows - 1) : i) * columns + (ringClosed ? j % (columns - 1) : j),
+      position: (isSpineClosed ? i % (rows - 1) : i) * columns + (isSectionClosed ? j % (columns - 1) : j),
       texCoord: i * columns + j,
       normal: -1,
       color: -1,
@@ -144,20 +143,20 @@ class FaceBuilder {
     }
   }
 
-  /** The polygon that closes an end, with vertices of its own, because its rim is a hard edge. */
+  /** Adds the polygon that closes an end, with vertices of its own, because its rim is a hard edge. */
   addCap(row: number, isReversed: boolean): void {
     const columns = this.#section.length;
     const corners = isClosed(this.#section[0], this.#section[columns - 1]) ? columns - 1 : columns;
     if (corners < 3) return;
-    const along = (pick: 0 | 1) => this.#section.map((point) => point[pick]);
-    const [left, low] = [Math.min(...along(0)), Math.min(...along(1))];
-    const extent = Math.max(Math.max(...along(0)) - left, Math.max(...along(1)) - low) || 1;
+    const coordinates = (axis: 0 | 1) => this.#section.map((point) => point[axis]);
+    const [minX, minZ] = [Math.min(...coordinates(0)), Math.min(...coordinates(1))];
+    const extent = Math.max(Math.max(...coordinates(0)) - minX, Math.max(...coordinates(1)) - minZ) || 1;
     const face: Corner[] = [];
     for (let j = 0; j < corners; ++j) {
       const [x = 0, z = 0] = this.#section[j] ?? [];
       face.push({ position: this.#positions.length / 3, texCoord: this.#texCoords.length / 2, normal: -1, color: -1 });
       this.#positions.push(...this.#positions.slice(3 * (row * columns + j), 3 * (row * columns + j) + 3));
-      this.#texCoords.push((x - left) / extent, (isReversed ? z - low : extent - (z - low)) / extent);
+      this.#texCoords.push((x - minX) / extent, (isReversed ? z - minZ : extent - (z - minZ)) / extent);
     }
     this.#faces.push(isReversed ? face.reverse() : face);
   }

@@ -1,5 +1,5 @@
-// Wide lines of several shapes merged: instances of one outline, each with both ends and the index
-// of its record.
+// Merges wide lines of several shapes into instances of one outline, each with both ends of the line
+// and the index of its instance record.
 
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
@@ -10,7 +10,7 @@ import { lineCountOf } from "../lines/wideLines.ts";
 import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
 import { GrowingArray } from "../attributes/growingArray.ts";
 
-/** The maximum of lines in one draw: all are uploaded again whenever one is added or removed. */
+/** The maximum number of lines in one draw. All are uploaded again whenever one is added or removed. */
 const maxLines = 65536;
 
 export class MergedLines implements MergedGeometry {
@@ -18,7 +18,7 @@ export class MergedLines implements MergedGeometry {
   readonly #records: LineRecords;
   readonly #instanceIndices = new GrowingArray(Uint32Array);
   readonly #members = new Set<Member>();
-  #isWasteful = false;
+  #hasRemovedMembers = false;
 
   /** For draws whose stages have the same `layoutOf` key. */
   constructor({ stage }: BatchedDraw, buffers: BufferProvider) {
@@ -36,7 +36,7 @@ export class MergedLines implements MergedGeometry {
 
   /** Lines of removed members would still be visible. */
   get needsRebuild(): boolean {
-    return this.#isWasteful;
+    return this.#hasRemovedMembers;
   }
 
   hasRoomFor({ draw: { ranges } }: Member): boolean {
@@ -54,11 +54,11 @@ export class MergedLines implements MergedGeometry {
 
   remove(member: Member): void {
     this.#members.delete(member);
-    this.#isWasteful = true;
+    this.#hasRemovedMembers = true;
   }
 
   rebuild(): void {
-    this.#isWasteful = false;
+    this.#hasRemovedMembers = false;
     this.#records.clear();
     this.#instanceIndices.clear();
     for (const member of this.#members) this.add(member);

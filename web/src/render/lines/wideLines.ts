@@ -1,23 +1,23 @@
-// Which draws are wide lines, and how many lines a draw has.
+// Makes the line draws of a stage wide, and counts the lines of a draw.
 
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import { isLine } from "../primitives/primitives.ts";
 
-/** By the original stage, so that all shapes that show it share one derived stage and its geometry. */
-const made = new WeakMap<Stage, Stage>();
+/** Results by the original stage, so that all shapes with this stage share one derived stage and its geometry. */
+const wideLineStages = new WeakMap<Stage, Stage>();
 
-/** A stage whose line draws are wide; the same stage where it has no lines. Repeated calls return the same object. */
+/** A stage whose line draws are wide; the same stage if it has no lines. Repeated calls return the same object. */
 export function withWideLines(stage: Stage): Stage {
   if (!stage.draws.some(isLine)) return stage;
-  const known = made.get(stage) ?? {
+  const wideLineStage = wideLineStages.get(stage) ?? {
     ...stage,
     draws: stage.draws.map((draw) => (isLine(draw) ? { ...draw, isWide: true } : draw)),
   };
-  made.set(stage, known);
-  return known;
+  wideLineStages.set(stage, wideLineStage);
+  return wideLineStage;
 }
 
-/** The distance in vertices from the begin of a line to that of the next. */
+/** The number of vertices from the start of one line to the start of the next. */
 export function lineStepOf({ primitive }: Pick<DrawRange, "primitive">): 1 | 2 {
   return primitive === "lineStrip" ? 1 : 2;
 }
