@@ -1,17 +1,17 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { ElementArray } from "../stage/vertexArray.ts";
-import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
+import type { ArrayUse, GpuArray } from "../stage/stage.ts";
 import { ArrayUploads } from "./arrayUploads.ts";
 
 /**
  * Uploads to a fake GPU, which counts calls and open arrays; `hold` delays further uploads until a promise resolves.
  */
 function fakeGpu() {
-  const open = new Set<StoredBytes>();
+  const open = new Set<GpuArray>();
   let storeCount = 0;
   let gate: Promise<unknown> = Promise.resolve();
-  const store = async ({ byteLength }: ElementArray, _: ArrayUse, signal: AbortSignal): Promise<StoredBytes> => {
+  const store = async ({ byteLength }: ElementArray, _: ArrayUse, signal: AbortSignal): Promise<GpuArray> => {
     storeCount += 1;
     await gate;
     signal.throwIfAborted();

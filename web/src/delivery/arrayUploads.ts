@@ -5,17 +5,17 @@ import type { ByVertexRole, VertexRole } from "../stage/attributeRows.ts";
 import { vertexRoles } from "../stage/attributeRows.ts";
 import type { ElementArray, IndexArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf } from "../stage/elementType.ts";
-import type { ArrayUse, StoredBytes, StoredIndex, StoredVertices } from "../stage/stage.ts";
+import type { ArrayUse, GpuArray, GpuIndex, GpuVertices } from "../stage/stage.ts";
 
 /** Uploads an array to where draws read it. Rejects with the signal's reason; nothing then remains allocated. */
-export type StoreBytes = (array: ElementArray, use: ArrayUse, signal: AbortSignal) => Promise<StoredBytes>;
+export type StoreBytes = (array: ElementArray, use: ArrayUse, signal: AbortSignal) => Promise<GpuArray>;
 
 export class ArrayUploads {
   readonly #store: StoreBytes;
   /** By buffer, use and byte range: interleaved attributes are views of one buffer. */
-  readonly #stored = new WeakMap<ArrayBuffer, Map<string, Promise<StoredBytes>>>();
-  readonly #uses = new Map<StoredBytes, number>();
-  #retired: StoredBytes[] = [];
+  readonly #stored = new WeakMap<ArrayBuffer, Map<string, Promise<GpuArray>>>();
+  readonly #uses = new Map<GpuArray, number>();
+  #retired: GpuArray[] = [];
 
   constructor(store: StoreBytes) {
     this.#store = store;
@@ -28,10 +28,7 @@ export class ArrayUploads {
     return sum;
   }
 
-  async storeVertices(
-    { array, components, stride, offset }: VertexArray,
-    signal: AbortSignal,
-  ): Promise<StoredVertices> {
+  async storeVertices({ array, components, stride, offset }: VertexArray, signal: AbortSignal): Promise<GpuVertices> {
     return {
       bytes: await this.#bytesOf(array, "vertices", signal),
       type: elementTypeOf(array),
@@ -41,8 +38,8 @@ export class ArrayUploads {
     };
   }
 
-  async storeAttributes(arrays: ByVertexRole<VertexArray>, signal: AbortSignal): Promise<ByVertexRole<StoredVertices>> {
-    const stored: Partial<Record<VertexRole, StoredVertices>> = {};
+  async storeAttributes(arrays: ByVertexRole<VertexArray>, signal: AbortSignal): Promise<ByVertexRole<GpuVertices>> {
+    const stored: Partial<Record<VertexRole, GpuVertices>> = {};
     await Promise.all(
       vertexRoles.map(async (role) => {
         if (arrays[role] !== undefined) stored[role] = await this.storeVertices(arrays[role], signal);
@@ -51,12 +48,12 @@ export class ArrayUploads {
     return stored;
   }
 
-  async storeIndex(array: IndexArray, signal: AbortSignal): Promise<StoredIndex> {
+  async storeIndex(array: IndexArray, signal: AbortSignal): Promise<GpuIndex> {
     return { bytes: await this.#bytesOf(array, "index", signal), type: elementTypeOf(array) };
   }
 
   /** The next stage does not use these arrays; to be called once for each. */
-  retire(...arrays: readonly ({ readonly bytes: StoredBytes } | undefined)[]): void {
+  retire(...arrays: readonly ({ readonly bytes: GpuArray } | undefined)[]): void {
     for (const array of arrays) if (array !== undefined) this.#retired.push(array.bytes);
   }
 
@@ -73,8 +70,8 @@ export class ArrayUploads {
     }
   }
 
-  async #bytesOf(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
-    const uploads = this.#stored.get(array.buffer) ?? new Map<string, Promise<StoredBytes>>();
+  async #bytesOf(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<GpuArray> {
+    const uploads = this.#stored.get(array.buffer) ?? new Map<string, Promise<GpuArray>>();
     this.#stored.set(array.buffer, uploads);
     const key = `${use} ${array.byteOffset}+${array.byteLength}`;
     const begun = uploads.get(key);

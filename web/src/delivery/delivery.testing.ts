@@ -7,7 +7,7 @@ import { decodeImage } from "../decode/image.ts";
 import { jobs } from "../decode/jobs.ts";
 import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
-import type { Stage, StoredBytes } from "../stage/stage.ts";
+import type { Stage, GpuArray } from "../stage/stage.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
@@ -32,7 +32,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   const jobNames: string[] = [];
   const images = { open: 0 };
   const textureImages = { open: 0 };
-  const arrays = new Map<StoredBytes, ElementArray>();
+  const arrays = new Map<GpuArray, ElementArray>();
   const scheduler = new Scheduler(slots);
   const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
     const name = url.replace("https://site/", "");
@@ -102,7 +102,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     onTransfer: () => undefined,
   });
   /** The array that was stored under a handle. */
-  const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) =>
+  const arrayOf = (stored: { readonly bytes: GpuArray } | undefined) =>
     arrays.get(stored?.bytes ?? assert.fail("no array was delivered")) ?? assert.fail("closed");
   return { requested, aborted, jobs: jobNames, images, textureImages, arrays, arrayOf, scheduler, pool };
 }

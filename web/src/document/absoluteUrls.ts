@@ -9,11 +9,11 @@ export interface WritableElement extends SceneElement {
 }
 
 /** URL fields by element; for geometry nodes all reference fields. */
-const references = ["index", "coord", ...vertexRoles.map((role) => role.toLowerCase()), "data", "base", "attrib"];
+const referenceFields = ["index", "coord", ...vertexRoles.map((role) => role.toLowerCase()), "data", "base", "attrib"];
 const urlFields: Readonly<Record<string, readonly string[]>> = {
-  imagegeometry: references,
-  binarygeometry: references,
-  geometrypatch: references,
+  imagegeometry: referenceFields,
+  binarygeometry: referenceFields,
+  geometrypatch: referenceFields,
   imagetexture: ["url", "preview"],
   inline: ["url"],
   anchor: ["url"],
@@ -30,7 +30,7 @@ export function absoluteUrls(element: WritableElement, base: string): void {
   for (const child of childrenOf(element)) absoluteUrls(child as WritableElement, base);
 }
 
-/** For one bare URL or quoted strings. Text that is no URL stays unchanged. */
+/** Resolves one bare URL, or each of several quoted ones. Text that is no URL stays unchanged. */
 export function withAbsoluteUrls(text: string, base: string): string {
   if (!text.includes('"')) return text.trim() === "" ? text : absolute(text.trim(), base);
   return text.replace(/"((?:[^"\\]|\\.)*)"/g, (_, quoted: string) => `"${absolute(quoted, base)}"`);

@@ -54,16 +54,16 @@ export function readAppearance(
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): AppearanceDescription {
-  const parts =
-    element === undefined ? [] : childrenOf(element).flatMap((part) => firstTextureOf(part, childrenOf, warnings));
-  const named = (name: string) => parts.find((part) => lowerNameOf(part) === name);
-  const material = parts.find((part) => lowerNameOf(part) in textureFields);
-  const points = named("pointproperties");
-  const lines = named("lineproperties");
+  const children =
+    element === undefined ? [] : childrenOf(element).flatMap((child) => firstTextureOf(child, childrenOf, warnings));
+  const childNamed = (name: string) => children.find((child) => lowerNameOf(child) === name);
+  const material = children.find((child) => lowerNameOf(child) in textureFields);
+  const points = childNamed("pointproperties");
+  const lines = childNamed("lineproperties");
   return {
     material: readMaterial(material, warnings),
     alpha: element ? readAlpha(element, warnings) : automaticAlpha,
-    textures: readTextures(parts, material, childrenOf, warnings),
+    textures: readTextures(children, material, childrenOf, warnings),
     points: points && readPoints(points, warnings),
     lines: lines && readLines(lines, warnings),
     colorMap,
@@ -79,7 +79,7 @@ function readMaterial(element: SceneElement | undefined, warnings: Warning[]): M
     case "material":
       return { kind: "phong", ...readFields(element ?? emptyElement, nodeFields.Material, warnings) };
     // Without a material there is no lighting (ISO/IEC 19775-1, 17.2.2.2): white, a texture, or vertex colors are
-    // shown.
+    // displayed.
     default:
       return { kind: "unlit", ...readFields(emptyElement, nodeFields.UnlitMaterial, warnings) };
   }
@@ -103,38 +103,44 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
 /**
  * The first texture of a MultiTexture, which X3D 4 replaces by the materials' texture fields; other elements unchanged.
  */
-function firstTextureOf(part: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
-  if (lowerNameOf(part) !== "multitexture") return [part];
-  warnings.push({ element: part, message: "of a <MultiTexture> only the first picture is shown" });
-  return childrenOf(part).filter(isTexture).slice(0, 1);
+function firstTextureOf(child: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
+  if (lowerNameOf(child) !== "multitexture") return [child];
+  warnings.push({ element: child, message: "of a <MultiTexture> only the first picture is shown" });
+  return childrenOf(child).filter(isTexture).slice(0, 1);
 }
 
-function isTexture(part: SceneElement): boolean {
-  return ["imagetexture", "pixeltexture"].includes(lowerNameOf(part));
+function isTexture(child: SceneElement): boolean {
+  return ["imagetexture", "pixeltexture"].includes(lowerNameOf(child));
 }
 
 /** Textures are in the material's fields (X3D 4); the color texture may be the Appearance's (X3D 3). */
 function readTextures(
-  parts: readonly SceneElement[],
+  children: readonly SceneElement[],
   material: SceneElement | undefined,
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): TextureDescription[] {
-  const inMaterial = material ? childrenOf(material).filter(isTexture) : [];
+  const materialTextures = material ? childrenOf(material).filter(isTexture) : [];
   const fields = textureFields[material ? lowerNameOf(material) : "material"] ?? {};
   return textureRoles.flatMap((role) => {
     const field = fields[role];
     if (field === undefined) return [];
     const isOfField = (texture: SceneElement) => fieldOf(texture) === field.toLowerCase();
-    const within = inMaterial.find(isOfField);
+    const materialTexture = materialTextures.find(isOfField);
     const element =
-      within ??
+      materialTexture ??
       (role === "color"
-        ? parts.find((part) => isTexture(part) && (["", "texture"].includes(fieldOf(part)) || isOfField(part)))
+        ? children.find((child) => isTexture(child) && (["", "texture"].includes(fieldOf(child)) || isOfField(child)))
         : undefined);
-    const mapping = within && material ? (attributeOf(material, `${field}Mapping`) ?? "") : "";
+    const mapping = materialTexture && material ? (attributeOf(material, `${field}Mapping`) ?? "") : "";
     return element
-      ? readTexture(role, element, matrixOf(transformFor(mapping, parts, childrenOf), warnings), childrenOf, warnings)
+      ? readTexture(
+          role,
+          element,
+          matrixOf(transformFor(mapping, children, childrenOf), warnings),
+          childrenOf,
+          warnings,
+        )
       : [];
   });
 }
@@ -153,7 +159,7 @@ function readTexture(
   const { url, preview, repeatS, repeatT } =
     lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
   if (url === undefined) return [];
-  const properties = childrenOf(element).find((part) => lowerNameOf(part) === "textureproperties");
+  const properties = childrenOf(element).find((child) => lowerNameOf(child) === "textureproperties");
   return [
     {
       role,
@@ -211,15 +217,15 @@ function wrapOf(mode: string): WrapMode {
 
 function transformFor(
   mapping: string,
-  parts: readonly SceneElement[],
+  children: readonly SceneElement[],
   childrenOf: ChildrenOf,
 ): SceneElement | undefined {
-  const all = parts
-    .flatMap((part) => (lowerNameOf(part) === "multitexturetransform" ? childrenOf(part) : [part]))
-    .filter((part) => lowerNameOf(part) === "texturetransform");
+  const all = children
+    .flatMap((child) => (lowerNameOf(child) === "multitexturetransform" ? childrenOf(child) : [child]))
+    .filter((child) => lowerNameOf(child) === "texturetransform");
   return (
-    all.find((part) => mapping !== "" && attributeOf(part, "mapping") === mapping) ??
-    all.find((part) => (attributeOf(part, "mapping") ?? "") === "")
+    all.find((child) => mapping !== "" && attributeOf(child, "mapping") === mapping) ??
+    all.find((child) => (attributeOf(child, "mapping") ?? "") === "")
   );
 }
 

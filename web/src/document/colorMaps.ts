@@ -2,10 +2,10 @@
 
 import type { Field, FieldType, Vec3 } from "./fieldTypes.ts";
 
-/** The limit of shader uniforms for a map's colors. */
+/** The largest number of colors in a map: the length of the shader's uniform array. */
 export const maxMapColors = 32;
 
-const named: Readonly<Record<string, string>> = {
+const namedMaps: Readonly<Record<string, string>> = {
   // Smith and van der Walt 2015, "A better default colormap for matplotlib": perceptually uniform.
   viridis: "440154 482878 3e4989 31688e 26828e 1f9e89 35b779 6dcd59 b4de2c fde725",
   // Moreland 2009, "Diverging color maps for scientific visualization": diverging from a middle value.
@@ -16,13 +16,13 @@ const named: Readonly<Record<string, string>> = {
 function colorsOf(hexes: string): Vec3[] {
   return hexes
     .split(" ")
-    .map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255) as unknown as Vec3);
+    .map((hex) => [0, 2, 4].map((start) => parseInt(hex.slice(start, start + 2), 16) / 255) as unknown as Vec3);
 }
 
 const colorMap: FieldType<readonly Vec3[]> = {
-  name: `map of colours (${Object.keys(named).join(", ")}, or 2 to ${maxMapColors} colours)`,
+  name: `map of colours (${Object.keys(namedMaps).join(", ")}, or 2 to ${maxMapColors} colours)`,
   parse(text) {
-    const known = named[text.trim().toLowerCase()];
+    const known = namedMaps[text.trim().toLowerCase()];
     if (known !== undefined) return colorsOf(known);
     const words = text.split(/[\s,]+/).filter((word) => word !== "");
     const numbers = words.map(Number);
@@ -35,5 +35,5 @@ const colorMap: FieldType<readonly Vec3[]> = {
 
 export const ColorMap = (name: string): Field<readonly Vec3[]> => ({
   type: colorMap,
-  defaultValue: colorsOf(named[name] ?? ""),
+  defaultValue: colorsOf(namedMaps[name] ?? ""),
 });

@@ -34,7 +34,7 @@ export interface ByteReference {
   readonly byteStride: number;
 }
 
-/** One patch, or one base mesh, of those that a file holds (compact). */
+/** A patch or a base mesh in a file that may hold several (compact). */
 export interface PatchReference {
   readonly url: string;
   /** Index of the patch, or of the base mesh, in the file. */
@@ -142,7 +142,7 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   /** The attribute whose values color the vertices. */
   readonly value: AttributeDescription | undefined;
   readonly patches: readonly PatchDescription[];
-  /** The base mesh that stands in for the patches until they are here. */
+  /** The base mesh that stands in for the patches until they are loaded. */
   readonly base: Reference | undefined;
   /** Text only: the URL of the glyph atlas. */
   readonly glyphAtlas?: string;
@@ -157,7 +157,7 @@ export type MaterialDescription =
 /** The meaning of alpha. AUTO blends where the material or a texture is transparent. */
 export interface AlphaDescription {
   readonly mode: "AUTO" | "OPAQUE" | "MASK" | "BLEND";
-  /** MASK only: less alpha is not drawn. */
+  /** MASK only: fragments of less alpha are not drawn. */
   readonly cutoff: number;
 }
 
@@ -165,7 +165,7 @@ export type WrapMode = "repeat" | "clamp" | "mirror";
 
 /** How a texture is filtered and wrapped. */
 export interface SamplingDescription {
-  /** Numbers for shading instead of colors. */
+  /** The texels are numbers for shading instead of colors. */
   readonly isData: boolean;
   readonly wrapS: WrapMode;
   readonly wrapT: WrapMode;
@@ -199,7 +199,7 @@ export type TextureRole = (typeof textureRoles)[number];
 export interface TextureDescription {
   readonly role: TextureRole;
   readonly url: string;
-  /** The URL of a small version, shown until the texture is here; empty: none. */
+  /** The URL of a small version, displayed until the texture is loaded; empty: none. */
   readonly preview: string;
   readonly sampling: SamplingDescription;
   /** Maps a vertex's texture coordinates to the image's. */
@@ -285,8 +285,8 @@ export interface GroupDescription {
   /** The identity of an Inline that names a document. */
   readonly inline?: SceneElement;
   /**
-   * Present for a Billboard: it rotates about this axis so that its z axis faces the viewer; 0 0 0: and its y axis is
-   * up on the screen.
+   * Present for a Billboard: it rotates about this axis so that its z axis faces the viewer. With 0 0 0, it rotates
+   * freely, and its y axis also points up on the screen.
    */
   readonly billboardAxis?: Vec3;
   readonly anchor?: AnchorDescription;
@@ -311,7 +311,7 @@ export interface LodDescription {
   readonly center: Vec3;
   /** The distances where one level ends and the next begins, ascending. */
   readonly range: readonly number[];
-  /** The last level is that of all greater distances. */
+  /** The number of levels; the last one is for all distances beyond `range`. */
   readonly levelCount: number;
 }
 
@@ -354,11 +354,11 @@ export interface BackgroundDescription {
 
 export interface SceneDescription {
   readonly root: GroupDescription;
-  /** The bound one: the first in the document, or the last that asks to be bound. */
+  /** The bound NavigationInfo: the first in the document, or the last whose `bind` or `set_bind` is true. */
   readonly navigation: NavigationDescription;
   /** Undefined: the page shows through behind the scene. */
   readonly background: BackgroundDescription | undefined;
-  /** Author's changes to the weights of file contents in request order, as written. */
+  /** The author's changes to the weights of file contents, which order requests; as written. */
   readonly chunkPriority: string;
   /** In document order, including those of inlined documents; one entry for each instance. */
   readonly inlines: readonly InlineDescription[];

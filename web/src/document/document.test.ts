@@ -66,7 +66,7 @@ describe("a field", () => {
   });
 
   for (const text of ["1 2", "1 2 3 4", "1 2 x", "1 2 Infinity", "1 2 NaN", ""]) {
-    test(`that reads "${text}" where three numbers belong takes its default, with a warning`, () => {
+    test(`has its default value, with a warning, where it is "${text}" instead of three numbers`, () => {
       const scene = sceneOf(`<Viewpoint position="${text}"/>`);
       assert.deepEqual(viewpointsIn(scene)[0]?.position, nodeFields.Viewpoint.position.defaultValue);
       assert.equal(scene.warnings.length, 1);
@@ -74,7 +74,7 @@ describe("a field", () => {
     });
   }
 
-  test("of strings may be quoted or bare, and keeps escaped quotes", () => {
+  test("may have quoted or bare strings, with escaped quotes", () => {
     const parse = (text: string) => nodeFields.GeometryPatch.coord.type.parse(text);
     assert.deepEqual(parse('"a b.png" "c\\"d"'), ["a b.png", 'c"d']);
     assert.deepEqual(parse("a.png b.png"), ["a.png", "b.png"]);
@@ -84,7 +84,7 @@ describe("a field", () => {
 });
 
 describe("a scene", () => {
-  test("without anything is empty, with a headlight and no background", () => {
+  test("is empty by default, with a headlight and no background", () => {
     const scene = sceneOf("");
     assert.deepEqual(shapesOf(scene.root), []);
     assert.equal(scene.navigation.headlight, true);
@@ -94,7 +94,7 @@ describe("a scene", () => {
     assert.equal(scene.background, undefined);
   });
 
-  test("has its viewpoints in document order, wherever they stand, and takes the first background", () => {
+  test("has viewpoints in document order, at any depth, and the first Background", () => {
     const scene =
       sceneOf(`<Group><Viewpoint description="a"/></Group><Transform><Viewpoint description="b" set_bind="true"/></Transform>
       <Background skyColor="1 0 0 0 1 0"/><Background skyColor="0 0 1"/>`);
@@ -111,7 +111,7 @@ describe("a scene", () => {
     );
   });
 
-  test("takes the first NavigationInfo, or one that wants to be bound", () => {
+  test("has the first NavigationInfo, or one whose bind is true", () => {
     assert.equal(sceneOf('<NavigationInfo speed="2"/><NavigationInfo speed="3"/>').navigation.speed, 2);
     assert.equal(sceneOf('<NavigationInfo speed="2"/><NavigationInfo bind="true" speed="3"/>').navigation.speed, 3);
   });
@@ -143,7 +143,7 @@ describe("a scene", () => {
     assert.equal(new Set(shapes.map((shape) => shape.element)).size, 3);
   });
 
-  test("takes each texture for the field that it stands in, or is USEd in", () => {
+  test("assigns each texture to the field of its containerField, also where it is USEd", () => {
     const texturesOf = (markup: string) =>
       shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.textures.map(
         ({ role, url, preview, sampling: { isData } }) => [role, url, preview, isData].join(" "),
@@ -169,7 +169,7 @@ describe("a scene", () => {
     );
   });
 
-  test("knows the three kinds of material, and lights with and without a position", () => {
+  test("has three kinds of material, and lights with and without a position", () => {
     const materialIn = (markup: string) =>
       shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.material;
     assert.deepEqual(materialIn(""), { kind: "unlit", emissiveColor: [1, 1, 1], transparency: 0 });
@@ -232,12 +232,16 @@ describe("a scene", () => {
     assert.equal(shapes[0]?.element, shapes[1]?.element);
   });
 
-  test("is visible where `visible` and X3DOM's `render` are both true, and a Switch shows one child or none", () => {
-    const seen = (markup: string) =>
+  test("has nodes visible where `visible` and X3DOM's `render` are both true, and at most one visible child in a Switch", () => {
+    const visibleIds = (markup: string) =>
       visibleShapes(sceneOf(markup).root).map((shape) => shape.element.getAttribute("DEF"));
-    assert.deepEqual(seen('<Shape DEF="a"/><Shape DEF="b" visible="false"/><Shape DEF="c" render="false"/>'), ["a"]);
+    assert.deepEqual(visibleIds('<Shape DEF="a"/><Shape DEF="b" visible="false"/><Shape DEF="c" render="false"/>'), [
+      "a",
+    ]);
     assert.deepEqual(
-      seen('<Group render="false"><Shape DEF="a"/></Group><Transform visible="false"><Shape DEF="b"/></Transform>'),
+      visibleIds(
+        '<Group render="false"><Shape DEF="a"/></Group><Transform visible="false"><Shape DEF="b"/></Transform>',
+      ),
       [],
     );
     for (const [choice, expected] of [
@@ -247,13 +251,13 @@ describe("a scene", () => {
       ["7", []],
     ] as const) {
       assert.deepEqual(
-        seen(
+        visibleIds(
           `<Switch whichChoice="${choice}"><Group><Shape DEF="a"/><Shape DEF="b"/></Group><Shape DEF="c"/></Switch>`,
         ),
         expected,
       );
     }
-    assert.deepEqual(seen('<Switch><Shape DEF="a"/></Switch>'), []);
+    assert.deepEqual(visibleIds('<Switch><Shape DEF="a"/></Switch>'), []);
   });
 
   test("warns of USE in a circle and of unknown names", () => {
@@ -293,11 +297,11 @@ describe("the author's priority", () => {
     });
   }
 
-  test("for file contents is a field of the scene", () => {
+  test("of file contents is a field of the scene", () => {
     assert.equal(readScene(elementsOf('<x3d chunkpriority="normal: 2"/>')).chunkPriority, "normal: 2");
   });
 
-  test("is worth nothing in a shape that is hidden, or stands in a group that is", () => {
+  test("does not matter for hidden shapes, or shapes in hidden groups", () => {
     const shapes = shapesIn(`<Group visible="false"><Transform><Shape/></Transform></Group>
       <Transform visible="false"><Group><Shape/></Group></Transform><Shape visible="false"/><Group><Shape/></Group>`);
     assert.deepEqual(
@@ -308,7 +312,7 @@ describe("the author's priority", () => {
 });
 
 describe("a geometry", () => {
-  test("with patches takes draws and references from them alone", () => {
+  test("takes draws and references from its patches only, where it has any", () => {
     const geometry = geometryOf(patches);
     const [first, second] = geometry.patches;
     assert.equal(geometry.patches.length, 2);
@@ -330,7 +334,7 @@ describe("a geometry", () => {
     assert.equal(second.vertexCount, 4);
   });
 
-  test("in X3DOM's form takes its images from ImageTexture children, byte planes in document order", () => {
+  test("takes images from ImageTexture children, as in X3DOM, with byte planes in document order", () => {
     const [patch, ...others] = geometryOf(`
       <ImageGeometry vertexCount="6" implicitMeshSize="300 0">
         <ImageTexture containerField="coord" url="high.png"/><ImageTexture containerField="index" url='"i.png"'/>
@@ -346,7 +350,7 @@ describe("a geometry", () => {
     assert.equal(patch.box, undefined);
   });
 
-  test("of typed arrays reads types, offsets and strides, and X3DOM's stride in a file's name", () => {
+  test("has types, offsets and strides of typed arrays, and X3DOM's stride in a file's name", () => {
     const {
       patches: [patch],
       ...geometry
@@ -360,12 +364,12 @@ describe("a geometry", () => {
     assert.deepEqual(patch.normal, { url: "n.bin+4", byteOffset: 0, byteStride: 4 });
   });
 
-  test("of images has indices of 16 bits unless it says otherwise", () => {
+  test("has 16-bit indices in images by default", () => {
     assert.equal(geometryOf('<ImageGeometry coord="a" index="i"/>').indexType, "Uint16");
     assert.equal(geometryOf('<ImageGeometry coord="a" index="i" indexType="uint32"/>').indexType, "Uint32");
   });
 
-  test("with normals of two numbers says which, and where X3DOM has them", () => {
+  test("has the encoding of normals of two numbers, and their location in X3DOM's files", () => {
     assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" vertexCount="3"/>').normalEncoding, "rgb");
     assert.equal(
       geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding,
@@ -390,7 +394,7 @@ describe("a geometry", () => {
     assert.equal(wrong.warnings.length, 2);
   });
 
-  test("with an unknown primitive draws triangles, with an element type unknown the default, and says so", () => {
+  test("has triangles for an unknown primitive and the default for an unknown element type, with warnings", () => {
     const scene = sceneOf('<Shape><BinaryGeometry coordType="Float64" primType="QUADS" vertexCount="3 -1"/></Shape>');
     const geometry = shapesOf(scene.root)[0]?.geometry;
     assert.equal(geometry?.coordType, "Float32");
@@ -401,7 +405,7 @@ describe("a geometry", () => {
     assert.equal(scene.warnings.length, 3);
   });
 
-  test("of more than four byte planes uses the highest four, and says so", () => {
+  test("has the first four of more byte planes, with a warning", () => {
     const scene = sceneOf('<Shape><ImageGeometry coord="a b c d e"/></Shape>');
     assert.deepEqual(
       shapesOf(scene.root)[0]?.geometry?.patches[0]?.coord.map(({ url }) => url),
@@ -489,7 +493,7 @@ describe("stored integers", () => {
     geometryOf(`
     <ImageGeometry position="10 0 0" size="4 4 4" positionBits="${bits}" vertexCount="3"
       coord='${Array.from({ length: count }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
-  const placed = (geometry: GeometryDescription, stored: number) => {
+  const coordinateOf = (geometry: GeometryDescription, stored: number) => {
     const patch = geometry.patches[0];
     assert.ok(patch);
     const { origin, step } = dequantizationOf(geometry, patch);
@@ -497,28 +501,28 @@ describe("stored integers", () => {
   };
 
   for (const count of [1, 2, 3, 4]) {
-    test(`of ${count} bytes spread over the whole decode box`, () => {
-      assert.equal(placed(planesOf(count), 0), 8);
-      assert.ok(Math.abs(placed(planesOf(count), 256 ** count - 1) - 12) < 1e-12);
+    test(`with ${count} bytes span the whole quantization box`, () => {
+      assert.equal(coordinateOf(planesOf(count), 0), 8);
+      assert.ok(Math.abs(coordinateOf(planesOf(count), 256 ** count - 1) - 12) < 1e-12);
     });
   }
 
-  test("of typed arrays follow X3DOM: unsigned from the corner, signed around the centre, floats as they are", () => {
+  test("in typed arrays follow X3DOM: unsigned from the corner, signed around the center, floats as they are", () => {
     const typed = (type: string) =>
       geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" vertexCount="3"/>`);
-    assert.equal(placed(typed("Uint16"), 65535), 12);
-    assert.equal(placed(typed("Int16"), 0), 10);
-    assert.ok(Math.abs(placed(typed("Int16"), -16383) - 8) < 1e-3);
-    assert.equal(placed(typed("Float32"), 7.5), 7.5);
+    assert.equal(coordinateOf(typed("Uint16"), 65535), 12);
+    assert.equal(coordinateOf(typed("Int16"), 0), 10);
+    assert.ok(Math.abs(coordinateOf(typed("Int16"), -16383) - 8) < 1e-3);
+    assert.equal(coordinateOf(typed("Float32"), 7.5), 7.5);
   });
 
-  test("keep a step along a flat side of the box, so that the matrix can be inverted", () => {
+  test("have a step above 0 along a flat side of the box, so that the matrix can be inverted", () => {
     const flat = geometryOf('<ImageGeometry size="4 4 0" vertexCount="3" coord="a.png"/>');
     const patch = flat.patches[0];
     assert.ok(patch && dequantizationOf(flat, patch).step.every((step) => step > 0));
   });
 
-  test("whose low bytes are missing are at the midpoint of the possible values", () => {
+  test("are at the midpoint of the possible values while their low bytes are missing", () => {
     for (const [planes, bits] of [
       [2, 16],
       [2, 12],

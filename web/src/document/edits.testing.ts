@@ -1,5 +1,5 @@
-// Documents that are edited at random, and what is told of them besides, for tests
-// that compare what has followed them with what sees them for the first time.
+// Documents that are edited at random, with the state that Inlines and LODs get from outside, for tests that compare an
+// updated result with a result from scratch.
 
 import type { SceneElement } from "./element.ts";
 import { elementsOf, type TestElement } from "./elements.testing.ts";
@@ -8,13 +8,14 @@ import { readInlineGeometry } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 /** Numbers that look random and are the same in every run (Marsaglia 2003, xorshift). */
-export class Dice {
+export class RandomNumbers {
   #state: number;
 
   constructor(seed: number) {
     this.#state = seed * 2654435769 + 1;
   }
 
+  /** An integer from 0 to `count` - 1. */
   below(count: number): number {
     this.#state ^= this.#state << 13;
     this.#state ^= this.#state >>> 17;
@@ -22,7 +23,7 @@ export class Dice {
     return (this.#state >>> 0) % count;
   }
 
-  of<Item>(items: readonly Item[]): Item {
+  choose<Item>(items: readonly Item[]): Item {
     const item = items[this.below(items.length)];
     if (item === undefined) throw new RangeError("nothing to choose from");
     return item;
@@ -84,46 +85,48 @@ const inlinable = {
   "b.x3d": `<X3D><LOD range="1"><Shape id="near"/><Shape id="far"/></LOD><Inline url="a.x3d"/></X3D>`,
 };
 
+/** A document, a reader that follows its edits, and the options of both this reader and a new one. */
 export class EditedDocument implements SceneReaderOptions {
   readonly x3d = elementsOf(`<X3D><Scene>${snippets.join("")}</Scene></X3D>`);
   readonly inlineGeometry = readInlineGeometry;
   readonly reader = new SceneReader(this.x3d, this);
-  readonly #dice: Dice;
+  readonly #random: RandomNumbers;
   readonly #documents = Object.entries(inlinable).map(([url, text]) => ({ url, x3d: elementsOf(text) }));
-  readonly #arrived = new Set<SceneElement>();
+  readonly #loadedInlines = new Set<SceneElement>();
   readonly #levels = new Map<SceneElement, number>();
 
-  constructor(dice: Dice) {
-    this.#dice = dice;
+  constructor(random: RandomNumbers) {
+    this.#random = random;
   }
 
   readonly inlined = (inline: SceneElement) =>
-    this.#arrived.has(inline)
+    this.#loadedInlines.has(inline)
       ? this.#documents.find(({ url }) => inline.getAttribute("url")?.includes(url))
       : undefined;
 
   readonly levelOf = (lod: SceneElement) => this.#levels.get(lod);
 
+  /** Makes one random change and reports it to the reader. */
   edit(): void {
-    const dice = this.#dice;
-    const element = dice.of(elementsIn(this.x3d));
+    const random = this.#random;
+    const element = random.choose(elementsIn(this.x3d));
     const others = elementsIn(this.x3d).slice(2);
-    switch (dice.below(8)) {
+    switch (random.below(8)) {
       case 0:
       case 1:
-        this.#insert(elementsOf(dice.of(snippets)), element);
+        this.#insert(elementsOf(random.choose(snippets)), element);
         break;
       case 2:
-        if (others.length > 0) this.#remove(dice.of(others));
+        if (others.length > 0) this.#remove(random.choose(others));
         break;
       case 3:
-        if (others.length > 0) this.#move(dice.of(others), element);
+        if (others.length > 0) this.#move(random.choose(others), element);
         break;
       case 4:
         this.#rearrange(element);
         break;
       case 5:
-        this.#supplement();
+        this.#changeOptions();
         break;
       default:
         this.#set(element);
@@ -131,7 +134,7 @@ export class EditedDocument implements SceneReaderOptions {
   }
 
   #insert(element: TestElement, parent: TestElement): void {
-    parent.children.splice(this.#dice.below(parent.children.length + 1), 0, element);
+    parent.children.splice(this.#random.below(parent.children.length + 1), 0, element);
     this.reader.rearrange(parent);
   }
 
@@ -153,20 +156,21 @@ export class EditedDocument implements SceneReaderOptions {
     this.reader.rearrange(element);
   }
 
-  #supplement(): void {
-    const reached = [this.x3d, ...this.#documents.map(({ x3d }) => x3d)].flatMap(elementsIn);
-    const some = reached.filter(({ localName }) => ["Inline", "LOD"].includes(localName));
-    if (some.length === 0) return;
-    const element = this.#dice.of(some);
-    if (element.localName === "LOD") this.#levels.set(element, this.#dice.below(2));
-    else if (!this.#arrived.delete(element)) this.#arrived.add(element);
+  #changeOptions(): void {
+    const allElements = [this.x3d, ...this.#documents.map(({ x3d }) => x3d)].flatMap(elementsIn);
+    const candidates = allElements.filter(({ localName }) => ["Inline", "LOD"].includes(localName));
+    if (candidates.length === 0) return;
+    const element = this.#random.choose(candidates);
+    if (element.localName === "LOD") this.#levels.set(element, this.#random.below(2));
+    else if (!this.#loadedInlines.delete(element)) this.#loadedInlines.add(element);
     this.reader.touch(element);
   }
 
   #set(element: TestElement): void {
-    const name = element.localName === "Coordinate" ? "point" : this.#dice.of(Object.keys(attributes));
+    const name = element.localName === "Coordinate" ? "point" : this.#random.choose(Object.keys(attributes));
     const hadName = element.attributes.delete(name);
-    if (!hadName || this.#dice.below(2) === 0) element.attributes.set(name, this.#dice.of(attributes[name] ?? []));
+    if (!hadName || this.#random.below(2) === 0)
+      element.attributes.set(name, this.#random.choose(attributes[name] ?? []));
     this.reader.touch(element);
   }
 }

@@ -1,5 +1,4 @@
-// One occurrence of an element in the scene, with the fragment last read from it. An element has several instances
-// where
+// One occurrence of an element in the scene, with the fragment last read from it. An element has several instances where
 // a group around it is USEd or its document is inlined twice.
 
 import type { SceneElement } from "./element.ts";
@@ -19,30 +18,30 @@ export interface DocumentContext {
 export class ElementInstance {
   readonly element: SceneElement;
   readonly context: DocumentContext;
-  /** The element that describes it: another one where it USEs a node. */
+  /** The element that describes this instance; not `element` where that USEs a node. */
   node: SceneElement;
-  /** It depends on all descendants of its sources. */
+  /** The fragment depends on all descendants of `sources`. */
   dependsOnDescendants = false;
   /** Undefined where the element must be read (again). */
   reader: FragmentReader | undefined;
-  /** The elements that it was read from, without those of its child instances. */
+  /** The elements that this instance was read from, without those of its child instances. */
   readonly sources = new Set<SceneElement>();
-  /** The DEF names that it has looked up. */
+  /** The DEF names that this instance has looked up. */
   readonly names = new Set<string>();
   readonly #parent: ElementInstance | undefined;
   #children: readonly ElementInstance[] = [];
   #fragment: SceneFragment | undefined;
   #inherited: Inherited | undefined;
-  #inlined: { readonly x3d: SceneElement; readonly surroundings: DocumentContext } | undefined;
+  #inlined: { readonly x3d: SceneElement; readonly context: DocumentContext } | undefined;
 
-  constructor(element: SceneElement, parent: ElementInstance | undefined, surroundings: DocumentContext) {
+  constructor(element: SceneElement, parent: ElementInstance | undefined, context: DocumentContext) {
     this.element = element;
     this.node = element;
     this.#parent = parent;
-    this.context = surroundings;
+    this.context = context;
   }
 
-  /** Undefined where it, or an instance below it, must be read again. */
+  /** Undefined where this instance, or one below it, must be read again. */
   get fragment(): SceneFragment | undefined {
     return this.#fragment;
   }
@@ -93,16 +92,16 @@ export class ElementInstance {
   }
 
   /** Sets the root element of the document that this Inline shows. */
-  setInlined(x3d: SceneElement, surroundings: DocumentContext): void {
-    this.#inlined = { x3d, surroundings };
+  setInlined(x3d: SceneElement, context: DocumentContext): void {
+    this.#inlined = { x3d, context };
   }
 
   /** The context of a child element. */
   contextOf(element: SceneElement): DocumentContext {
-    return this.#inlined?.x3d === element ? this.#inlined.surroundings : this.context;
+    return this.#inlined?.x3d === element ? this.#inlined.context : this.context;
   }
 
-  /** Its child instances, to be reused one by one. */
+  /** The child instances, to be reused one by one. */
   takeChildren(): ReusableChildren {
     return new ReusableChildren(this.#children);
   }

@@ -1,5 +1,5 @@
 // A snapshot of a document's tree and DEF names. A live document reports only that an element has changed; comparing it
-// with the snapshot tells which elements and names have come and gone.
+// with the snapshot tells which elements and names have been added or removed.
 
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf } from "./element.ts";
@@ -7,7 +7,7 @@ import { attributeOf, childrenOf } from "./element.ts";
 interface Entry {
   readonly parent: SceneElement | undefined;
   children: readonly SceneElement[];
-  /** DEF. */
+  /** The element's DEF. */
   name: string | undefined;
 }
 
@@ -16,14 +16,14 @@ export class ElementTree {
   readonly #entries = new Map<SceneElement, Entry>();
   /** The elements of each DEF name, unordered. */
   readonly #named = new Map<string, Set<SceneElement>>();
-  /** Names of several elements, with the first of these once it has been looked up. */
+  /** Names that several elements have; the value is the first of these elements, once it has been looked up. */
   readonly #ambiguous = new Map<string, SceneElement | undefined>();
   /** Names whose first element may have changed since `takeChangedNames`. */
   #changedNames = new Set<string>();
 
   constructor(root: SceneElement) {
     this.#root = root;
-    this.#enter(root, undefined);
+    this.#add(root, undefined);
     this.#changedNames.clear();
   }
 
@@ -50,8 +50,8 @@ export class ElementTree {
     const entry = this.#entries.get(element);
     const name = attributeOf(element, "DEF");
     if (entry === undefined || entry.name === name) return;
-    this.#unname(element, entry);
-    this.#name(element, entry, name);
+    this.#removeName(element, entry);
+    this.#addName(element, entry, name);
   }
 
   /** Reads the element's children again. */
@@ -61,10 +61,10 @@ export class ElementTree {
     const before = entry.children;
     entry.children = childrenOf(element);
     const now = new Set(entry.children);
-    for (const child of before) if (!now.has(child)) this.#leave(child, element);
-    for (const child of entry.children) if (this.parentOf(child) !== element) this.#enter(child, element);
+    for (const child of before) if (!now.has(child)) this.#remove(child, element);
+    for (const child of entry.children) if (this.parentOf(child) !== element) this.#add(child, element);
     // The order may have changed, and with it the first element of a name.
-    for (const name of this.#ambiguous.keys()) this.#change(name);
+    for (const name of this.#ambiguous.keys()) this.#markChanged(name);
   }
 
   /** The names whose first element may have changed since the last call. */
@@ -74,41 +74,41 @@ export class ElementTree {
     return names;
   }
 
-  #enter(element: SceneElement, parent: SceneElement | undefined): void {
+  #add(element: SceneElement, parent: SceneElement | undefined): void {
     const before = this.#entries.get(element);
-    if (before !== undefined) this.#leave(element, before.parent); // it has moved; its old parent is updated later
+    if (before !== undefined) this.#remove(element, before.parent); // it has moved; its old parent is updated later
     const entry: Entry = { parent, children: childrenOf(element), name: undefined };
     this.#entries.set(element, entry);
-    this.#name(element, entry, attributeOf(element, "DEF"));
-    for (const child of entry.children) this.#enter(child, element);
+    this.#addName(element, entry, attributeOf(element, "DEF"));
+    for (const child of entry.children) this.#add(child, element);
   }
 
   /** Does nothing for an element that has moved to another parent. */
-  #leave(element: SceneElement, parent: SceneElement | undefined): void {
+  #remove(element: SceneElement, parent: SceneElement | undefined): void {
     const entry = this.#entries.get(element);
     if (entry === undefined || entry.parent !== parent) return;
     this.#entries.delete(element);
-    this.#unname(element, entry);
-    for (const child of entry.children) this.#leave(child, element);
+    this.#removeName(element, entry);
+    for (const child of entry.children) this.#remove(child, element);
   }
 
-  #name(element: SceneElement, entry: Entry, name: string | undefined): void {
+  #addName(element: SceneElement, entry: Entry, name: string | undefined): void {
     entry.name = name;
     if (name === undefined) return;
     const named = this.#named.get(name) ?? new Set();
     this.#named.set(name, named.add(element));
-    this.#change(name);
+    this.#markChanged(name);
   }
 
-  #unname(element: SceneElement, { name }: Entry): void {
+  #removeName(element: SceneElement, { name }: Entry): void {
     if (name === undefined) return;
     const named = this.#named.get(name);
     named?.delete(element);
     if (named?.size === 0) this.#named.delete(name);
-    this.#change(name);
+    this.#markChanged(name);
   }
 
-  #change(name: string): void {
+  #markChanged(name: string): void {
     this.#changedNames.add(name);
     if ((this.#named.get(name)?.size ?? 0) > 1) this.#ambiguous.set(name, undefined);
     else this.#ambiguous.delete(name);

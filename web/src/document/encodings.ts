@@ -22,15 +22,15 @@ export interface EncodingFormat {
   readonly hasBase: boolean;
   /** Patches may be grids without an index (`implicitMeshMode`). */
   readonly hasGrids: boolean;
-  /** The files that the coordinates of a patch can have. */
+  /** The largest number of files that the coordinates of a patch can have. */
   readonly maxCoordFileCount: number;
-  /** The files of each patch for one further attribute whose numbers have `valueBits` bits. */
+  /** The number of files of each patch for one custom attribute whose numbers have `valueBits` bits. */
   attributeFileCount(valueBits: number): number;
-  /** Bits of a further attribute's stored integers; undefined: numbers are stored as they are. */
+  /** Bits of a custom attribute's stored integers; undefined: numbers are stored as they are. */
   attributeBits(valueBits: number): number | undefined;
   /** `fragment`: what follows the URL's `#`; undefined where there is none. */
   referenceOf(url: string, fragment: string | undefined): Reference;
-  /** The stored value that stands for the far side of the decode box. */
+  /** The stored value of the upper side of the quantization box. */
   maxStoredValue(geometry: GeometryDescription, patch: PatchDescription): number;
 }
 
@@ -99,7 +99,8 @@ export function latticeBitsOf({ positionBits }: GeometryDescription): number {
 }
 
 /**
- * The box is spread over whole bytes, of which the lattice has the upper bits; its numbers come without the lower ones.
+ * The quantization box is spread over whole bytes. The lattice has the upper bits of these; stored numbers lack the lower
+ * ones.
  */
 function maxLatticeValue(bits: number): number {
   const bytes = Math.ceil(bits / 8);
@@ -110,7 +111,7 @@ function beforePlus(fragment: string | undefined): string | undefined {
   return fragment?.split("+")[0];
 }
 
-/** 0 for what is no number. */
+/** 0 for text that is no number. */
 function numberIn(text: string | undefined): number {
   return text !== undefined && /^\d+$/.test(text) ? Number(text) : 0;
 }

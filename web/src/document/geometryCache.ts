@@ -21,14 +21,14 @@ interface Entry {
   readonly warnings: readonly Warning[];
   /** The names that descendants USE. */
   readonly names: readonly string[];
-  /** The number of the reading in which it was last checked. */
-  checkedIn: number;
+  /** The number of the reading in which the entry was last checked. */
+  lastReading: number;
 }
 
 export class GeometryCache {
   readonly #known = new WeakMap<SceneElement, Entry>();
   readonly #variants = new WeakMap<GeometryDescription, Map<string, GeometryDescription>>();
-  /** By their JSON. */
+  /** By the JSON text of the geometry. */
   readonly #interned = new Map<string, WeakRef<GeometryDescription>>();
   #maxInterned = 1024;
   #touched = new WeakSet<SceneElement>();
@@ -45,9 +45,9 @@ export class GeometryCache {
   }
 
   /**
-   * The element's geometry, read where it is not known. `lookup` is called for every name that it USEs in both cases.
+   * The element's geometry, read where the cache lacks it. In both cases `lookup` is called for every name that it USEs.
    */
-  recall(
+  geometryOf(
     element: SceneElement,
     lookup: Lookup,
     warnings: Warning[],
@@ -77,7 +77,7 @@ export class GeometryCache {
     }
     const geometry =
       known !== undefined && JSON.stringify(known.geometry) === JSON.stringify(fresh) ? known.geometry : fresh;
-    this.#known.set(element, { geometry, warnings: own, names, checkedIn: this.#reading });
+    this.#known.set(element, { geometry, warnings: own, names, lastReading: this.#reading });
     return geometry;
   }
 
@@ -95,8 +95,8 @@ export class GeometryCache {
   }
 
   /**
-   * An equal geometry that is still in use, or this one where there is none. For geometries of files, whose
-   * descriptions are small.
+   * An equal geometry that is still in use, or this one where there is none. Only for geometries that reference files:
+   * their descriptions are small.
    */
   intern(geometry: GeometryDescription): GeometryDescription {
     const key = JSON.stringify(geometry);
@@ -113,7 +113,7 @@ export class GeometryCache {
   }
 
   /** Elements that it USEs are elsewhere and may have changed: such a geometry is read anew in each reading. */
-  #isCurrent(element: SceneElement, { names, checkedIn }: Entry): boolean {
-    return checkedIn === this.#reading || (!this.#touched.has(element) && names.length === 0);
+  #isCurrent(element: SceneElement, { names, lastReading }: Entry): boolean {
+    return lastReading === this.#reading || (!this.#touched.has(element) && names.length === 0);
   }
 }

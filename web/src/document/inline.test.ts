@@ -7,8 +7,10 @@ import { elementsOf, type TestElement } from "./elements.testing.ts";
 import type { InlinedDocument } from "./readScene.ts";
 import { readScene } from "./readScene.ts";
 
-/** Documents by the first url of the Inline that asks for them. */
-function reader(documents: Readonly<Record<string, string>>): (inline: SceneElement) => InlinedDocument | undefined {
+/** Gives the document for an Inline's URL, parsed once. */
+function inlinedFrom(
+  documents: Readonly<Record<string, string>>,
+): (inline: SceneElement) => InlinedDocument | undefined {
   const parsed = new Map<string, InlinedDocument>();
   return (inline) => {
     const url = inline.getAttribute("url")?.replaceAll('"', "") ?? "";
@@ -19,14 +21,14 @@ function reader(documents: Readonly<Record<string, string>>): (inline: SceneElem
   };
 }
 
-const shape = (id: string, more = "") => `<Shape id="${id}" ${more}><Box/></Shape>`;
+const shape = (id: string, attributes = "") => `<Shape id="${id}" ${attributes}><Box/></Shape>`;
 
 describe("Inline", () => {
-  test("shows a document with DEF names of its own", () => {
+  test("replaces itself by a document with its own DEF names", () => {
     const page =
       elementsOf(`<X3D><Scene>${shape("own", 'DEF="S"')}<Transform translation="1 0 0"><Inline id="in" url='"a.x3d"'/></Transform>
       <Inline url="lost.x3d"/><Switch whichChoice="-1"><Inline url='"b.x3d"'/></Switch><Inline load="false" url='"c.x3d"'/></Scene></X3D>`);
-    const inlined = reader({
+    const inlined = inlinedFrom({
       "a.x3d": `<X3D><Scene>${shape("inner", 'DEF="S"')}<Shape USE="S"/><NavigationInfo headlight="false"/></Scene></X3D>`,
     });
     const scene = readScene(page, { inlined });
@@ -38,7 +40,7 @@ describe("Inline", () => {
         [null, "in"],
       ],
     );
-    assert.equal(scene.navigation.headlight, true, "of the whole scene it says nothing");
+    assert.equal(scene.navigation.headlight, true, "the NavigationInfo of an inlined document is ignored");
     assert.deepEqual(
       scene.inlines.map(({ urls, visible }) => [urls[0], visible]),
       [
@@ -51,7 +53,7 @@ describe("Inline", () => {
   });
 
   test("warns of documents that inline one another in a circle, or too deeply", () => {
-    const circle = reader({
+    const circle = inlinedFrom({
       "a.x3d": `<X3D><Inline url="b.x3d"/>${shape("a")}</X3D>`,
       "b.x3d": `<X3D><Inline url="a.x3d"/>${shape("b")}</X3D>`,
     });
@@ -64,7 +66,7 @@ describe("Inline", () => {
       scene.warnings.map(({ message }) => message),
       ["names a.x3d, which it stands in itself"],
     );
-    const chain = reader(
+    const chain = inlinedFrom(
       Object.fromEntries(Array.from({ length: 40 }, (_, i) => [`${i}`, `<X3D><Inline url="${i + 1}"/></X3D>`])),
     );
     const deep = readScene(elementsOf('<X3D><Inline url="0"/></X3D>'), { inlined: chain });
@@ -76,13 +78,13 @@ describe("Inline", () => {
       elementsOf(`<X3D><ImageTexture url='"a.png" "../b.png" "https://c.org/d.png"'/><ImageGeometry base="g/b.png#12">
       <GeometryPatch index="g/i.png#7" coord='"g/x.png#1" "g/y.png"' bboxCenter="1 2 3"/></ImageGeometry>
       <IndexedTriangleSet index="0 1 2"/><Inline url="deep.x3d"/></X3D>`);
-    absoluteUrls(withWrites(x3d), "https://h.org/w/a.x3d");
+    absoluteUrls(asWritable(x3d), "https://h.org/w/a.x3d");
     const attributes: string[] = [];
-    const list = (element: TestElement) => {
+    const collect = (element: TestElement) => {
       attributes.push(...element.attributes.values());
-      element.children.forEach(list);
+      element.children.forEach(collect);
     };
-    list(x3d);
+    collect(x3d);
     assert.deepEqual(attributes, [
       '"https://h.org/w/a.png" "https://h.org/b.png" "https://c.org/d.png"',
       "https://h.org/w/g/b.png#12",
@@ -95,8 +97,8 @@ describe("Inline", () => {
   });
 });
 
-function withWrites(element: TestElement): TestElement & { setAttribute(name: string, value: string): void } {
-  element.children.forEach(withWrites);
+function asWritable(element: TestElement): TestElement & { setAttribute(name: string, value: string): void } {
+  element.children.forEach(asWritable);
   return Object.assign(element, {
     setAttribute: (name: string, value: string) => {
       element.attributes.set(name, value);

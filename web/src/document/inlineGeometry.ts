@@ -46,15 +46,17 @@ const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[
 const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => Runs>> = {
   indexedfaceset: (fields, data) => indexedRuns(fields, data),
   indexedlineset: (fields, data) => indexedRuns(fields, data),
-  triangleset: (fields, data) => byVertex(fields, data, triplesOf(indicesTo(data.positions.length / 3))),
-  indexedtriangleset: (fields, data) => byVertex(fields, data, triplesOf(fields.index.filter((vertex) => vertex >= 0))),
-  trianglestripset: (fields, data) => byVertex(fields, data, consecutiveRuns(fields.stripCount).flatMap(strip)),
-  indexedtrianglestripset: (fields, data) => byVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(strip)),
-  trianglefanset: (fields, data) => byVertex(fields, data, consecutiveRuns(fields.fanCount).flatMap(fan)),
-  indexedtrianglefanset: (fields, data) => byVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(fan)),
-  lineset: (fields, data) => byVertex(fields, data, consecutiveRuns(fields.vertexCount)),
+  triangleset: (fields, data) => runsByVertex(fields, data, triplesOf(indicesTo(data.positions.length / 3))),
+  indexedtriangleset: (fields, data) =>
+    runsByVertex(fields, data, triplesOf(fields.index.filter((vertex) => vertex >= 0))),
+  trianglestripset: (fields, data) => runsByVertex(fields, data, consecutiveRuns(fields.stripCount).flatMap(strip)),
+  indexedtrianglestripset: (fields, data) =>
+    runsByVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(strip)),
+  trianglefanset: (fields, data) => runsByVertex(fields, data, consecutiveRuns(fields.fanCount).flatMap(fan)),
+  indexedtrianglefanset: (fields, data) => runsByVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(fan)),
+  lineset: (fields, data) => runsByVertex(fields, data, consecutiveRuns(fields.vertexCount)),
   pointset: (fields, data) =>
-    byVertex(
+    runsByVertex(
       fields,
       data,
       indicesTo(data.positions.length / 3).map((vertex) => [vertex]),
@@ -63,10 +65,10 @@ const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => 
 
 /** Nodes whose vertices are computed from other fields. */
 const surfaces: Readonly<
-  Record<string, (element: SceneElement, given: VertexData, warnings: Warning[]) => Surface | undefined>
+  Record<string, (element: SceneElement, childData: VertexData, warnings: Warning[]) => Surface | undefined>
 > = {
-  elevationgrid: (element, given, warnings) =>
-    elevationGrid(readFields(element, nodeFields.ElevationGrid, warnings), given),
+  elevationgrid: (element, childData, warnings) =>
+    elevationGrid(readFields(element, nodeFields.ElevationGrid, warnings), childData),
   extrusion: (element, _, warnings) => extrusion(readFields(element, nodeFields.Extrusion, warnings)),
 };
 
@@ -92,29 +94,29 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   const solid = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
   if (solid) return geometryOfArrays(vertexArraysOf("triangles", solid.data, fansOf(solid.faces)), fields.solid);
-  const given = vertexDataOf(element, resolve, warnings);
-  const surface = readSurface?.(element, given, warnings);
+  const childData = vertexDataOf(element, resolve, warnings);
+  const surface = readSurface?.(element, childData, warnings);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });
-  const data = surface?.data ?? given,
-    runs = surface?.faces ?? readRuns?.(fields, given) ?? [];
+  const data = surface?.data ?? childData,
+    runs = surface?.faces ?? readRuns?.(fields, childData) ?? [];
   const isCreased = readSurface !== undefined || name === "indexedfaceset";
-  const arrays = drawnOf(primitives[name] ?? "triangles", data, runs, fields, isCreased);
+  const arrays = arraysOfRuns(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
   return geometryOfArrays(arrays, fields.solid);
 };
 
-function drawnOf(
+function arraysOfRuns(
   primitive: VertexArrays["primitive"],
-  given: VertexData,
+  childData: VertexData,
   runs: Runs,
   fields: Fields,
   isCreased: boolean,
 ): VertexArrays | undefined {
-  if (primitive === "points") return vertexArraysOf(primitive, given, runs.flat());
-  if (primitive === "lines") return vertexArraysOf(primitive, given, linesOf(runs));
+  if (primitive === "points") return vertexArraysOf(primitive, childData, runs.flat());
+  if (primitive === "lines") return vertexArraysOf(primitive, childData, linesOf(runs));
   const oriented = fields.ccw ? runs : runs.map((run) => run.toReversed());
   const { data, faces } =
-    given.texCoords.length > 0 ? { data: given, faces: oriented } : withDefaultTexCoords(given, oriented);
+    childData.texCoords.length > 0 ? { data: childData, faces: oriented } : withDefaultTexCoords(childData, oriented);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
   if (data.normals.length > 0) return vertexArraysOf(primitive, data, cornersOf(faces));
   // Sets of triangles are smooth across shared vertices; faces have hard edges up to creaseAngle.
@@ -124,15 +126,15 @@ function drawnOf(
 }
 
 function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): VertexData {
-  const part = (...names: string[]): SceneElement | undefined => {
+  const childNamed = (...names: string[]): SceneElement | undefined => {
     const child = childrenOf(element).find((candidate) => names.includes(lowerNameOf(candidate)));
     return child && resolve(child);
   };
   const [coordinate, normal, texCoord, color] = [
-    part("coordinate"),
-    part("normal"),
-    part("texturecoordinate"),
-    part("color", "colorrgba"),
+    childNamed("coordinate"),
+    childNamed("normal"),
+    childNamed("texturecoordinate"),
+    childNamed("color", "colorrgba"),
   ];
   return {
     positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
@@ -147,27 +149,27 @@ function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning
 function indexedRuns(fields: Fields, data: VertexData): Runs {
   const { coordIndex, normalIndex, colorIndex, texCoordIndex } = fields;
   const runs: Corner[][] = [[]];
-  const indexOf = (index: readonly number[], perVertex: boolean, at: number, position: number) => {
-    const attributeIndex = perVertex ? at : runs.length - 1;
-    return index.length > 0 ? (index[attributeIndex] ?? -1) : perVertex ? position : attributeIndex;
+  const indexOf = (indices: readonly number[], perVertex: boolean, corner: number, position: number) => {
+    const attributeIndex = perVertex ? corner : runs.length - 1;
+    return indices.length > 0 ? (indices[attributeIndex] ?? -1) : perVertex ? position : attributeIndex;
   };
-  coordIndex.forEach((position, at) => {
+  coordIndex.forEach((position, corner) => {
     if (position < 0) {
       runs.push([]);
       return;
     }
     runs.at(-1)?.push({
       position,
-      normal: data.normals.length > 0 ? indexOf(normalIndex, fields.normalPerVertex, at, position) : -1,
-      texCoord: data.texCoords.length > 0 ? indexOf(texCoordIndex, true, at, position) : -1,
-      color: data.colors.length > 0 ? indexOf(colorIndex, fields.colorPerVertex, at, position) : -1,
+      normal: data.normals.length > 0 ? indexOf(normalIndex, fields.normalPerVertex, corner, position) : -1,
+      texCoord: data.texCoords.length > 0 ? indexOf(texCoordIndex, true, corner, position) : -1,
+      color: data.colors.length > 0 ? indexOf(colorIndex, fields.colorPerVertex, corner, position) : -1,
     });
   });
   return runs;
 }
 
 /** Corners whose attributes are indexed by the vertex, or by the face. */
-function byVertex(fields: Fields, data: VertexData, runs: readonly (readonly number[])[]): Runs {
+function runsByVertex(fields: Fields, data: VertexData, runs: readonly (readonly number[])[]): Runs {
   return runs.map((run, face) =>
     run.map((position) => ({
       position,

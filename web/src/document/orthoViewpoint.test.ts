@@ -16,20 +16,20 @@ test("an OrthoViewpoint shows its field of view, near and far in the same size",
   assert.equal(viewpoint.aspectRatio, 1.5);
   const [right, up] = [rotated([1, 0, 0], viewpoint.orientation), rotated([0, 1, 0], viewpoint.orientation)];
   const back = cross(right, up);
-  /** Where a point is in the picture, from -1 to 1 over its shorter side. */
-  const seen = (point: readonly [number, number, number]) => {
+  /** Projects a point; coordinates are -1 … 1 over the shorter side of the view. */
+  const project = (point: readonly [number, number, number]) => {
     const from = minus(point, viewpoint.position);
     const half = -dot(from, back) * Math.tan(viewpoint.fieldOfView / 2);
     return [dot(from, right) / half, dot(from, up) / half];
   };
-  // It looks down on y = 0; the picture reaches from z = 5 at its bottom to z = -3 at its top, around x = 3.
+  // It looks down on y = 0; the view reaches from z = 5 at its bottom to z = -3 at its top, around x = 3.
   for (const [point, x, y] of [
     [[3, 0, 5], 0, -1],
     [[3, 0, -3], 0, 1],
     [[7, 0, 1], 1, 0],
   ] as const) {
-    const [seenX = 9, seenY = 9] = seen(point);
-    assert.ok(Math.abs(seenX - x) < 1e-3 && Math.abs(seenY - y) < 1e-3, `${seenX} ${seenY}`);
-    assert.ok(Math.abs(Math.hypot(...seen([point[0], 4, point[2]])) - Math.hypot(x, y)) < 0.01);
+    const [actualX = 9, actualY = 9] = project(point);
+    assert.ok(Math.abs(actualX - x) < 1e-3 && Math.abs(actualY - y) < 1e-3, `${actualX} ${actualY}`);
+    assert.ok(Math.abs(Math.hypot(...project([point[0], 4, point[2]])) - Math.hypot(x, y)) < 0.01);
   }
 });

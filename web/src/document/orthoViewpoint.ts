@@ -1,5 +1,5 @@
 // Replaces X3D's OrthoViewpoint (ISO/IEC 19775-1, 23.4.5) by a distant perspective Viewpoint with so small a field of
-// view that no convergence is visible. Navigation, picking and file priorities so need perspective cameras only.
+// view that no convergence is visible. So navigation, picking and file priorities need perspective cameras only.
 
 import type { ViewpointDescription } from "./description.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -20,17 +20,17 @@ export function asViewpoint({
   const [left = -1, bottom = -1, right = 1, top = 1] = fieldOfView;
   const [width, height] = [Math.abs(right - left), Math.abs(top - bottom)];
   const aspectRatio = (width || 2) / (height || 2);
-  const half = Math.min(width || 2, height || 2) / 2;
+  const halfExtent = Math.min(width || 2, height || 2) / 2;
   const axis = (vector: Vec3) => rotated(vector, orientation);
   const [aside, up, back] = [axis([1, 0, 0]), axis([0, 1, 0]), axis([0, 0, 1])];
-  const away = half / Math.tan(narrowFieldOfView / 2) - dot(minus(position, centerOfRotation), back);
+  const distance = halfExtent / Math.tan(narrowFieldOfView / 2) - dot(minus(position, centerOfRotation), back);
   const [x, y] = [(left + right) / 2, (bottom + top) / 2];
-  const along = (i: 0 | 1 | 2) => position[i] + aside[i] * x + up[i] * y + back[i] * away;
+  const coordinateAlong = (i: 0 | 1 | 2) => position[i] + aside[i] * x + up[i] * y + back[i] * distance;
   return {
     ...values,
     orientation,
     centerOfRotation,
-    position: [along(0), along(1), along(2)],
+    position: [coordinateAlong(0), coordinateAlong(1), coordinateAlong(2)],
     fieldOfView: narrowFieldOfView,
     aspectRatio,
   };

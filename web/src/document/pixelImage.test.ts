@@ -6,19 +6,19 @@ import { elementsOf } from "./elements.testing.ts";
 import { pixelImageOf, pngOfPixels } from "./pixelImage.ts";
 import { readScene } from "./readScene.ts";
 
-/** What a PNG of 8 bits without filters says, by a reader that is not ours. */
+/** Decodes an 8-bit PNG without filters by independent code. */
 function contentOf(png: Uint8Array): { width: number; height: number; colorType: number; rows: number[][] } {
   const bytes = Buffer.from(png);
   const data: Buffer[] = [];
-  for (let at = 8; at < bytes.length;) {
-    const length = bytes.readUInt32BE(at);
-    const end = at + 8 + length;
-    assert.equal(bytes.readUInt32BE(end), crc32(bytes.subarray(at + 4, end)));
-    if (bytes.toString("latin1", at + 4, at + 8) === "IDAT") data.push(bytes.subarray(at + 8, end));
-    at = end + 4;
+  for (let chunk = 8; chunk < bytes.length;) {
+    const length = bytes.readUInt32BE(chunk);
+    const end = chunk + 8 + length;
+    assert.equal(bytes.readUInt32BE(end), crc32(bytes.subarray(chunk + 4, end)));
+    if (bytes.toString("latin1", chunk + 4, chunk + 8) === "IDAT") data.push(bytes.subarray(chunk + 8, end));
+    chunk = end + 4;
   }
   const [width, height] = [bytes.readUInt32BE(16), bytes.readUInt32BE(20)];
-  const all = inflateSync(Buffer.concat(data)); // checks Adler's sum
+  const all = inflateSync(Buffer.concat(data)); // checks the Adler-32 checksum
   const stride = all.length / height;
   const rows = Array.from({ length: height }, (_, row) => Array.from(all.subarray(row * stride, (row + 1) * stride)));
   assert.ok(rows.every(([filter]) => filter === 0));
@@ -62,7 +62,7 @@ describe("pixel images", () => {
     });
   });
 
-  test("may be larger than a block of deflate", () => {
+  test("may be larger than one stored block of deflate", () => {
     const pixels = Array.from({ length: 300 * 250 }, (_, i) => i % 256);
     const { rows } = pngOf(300, 250, 1, ...pixels);
     assert.deepEqual(rows.toReversed().flat(), pixels);
@@ -88,7 +88,7 @@ describe("pixel images", () => {
     assert.deepEqual(pixelImageOf([0, 0, 0])?.pixels, []);
   });
 
-  test("are textures; a malformed one is a warning and no texture", () => {
+  test("become textures; a malformed image raises a warning and gives no texture", () => {
     const pixel = '<PixelTexture image="1 1 3 0xff0000"/>';
     const {
       urls: [plain],

@@ -85,7 +85,7 @@ function readGeometryOf(
   const { geometries, lookup, warnings } = context;
   const found = firstOf(children, context, (child) => {
     if (lowerNameOf(child) === "text") context.listen(child);
-    const geometry = geometries.recall(child, lookup, warnings, (...args) => readGeometry(context, ...args));
+    const geometry = geometries.geometryOf(child, lookup, warnings, (...args) => readGeometry(context, ...args));
     return geometry && { child, geometry };
   });
   if (found === undefined) return [undefined, 1];

@@ -1,4 +1,4 @@
-// The contribution of elements to a scene: nodes, and declarations that count for the scene as a whole.
+// The contribution of elements to a scene: nodes, and declarations for the scene as a whole.
 
 import type {
   BackgroundDescription,

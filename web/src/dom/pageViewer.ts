@@ -146,7 +146,7 @@ export class PageViewer {
       deliveries,
       shapes: this.#shapes,
       reader: { levelOf: (lod) => this.#lods.levelOf(lod) },
-      fontEditionOf: (font, letters) => fonts.editionOf(font, letters),
+      fontEditionOf: (font, text) => fonts.editionOf(font, text),
       inlines: {
         urlOf: (url) => {
           const absoluteUrl = absoluteUrlOf(url);

@@ -6,7 +6,7 @@ import { BufferAttribute, InterleavedBuffer } from "three";
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
-import type { StoredBytes } from "../stage/stage.ts";
+import type { GpuArray } from "../stage/stage.ts";
 import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 
 interface StoredArray {
@@ -16,9 +16,9 @@ interface StoredArray {
 }
 
 export class ArrayBuffers implements BufferProvider {
-  readonly #arrays = new WeakMap<StoredBytes, StoredArray>();
+  readonly #arrays = new WeakMap<GpuArray, StoredArray>();
 
-  store(array: ElementArray): StoredBytes {
+  store(array: ElementArray): GpuArray {
     const bytes = {
       byteLength: array.byteLength,
       close: () => {
@@ -29,7 +29,7 @@ export class ArrayBuffers implements BufferProvider {
     return bytes;
   }
 
-  recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer {
+  recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
     const { records } = this.#arrayOf(bytes);
     const key = `${type} ${stride}`;
     const buffer = records.get(key) ?? new InterleavedBuffer(this.#viewOf(bytes, type), stride);
@@ -37,11 +37,11 @@ export class ArrayBuffers implements BufferProvider {
     return buffer;
   }
 
-  indexAttributeOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
+  indexAttributeOf(bytes: GpuArray, type: ElementType): BufferAttribute {
     return new BufferAttribute(this.#viewOf(bytes, type), 1);
   }
 
-  read(bytes: StoredBytes, type: ElementType, first: number, count = Infinity): ElementArray {
+  read(bytes: GpuArray, type: ElementType, first: number, count = Infinity): ElementArray {
     return this.#viewOf(bytes, type).slice(first, first + count);
   }
 
@@ -49,12 +49,12 @@ export class ArrayBuffers implements BufferProvider {
     geometry.dispose();
   }
 
-  #viewOf(bytes: StoredBytes, type: ElementType): ElementArray {
+  #viewOf(bytes: GpuArray, type: ElementType): ElementArray {
     const { array } = this.#arrayOf(bytes);
     return new (arrayTypeOf(type))(array.buffer, array.byteOffset, array.byteLength / byteSizeOf(type));
   }
 
-  #arrayOf(bytes: StoredBytes): StoredArray {
+  #arrayOf(bytes: GpuArray): StoredArray {
     const stored = this.#arrays.get(bytes);
     if (stored === undefined) throw new RangeError("the array is closed");
     return stored;

@@ -12,7 +12,7 @@ import {
 } from "three";
 import { arrayTypeOf } from "../stage/elementType.ts";
 import type { ElementType } from "../stage/elementType.ts";
-import type { StoredBytes } from "../stage/stage.ts";
+import type { GpuArray } from "../stage/stage.ts";
 import { deferredFile, siteOf, shortDelay, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
@@ -27,7 +27,7 @@ const triangle = () => new Uint8Array(36);
 /** The contents of a scene in an app without a GPU. */
 function appOf(markup: string, files: Record<string, Answer>) {
   const { pool, requested, aborted, arrayOf } = siteOf(files);
-  const viewOf = (bytes: StoredBytes, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
+  const viewOf = (bytes: GpuArray, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
   const buffers: BufferProvider = {
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
     indexAttributeOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),

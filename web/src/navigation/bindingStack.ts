@@ -1,5 +1,5 @@
-// X3D's binding stack (ISO/IEC 19775-1, 7.2.2): the node on top is bound; when it leaves, the node below is bound
-// again.
+// X3D's binding stack (ISO/IEC 19775-1, 7.2.2): the node on top is bound; when it is removed, the node below is
+// bound again.
 
 export class BindingStack<Node> {
   /** The bound node is last. */
@@ -24,14 +24,14 @@ export class BindingStack<Node> {
   }
 
   /**
-   * Sets the scene's nodes, in document order. Nodes that are gone leave the stack; new ones with `wantsBind` go on
+   * Sets the scene's nodes, in document order. Removed nodes leave the stack; new nodes that request to be bound go on
    * top.
    */
-  setNodes(nodes: readonly Node[], wantsBind: (node: Node) => boolean): void {
+  setNodes(nodes: readonly Node[], isBindRequested: (node: Node) => boolean): void {
     const added = nodes.filter((node) => !this.#nodes.includes(node));
     this.#nodes = nodes;
     this.#stack = this.#stack.filter((node) => nodes.includes(node));
-    for (const node of added) if (wantsBind(node)) this.bind(node);
+    for (const node of added) if (isBindRequested(node)) this.bind(node);
     if (this.#stack.length === 0 && nodes[0] !== undefined) this.#stack.push(nodes[0]);
   }
 }

@@ -9,17 +9,17 @@ export interface WorldBox {
   readonly max: readonly [number, number, number];
 }
 
-const cells = 48;
+const cellsPerSide = 48;
 const rays = 512;
 
 /** The samples that a depth camera with y up takes. */
 export function sampleGround(camera: DepthCamera, boxes: readonly WorldBox[]): GroundSamples {
   const { eye, range } = camera;
-  const heights = Float32Array.from({ length: cells * cells }, (_, cell) => {
-    const coordinateOf = (index: number) => ((2 * index + 1) / cells - 1) * range;
+  const heights = Float32Array.from({ length: cellsPerSide * cellsPerSide }, (_, cell) => {
+    const coordinateOf = (index: number) => ((2 * index + 1) / cellsPerSide - 1) * range;
     const { x, z } = sceneFromCamera(
       camera,
-      new Vector3(coordinateOf(cell % cells), 0, coordinateOf(Math.floor(cell / cells))),
+      new Vector3(coordinateOf(cell % cellsPerSide), 0, coordinateOf(Math.floor(cell / cellsPerSide))),
     );
     return highestBelow(boxes, x, eye.y, z) - eye.y;
   });
@@ -35,7 +35,7 @@ export function sampleGround(camera: DepthCamera, boxes: readonly WorldBox[]): G
     const point = cameraFromScene(camera, eye.clone().addScaledVector(direction, distance));
     walls.push(point.x, point.z);
   }
-  return { floor: { cells, heights }, walls: Float32Array.from(walls) };
+  return { floor: { cellsPerSide, heights }, walls: Float32Array.from(walls) };
 }
 
 /** The top of the highest box at (x, z) whose top is no higher than y. */

@@ -7,11 +7,11 @@ import type { WorldBox } from "./boxWorld.testing.ts";
 import { sampleGround } from "./boxWorld.testing.ts";
 import type { Pose } from "./cameraPose.ts";
 import type { ViewpointInstance } from "../scene/instances.ts";
-import { forwardOf, poseFraming, poseOfViewpoint, orbited } from "./cameraPose.ts";
+import { forwardOf, poseFraming, poseOfViewpoint, orbitPose } from "./cameraPose.ts";
 import { interpolatePose } from "./cameraTransition.ts";
 import { navigationTypesOf } from "./navigationType.ts";
 import { CameraController } from "./cameraController.ts";
-import { turnEye, noMovement, moveEye, applyMovement } from "./firstPerson.ts";
+import { turnPose, noMovement, movePose, applyMovement } from "./firstPerson.ts";
 
 const defaultsOf = (fields: Record<string, { defaultValue: unknown }>) =>
   Object.fromEntries(Object.entries(fields).map(([name, { defaultValue }]) => [name, defaultValue]));
@@ -24,33 +24,33 @@ function viewpoint(description: string, fields: Partial<typeof viewpointFields> 
   return { element, viewpoint: { ...viewpointFields, description, ...fields }, sceneFromViewpoint: new Matrix4() };
 }
 
-function near(actual: Vector3, expected: Vector3 | [number, number, number], tolerance = 1e-9): void {
-  const wanted = Array.isArray(expected) ? new Vector3(...expected) : expected;
+function assertNear(actual: Vector3, expected: Vector3 | [number, number, number], tolerance = 1e-9): void {
+  const expectedVector = Array.isArray(expected) ? new Vector3(...expected) : expected;
   assert.ok(
-    actual.distanceTo(wanted) <= tolerance,
-    `${actual.toArray().join(" ")} is not ${wanted.toArray().join(" ")}`,
+    actual.distanceTo(expectedVector) <= tolerance,
+    `${actual.toArray().join(" ")} is not ${expectedVector.toArray().join(" ")}`,
   );
 }
 
-function samePose(actual: Pose, expected: Pose, tolerance = 1e-9): void {
-  near(actual.position, expected.position, tolerance);
-  near(forwardOf(actual), forwardOf(expected), tolerance);
+function assertPose(actual: Pose, expected: Pose, tolerance = 1e-9): void {
+  assertNear(actual.position, expected.position, tolerance);
+  assertNear(forwardOf(actual), forwardOf(expected), tolerance);
 }
 
 describe("the binding stack", () => {
-  const stackOf = (nodes: string[], wanted: string[] = []) => {
+  const stackOf = (nodes: string[], bindRequested: string[] = []) => {
     const stack = new BindingStack<string>();
-    stack.setNodes(nodes, (node) => wanted.includes(node));
+    stack.setNodes(nodes, (node) => bindRequested.includes(node));
     return stack;
   };
 
-  test("binds the first node, or the last of those that ask to be bound", () => {
+  test("binds the first node, or the last one that requests to be bound", () => {
     assert.equal(stackOf([]).bound, undefined);
     assert.equal(stackOf(["a", "b", "c"]).bound, "a");
     assert.equal(stackOf(["a", "b", "c"], ["c", "b"]).bound, "c");
   });
 
-  test("returns to the one below when the top is unbound or leaves the scene", () => {
+  test("binds the node below when the top is unbound or removed from the scene", () => {
     const stack = stackOf(["a", "b", "c"]);
     stack.bind("c");
     stack.bind("b");
@@ -72,7 +72,7 @@ describe("the binding stack", () => {
     assert.equal(only.bound, "a");
   });
 
-  test("binds a new node that asks to be bound, but an old one only by bind", () => {
+  test("binds a new node that requests to be bound, but an old one only by `bind`", () => {
     const stack = stackOf(["a", "b"]);
     stack.setNodes(["a", "b"], () => true);
     assert.equal(stack.bound, "a");
@@ -103,18 +103,18 @@ describe("a camera transition", () => {
   const from = poseFraming(sphere);
 
   test("begins and ends exactly at the two poses", () => {
-    const to = orbited(from, 2, 0.3);
+    const to = orbitPose(from, 2, 0.3);
     assert.equal(interpolatePose(from, to, 0), from);
     assert.equal(interpolatePose(from, to, 1), to);
-    samePose(interpolatePose(from, to, 1e-9), from, 1e-6);
-    samePose(interpolatePose(from, to, 1 - 1e-9), to, 1e-6);
+    assertPose(interpolatePose(from, to, 1e-9), from, 1e-6);
+    assertPose(interpolatePose(from, to, 1 - 1e-9), to, 1e-6);
   });
 
   test("to the other side goes around the scene and keeps its distance", () => {
-    const to = orbited(from, Math.PI * 0.95, 0);
+    const to = orbitPose(from, Math.PI * 0.95, 0);
     const distance = from.position.distanceTo(from.center);
-    for (let share = 0; share <= 1; share += 0.05) {
-      const pose = interpolatePose(from, to, share);
+    for (let t = 0; t <= 1; t += 0.05) {
+      const pose = interpolatePose(from, to, t);
       assert.ok(Math.abs(pose.position.distanceTo(pose.center) - distance) < 1e-6 * distance);
       assert.ok(forwardOf(pose).angleTo(pose.center.clone().sub(pose.position)) < 1e-5);
     }
@@ -143,31 +143,31 @@ describe("walking and flying", () => {
   };
 
   test("walking stays on its level wherever the camera looks, flying follows the view direction", () => {
-    const lookingDown = turnEye(upright, 0, -0.8);
-    near(moveEye(lookingDown, 2, 0, 0, true).position, [0, 1.6, -2]);
-    near(moveEye(lookingDown, 2, 0, 0, false).position, [0, 1.6 - 2 * Math.sin(0.8), -2 * Math.cos(0.8)]);
-    near(moveEye(lookingDown, 0, 3, 1, true).position, [3, 2.6, 0]);
+    const lookingDown = turnPose(upright, 0, -0.8);
+    assertNear(movePose(lookingDown, 2, 0, 0, true).position, [0, 1.6, -2]);
+    assertNear(movePose(lookingDown, 2, 0, 0, false).position, [0, 1.6 - 2 * Math.sin(0.8), -2 * Math.cos(0.8)]);
+    assertNear(movePose(lookingDown, 0, 3, 1, true).position, [3, 2.6, 0]);
   });
 
   test("a camera that looks straight down still walks ahead", () => {
-    const { position } = moveEye(turnEye(upright, 0, -10), 2, 0, 0, true);
-    near(position, [0, 1.6, -2], 1e-6);
+    const { position } = movePose(turnPose(upright, 0, -10), 2, 0, 0, true);
+    assertNear(position, [0, 1.6, -2], 1e-6);
   });
 
   test("turning rotates the camera in place, at most up to the zenith", () => {
-    const pose = turnEye(upright, Math.PI / 2, 0);
-    near(forwardOf(pose), [1, 0, 0]);
-    near(pose.position, upright.position);
-    near(pose.center, [4, 1.6, 0]);
-    assert.ok(forwardOf(turnEye(upright, 0, 9)).y < 1);
-    assert.ok(forwardOf(turnEye(upright, 0, 9)).y > 0.99);
+    const pose = turnPose(upright, Math.PI / 2, 0);
+    assertNear(forwardOf(pose), [1, 0, 0]);
+    assertNear(pose.position, upright.position);
+    assertNear(pose.center, [4, 1.6, 0]);
+    assert.ok(forwardOf(turnPose(upright, 0, 9)).y < 1);
+    assert.ok(forwardOf(turnPose(upright, 0, 9)).y > 0.99);
   });
 
   test("covers speed times time, however many frames it takes", () => {
     const motion = { ...noMovement, forward: 1 };
     let pose = upright;
     for (let frame = 0; frame < 60; ++frame) pose = applyMovement(pose, motion, 1 / 60, 2.5, true);
-    near(pose.position, [0, 1.6, -2.5], 1e-9);
+    assertNear(pose.position, [0, 1.6, -2.5], 1e-9);
   });
 });
 
@@ -178,88 +178,92 @@ describe("the controller", () => {
   ];
   const [frontPose, sidePose] = [poseOfViewpoint(front), poseOfViewpoint(side)];
 
-  function navigating(changes: Partial<typeof navigationInfo> = {}, viewpoints = [front, side]) {
-    let calls = 0;
+  function controllerFor(changes: Partial<typeof navigationInfo> = {}, viewpoints = [front, side]) {
+    let frameRequests = 0;
     const controller = new CameraController(
       () => {
-        calls += 1;
+        frameRequests += 1;
       },
       () => undefined,
     );
     controller.setScene({ sphere, viewpoints, navigation: { ...navigationInfo, ...changes } });
-    return { controller, calls: () => calls };
+    return { controller, frameRequests: () => frameRequests };
   }
 
   test("starts at the first viewpoint, without a transition", () => {
-    const { controller } = navigating();
+    const { controller } = controllerFor();
     assert.equal(controller.bound, front.element);
     assert.equal(controller.isMoving, false);
-    samePose(controller.advance(0), frontPose);
+    assertPose(controller.advance(0), frontPose);
   });
 
   test("moves to a bound viewpoint within the document's transition time", () => {
-    const { controller } = navigating({ transitionTime: 2 });
+    const { controller } = controllerFor({ transitionTime: 2 });
     controller.bind(side.element);
-    samePose(controller.advance(500), frontPose);
+    assertPose(controller.advance(500), frontPose);
     assert.ok(controller.isMoving);
     const { position } = controller.advance(1500);
     assert.ok(position.distanceTo(frontPose.position) > 1 && position.distanceTo(sidePose.position) > 1);
-    samePose(controller.advance(2501), sidePose);
+    assertPose(controller.advance(2501), sidePose);
     assert.equal(controller.isMoving, false);
   });
 
-  test("moves there at once where the document or the user asks for no motion", () => {
-    const { controller: teleporting } = navigating({ transitionType: ["TELEPORT"] });
-    const { controller: reduced } = navigating();
+  test("moves there at once where the document requires it or the user prefers reduced motion", () => {
+    const { controller: teleporting } = controllerFor({ transitionType: ["TELEPORT"] });
+    const { controller: reduced } = controllerFor();
     reduced.isInstant = true;
     for (const controller of [teleporting, reduced]) {
       controller.bind(side.element);
-      samePose(controller.advance(0), sidePose);
+      assertPose(controller.advance(0), sidePose);
       assert.equal(controller.isMoving, false);
     }
   });
 
-  test("returns to a viewpoint when it is bound once more, and to the one before when it is unbound", () => {
-    const { controller } = navigating({ transitionTime: 0 });
+  test("returns to a viewpoint that is bound again, and to the previous one after an unbind", () => {
+    const { controller } = controllerFor({ transitionTime: 0 });
     controller.bind(side.element);
     controller.turn(0.4, 0.1);
     controller.bind(side.element);
-    samePose(controller.advance(0), sidePose);
+    assertPose(controller.advance(0), sidePose);
     controller.bind(side.element, false);
-    samePose(controller.advance(0), frontPose);
+    assertPose(controller.advance(0), frontPose);
   });
 
   test("follows the bound viewpoint when it changes, but no other one", () => {
-    const { controller } = navigating();
+    const { controller } = controllerFor();
     controller.turn(0.3, 0);
     const { pose } = controller;
-    const moved = viewpoint("side", { position: [0, 20, 0] });
+    const movedViewpoint = viewpoint("side", { position: [0, 20, 0] });
     controller.setScene({
       sphere,
-      viewpoints: [front, { ...moved, element: side.element }],
+      viewpoints: [front, { ...movedViewpoint, element: side.element }],
       navigation: navigationInfo,
     });
-    samePose(controller.pose, pose);
-    controller.setScene({ sphere, viewpoints: [{ ...moved, element: front.element }], navigation: navigationInfo });
-    near(controller.pose.position, [0, 20, 0]);
+    assertPose(controller.pose, pose);
+    controller.setScene({
+      sphere,
+      viewpoints: [{ ...movedViewpoint, element: front.element }],
+      navigation: navigationInfo,
+    });
+    assertNear(controller.pose.position, [0, 20, 0]);
   });
 
   test("frames a growing scene without viewpoint until the user moves the camera", () => {
-    const { controller } = navigating({}, []);
+    const { controller } = controllerFor({}, []);
     const larger = new Sphere(new Vector3(1, 0, 0), 9);
     controller.setScene({ sphere: larger, viewpoints: [], navigation: navigationInfo });
-    samePose(controller.pose, poseFraming(larger));
+    assertPose(controller.pose, poseFraming(larger));
     controller.zoom(0.5);
     const { pose } = controller;
     controller.setScene({ sphere, viewpoints: [], navigation: navigationInfo });
-    samePose(controller.pose, pose);
+    assertPose(controller.pose, pose);
     controller.isInstant = true;
     controller.reset();
-    samePose(controller.pose, poseFraming(sphere));
+    assertPose(controller.pose, poseFraming(sphere));
   });
 
   test("does not move in NONE, but still binds viewpoints", () => {
-    const { controller } = navigating({ type: ["NONE"], transitionTime: 0 });
+    const { controller } = controllerFor({ type: ["NONE"], transitionTime: 0 });
     for (const act of [
       () => {
         controller.turn(1, 1);
@@ -284,56 +288,56 @@ describe("the controller", () => {
       },
     ]) {
       act();
-      samePose(controller.advance(0), frontPose);
+      assertPose(controller.advance(0), frontPose);
     }
     controller.bind(side.element);
-    samePose(controller.advance(0), sidePose);
+    assertPose(controller.advance(0), sidePose);
   });
 
-  /** A frame, after which it is told what it asks for. */
+  /** Advances by a frame, then adds ground samples if the controller requests them. */
   function advance(controller: CameraController, ms: number, boxes: readonly WorldBox[]): void {
     controller.advance(ms);
     const { depthCamera } = controller;
     if (depthCamera) controller.addGroundSamples(depthCamera, sampleGround(depthCamera, boxes));
   }
 
-  test("walks by wheel and by two fingers too, and stops when a viewpoint is bound", () => {
+  test("walks by zooming and panning too, and stops when a viewpoint is bound", () => {
     const floor = { min: [-20, -4, -20], max: [20, -3, 20] } as const;
-    const { controller } = navigating({ type: ["WALK"], speed: 2, transitionTime: 0 });
+    const { controller } = controllerFor({ type: ["WALK"], speed: 2, transitionTime: 0 });
     controller.zoom(Math.exp(-0.1));
     controller.pan(0.1, -0.05);
     for (let ms = 0; ms < 2000; ms += 20) advance(controller, ms, [floor]);
-    near(controller.pose.position, [-0.2, -1.4, 9.7], 1e-3);
+    assertNear(controller.pose.position, [-0.2, -1.4, 9.7], 1e-3);
     assert.equal(controller.isMoving, false);
     assert.equal(controller.depthCamera, undefined);
     controller.zoom(Math.exp(-0.2));
     controller.bind(side.element);
     for (let ms = 2000; ms < 2200; ms += 20) advance(controller, ms, [floor]);
-    samePose(controller.pose, sidePose);
+    assertPose(controller.pose, sidePose);
   });
 
-  test("walks while a key is held, at the document's speed", () => {
-    const { controller } = navigating({ type: ["WALK"], speed: 2 });
+  test("walks while a movement is set, at the document's speed", () => {
+    const { controller } = controllerFor({ type: ["WALK"], speed: 2 });
     controller.advance(0);
     controller.move({ ...noMovement, forward: 1 });
     controller.advance(1000); // the first frame only starts the clock
     for (let ms = 1050; ms <= 2000; ms += 50) advance(controller, ms, []);
-    near(controller.pose.position, [0, 0, 8], 1e-6);
+    assertNear(controller.pose.position, [0, 0, 8], 1e-6);
     controller.move(noMovement);
     assert.equal(controller.isMoving, false);
     controller.advance(9000);
-    near(controller.pose.position, [0, 0, 8], 1e-6);
+    assertNear(controller.pose.position, [0, 0, 8], 1e-6);
   });
 
-  test("asks for frames only when something has changed", () => {
-    const { controller, calls } = navigating();
-    const before = calls();
+  test("requests frames only when something has changed", () => {
+    const { controller, frameRequests } = controllerFor();
+    const before = frameRequests();
     controller.type = "examine";
-    controller.move({ ...noMovement, forward: 1 }); // nobody walks
-    controller.bind(viewpoint("stranger").element);
-    assert.equal(calls(), before);
+    controller.move({ ...noMovement, forward: 1 }); // EXAMINE ignores movement
+    controller.bind(viewpoint("unknown").element);
+    assert.equal(frameRequests(), before);
     controller.turn(0.1, 0);
-    assert.equal(calls(), before + 1);
+    assert.equal(frameRequests(), before + 1);
     assert.equal(controller.source, "user-interaction");
   });
 });

@@ -7,7 +7,7 @@ import type { SceneElement } from "../document/element.ts";
 import { BindingStack } from "./bindingStack.ts";
 import type { Pose } from "./cameraPose.ts";
 import type { ViewpointInstance } from "../scene/instances.ts";
-import { panned, poseFraming, poseShowingAll, orbited, zoomed } from "./cameraPose.ts";
+import { panPose, poseFraming, poseShowingAll, orbitPose, zoomPose } from "./cameraPose.ts";
 import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homePoseOf } from "./homePose.ts";
 import { CameraTransition } from "./cameraTransition.ts";
 import type { NavigationType } from "./navigationType.ts";
@@ -15,7 +15,7 @@ import { navigationTypesOf } from "./navigationType.ts";
 import type { MovementInput } from "./firstPerson.ts";
 import type { CameraSetting } from "./orbit.ts";
 import { poseWithin, unsetCamera } from "./orbit.ts";
-import { isNoMovement, turnEye, noMovement, moveEye, applyMovement } from "./firstPerson.ts";
+import { isNoMovement, turnPose, noMovement, movePose, applyMovement } from "./firstPerson.ts";
 import { AutoRotation } from "./autoRotation.ts";
 import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
@@ -83,7 +83,7 @@ export class CameraController {
     return this.#type;
   }
 
-  /** Ignored where the scene does not allow it. */
+  /** Ignored where the scene does not allow this type. */
   set type(type: NavigationType) {
     if (!this.allowedTypes.includes(type) || type === this.#type) return;
     this.#type = type;
@@ -96,7 +96,7 @@ export class CameraController {
     return navigationTypesOf(this.#scene?.navigation.type ?? []).allowed;
   }
 
-  /** Those that the scene names. */
+  /** The types that the scene names. */
   get listedTypes(): readonly NavigationType[] {
     return navigationTypesOf(this.#scene?.navigation.type ?? []).listed;
   }
@@ -134,19 +134,19 @@ export class CameraController {
 
   /** The description of the viewpoint that the camera is at. */
   get viewpointName(): string | undefined {
-    const placed = this.viewpoints.find(({ element }) => element === this.bound);
-    return this.#pose === this.#home && placed?.viewpoint.description !== ""
-      ? placed?.viewpoint.description
+    const instance = this.viewpoints.find(({ element }) => element === this.bound);
+    return this.#pose === this.#home && instance?.viewpoint.description !== ""
+      ? instance?.viewpoint.description
       : undefined;
   }
 
-  /** set_bind of a viewpoint of the scene. */
+  /** Binds or unbinds a viewpoint of the scene, as X3D's set_bind does. */
   bind(element: SceneElement, isBound = true): void {
     if (!this.viewpoints.some((viewpoint) => viewpoint.element === element)) return;
     if (isBound) this.#viewpoints.bind(element);
     else this.#viewpoints.unbind(element);
     this.#updateHome(true);
-    // Also where it was bound before: that is how a user returns to it.
+    // Also where it was bound before: a user returns to a viewpoint by binding it again.
     if (isBound) this.#transitionTo(this.#home, "none");
     this.#onNavigation();
   }
@@ -157,22 +157,22 @@ export class CameraController {
    */
   turn(right: number, over: number): void {
     if (this.#type === "examine") {
-      this.#moveTo(orbited(this.#pose, right, over));
+      this.#moveTo(orbitPose(this.#pose, right, over));
     } else {
-      const share = this.#pose.fieldOfView / Math.PI; // dragging across the whole view is half a turn
-      this.#moveTo(turnEye(this.#pose, -right * share, over * share));
+      const scale = this.#pose.fieldOfView / Math.PI; // dragging across the whole view is half a turn
+      this.#moveTo(turnPose(this.#pose, -right * scale, over * scale));
     }
   }
 
   /** Multiplies the distance to the center; WALK and FLY move ahead instead. */
   zoom(factor: number): void {
-    if (this.#type === "examine") this.#moveTo(zoomed(this.#pose, factor, this.#sphere));
+    if (this.#type === "examine") this.#moveTo(zoomPose(this.#pose, factor, this.#sphere));
     else this.#step(-Math.log(factor) * this.#speed, 0, 0);
   }
 
   /** Moves the scene with the pointer, by fractions of the view's shorter side. */
   pan(right: number, up: number): void {
-    if (this.#type === "examine") this.#moveTo(panned(this.#pose, right, up));
+    if (this.#type === "examine") this.#moveTo(panPose(this.#pose, right, up));
     else if (this.#type === "walk") this.#step(-up * this.#speed, -right * this.#speed, 0);
     else this.#step(0, -right * this.#speed, -up * this.#speed);
   }
@@ -207,13 +207,13 @@ export class CameraController {
       this.#moveFor(Math.max(seconds, 0));
     } else if (this.#isRotating) {
       this.#source = "automatic";
-      this.#pose = orbited(this.#pose, this.autoRotation.radiansPerSecond * Math.max(seconds, 0), 0);
+      this.#pose = orbitPose(this.#pose, this.autoRotation.radiansPerSecond * Math.max(seconds, 0), 0);
     }
     if (!this.isMoving) this.#lastMs = undefined;
     return this.#pose;
   }
 
-  /** Nothing nearer than this need be drawn. */
+  /** The distance nearer than which nothing need be drawn. */
   get clearance(): number {
     return clearanceOf(this.#type, this.#avatar);
   }
@@ -256,15 +256,15 @@ export class CameraController {
     return avatarOf(this.#scene?.navigation, this.#sphere);
   }
 
-  /** Moves ahead, aside and up, by lengths in scene units. */
+  /** Moves ahead, to the right and up, by lengths in scene units. */
   #step(forward: number, right: number, up: number): void {
     const isWalking = this.#type === "walk";
-    const pose = moveEye(this.#pose, forward, right, up, isWalking);
+    const pose = movePose(this.#pose, forward, right, up, isWalking);
     if (isWalking) this.#walk.push(pose.position.clone().sub(this.#pose.position), this.#speed);
     this.#moveTo(isWalking ? this.#pose : pose);
   }
 
-  /** Moves as held keys and the pending walk ask for in this time. */
+  /** Carries out the movement of this time that pressed keys and the pending walk request. */
   #moveFor(seconds: number): void {
     if (this.#type !== "walk") {
       this.#pose = applyMovement(this.#pose, this.#input, seconds, this.#speed, false);
@@ -275,10 +275,10 @@ export class CameraController {
     const move = target.position.clone().sub(previous.position);
     if (move.lengthSq() > 0) this.#walk.push(move, this.#speed);
     const isLooking = this.#input.turn !== 0 || this.#input.look !== 0;
-    const facing = isLooking
+    const turned = isLooking
       ? { ...target, position: previous.position, center: target.center.clone().sub(move) }
       : previous;
-    this.#pose = this.#walk.walk(facing, seconds);
+    this.#pose = this.#walk.walk(turned, seconds);
   }
 
   #moveTo(pose: Pose): void {

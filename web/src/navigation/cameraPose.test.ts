@@ -3,12 +3,12 @@ import { describe, test } from "node:test";
 import { Box3, MathUtils, Matrix4, PerspectiveCamera, Sphere, Vector3 } from "three";
 import type { ViewpointDescription } from "../document/description.ts";
 import type { Pose } from "./cameraPose.ts";
-import { applyPose, panned, poseFraming, poseOfViewpoint, poseShowingAll, orbited, zoomed } from "./cameraPose.ts";
+import { applyPose, panPose, poseFraming, poseOfViewpoint, poseShowingAll, orbitPose, zoomPose } from "./cameraPose.ts";
 
 const sphere = new Sphere(new Vector3(3, -2, 5), 4);
 const start = poseFraming(sphere);
 
-function near(actual: number, expected: number, tolerance = 1e-9): void {
+function assertNear(actual: number, expected: number, tolerance = 1e-9): void {
   assert.ok(Math.abs(actual - expected) <= tolerance * Math.max(1, Math.abs(expected)), `${actual} is not ${expected}`);
 }
 
@@ -16,7 +16,7 @@ function forward(pose: Pose): Vector3 {
   return new Vector3(0, 0, -1).applyQuaternion(pose.orientation);
 }
 
-function seen(pose: Pose, aspect: number, point: Vector3): Vector3 {
+function projected(pose: Pose, aspect: number, point: Vector3): Vector3 {
   const camera = new PerspectiveCamera();
   applyPose(camera, pose, aspect, sphere);
   camera.updateMatrixWorld();
@@ -37,7 +37,7 @@ describe("a pose that frames the scene", () => {
   for (const aspect of [0.4, 1, 2.5]) {
     test(`sees all of it at an aspect of ${aspect}, within the depth range`, () => {
       for (const point of surface) {
-        const { x, y, z } = seen(start, aspect, point);
+        const { x, y, z } = projected(start, aspect, point);
         assert.ok(
           [x, y, z].every((value) => Math.abs(value) <= 1),
           `${x} ${y} ${z}`,
@@ -47,8 +47,11 @@ describe("a pose that frames the scene", () => {
   }
 
   test("looks at its center, and so does the pose that shows all after movement", () => {
-    for (const pose of [start, poseShowingAll(panned(orbited(zoomed(start, 0.1, sphere), 1, 0.3), 3, 1), sphere)]) {
-      near(forward(pose).angleTo(sphere.center.clone().sub(pose.position)), 0, 1e-7);
+    for (const pose of [
+      start,
+      poseShowingAll(panPose(orbitPose(zoomPose(start, 0.1, sphere), 1, 0.3), 3, 1), sphere),
+    ]) {
+      assertNear(forward(pose).angleTo(sphere.center.clone().sub(pose.position)), 0, 1e-7);
     }
   });
 });
@@ -75,23 +78,23 @@ describe("a viewpoint", () => {
     ] as const) {
       const camera = new PerspectiveCamera();
       applyPose(camera, poseOf({ aspectRatio: 1.5 }), aspect, sphere);
-      near(Math.tan(MathUtils.degToRad(camera.fov) / 2), height * Math.tan(0.5));
-      near(height * aspect, width);
+      assertNear(Math.tan(MathUtils.degToRad(camera.fov) / 2), height * Math.tan(0.5));
+      assertNear(height * aspect, width);
     }
   });
 
   test("has its field of view along the shorter side", () => {
     const camera = new PerspectiveCamera();
     applyPose(camera, poseOf({}), 2, sphere);
-    near(MathUtils.degToRad(camera.fov), 1);
+    assertNear(MathUtils.degToRad(camera.fov), 1);
     applyPose(camera, poseOf({}), 0.5, sphere);
     const horizontal = 2 * Math.atan(Math.tan(MathUtils.degToRad(camera.fov) / 2) * 0.5);
-    near(horizontal, 1);
+    assertNear(horizontal, 1);
   });
 
   test("looks along -z of its orientation", () => {
     const pose = poseOf({ orientation: [0, 2, 0, Math.PI / 2] });
-    near(forward(pose).distanceTo(new Vector3(-1, 0, 0)), 0);
+    assertNear(forward(pose).distanceTo(new Vector3(-1, 0, 0)), 0);
   });
 
   test("is moved and turned by the transforms around it", () => {
@@ -100,89 +103,92 @@ describe("a viewpoint", () => {
       .multiply(new Matrix4().makeRotationY(Math.PI / 2))
       .multiply(new Matrix4().makeScale(2, 2, 2));
     const pose = poseOf({ centerOfRotation: [0, 0, 1] }, matrix);
-    near(pose.position.distanceTo(new Vector3(25, 0, 0)), 0);
-    near(pose.center.distanceTo(new Vector3(7, 0, 0)), 0);
-    near(forward(pose).distanceTo(new Vector3(-1, 0, 0)), 0);
+    assertNear(pose.position.distanceTo(new Vector3(25, 0, 0)), 0);
+    assertNear(pose.center.distanceTo(new Vector3(7, 0, 0)), 0);
+    assertNear(forward(pose).distanceTo(new Vector3(-1, 0, 0)), 0);
   });
 
   test("stands upright when it looks down from above, and keeps its own up when it is tilted", () => {
-    near(poseOf({ orientation: [1, 0, 0, -0.5] }).up.distanceTo(new Vector3(0, 1, 0)), 0);
-    near(
+    assertNear(poseOf({ orientation: [1, 0, 0, -0.5] }).up.distanceTo(new Vector3(0, 1, 0)), 0);
+    assertNear(
       poseOf({ orientation: [1, 0, 0, -0.5] }, new Matrix4().makeRotationX(1)).up.distanceTo(
         new Vector3(0, Math.cos(1), Math.sin(1)),
       ),
       0,
     );
-    near(poseOf({ orientation: [0, 0, 1, 0.4] }).up.distanceTo(new Vector3(-Math.sin(0.4), Math.cos(0.4), 0)), 0);
-    near(poseOf({ orientation: [1, 0, 0, -Math.PI / 2] }).up.distanceTo(new Vector3(0, 0, -1)), 0);
+    assertNear(poseOf({ orientation: [0, 0, 1, 0.4] }).up.distanceTo(new Vector3(-Math.sin(0.4), Math.cos(0.4), 0)), 0);
+    assertNear(poseOf({ orientation: [1, 0, 0, -Math.PI / 2] }).up.distanceTo(new Vector3(0, 0, -1)), 0);
   });
 });
 
-describe("turning", () => {
-  test("keeps the distance to the centre and the center's position in the view", () => {
-    const pose = orbited(panned(start, 0.2, 0.1), 0.7, -0.3);
-    near(pose.position.distanceTo(pose.center), start.position.distanceTo(start.center));
-    near(seen(pose, 1, pose.center).x, 0, 1e-6);
+describe("orbiting", () => {
+  test("keeps the distance to the center and the center's position in the view", () => {
+    const pose = orbitPose(panPose(start, 0.2, 0.1), 0.7, -0.3);
+    assertNear(pose.position.distanceTo(pose.center), start.position.distanceTo(start.center));
+    assertNear(projected(pose, 1, pose.center).x, 0, 1e-6);
   });
 
-  test("to the right moves near things to the right, over the top moves them down", () => {
+  test("to the right moves near points to the right on the screen, over the top moves them down", () => {
     const front = start.position.clone().lerp(start.center, 0.5);
-    assert.ok(seen(orbited(start, 0.1, 0), 1, front).x > 0);
-    assert.ok(seen(orbited(start, 0, 0.1), 1, front).y < 0);
+    assert.ok(projected(orbitPose(start, 0.1, 0), 1, front).x > 0);
+    assert.ok(projected(orbitPose(start, 0, 0.1), 1, front).y < 0);
   });
 
-  test("does not pass a pole or tilt the horizon, however far it goes", () => {
+  test("does not pass a pole or tilt the horizon, whatever the angles", () => {
     let pose = start;
     let random = 1;
     for (let step = 0; step < 2000; ++step) {
       random = (random * 48271) % 2147483647;
-      pose = orbited(pose, (random % 7) - 3, ((random >> 8) % 9) - 4);
-      const towards = forward(pose).angleTo(pose.up);
-      assert.ok(towards > 0.01 && towards < Math.PI - 0.01, `step ${step}: ${towards}`);
-      near(new Vector3(1, 0, 0).applyQuaternion(pose.orientation).dot(pose.up), 0, 1e-6);
+      pose = orbitPose(pose, (random % 7) - 3, ((random >> 8) % 9) - 4);
+      const poleAngle = forward(pose).angleTo(pose.up);
+      assert.ok(poleAngle > 0.01 && poleAngle < Math.PI - 0.01, `step ${step}: ${poleAngle}`);
+      assertNear(new Vector3(1, 0, 0).applyQuaternion(pose.orientation).dot(pose.up), 0, 1e-6);
     }
   });
 
-  test("works in both directions from every pose", () => {
+  test("stops at a pole and can turn back from it", () => {
     for (const over of [-4, 4]) {
-      const atPole = orbited(start, 0, over);
-      assert.ok(orbited(atPole, 0, -over / 8).position.distanceTo(atPole.position) > 0.1);
-      near(orbited(atPole, 0, over).position.distanceTo(atPole.position), 0, 1e-6);
+      const atPole = orbitPose(start, 0, over);
+      assert.ok(orbitPose(atPole, 0, -over / 8).position.distanceTo(atPole.position) > 0.1);
+      assertNear(orbitPose(atPole, 0, over).position.distanceTo(atPole.position), 0, 1e-6);
     }
   });
 });
 
 describe("zooming and panning", () => {
-  test("multiplies the distance within bounds that zooming can leave again", () => {
-    near(zoomed(start, 0.5, sphere).position.distanceTo(start.center), 0.5 * start.position.distanceTo(start.center));
+  test("multiplies the distance within bounds, and works again after a bound has been reached", () => {
+    assertNear(
+      zoomPose(start, 0.5, sphere).position.distanceTo(start.center),
+      0.5 * start.position.distanceTo(start.center),
+    );
     let pose = start;
-    for (let step = 0; step < 1000; ++step) pose = zoomed(pose, 0.5, sphere);
-    for (let step = 0; step < 1000; ++step) pose = zoomed(pose, 2, sphere);
+    for (let step = 0; step < 1000; ++step) pose = zoomPose(pose, 0.5, sphere);
+    for (let step = 0; step < 1000; ++step) pose = zoomPose(pose, 2, sphere);
     const distance = pose.position.distanceTo(pose.center);
     assert.ok(Number.isFinite(distance) && distance > sphere.radius);
-    near(forward(pose).angleTo(pose.center.clone().sub(pose.position)), 0, 1e-6);
+    assertNear(forward(pose).angleTo(pose.center.clone().sub(pose.position)), 0, 1e-6);
   });
 
   test("moves the center by the requested fraction of the view", () => {
-    const pose = panned(start, 0.25, -0.125);
-    const { x, y } = seen(pose, 1, start.center);
-    near(x, 0.5, 1e-6);
-    near(y, -0.25, 1e-6);
+    const pose = panPose(start, 0.25, -0.125);
+    const { x, y } = projected(pose, 1, start.center);
+    assertNear(x, 0.5, 1e-6);
+    assertNear(y, -0.25, 1e-6);
   });
 });
 
-test("the depth range covers the scene only, and inside it what is farther than the author's clearance", () => {
+test("the depth range covers the scene only; for a camera in the scene it begins at the author's clearance", () => {
   const camera = new PerspectiveCamera();
   const nearOf = (pose: Pose, clearance?: number) => {
     applyPose(camera, pose, 1, sphere, clearance);
     return camera.near;
   };
   const inside = { ...start, position: sphere.center.clone() };
-  near(nearOf(start), start.position.distanceTo(sphere.center) - sphere.radius * 1.01);
-  near(nearOf(start, 0.02), nearOf(start));
-  near(nearOf(inside), sphere.radius * 1.01 * 1e-4);
-  near(nearOf(inside, 0.02), 0.02);
-  near(nearOf(inside, 100), sphere.radius * 1.01 * 1e-2);
+  assertNear(nearOf(start), start.position.distanceTo(sphere.center) - sphere.radius * 1.01);
+  assertNear(nearOf(start, 0.02), nearOf(start));
+  assertNear(nearOf(inside), sphere.radius * 1.01 * 1e-4);
+  assertNear(nearOf(inside, 0.02), 0.02);
+  assertNear(nearOf(inside, 100), sphere.radius * 1.01 * 1e-2);
 });
 
 test("a scene without extent has a valid camera", () => {

@@ -1,6 +1,6 @@
 // Camera poses, and pure functions from one pose to the next, in double precision. Rotations are about the pose's `up`.
 
-import type { PerspectiveCamera , Sphere} from "three";
+import type { PerspectiveCamera, Sphere } from "three";
 import { MathUtils, Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewpointInstance } from "../scene/instances.ts";
 
@@ -78,7 +78,7 @@ export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
 }
 
 /** Orbits around the center by angles in radians: to the right about `up`, and over the top, but not past a pole. */
-export function orbited(pose: Pose, right: number, over: number): Pose {
+export function orbitPose(pose: Pose, right: number, over: number): Pose {
   const turn = boundedRotation(pose, right, over);
   return {
     ...pose,
@@ -87,19 +87,19 @@ export function orbited(pose: Pose, right: number, over: number): Pose {
   };
 }
 
-/** The rotation of a camera to the right about `up` and downwards, but not past a pole. */
+/** The rotation of a camera to the right about `up`, and downwards, but not past a pole. */
 export function boundedRotation(pose: Pose, right: number, down: number): Quaternion {
   const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
-  const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
+  const poleAngle = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
   const minPoleAngle = 0.02;
-  const pitch = MathUtils.clamp(down, minPoleAngle - towards, Math.PI - minPoleAngle - towards);
+  const pitch = MathUtils.clamp(down, minPoleAngle - poleAngle, Math.PI - minPoleAngle - poleAngle);
   return new Quaternion()
     .setFromAxisAngle(pose.up, -right)
     .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
 }
 
 /** Multiplies the distance to the center, within 1/1000 … 1000 of the scene's radius. */
-export function zoomed(pose: Pose, factor: number, sphere: Sphere): Pose {
+export function zoomPose(pose: Pose, factor: number, sphere: Sphere): Pose {
   const distance = pose.position.distanceTo(pose.center);
   const minDistance = Math.min(distance, sphere.radius / 1000);
   const maxDistance = Math.max(distance, sphere.radius * 1000);
@@ -113,7 +113,7 @@ export function zoomed(pose: Pose, factor: number, sphere: Sphere): Pose {
 }
 
 /** Moves the scene by fractions of the view's shorter side, measured at the center. */
-export function panned(pose: Pose, right: number, up: number): Pose {
+export function panPose(pose: Pose, right: number, up: number): Pose {
   const extent = 2 * Math.tan(pose.fieldOfView / 2) * pose.position.distanceTo(pose.center);
   const shift = new Vector3(-right * extent, -up * extent, 0).applyQuaternion(pose.orientation);
   return { ...pose, position: pose.position.clone().add(shift), center: pose.center.clone().add(shift) };
@@ -129,20 +129,20 @@ export interface Lens {
 
 /**
  * The lens for a view of `aspect` (width / height) onto a scene inside `sphere`. For a camera inside the sphere,
- * `clearance` is how near nothing need be drawn.
+ * `clearance` is the distance nearer than which nothing need be drawn.
  */
 export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: number): Lens {
   const aspectRatio = pose.aspectRatio ?? 1;
   // The area that must be visible; a view of another shape shows more along one side and not less along the other.
   const [width, height] = [Math.max(aspectRatio, 1), Math.max(1 / aspectRatio, 1)];
-  const half = Math.tan(pose.fieldOfView / 2) * Math.max(height, width / aspect);
+  const halfHeight = Math.tan(pose.fieldOfView / 2) * Math.max(height, width / aspect);
   // Depth precision is spent on the scene only. Inside it the near plane is at 1/10000 … 1/100 of the far plane: 1/100
   // still shows the walls of a room whose author allows no smaller clearance.
   const distance = pose.position.distanceTo(sphere.center);
   const radius = Math.max(sphere.radius * 1.01, 1e-9);
   const far = distance + radius;
   const near = Math.max(distance - radius, MathUtils.clamp(clearance, far * 1e-4, far * 1e-2));
-  return { fieldOfView: 2 * Math.atan(half), near, far };
+  return { fieldOfView: 2 * Math.atan(halfHeight), near, far };
 }
 
 /** Sets the camera to a pose. */

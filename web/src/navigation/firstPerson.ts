@@ -26,14 +26,14 @@ export function isNoMovement(input: MovementInput): boolean {
 }
 
 /** Turns the eye by angles in radians, to the right and upwards, but not beyond the zenith or the nadir. */
-export function turnEye(pose: Pose, right: number, upwards: number): Pose {
+export function turnPose(pose: Pose, right: number, upwards: number): Pose {
   const orientation = boundedRotation(pose, right, -upwards).multiply(pose.orientation).normalize();
   const distance = pose.position.distanceTo(pose.center);
   return { ...pose, orientation, center: pose.position.clone().addScaledVector(forwardOf({ orientation }), distance) };
 }
 
 /** Moves eye and center by lengths in scene units. Walking keeps the level, wherever the camera looks. */
-export function moveEye(pose: Pose, forward: number, right: number, up: number, isWalking: boolean): Pose {
+export function movePose(pose: Pose, forward: number, right: number, up: number, isWalking: boolean): Pose {
   const ahead = forwardOf(pose);
   if (isWalking) {
     ahead.projectOnPlane(pose.up);
@@ -56,6 +56,6 @@ export function applyMovement(
   isWalking: boolean,
 ): Pose {
   const distance = speed * seconds;
-  const facing = turnEye(pose, input.turn * turnRate * seconds, input.look * lookRate * seconds);
-  return moveEye(facing, input.forward * distance, input.right * distance, input.up * distance, isWalking);
+  const turned = turnPose(pose, input.turn * turnRate * seconds, input.look * lookRate * seconds);
+  return movePose(turned, input.forward * distance, input.right * distance, input.up * distance, isWalking);
 }

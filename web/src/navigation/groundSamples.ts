@@ -1,5 +1,5 @@
-// The surroundings of a walking avatar, sampled by two small depth images: one from the eye straight down shows what is
-// lower than the eye, one around the eye at its level shows what is higher. A lintel above the eye is in neither, so
+// The surroundings of a walking avatar, sampled by two small depth images: one, from the eye straight down, shows surfaces
+// below the eye; the other, around the eye at its level, shows walls. A lintel above the eye is in neither, so
 // doorways stay open.
 
 import type { Quaternion, Vector3 } from "three";
@@ -15,18 +15,17 @@ export interface DepthCamera {
 
 /** In the frame of the depth camera. */
 export interface GroundSamples {
-  /** Heights of what lies below the eye, at most 0; -Infinity where nothing does. */
+  /** Heights of the surfaces below the eye, at most 0; -Infinity where there is none. */
   readonly floor: HeightMap;
-  /** x and z of each point where something crosses the eye's level. */
+  /** x and z of each point where a surface crosses the eye's level. */
   readonly walls: Float32Array;
 }
 
 /**
- * Heights at the centers of square cells over -range … range along x and, row by row, along z; `cells` is the number
- * along each.
+ * Heights at the centers of square cells over -range … range along x and, row by row, along z.
  */
 export interface HeightMap {
-  readonly cells: number;
+  readonly cellsPerSide: number;
   readonly heights: Float32Array;
 }
 

@@ -20,9 +20,9 @@ const movingTypes: readonly NavigationType[] = ["examine", "walk", "fly"];
 
 export interface NavigationTypes {
   readonly first: NavigationType;
-  /** Those that the scene names. */
+  /** The types that the scene names. */
   readonly listed: readonly NavigationType[];
-  /** Those that the user may choose. */
+  /** The types that the user may choose. */
   readonly allowed: readonly NavigationType[];
 }
 

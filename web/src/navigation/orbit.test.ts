@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Sphere, Vector3 } from "three";
-import { forwardOf, framingDistance, poseFraming, orbited } from "./cameraPose.ts";
+import { forwardOf, framingDistance, poseFraming, orbitPose } from "./cameraPose.ts";
 import type { Orbit } from "./orbit.ts";
 import { orbitOf, poseOnOrbit, poseWith, poseWithin, unsetCamera } from "./orbit.ts";
 import { AutoRotation } from "./autoRotation.ts";
@@ -10,12 +10,12 @@ const sphere = new Sphere(new Vector3(1, 2, 3), 2);
 const start = poseFraming(sphere);
 const degrees = (angle: number) => (angle * Math.PI) / 180;
 
-function near(actual: number, expected: number): void {
+function assertNear(actual: number, expected: number): void {
   assert.ok(Math.abs(actual - expected) < 1e-9 * Math.max(1, Math.abs(expected)), `${actual} is not ${expected}`);
 }
 
-function sameOrbit(actual: Orbit, expected: Partial<Orbit>): void {
-  for (const [name, value] of Object.entries(expected)) near(actual[name as keyof Orbit], value);
+function assertOrbit(actual: Orbit, expected: Partial<Orbit>): void {
+  for (const [name, value] of Object.entries(expected)) assertNear(actual[name as keyof Orbit], value);
 }
 
 describe("an orbit", () => {
@@ -26,18 +26,18 @@ describe("an orbit", () => {
       [0, 45, [0, Math.SQRT1_2, Math.SQRT1_2]],
     ] as const) {
       const pose = poseOnOrbit(start, { theta: degrees(theta), phi: degrees(phi), radius: 5 });
-      near(
+      assertNear(
         pose.position
           .clone()
           .sub(sphere.center)
           .distanceTo(new Vector3(...eye).multiplyScalar(5)),
         0,
       );
-      near(forwardOf(pose).angleTo(sphere.center.clone().sub(pose.position)), 0);
+      assertNear(forwardOf(pose).angleTo(sphere.center.clone().sub(pose.position)), 0);
     }
   });
 
-  test("leads back to where it was read, also around an up that is not +y", () => {
+  test("gives the pose that it was read from, also where up is not +y", () => {
     for (const up of [
       new Vector3(0, 1, 0),
       new Vector3(1, 1, 0).normalize(),
@@ -48,14 +48,14 @@ describe("an orbit", () => {
         { theta: 0.3, phi: 1.1, radius: 4 },
         { theta: -2.9, phi: 0.2, radius: 0.5 },
       ]) {
-        sameOrbit(orbitOf(poseOnOrbit({ ...start, up }, orbit)), orbit);
+        assertOrbit(orbitOf(poseOnOrbit({ ...start, up }, orbit)), orbit);
       }
     }
   });
 
   test("turns with the camera: to the right is towards smaller theta", () => {
     const before = orbitOf(start);
-    sameOrbit(orbitOf(orbited(start, 0.25, 0.1)), {
+    assertOrbit(orbitOf(orbitPose(start, 0.25, 0.1)), {
       theta: before.theta - 0.25,
       phi: before.phi - 0.1,
       radius: before.radius,
@@ -72,34 +72,34 @@ describe("the author's camera attributes", () => {
     assert.equal(poseWith(start, unsetCamera, sphere).position, start.position);
     const orbit = { theta: undefined, phi: degrees(90), radius: undefined };
     const { theta, radius } = orbitOf(start);
-    sameOrbit(orbitOf(poseWith(start, { ...unsetCamera, orbit }, sphere)), { theta, phi: degrees(90), radius });
+    assertOrbit(orbitOf(poseWith(start, { ...unsetCamera, orbit }, sphere)), { theta, phi: degrees(90), radius });
     const wide = poseWith(start, { ...unsetCamera, fieldOfView: 1.2 }, sphere);
-    near(wide.fieldOfView, 1.2);
-    near(wide.position.distanceTo(start.position), 0);
+    assertNear(wide.fieldOfView, 1.2);
+    assertNear(wide.position.distanceTo(start.position), 0);
   });
 
   test("may set the radius as a length, or as a multiple of the framing distance", () => {
     const radiusOf = (radius: { length: number } | { share: number }) =>
       orbitOf(poseWith(start, { ...unsetCamera, fieldOfView: 1, orbit: { theta: 0, phi: 1, radius } }, sphere)).radius;
-    near(radiusOf({ length: 7 }), 7);
-    near(radiusOf({ share: 1.5 }), 1.5 * framingDistance(sphere, 1));
+    assertNear(radiusOf({ length: 7 }), 7);
+    assertNear(radiusOf({ share: 1.5 }), 1.5 * framingDistance(sphere, 1));
   });
 
   test("may set the center, which the camera looks at", () => {
     const pose = poseWith(start, { ...unsetCamera, target: [5, 5, 5] }, sphere);
-    near(pose.center.distanceTo(new Vector3(5, 5, 5)), 0);
-    near(forwardOf(pose).angleTo(pose.center.clone().sub(pose.position)), 0);
+    assertNear(pose.center.distanceTo(new Vector3(5, 5, 5)), 0);
+    assertNear(forwardOf(pose).angleTo(pose.center.clone().sub(pose.position)), 0);
   });
 
   test("bound user input", () => {
-    const least = { theta: degrees(-30), phi: degrees(60), radius: { length: 3 } };
-    const most = { theta: degrees(30), phi: degrees(90), radius: { length: 6 } };
-    const bounds = { ...unsetCamera, minOrbit: least, maxOrbit: most };
-    const at = (theta: number, phi: number, radius: number) =>
+    const minOrbit = { theta: degrees(-30), phi: degrees(60), radius: { length: 3 } };
+    const maxOrbit = { theta: degrees(30), phi: degrees(90), radius: { length: 6 } };
+    const bounds = { ...unsetCamera, minOrbit, maxOrbit };
+    const boundedFrom = (theta: number, phi: number, radius: number) =>
       orbitOf(poseWithin(poseOnOrbit(start, { theta: degrees(theta), phi: degrees(phi), radius }), bounds, sphere));
-    sameOrbit(at(10, 70, 5), { theta: degrees(10), phi: degrees(70), radius: 5 });
-    sameOrbit(at(100, 10, 1), { theta: degrees(30), phi: degrees(60), radius: 3 });
-    sameOrbit(at(-170, 170, 100), { theta: degrees(-30), phi: degrees(90), radius: 6 });
+    assertOrbit(boundedFrom(10, 70, 5), { theta: degrees(10), phi: degrees(70), radius: 5 });
+    assertOrbit(boundedFrom(100, 10, 1), { theta: degrees(30), phi: degrees(60), radius: 3 });
+    assertOrbit(boundedFrom(-170, 170, 100), { theta: degrees(-30), phi: degrees(90), radius: 6 });
     const free = poseOnOrbit(start, { theta: 3, phi: 0.3, radius: 99 });
     assert.equal(poseWithin(free, unsetCamera, sphere), free);
   });
@@ -109,17 +109,17 @@ describe("the author's camera attributes", () => {
     const bounds = { ...unsetCamera, minOrbit: arc(150), maxOrbit: arc(210) };
     const thetaOf = (theta: number) =>
       orbitOf(poseWithin(poseOnOrbit(start, { theta: degrees(theta), phi: 1, radius: 5 }), bounds, sphere)).theta;
-    near(thetaOf(-170), degrees(-170)); // is 190
-    near(thetaOf(-90), degrees(-150)); // 270 is nearest to 210
-    near(thetaOf(100), degrees(150));
+    assertNear(thetaOf(-170), degrees(-170)); // is 190
+    assertNear(thetaOf(-90), degrees(-150)); // 270 is nearest to 210
+    assertNear(thetaOf(100), degrees(150));
   });
 });
 
-test("auto-rotation pauses after the start and after user input, and stops when it is told to", (context) => {
+test("auto-rotation pauses after the start and after user input, and stops when it is stopped", (context) => {
   context.mock.timers.enable({ apis: ["setTimeout"] });
-  let begun = 0;
+  let startCount = 0;
   const autoRotation = new AutoRotation(() => {
-    begun += 1;
+    startCount += 1;
   });
   autoRotation.delayMs = 1000;
   autoRotation.pause();
@@ -129,10 +129,10 @@ test("auto-rotation pauses after the start and after user input, and stops when 
   assert.equal(autoRotation.isRotating, false);
   autoRotation.pause();
   context.mock.timers.tick(999);
-  assert.equal(begun, 0);
+  assert.equal(startCount, 0);
   context.mock.timers.tick(1);
   assert.ok(autoRotation.isRotating);
-  assert.equal(begun, 1);
+  assert.equal(startCount, 1);
   autoRotation.stop();
   autoRotation.pause();
   context.mock.timers.tick(5000);

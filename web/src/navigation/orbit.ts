@@ -54,8 +54,10 @@ export function orbitOf(pose: Pose): Orbit {
 
 /** The pose that looks at the same center from a point of the orbit, upright. */
 export function poseOnOrbit(pose: Pose, { theta, phi, radius }: Orbit): Pose {
-  const steep = MathUtils.clamp(phi, minPoleAngle, Math.PI - minPoleAngle);
-  const towardsEye = new Vector3().setFromSphericalCoords(radius, steep, theta).applyQuaternion(uprightFrame(pose.up));
+  const boundedPhi = MathUtils.clamp(phi, minPoleAngle, Math.PI - minPoleAngle);
+  const towardsEye = new Vector3()
+    .setFromSphericalCoords(radius, boundedPhi, theta)
+    .applyQuaternion(uprightFrame(pose.up));
   const position = pose.center.clone().add(towardsEye);
   const orientation = new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(position, pose.center, pose.up));
   return { ...pose, position, orientation };
@@ -69,11 +71,11 @@ export function poseWith(pose: Pose, { orbit, target, fieldOfView }: CameraSetti
     center: target ? new Vector3(...target) : pose.center,
   };
   if (orbit === undefined && target === undefined) return withAttributes;
-  const before = orbitOf(pose);
+  const previous = orbitOf(pose);
   return poseOnOrbit(withAttributes, {
-    theta: orbit?.theta ?? before.theta,
-    phi: orbit?.phi ?? before.phi,
-    radius: lengthOf(orbit?.radius, withAttributes, sphere) ?? before.radius,
+    theta: orbit?.theta ?? previous.theta,
+    phi: orbit?.phi ?? previous.phi,
+    radius: lengthOf(orbit?.radius, withAttributes, sphere) ?? previous.radius,
   });
 }
 

@@ -1,7 +1,6 @@
-// The camera controller of the WALK type: moves an avatar over walkable ground, past obstacles, up steps, and down
-// where
-// the floor ends. It moves only within the area that the latest ground samples cover, and asks for new samples only
-// while the avatar moves.
+// The camera controller of the WALK type: moves an avatar over walkable ground, past obstacles, up steps, and down where
+// the floor ends. It moves only within the area that the latest ground samples cover, and requests new samples only while
+// the avatar moves.
 
 import { Quaternion, Vector3 } from "three";
 import type { Pose } from "./cameraPose.ts";
@@ -24,8 +23,8 @@ export class WalkController {
   #pendingMove = new Vector3();
   #fallSpeed = 0;
   #isSettled = true;
-  #requested: DepthCamera | undefined;
-  #known: { readonly camera: DepthCamera; readonly ground: WalkableGround } | undefined;
+  #requestedCamera: DepthCamera | undefined;
+  #sampled: { readonly camera: DepthCamera; readonly ground: WalkableGround } | undefined;
   #avatar: Avatar = { radius: 0, height: 0, step: 0 };
 
   /** Whether the next frame differs from the last. */
@@ -35,7 +34,7 @@ export class WalkController {
 
   /** Whether the latest samples show a floor below the avatar. */
   get isOnFloor(): boolean {
-    return this.#known?.ground.isHovering === false;
+    return this.#sampled?.ground.isHovering === false;
   }
 
   /** Requests more movement; `speed`, in scene units per second, bounds how much is kept. */
@@ -49,51 +48,51 @@ export class WalkController {
     this.#pendingMove.set(0, 0, 0);
     this.#fallSpeed = 0;
     this.#isSettled = true;
-    this.#known = undefined;
-    this.#requested = undefined;
+    this.#sampled = undefined;
+    this.#requestedCamera = undefined;
   }
 
   /**
-   * The depth camera to sample the ground with before the avatar can move on; the same object until the samples are
-   * here. Undefined while nothing moves.
+   * The depth camera to sample the ground with before the avatar can move on; the same object until the samples
+   * arrive. Undefined while nothing moves.
    */
   depthCameraFor(pose: Pose, avatar: Avatar, speed: number): DepthCamera | undefined {
     if (!this.isMoving) return undefined;
-    this.#requested ??= {
+    this.#requestedCamera ??= {
       eye: pose.position.clone(),
       orientation: new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), pose.up),
       range: 3 * avatar.radius + speed * lookAheadSeconds,
     };
     this.#avatar = avatar;
-    return this.#requested;
+    return this.#requestedCamera;
   }
 
   /** Takes the samples of a depth camera; ignored where the camera has been moved since. */
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void {
-    if (camera !== this.#requested) return;
-    this.#requested = undefined;
-    this.#known = { camera, ground: new WalkableGround(samples, camera.range, this.#avatar) };
+    if (camera !== this.#requestedCamera) return;
+    this.#requestedCamera = undefined;
+    this.#sampled = { camera, ground: new WalkableGround(samples, camera.range, this.#avatar) };
   }
 
-  /** The pose some seconds later. */
+  /** The pose after some seconds of walking. */
   walk(pose: Pose, seconds: number): Pose {
-    if (this.#known === undefined || !this.isMoving) return pose;
-    const { camera, ground } = this.#known;
+    if (this.#sampled === undefined || !this.isMoving) return pose;
+    const { camera, ground } = this.#sampled;
     const eye = cameraFromScene(camera, pose.position);
     const rise = ground.isHovering ? this.#pendingMove.dot(pose.up) : 0;
     const point = this.#moveAlongGround(eye, camera, ground);
     const height = this.#eyeHeightAt(point, eye.y + rise, ground, seconds);
     const position = sceneFromCamera(camera, new Vector3(point.x, height, point.z));
-    const moved = position.clone().sub(pose.position);
-    if (moved.lengthSq() === 0) return pose;
-    return { ...pose, position, center: pose.center.clone().add(moved) };
+    const displacement = position.clone().sub(pose.position);
+    if (displacement.lengthSq() === 0) return pose;
+    return { ...pose, position, center: pose.center.clone().add(displacement) };
   }
 
   /** Carries out as much of the pending movement as the samples cover. */
   #moveAlongGround(eye: Vector3, camera: DepthCamera, ground: WalkableGround): GroundPoint {
     const move = this.#pendingMove.clone().applyQuaternion(camera.orientation.clone().invert());
     const length = Math.hypot(move.x, move.z);
-    // Steps of half the radius cannot jump over an obstacle.
+    // Steps of half the radius do not jump over an obstacle.
     const stepCount = Math.ceil(length / (this.#avatar.radius / 2));
     const step = { x: move.x / stepCount, z: move.z / stepCount };
     let point: GroundPoint = { x: eye.x, z: eye.z };
@@ -124,7 +123,7 @@ export class WalkController {
   }
 }
 
-/** The point one step on, beside obstacles; the same point where all directions are blocked. */
+/** The point after one step, clear of obstacles; the same point where all directions are blocked. */
 function nextPoint(
   from: GroundPoint,
   step: GroundPoint,

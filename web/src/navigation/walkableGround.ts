@@ -31,8 +31,12 @@ export class WalkableGround {
   readonly isHovering: boolean;
 
   /** The avatar's eye is at the center of the map, which extends `range` to each side. */
-  constructor({ floor: { cells, heights }, walls }: GroundSamples, range: number, { radius, height, step }: Avatar) {
-    const floor = { cells, heights: withoutCracks(cells, heights) };
+  constructor(
+    { floor: { cellsPerSide, heights }, walls }: GroundSamples,
+    range: number,
+    { radius, height, step }: Avatar,
+  ) {
+    const floor = { cellsPerSide, heights: withoutCracks(cellsPerSide, heights) };
     this.#map = floor;
     this.#range = range;
     this.#radius = radius;
@@ -79,43 +83,44 @@ export class WalkableGround {
 
   /** The cells below the avatar, at least the one below its center. */
   *#cellsBelow({ x: centerX, z: centerZ }: GroundPoint): Generator<number> {
-    const { cells } = this.#map;
-    const size = (2 * this.#range) / cells;
+    const { cellsPerSide } = this.#map;
+    const size = (2 * this.#range) / cellsPerSide;
     const [column, row] = [this.#cellIndexOf(centerX), this.#cellIndexOf(centerZ)];
     const radius = Math.floor(this.#radius / size);
-    for (let z = Math.max(row - radius, 0); z <= Math.min(row + radius, cells - 1); ++z) {
-      for (let x = Math.max(column - radius, 0); x <= Math.min(column + radius, cells - 1); ++x) {
-        if (Math.hypot(x - column, z - row) * size <= this.#radius) yield z * cells + x;
+    for (let z = Math.max(row - radius, 0); z <= Math.min(row + radius, cellsPerSide - 1); ++z) {
+      for (let x = Math.max(column - radius, 0); x <= Math.min(column + radius, cellsPerSide - 1); ++x) {
+        if (Math.hypot(x - column, z - row) * size <= this.#radius) yield z * cellsPerSide + x;
       }
     }
   }
 
   #cellIndexOf(coordinate: number): number {
-    const { cells } = this.#map;
-    return Math.min(Math.max(Math.floor(((coordinate / this.#range + 1) / 2) * cells), 0), cells - 1);
+    const { cellsPerSide } = this.#map;
+    return Math.min(Math.max(Math.floor(((coordinate / this.#range + 1) / 2) * cellsPerSide), 0), cellsPerSide - 1);
   }
 
   /** The cell with floor nearest to the avatar's center among those below it. */
   #nearestFloor(point: GroundPoint): number | undefined {
-    const { cells, heights } = this.#map;
+    const { cellsPerSide, heights } = this.#map;
     const [column, row] = [this.#cellIndexOf(point.x), this.#cellIndexOf(point.z)];
-    const distance = (cell: number) => Math.hypot((cell % cells) - column, Math.floor(cell / cells) - row);
+    const distance = (cell: number) =>
+      Math.hypot((cell % cellsPerSide) - column, Math.floor(cell / cellsPerSide) - row);
     const floors = Array.from(this.#cellsBelow(point)).filter((cell) => (heights[cell] ?? -Infinity) > -Infinity);
     return floors.sort((a, b) => distance(a) - distance(b))[0];
   }
 
   /** Points half way between reachable cells and unreachable neighbors, where something rises. */
   #cliffs(): number[] {
-    const { cells, heights } = this.#map;
-    const coordinateOf = (index: number) => ((2 * index + 1) / cells - 1) * this.#range;
+    const { cellsPerSide, heights } = this.#map;
+    const coordinateOf = (index: number) => ((2 * index + 1) / cellsPerSide - 1) * this.#range;
     const points: number[] = [];
     for (let cell = 0; cell < heights.length; ++cell) {
       if (this.#isReachable[cell] === 1 || heights[cell] === -Infinity) continue;
-      forNeighbors(cell, cells, (next) => {
+      forNeighbors(cell, cellsPerSide, (next) => {
         if (this.#isReachable[next] !== 1) return;
         points.push(
-          coordinateOf(((cell % cells) + (next % cells)) / 2),
-          coordinateOf((Math.floor(cell / cells) + Math.floor(next / cells)) / 2),
+          coordinateOf(((cell % cellsPerSide) + (next % cellsPerSide)) / 2),
+          coordinateOf((Math.floor(cell / cellsPerSide) + Math.floor(next / cellsPerSide)) / 2),
         );
       });
     }
@@ -126,11 +131,11 @@ export class WalkableGround {
 /**
  * Fills single empty cells between floors, where the depth image shows neither floor, with the lower floor's height.
  */
-function withoutCracks(cells: number, heights: Float32Array): Float32Array {
+function withoutCracks(cellsPerSide: number, heights: Float32Array): Float32Array {
   return heights.map((height, cell) => {
     if (height !== -Infinity) return height;
     let [floorCount, lowest] = [0, Infinity];
-    forNeighbors(cell, cells, (next) => {
+    forNeighbors(cell, cellsPerSide, (next) => {
       const neighborHeight = heights[next] ?? height;
       if (neighborHeight === -Infinity) return;
       floorCount += 1;
@@ -145,13 +150,13 @@ function reachableInAir({ heights }: HeightMap, highest: number): Uint8Array {
   return Uint8Array.from(heights, (height) => (height <= highest ? 1 : 0));
 }
 
-function reachableFrom({ cells, heights }: HeightMap, start: number, step: number): Uint8Array {
+function reachableFrom({ cellsPerSide, heights }: HeightMap, start: number, step: number): Uint8Array {
   const isReachable = new Uint8Array(heights.length);
   const open = [start];
   isReachable[start] = 1;
   for (let cell = open.pop(); cell !== undefined; cell = open.pop()) {
     const highest = (heights[cell] ?? 0) + step;
-    forNeighbors(cell, cells, (next) => {
+    forNeighbors(cell, cellsPerSide, (next) => {
       const height = heights[next] ?? -Infinity;
       if (isReachable[next] === 1 || height === -Infinity || height > highest) return;
       isReachable[next] = 1;
@@ -161,10 +166,10 @@ function reachableFrom({ cells, heights }: HeightMap, start: number, step: numbe
   return isReachable;
 }
 
-function forNeighbors(cell: number, cells: number, visit: (neighbor: number) => void): void {
-  const column = cell % cells;
+function forNeighbors(cell: number, cellsPerSide: number, visit: (neighbor: number) => void): void {
+  const column = cell % cellsPerSide;
   if (column > 0) visit(cell - 1);
-  if (column < cells - 1) visit(cell + 1);
-  if (cell >= cells) visit(cell - cells);
-  if (cell < cells * (cells - 1)) visit(cell + cells);
+  if (column < cellsPerSide - 1) visit(cell + 1);
+  if (cell >= cellsPerSide) visit(cell - cellsPerSide);
+  if (cell < cellsPerSide * (cellsPerSide - 1)) visit(cell + cellsPerSide);
 }

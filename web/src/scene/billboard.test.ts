@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
-import { Dice } from "../document/edits.testing.ts";
+import { RandomNumbers } from "../document/edits.testing.ts";
 import { billboardRotation } from "./billboard.ts";
 
 const up = new Vector3(0, 1, 0);
@@ -13,8 +13,8 @@ function axes(rotation: ReturnType<typeof billboardRotation>): [Vector3, Vector3
 }
 
 test("a billboard faces the viewer as far as rotation about its axis allows", () => {
-  const dice = new Dice(7);
-  const randomNumber = () => dice.below(2001) / 1000 - 1;
+  const random = new RandomNumbers(7);
+  const randomNumber = () => random.below(2001) / 1000 - 1;
   for (let round = 0; round < 200; ++round) {
     const axis = new Vector3(randomNumber(), randomNumber(), randomNumber());
     const eye = new Vector3(randomNumber(), randomNumber(), randomNumber()).multiplyScalar(10);
@@ -31,7 +31,7 @@ test("a billboard faces the viewer as far as rotation about its axis allows", ()
 test("a billboard without an axis is parallel to the screen", () => {
   const [x, y, z] = axes(billboardRotation([0, 0, 0], new Vector3(3, 4, 12), up));
   assert.ok(z.distanceTo(new Vector3(3 / 13, 4 / 13, 12 / 13)) < 1e-12);
-  assert.ok(Math.abs(x.y) < 1e-12 && y.y > 0, "it is upright on the screen");
+  assert.ok(Math.abs(x.y) < 1e-12 && y.y > 0, "the y axis is upright on the screen");
 });
 
 test("a billboard whose rotation is undefined stays unrotated", () => {

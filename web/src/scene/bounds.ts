@@ -4,7 +4,7 @@ import type { Matrix4 } from "three";
 import { Box3, Sphere, Vector3 } from "three";
 import type { Vec3 } from "../document/description.ts";
 
-/** A GPU draws nothing beyond this coordinate, since single precision must hold squares of lengths. */
+/** GPUs cannot draw beyond this coordinate: squares of lengths must fit into single precision. */
 const maxCoordinate = 1e18;
 
 /** Whether a GPU can draw the content of a box. Other boxes are left out of the scene's bounds, to which the camera fits. */

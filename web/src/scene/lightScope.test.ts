@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Dice, EditedDocument } from "../document/edits.testing.ts";
+import { RandomNumbers, EditedDocument } from "../document/edits.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
 import { sceneScope, numberLightScopes } from "./lightScope.ts";
@@ -13,7 +13,7 @@ function instancesIn(markup: string): SceneInstances {
 }
 
 /** For each light, the ids of the shapes that it lights. */
-function litBy({ lights, shapes }: SceneInstances): string[] {
+function litShapes({ lights, shapes }: SceneInstances): string[] {
   return lights.map(({ scope }) =>
     shapes
       .filter(({ lightScope }) => scope.contains(lightScope))
@@ -27,22 +27,22 @@ test("a directional light lights its group's descendants; a point or spot light 
     `<DirectionalLight ${attributes}/><PointLight ${attributes}/><SpotLight ${attributes}/>`;
   const around = (attributes: string) =>
     `<Shape id="a"/><Group><Shape id="b"/>${lights(attributes)}<Transform><Group><Shape id="c"/></Group></Transform></Group><Shape id="d"/>`;
-  assert.deepEqual(litBy(instancesIn(around(""))), ["bc", "abcd", "abcd"]);
-  assert.deepEqual(litBy(instancesIn(around('global="false"'))), ["bc", "bc", "bc"]);
-  assert.deepEqual(litBy(instancesIn(around('global="true"'))), ["abcd", "abcd", "abcd"]);
+  assert.deepEqual(litShapes(instancesIn(around(""))), ["bc", "abcd", "abcd"]);
+  assert.deepEqual(litShapes(instancesIn(around('global="false"'))), ["bc", "bc", "bc"]);
+  assert.deepEqual(litShapes(instancesIn(around('global="true"'))), ["abcd", "abcd", "abcd"]);
 });
 
 test("a light at the root lights everything", () => {
-  assert.deepEqual(litBy(instancesIn('<Shape id="a"/><DirectionalLight/><Group><Shape id="b"/></Group>')), ["ab"]);
+  assert.deepEqual(litShapes(instancesIn('<Shape id="a"/><DirectionalLight/><Group><Shape id="b"/></Group>')), ["ab"]);
   assert.equal(instancesIn("<DirectionalLight/>").lights[0]?.scope, sceneScope);
 });
 
 test("a USEd light lights each of its groups, and a USEd group is lit by each instance's surroundings", () => {
   const usedTwice =
     '<Group><DirectionalLight DEF="sun"/><Shape id="a"/></Group><Transform><DirectionalLight USE="sun"/><Shape id="b"/></Transform>';
-  assert.deepEqual(litBy(instancesIn(usedTwice)), ["a", "b"]);
+  assert.deepEqual(litShapes(instancesIn(usedTwice)), ["a", "b"]);
   const lit = instancesIn('<Group DEF="G"><Shape id="a"/></Group><Group><DirectionalLight/><Group USE="G"/></Group>');
-  assert.deepEqual(litBy(lit), ["a"]);
+  assert.deepEqual(litShapes(lit), ["a"]);
   assert.deepEqual(
     lit.shapes.map(({ lightScope }) => lightScope === sceneScope),
     [true, false],
@@ -51,7 +51,7 @@ test("a USEd light lights each of its groups, and a USEd group is lit by each in
 
 test("a light in a Switch choice or a LOD level lights that child only", () => {
   assert.deepEqual(
-    litBy(
+    litShapes(
       instancesIn(
         '<Switch whichChoice="0"><Group><DirectionalLight/><Shape id="a"/></Group><Shape id="b"/></Switch><Shape id="c"/>',
       ),
@@ -59,7 +59,7 @@ test("a light in a Switch choice or a LOD level lights that child only", () => {
     ["a"],
   );
   assert.deepEqual(
-    litBy(
+    litShapes(
       instancesIn(
         '<LOD range="1"><Shape id="a"/><Group><DirectionalLight/><Shape id="b"/></Group></LOD><Shape id="c"/>',
       ),
@@ -71,13 +71,13 @@ test("a light in a Switch choice or a LOD level lights that child only", () => {
 test("an inlined document is a scope of its own", () => {
   const x3d = elementsOf('<X3D><Scene><DirectionalLight/><Shape id="a"/></Scene></X3D>');
   const page = elementsOf('<X3D><Scene><Inline url="a.x3d"/><Shape id="b"/></Scene></X3D>');
-  assert.deepEqual(litBy(instancesOf(readScene(page, { inlined: () => ({ url: "a.x3d", x3d }) }))), ["a"]);
+  assert.deepEqual(litShapes(instancesOf(readScene(page, { inlined: () => ({ url: "a.x3d", x3d }) }))), ["a"]);
 });
 
 test("scope numbers tell which scope contains which, in random documents", () => {
-  let nested = 0;
+  let nestedCount = 0;
   for (let seed = 1; seed <= 20; ++seed) {
-    const edited = new EditedDocument(new Dice(seed));
+    const edited = new EditedDocument(new RandomNumbers(seed));
     const tree = new InstanceTree();
     for (let round = 0; round < 10; ++round) {
       edited.edit();
@@ -93,10 +93,10 @@ test("scope numbers tell which scope contains which, in random documents", () =>
             outer.contains(inner),
             `seed ${seed}, round ${round}: ${outer.value} … ${outer.last} and ${inner.value}`,
           );
-          if (isInside && outer !== inner && outer !== sceneScope) nested += 1;
+          if (isInside && outer !== inner && outer !== sceneScope) nestedCount += 1;
         }
       }
     }
   }
-  assert.ok(nested > 100, `only ${nested} scopes are inside others`);
+  assert.ok(nestedCount > 100, `only ${nestedCount} scopes are inside others`);
 });

@@ -9,20 +9,20 @@ import { sceneScope } from "./lightScope.ts";
 
 /** What a subtree adds to its scene; lists are in document order. */
 export interface SubtreeSummary {
-  /** Bounds in scene coordinates of what is visible; undefined where nothing is. */
+  /** Bounds of visible shapes, in scene coordinates; undefined where there are none. */
   readonly box: Box3 | undefined;
-  /** Those that are on and visible. */
+  /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
-  /** Visible ones. */
+  /** Visible LODs. */
   readonly lods: readonly LodInstance[];
   /** Visible groups that have a box. */
   readonly boundedGroups: readonly NodeInstance[];
-  /** Visible ones. */
+  /** Anchors of visible groups. */
   readonly anchors: readonly AnchorDescription[];
-  /** Each before the ones inside it. */
+  /** Each before the billboards inside it. */
   readonly billboards: readonly NodeInstance[];
-  /** Scopes of lights that are not global; each before the ones inside it. */
+  /** Scopes of lights that are not global; each before the scopes inside it. */
   readonly lightScopes: readonly LightScope[];
 }
 
@@ -44,21 +44,21 @@ export interface InheritedState {
   readonly isVisible: boolean;
   /** No group around it has a box, so that its own bounds count. */
   readonly isUnbounded: boolean;
-  /** The innermost one around it. */
+  /** The innermost scope around the node. */
   readonly lightScope: LightScope;
 }
 
 /** One occurrence of a node in the scene. */
 export class NodeInstance {
   readonly parent: NodeInstance | undefined;
-  /** The latest one. */
+  /** The latest description of the node. */
   description: NodeDescription;
   /** For a group: its children's frame. Replaced, never changed in place. */
   sceneFromNode = new Matrix4();
   children: readonly NodeInstance[] = [];
   /** In scene coordinates; only for a visible group whose description has a box. */
   box: Box3 | undefined;
-  /** The innermost scope around it; for a group: around its children. */
+  /** The innermost scope around the node; for a group: around its children. */
   lightScope = sceneScope;
   summary: SubtreeSummary = emptySummary;
   /** Undefined before the first update. */

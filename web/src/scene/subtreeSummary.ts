@@ -8,7 +8,7 @@ import { emptySummary } from "./nodeInstance.ts";
 const none: readonly never[] = [];
 
 /**
- * The summary of a group with these children and `own`, what the group adds itself. One pass: a group may have ten
+ * The summary of a group: `own` is the contribution of the group itself. Takes one pass, since a group may have ten
  * thousand children.
  */
 export function mergeSummaries(

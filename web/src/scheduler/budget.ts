@@ -1,6 +1,6 @@
-// Which data stay on the GPU: the most important that fit, by the numbers that also order requests. Where memory is
-// short, the finest data of what is small, far or out of view are evicted first, and the coarse shape of what is large
-// in front of the camera last.
+// Decides which data stay on the GPU: the most important that fit, by the priorities that also order requests. Where
+// memory is short, the finest data of shapes that are small, far or out of view are evicted first, and the coarse data of
+// shapes that are large in front of the camera last.
 
 /** A request for GPU memory. */
 export interface BudgetRequest {
@@ -21,7 +21,7 @@ const hysteresis = 2;
 
 interface Ranked {
   readonly request: BudgetRequest;
-  /** The request before it in its chain, without which it is useless. */
+  /** The request before this one in its chain, without which this one is useless. */
   readonly previous: BudgetRequest | undefined;
   readonly rank: number;
 }
@@ -39,9 +39,9 @@ export function grantedRequests(
   let bytes = 0;
   for (const { request, previous } of ranked(chains)) {
     if (previous !== undefined && !granted.has(previous)) continue;
-    const more = keys.has(request.key) ? 0 : request.bytes;
-    if (bytes + more > maxBytes) continue;
-    bytes += more;
+    const addedBytes = keys.has(request.key) ? 0 : request.bytes;
+    if (bytes + addedBytes > maxBytes) continue;
+    bytes += addedBytes;
     keys.add(request.key);
     granted.add(request);
   }

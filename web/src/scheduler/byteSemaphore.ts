@@ -1,10 +1,10 @@
 // A semaphore that counts bytes: limits the downloaded bytes that wait for decoding and upload. When downloads are
-// faster than both, they wait, so that memory stays small.
+// faster than both, further downloads wait, so that memory use stays small.
 
 import type { Prioritized } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";
 
-interface Waiting extends Prioritized {
+interface WaitingRequest extends Prioritized {
   readonly bytes: number;
   readonly admit: () => void;
 }
@@ -14,7 +14,7 @@ export type Release = () => void;
 
 export class ByteSemaphore {
   readonly #maxBytes: number;
-  readonly #queue = new PriorityQueue<Waiting>();
+  readonly #queue = new PriorityQueue<WaitingRequest>();
   #bytes = 0;
 
   constructor(maxBytes: number) {
@@ -39,7 +39,7 @@ export class ByteSemaphore {
       const cancel = () => {
         this.#queue.remove(entry);
         reject(signal.reason as Error);
-        this.#admit(); // a smaller one after it may fit
+        this.#admit(); // a smaller request behind it may fit
       };
       const entry = this.#queue.push({
         priority: 0,

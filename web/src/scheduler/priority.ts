@@ -1,6 +1,6 @@
 // The priority of a request (paper section 5.4, "Priority Controlled Rendering"): the author's factor, times the weight
-// of what the file holds, times a weight of its size on the screen. Larger goes first. docs/formats/nodes.md, "Order of
-// requests", is its description for authors.
+// of what the file holds, times a weight of its size on the screen. Requests of larger priority are sent first.
+// docs/formats/nodes.md, "Order of requests", describes it for authors.
 
 import { attributeRows, byVertexRole, vertexRoles } from "../stage/attributeRows.ts";
 import type { ViewMetrics } from "./viewMetrics.ts";
@@ -23,9 +23,10 @@ export type ChunkType = (typeof chunkTypes)[number];
 export type ChunkWeights = Readonly<Record<ChunkType, number>>;
 
 /**
- * Coarse shapes first, then what refines them. Weights differ by factors of 4, the same as an author's `high`, and as
- * being 16 times as large on the screen. So all patches of one object, and all objects of about the same size, are
- * coarse before one is fine; but an object that fills the screen does not wait for one of a few pixels.
+ * Coarse shapes first, then their refinements. Most weights differ by a factor of 4 from the next, as much as an author's
+ * `high` gives, or a size on the screen that is 16 times as large. So all patches of one object, and all objects of
+ * about the same size, are coarse before one is fine; but an object that fills the screen does not wait for one of a few
+ * pixels.
  */
 export const defaultChunkWeights: ChunkWeights = {
   base: 4096,
@@ -41,7 +42,7 @@ export const defaultChunkWeights: ChunkWeights = {
 /** The weight of a byte plane after the second, relative to the one before it. */
 const furtherPlaneFactor = 1 / 4;
 
-/** Data out of view are fetched too, since the camera turns quickly, but after those in view. */
+/** Data out of view are requested too, since the camera may turn quickly, but after those in view. */
 const outOfViewFactor = 1 / 4096;
 
 /** Diameters in pixels are clamped to this range. */

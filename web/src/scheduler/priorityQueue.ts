@@ -1,9 +1,9 @@
 // A priority queue as a binary heap. Priorities belong to the items and may change at any time: the heap is ordered by
 // the keys that it read last, and reads all priorities again when `reorder` is called.
 
-/** Something with a priority that its owner may change while it waits. */
+/** An object whose priority may change while it is in a queue. */
 export interface Prioritized {
-  /** Larger goes first. */
+  /** Objects of larger priority leave the queue first. */
   readonly priority: number;
 }
 

@@ -1,4 +1,4 @@
-// How a bounding sphere is seen: whether it is in view, how large it is, and how finely. Matrices are 16 numbers in
+// A bounding sphere on the screen: whether it is in view, its size, and its resolution. Matrices are 16 numbers in
 // column-major order, as WebGL has them; there is no dependency on a camera class.
 
 export type Point = readonly [number, number, number];
@@ -27,7 +27,7 @@ export interface Camera {
 
 /** What the camera sees of a sphere. */
 export interface ViewMetrics {
-  /** Its diameter in pixels, as if the camera looked at its centre. */
+  /** Its diameter in pixels, as if the camera looked at its center. */
   readonly pixels: number;
   readonly isInView: boolean;
   /** Pixels that a length of 1 covers at its nearest point. */

@@ -49,8 +49,8 @@ export function isPairFormat(format: NormalFormat): format is PairNormalFormat {
 }
 
 /**
- * A surface over a grid of texels, without an index: heights over a plane; points of a sheet; or points of a sheet
- * whose last column is joined to its first.
+ * A surface over a grid of texels, without an index: heights over a plane; positions; or positions whose last column is
+ * joined to the first.
  */
 export interface Grid {
   readonly kind: "heightMap" | "geometryImage" | "sculpt";
@@ -79,7 +79,7 @@ export interface TextureStage extends StageHead {
   readonly attributes: ByVertexRole<TexelRange>;
   readonly normalFormat: NormalFormat;
   readonly colorComponents: 3 | 4;
-  /** Values of the attribute that colours the geometry; undefined until its first byte plane is available. */
+  /** Values of the attribute that colors the geometry; undefined until its first byte plane is available. */
   readonly value: ValuePlanes | undefined;
 }
 
@@ -93,7 +93,7 @@ export interface ValuePlanes {
 }
 
 /** A typed array on the GPU; JavaScript keeps no copy. */
-export interface StoredBytes {
+export interface GpuArray {
   readonly byteLength: number;
   /** Frees the memory. */
   close(): void;
@@ -103,22 +103,22 @@ export interface StoredBytes {
 export type ArrayUse = "vertices" | "index";
 
 /** A VertexArray on the GPU. */
-export interface StoredVertices extends Omit<VertexArray, "array"> {
-  readonly bytes: StoredBytes;
+export interface GpuVertices extends Omit<VertexArray, "array"> {
+  readonly bytes: GpuArray;
   readonly type: ElementType;
 }
 
-/** Values of the attribute that colours a geometry. */
-export interface StoredValues extends StoredVertices {
+/** Values of the attribute that colors a geometry. */
+export interface GpuValues extends GpuVertices {
   /**
-   * The stored integer for the upper end of the attribute's range, as 0 for the lower end; undefined: numbers are
-   * stored as they are.
+   * The stored integer of the upper end of the attribute's range, whose lower end is 0; undefined: numbers are stored as
+   * they are.
    */
   readonly maxStored: number | undefined;
 }
 
-export interface StoredIndex {
-  readonly bytes: StoredBytes;
+export interface GpuIndex {
+  readonly bytes: GpuArray;
   readonly type: ElementType;
 }
 
@@ -130,14 +130,14 @@ export interface BufferStage extends StageHead {
   readonly kind: "buffers";
   /** Records of the patch in `coord`, whose file may hold more; 0: unknown. */
   readonly vertexCount: number;
-  readonly index: StoredIndex | undefined;
-  readonly coord: StoredVertices;
+  readonly index: GpuIndex | undefined;
+  readonly coord: GpuVertices;
   /** Bounds of the coordinates, where the document states none. */
   readonly bounds?: Bounds | undefined;
-  readonly attributes: ByVertexRole<StoredVertices>;
+  readonly attributes: ByVertexRole<GpuVertices>;
   /** Normals of two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normalFormat: NormalFormat;
-  readonly value: StoredValues | undefined;
+  readonly value: GpuValues | undefined;
 }
 
 export type Stage = TextureStage | BufferStage;

@@ -1,5 +1,5 @@
 // X3D's ElevationGrid (ISO/IEC 19775-1, 13.3.4): heights over a grid in x and z become quadrilaterals. The vertices
-// and faces are those of src/import/x3d: vectors/tessellation/elevationGrid.json holds both to that.
+// and faces are those of src/import/x3d: vectors/tessellation/elevationGrid.json tests both.
 
 import type { Corner, VertexData } from "./faces.ts";
 
@@ -22,10 +22,10 @@ export interface ElevationGridFields {
 }
 
 /**
- * Vertices row by row and a quadrilateral for each cell. `given` has the attributes that the node's children state.
+ * Vertices row by row and a quadrilateral for each cell. `childData` has the attributes that the node's children give.
  * Undefined where there are too few heights or less than two rows or columns.
  */
-export function elevationGrid(values: ElevationGridFields, given: VertexData): Surface | undefined {
+export function elevationGrid(values: ElevationGridFields, childData: VertexData): Surface | undefined {
   const { xDimension: columns, zDimension: rows, xSpacing, zSpacing, height, normalPerVertex, colorPerVertex } = values;
   if (columns < 2 || rows < 2 || columns * rows > height.length) return undefined;
   const positions: number[] = [],
@@ -44,11 +44,14 @@ export function elevationGrid(values: ElevationGridFields, given: VertexData): S
         [corner, corner + columns, corner + columns + 1, corner + 1].map((position) => ({
           position,
           texCoord: position,
-          normal: given.normals.length === 0 ? -1 : normalPerVertex ? position : face,
-          color: given.colors.length === 0 ? -1 : colorPerVertex ? position : face,
+          normal: childData.normals.length === 0 ? -1 : normalPerVertex ? position : face,
+          color: childData.colors.length === 0 ? -1 : colorPerVertex ? position : face,
         })),
       );
     }
   }
-  return { data: { ...given, positions, texCoords: given.texCoords.length > 0 ? given.texCoords : texCoords }, faces };
+  return {
+    data: { ...childData, positions, texCoords: childData.texCoords.length > 0 ? childData.texCoords : texCoords },
+    faces,
+  };
 }

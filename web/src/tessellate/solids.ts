@@ -106,7 +106,7 @@ function directionOf(segment: number): readonly [x: number, z: number] {
 export function sphere(radius: number): Solid {
   const builder = new SolidBuilder();
   const rings = segmentCount / 2;
-  const at = (ring: number, segment: number): SolidCorner => {
+  const cornerAt = (ring: number, segment: number): SolidCorner => {
     const theta = (Math.PI * ring) / rings;
     const [x, z] = directionOf(segment);
     const normal = [Math.sin(theta) * x, Math.cos(theta), Math.sin(theta) * z];
@@ -118,7 +118,12 @@ export function sphere(radius: number): Solid {
   };
   for (let ring = 0; ring < rings; ++ring) {
     for (let segment = 0; segment < segmentCount; ++segment) {
-      const quad = [at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1), at(ring, segment + 1)];
+      const quad = [
+        cornerAt(ring, segment),
+        cornerAt(ring + 1, segment),
+        cornerAt(ring + 1, segment + 1),
+        cornerAt(ring, segment + 1),
+      ];
       if (ring === 0) quad.pop(); // both are the pole
       if (ring === rings - 1) quad.splice(2, 1);
       builder.addFace(...quad);
@@ -133,12 +138,12 @@ export interface CylinderSurfaces {
   readonly bottom: boolean;
 }
 
-/** A cylinder, or a cone where `topRadius` is 0, along y and centred at the origin. */
+/** A cylinder, or a cone where `topRadius` is 0, along y, its center at the origin. */
 export function cylinderOrCone(
   topRadius: number,
   bottomRadius: number,
   height: number,
-  parts: CylinderSurfaces,
+  surfaces: CylinderSurfaces,
 ): Solid {
   const builder = new SolidBuilder();
   const slope = (bottomRadius - topRadius) / height;
@@ -162,7 +167,7 @@ export function cylinderOrCone(
     };
   };
   for (let segment = 0; segment < segmentCount; ++segment) {
-    if (parts.side) {
+    if (surfaces.side) {
       const quad = [
         wall(segment, bottom, bottomRadius),
         wall(segment + 1, bottom, bottomRadius),
@@ -170,9 +175,9 @@ export function cylinderOrCone(
       ];
       builder.addFace(...quad, ...(topRadius > 0 ? [wall(segment, top, topRadius)] : []));
     }
-    if (parts.top && topRadius > 0)
+    if (surfaces.top && topRadius > 0)
       builder.addFace(cap(0, top, 0, 1), cap(segment, top, topRadius, 1), cap(segment + 1, top, topRadius, 1));
-    if (parts.bottom)
+    if (surfaces.bottom)
       builder.addFace(
         cap(0, bottom, 0, -1),
         cap(segment + 1, bottom, bottomRadius, -1),

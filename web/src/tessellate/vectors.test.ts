@@ -1,6 +1,6 @@
-// vectors/tessellation: input and output of what C++ and TypeScript both tessellate.
+// Compares tessellation with the inputs and outputs in vectors/tessellation, which C++ and TypeScript share:
 // src/import/x3d/tessellation_vectors_test.cpp reads the same files. With IMGEO_REWRITE_GOLDEN=1 the outputs are
-// written anew from the inputs.
+// rewritten from the inputs.
 
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -15,14 +15,14 @@ import { withCreasedNormals } from "./faces.ts";
 import type { Vec3 } from "./vectors.ts";
 
 const folder = join(import.meta.dirname, "../../../vectors/tessellation");
-const mayRewrite = process.env.IMGEO_REWRITE_GOLDEN !== undefined;
+const isRewriting = process.env.IMGEO_REWRITE_GOLDEN !== undefined;
 
 /** Checks every vector of a file; numbers agree within 1e-5. */
 function checkVectors(file: string, outputOf: (input: never) => object): void {
   const path = join(folder, file);
   const vectors = JSON.parse(readFileSync(path, "utf8")) as { name: string }[];
   assert.ok(vectors.length > 0);
-  if (mayRewrite) {
+  if (isRewriting) {
     const rows = vectors.map((vector) => JSON.stringify({ ...vector, ...withShortNumbers(outputOf(vector as never)) }));
     writeFileSync(path, `[\n${rows.join(",\n")}\n]\n`);
     return;
@@ -90,9 +90,9 @@ test("extrusions have the vertices and faces of vectors/tessellation", () => {
 
 test("elevation grids have the vertices and faces of vectors/tessellation", () => {
   const fields = { normalPerVertex: true, colorPerVertex: true };
-  const given = { positions: [], normals: [], texCoords: [], colors: [], colorComponents: 3 as const };
+  const childData = { positions: [], normals: [], texCoords: [], colors: [], colorComponents: 3 as const };
   checkVectors("elevationGrid.json", (input: ElevationGridFields) => {
-    const surface = elevationGrid({ ...input, ...fields }, given);
+    const surface = elevationGrid({ ...input, ...fields }, childData);
     return {
       positions: surface?.data.positions ?? [],
       texCoords: surface?.data.texCoords ?? [],

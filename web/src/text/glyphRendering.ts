@@ -1,4 +1,4 @@
-// Measures and draws glyphs on a canvas, with the browser's fonts and those of the page.
+// Measures and draws glyphs on a canvas, with fonts of the system and of the page.
 
 import { distanceField } from "./distanceField.ts";
 
@@ -26,7 +26,7 @@ export class GlyphAtlasError extends Error {
   }
 }
 
-let canvas: OffscreenCanvasRenderingContext2D | undefined;
+let measuringContext: OffscreenCanvasRenderingContext2D | undefined;
 
 /** The font size of measurements, in pixels: browsers round font metrics to whole pixels, which is 1/1000 em here. */
 const measuringSize = 512;
@@ -41,9 +41,9 @@ export function measureRun(
   ascent: number;
   descent: number;
 } {
-  canvas ??= contextOf(1, 1);
-  canvas.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuringSize}px ${family}`;
-  const metrics = canvas.measureText(text);
+  measuringContext ??= contextOf(1, 1);
+  measuringContext.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuringSize}px ${family}`;
+  const metrics = measuringContext.measureText(text);
   const {
     actualBoundingBoxLeft: left,
     actualBoundingBoxRight: right,
@@ -93,7 +93,7 @@ function contextOf(width: number, height: number): OffscreenCanvasRenderingConte
 
 function parseDescription(bytes: Uint8Array): AtlasDescription {
   const description: unknown = JSON.parse(new TextDecoder().decode(bytes));
-  if (!isDescription(description)) throw new GlyphAtlasError("malformed", "is no sheet of letters");
+  if (!isDescription(description)) throw new GlyphAtlasError("malformed", "is no glyph atlas");
   return description;
 }
 

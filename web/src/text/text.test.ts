@@ -1,5 +1,5 @@
-// Texts in a font whose letters are half an em wide, with ink from 0.7 above to 0.2
-// below the baseline; "j" reaches a tenth to the left, a space has none.
+// Tests texts in a font whose glyphs are half an em wide, with ink from 0.7 em above to 0.2 em below the baseline; "j"
+// extends 0.1 em to the left of the pen, a space has no ink.
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
@@ -31,7 +31,7 @@ const plain: TextStyle = {
   minor: "FIRST",
 };
 
-function placed(
+function layOutRounded(
   strings: string[],
   style: Partial<TextStyle> = {},
   lengths: number[] = [],
@@ -48,7 +48,8 @@ function placed(
     }),
   );
 }
-const places = (...args: Parameters<typeof placed>) => placed(...args).map(({ text, x, y }) => [text, x, y]);
+const positionsOf = (...args: Parameters<typeof layOutRounded>) =>
+  layOutRounded(...args).map(({ text, x, y }) => [text, x, y]);
 
 function readText(text: string, measured = measure): { shape: ShapeDescription | undefined; warnings: string[] } {
   const { root, warnings } = readScene(elementsOf(`<X3D><Scene>${text}</Scene></X3D>`), {
@@ -59,18 +60,18 @@ function readText(text: string, measured = measure): { shape: ShapeDescription |
 
 describe("the layout of a text", () => {
   test("puts lines below one another, aligned along both axes", () => {
-    assert.deepEqual(places(["ab", "abcd"]), [
+    assert.deepEqual(positionsOf(["ab", "abcd"]), [
       ["ab", 0, 0],
       ["abcd", 0, -1.5],
     ]);
-    const xOf = (major: TextStyle["major"]) => places(["ab", "abcd"], { major }).map(([, x]) => x);
+    const xOf = (major: TextStyle["major"]) => positionsOf(["ab", "abcd"], { major }).map(([, x]) => x);
     assert.deepEqual(alignments.map(xOf), [
       [0, 0],
       [0, 0],
       [-0.5, -1],
       [-1, -2],
     ]);
-    const yOf = (minor: TextStyle["minor"]) => places(["ab", "abcd"], { minor }).map(([, , y]) => y);
+    const yOf = (minor: TextStyle["minor"]) => positionsOf(["ab", "abcd"], { minor }).map(([, , y]) => y);
     // From 0.9 above the first baseline to 0.3 below the second.
     assert.deepEqual(alignments.map(yOf), [
       [0, -1.5],
@@ -81,9 +82,10 @@ describe("the layout of a text", () => {
   });
 
   test("can run right to left, and bottom to top", () => {
-    assert.deepEqual(places(["abc"], { leftToRight: false }), [["cba", -1.5, 0]]);
-    assert.deepEqual(places(["abc"], { leftToRight: false, major: "END" }), [["cba", 0, 0]]);
-    const yOf = (minor: TextStyle["minor"]) => places(["a", "b"], { topToBottom: false, minor }).map(([, , y]) => y);
+    assert.deepEqual(positionsOf(["abc"], { leftToRight: false }), [["cba", -1.5, 0]]);
+    assert.deepEqual(positionsOf(["abc"], { leftToRight: false, major: "END" }), [["cba", 0, 0]]);
+    const yOf = (minor: TextStyle["minor"]) =>
+      positionsOf(["a", "b"], { topToBottom: false, minor }).map(([, , y]) => y);
     assert.deepEqual(alignments.map(yOf), [
       [0, 1.5],
       [0.3, 1.8],
@@ -93,81 +95,81 @@ describe("the layout of a text", () => {
   });
 
   test("stacks grapheme clusters in vertical text", () => {
-    assert.deepEqual(places(["ab", "c"], { horizontal: false }), [
+    assert.deepEqual(positionsOf(["ab", "c"], { horizontal: false }), [
       ["a", 0.25, -0.75],
       ["b", 0.25, -1.75],
       ["c", 1.75, -0.75],
     ]);
-    assert.deepEqual(places(["ab"], { horizontal: false, topToBottom: false }), [
+    assert.deepEqual(positionsOf(["ab"], { horizontal: false, topToBottom: false }), [
       ["a", 0.25, 0.25],
       ["b", 0.25, 1.25],
     ]);
-    assert.deepEqual(places(["a", "b"], { horizontal: false, leftToRight: false }), [
+    assert.deepEqual(positionsOf(["a", "b"], { horizontal: false, leftToRight: false }), [
       ["a", -0.75, -0.75],
       ["b", -2.25, -0.75],
     ]);
-    assert.deepEqual(places(["ab"], { horizontal: false, major: "MIDDLE", minor: "MIDDLE" }), [
+    assert.deepEqual(positionsOf(["ab"], { horizontal: false, major: "MIDDLE", minor: "MIDDLE" }), [
       ["a", -0.25, 0.25],
       ["b", -0.25, -0.75],
     ]);
     const family = "\u{1F468}\u200D\u{1F469}\u200D\u{1F467}";
     assert.deepEqual(
-      placed([`e\u0301${family}`], { horizontal: false }).map(({ text }) => text),
+      layOutRounded([`e\u0301${family}`], { horizontal: false }).map(({ text }) => text),
       ["e\u0301", family],
     );
     assert.deepEqual(
-      placed([`e\u0301${family}`], { leftToRight: false }).map(({ text }) => text),
+      layOutRounded([`e\u0301${family}`], { leftToRight: false }).map(({ text }) => text),
       [`${family}e\u0301`],
     );
   });
 
   test("stretches strings to their length, and shrinks all by the factor that the longest needs", () => {
     assert.deepEqual(
-      placed(["ab", "ab"], {}, [3]).map(({ stretchX }) => stretchX),
+      layOutRounded(["ab", "ab"], {}, [3]).map(({ stretchX }) => stretchX),
       [3, 1],
     );
     assert.deepEqual(
-      placed(["ab", "ab"], {}, [3], 1.5).map(({ stretchX }) => stretchX),
+      layOutRounded(["ab", "ab"], {}, [3], 1.5).map(({ stretchX }) => stretchX),
       [1.5, 0.5],
     );
     assert.deepEqual(
-      placed(["ab"], { major: "END" }, [3]).map(({ x }) => x),
+      layOutRounded(["ab"], { major: "END" }, [3]).map(({ x }) => x),
       [-3],
     );
     assert.deepEqual(
-      placed(["ab"], { horizontal: false }, [4]).map(({ y, stretchY }) => [y, stretchY]),
+      layOutRounded(["ab"], { horizontal: false }, [4]).map(({ y, stretchY }) => [y, stretchY]),
       [
         [-1.5, 2],
         [-3.5, 2],
       ],
     );
     assert.deepEqual(
-      placed([""], {}, [3], 1).map(({ stretchX }) => stretchX),
+      layOutRounded([""], {}, [3], 1).map(({ stretchX }) => stretchX),
       [1],
     );
-    assert.deepEqual(placed([]), []);
+    assert.deepEqual(layOutRounded([]), []);
   });
 });
 
 describe("the glyph atlas of a text", () => {
   test("has a cell for each run with ink, disjoint, with a margin for the distance field", () => {
     const runs = layOut(["jab", "long string", " ", "jab", "x"], [], 0, plain, measure);
-    const sheet = glyphAtlasOf(runs);
-    assert.ok(sheet);
-    assert.deepEqual([...sheet.cells.keys()], ["jab", "long string", "x"]);
-    const cells = [...sheet.cells.entries()];
+    const atlas = glyphAtlasOf(runs);
+    assert.ok(atlas);
+    assert.deepEqual([...atlas.cells.keys()], ["jab", "long string", "x"]);
+    const cells = [...atlas.cells.entries()];
     for (const [text, { left, top, width, height, penX, penY }] of cells) {
       const { ink } = measure(font, text);
-      assert.ok(left >= 0 && top >= 0 && left + width <= sheet.width && top + height <= sheet.height, text);
+      assert.ok(left >= 0 && top >= 0 && left + width <= atlas.width && top + height <= atlas.height, text);
       assert.ok(
-        penX - ink.left * sheet.texelsPerEm >= left + 8 && penX + ink.right * sheet.texelsPerEm <= left + width - 8,
+        penX - ink.left * atlas.texelsPerEm >= left + 8 && penX + ink.right * atlas.texelsPerEm <= left + width - 8,
         text,
       );
       assert.ok(
-        penY - ink.up * sheet.texelsPerEm >= top + 8 && penY + ink.down * sheet.texelsPerEm <= top + height - 8,
+        penY - ink.up * atlas.texelsPerEm >= top + 8 && penY + ink.down * atlas.texelsPerEm <= top + height - 8,
         text,
       );
-      const isBeside = cells.every(
+      const isDisjoint = cells.every(
         ([, other]) =>
           (other.left === left && other.top === top) ||
           other.left >= left + width ||
@@ -175,24 +177,24 @@ describe("the glyph atlas of a text", () => {
           other.top >= top + height ||
           top >= other.top + other.height,
       );
-      assert.ok(isBeside, text);
+      assert.ok(isDisjoint, text);
     }
     assert.deepEqual(runs.map(hasInk), [true, true, false, true, true]);
   });
 
-  test("has more texels per em for fewer glyphs, fits every GPU, and is undefined for a book", () => {
-    const texelsFor = (lines: number, letters: number) => {
-      const sheet = glyphAtlasOf(
+  test("has more texels per em for fewer glyphs, fits every GPU, and is undefined for a text that does not fit", () => {
+    const texelsFor = (lines: number, characters: number) => {
+      const atlas = glyphAtlasOf(
         layOut(
-          Array.from({ length: lines }, (_, line) => String(line).padEnd(letters, "x")),
+          Array.from({ length: lines }, (_, line) => String(line).padEnd(characters, "x")),
           [],
           0,
           plain,
           measure,
         ),
       );
-      assert.ok(!sheet || (sheet.width <= 2048 && sheet.height <= 2048));
-      return sheet?.texelsPerEm;
+      assert.ok(!atlas || (atlas.width <= 2048 && atlas.height <= 2048));
+      return atlas?.texelsPerEm;
     };
     assert.deepEqual(
       [texelsFor(1, 10), texelsFor(1, 80), texelsFor(20, 20), texelsFor(1000, 1000)],
@@ -230,13 +232,13 @@ describe("a shape of text", () => {
     );
     assert.equal(appearance.alpha.mode, "BLEND");
     assert.deepEqual(warnings, ["is a text: its textures are not shown"]);
-    const said = JSON.parse(Buffer.from(shape.geometry.glyphAtlas.split(",")[1] ?? "", "base64").toString()) as {
+    const description = JSON.parse(Buffer.from(shape.geometry.glyphAtlas.split(",")[1] ?? "", "base64").toString()) as {
       font: string;
       runs: { text: string }[];
     };
-    assert.equal(said.font, 'italic bold 96px "My Font", sans-serif');
+    assert.equal(description.font, 'italic bold 96px "My Font", sans-serif');
     assert.deepEqual(
-      said.runs.map(({ text }) => text),
+      description.runs.map(({ text }) => text),
       ["Hi", "you"],
     );
   });
@@ -250,11 +252,11 @@ describe("a shape of text", () => {
   test("draws nothing and warns for size 0 and for too long text", () => {
     assert.match(
       readText(`<Shape><Text string='"a"'><FontStyle size="0"/></Text></Shape>`).warnings[0] ?? "",
-      /no size of letters/,
+      /no font size/,
     );
-    const book = readText(`<Shape><Text string='${"x".repeat(20_000)}'/></Shape>`);
-    assert.equal(book.shape?.geometry, undefined);
-    assert.match(book.warnings[0] ?? "", /more letters than one picture holds/);
+    const tooLong = readText(`<Shape><Text string='${"x".repeat(20_000)}'/></Shape>`);
+    assert.equal(tooLong.shape?.geometry, undefined);
+    assert.match(tooLong.warnings[0] ?? "", /more characters than one glyph atlas holds/);
   });
 
   test("keeps its geometry until its string or style changes, also where it is USEd", () => {
@@ -289,24 +291,24 @@ describe("a shape of text", () => {
     };
     const x3d = elementsOf(`<X3D><Scene><Shape><Text string='"a"'><FontStyle family="F"/></Text></Shape>
       <Shape><Text string='"a"'/></Shape><Inline url="room.x3d"/></Scene></X3D>`);
-    const asked: string[] = [];
+    const requests: string[] = [];
     let edition = 0;
     const reader = new SceneReader(x3d, {
       inlined: () => inlined,
-      text: textReader(measure, ({ family }, letters) => {
-        asked.push(`${family}: ${letters}`);
+      text: textReader(measure, ({ family }, characters) => {
+        requests.push(`${family}: ${characters}`);
         return family.includes("F") ? edition : 0;
       }),
     });
-    const letters = () => shapesOf(reader.read().root).map(({ geometry }) => geometry?.glyphAtlas);
-    const before = letters();
-    assert.deepEqual(asked, ['"F", serif: a', "serif: a", '"F", serif: b']);
+    const atlasUrls = () => shapesOf(reader.read().root).map(({ geometry }) => geometry?.glyphAtlas);
+    const before = atlasUrls();
+    assert.deepEqual(requests, ['"F", serif: a', "serif: a", '"F", serif: b']);
     reader.touchTexts();
-    assert.deepEqual(letters(), before);
+    assert.deepEqual(atlasUrls(), before);
     edition = 1;
     reader.touchTexts();
     assert.deepEqual(
-      letters().map((each, i) => each === before[i]),
+      atlasUrls().map((each, i) => each === before[i]),
       [false, true, false],
     );
   });

@@ -26,7 +26,7 @@ export function textReader(measure: MeasureRun, editionOf: (font: Font, text: st
     if (fields.size <= 0) {
       warnings.push({
         element,
-        message: `size="${fields.size}" of its FontStyle is no size of letters; nothing is drawn`,
+        message: `size="${fields.size}" of its FontStyle is no font size; nothing is drawn`,
       });
       return undefined;
     }
@@ -40,7 +40,7 @@ export function textReader(measure: MeasureRun, editionOf: (font: Font, text: st
     );
     const atlas = glyphAtlasOf(runs);
     if (atlas === undefined) {
-      warnings.push({ element, message: "has more letters than one picture holds; nothing is drawn" });
+      warnings.push({ element, message: "has more characters than one glyph atlas holds; nothing is drawn" });
       return undefined;
     }
     const geometry = geometryOfArrays(rectanglesOf(runs, atlas, fields.size), solid);

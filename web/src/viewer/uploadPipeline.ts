@@ -6,7 +6,7 @@ import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodeTextureImage } from "../decode/textureImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
-import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
+import type { ArrayUse, GpuArray } from "../stage/stage.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
@@ -67,7 +67,7 @@ export class UploadPipeline {
   }
 
   /** Uploads an array. Rejects with the signal's reason; nothing is then left on the GPU. */
-  async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
+  async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<GpuArray> {
     const { bytes, steps } = this.#renderer.beginBufferUpload(array, use);
     await this.#finish(steps, bytes, signal);
     return bytes;

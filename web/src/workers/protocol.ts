@@ -12,7 +12,7 @@ export type AnswerMessage =
   | { readonly output: unknown }
   | { readonly error: { readonly kind: DecodeError["kind"] | undefined; readonly message: string } };
 
-/** Errors lose their class in a message: it carries the kind of a DecodeError. */
+/** The message for an error. It carries the kind of a DecodeError, because errors lose their class in messages. */
 export function asAnswer(error: unknown): AnswerMessage {
   const message = error instanceof Error ? error.message : String(error);
   return { error: { kind: error instanceof DecodeError ? error.kind : undefined, message } };

@@ -1,6 +1,6 @@
 // A pool of workers that run one job each at a time. Workers are started when there are jobs, and ended when they have
-// been idle for a while. Where none can be started (a runtime from another origin, a content security policy) jobs run
-// on the main thread.
+// been idle for a while. Where no worker can be started (a runtime from another origin, a content security policy) jobs
+// run on the main thread.
 
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
 import type { AnswerMessage, JobMessage } from "./protocol.ts";
@@ -16,7 +16,7 @@ export interface JobWorker {
 
 export interface WorkerPoolOptions {
   readonly size: number;
-  /** May throw. */
+  /** Starts a worker; may throw. */
   readonly start: () => JobWorker;
   readonly runOnMainThread: (message: JobMessage) => Promise<unknown>;
   /** Loads what `runOnMainThread` needs, before it is called. */
@@ -44,7 +44,7 @@ export class WorkerPool {
   #waiting: Job[] = [];
   #canStart = true;
   #isDisposed = false;
-  #here: Promise<void> = Promise.resolve();
+  #mainThreadJobs: Promise<void> = Promise.resolve();
 
   constructor(options: WorkerPoolOptions) {
     this.#options = options;
@@ -55,7 +55,7 @@ export class WorkerPool {
     return this.#workers.size;
   }
 
-  /** Runs a job in a worker; see RunJob. */
+  /** Runs a job in a worker; see RunJob in decode/jobs.ts. */
   run<Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal): Promise<OutputOf<Name>> {
     return new Promise<unknown>((resolve, reject) => {
       if (signal.aborted) {
@@ -80,7 +80,7 @@ export class WorkerPool {
   prepare(jobCount: number): void {
     while (this.#workers.size < Math.min(jobCount, this.#options.size) && this.#canStart && !this.#isDisposed) {
       const idle = this.#tryStart();
-      if (idle !== undefined) this.#rest(idle);
+      if (idle !== undefined) this.#endWhenIdle(idle);
     }
   }
 
@@ -101,16 +101,16 @@ export class WorkerPool {
     return output as OutputOf<Name>;
   }
 
-  /** Ends the workers; the promises of unfinished jobs never settle. */
+  /** Ends the workers; the promises of unfinished jobs do not settle, unless their signals abort. */
   dispose(): void {
     this.#isDisposed = true;
     this.#waiting = [];
-    for (const busy of this.#workers) this.#end(busy);
+    for (const poolWorker of this.#workers) this.#end(poolWorker);
   }
 
   #pump(): void {
     while (this.#waiting.length > 0 && !this.#isDisposed) {
-      const idle = this.#idle();
+      const idle = this.#idleWorker();
       if (idle === "none") return;
       const job = this.#waiting.shift();
       if (job === undefined) return;
@@ -125,7 +125,7 @@ export class WorkerPool {
   }
 
   /** An idle worker; "none" while all are busy, "never" where none can be started. */
-  #idle(): PoolWorker | "none" | "never" {
+  #idleWorker(): PoolWorker | "none" | "never" {
     const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
     if (idle !== undefined) return idle;
     if (!this.#canStart) return "never";
@@ -143,48 +143,48 @@ export class WorkerPool {
   }
 
   /** Ends the worker after `idleMs`, unless it gets a job before. */
-  #rest(busy: PoolWorker): void {
-    busy.idleTimer = setTimeout(() => {
-      this.#end(busy);
+  #endWhenIdle(poolWorker: PoolWorker): void {
+    poolWorker.idleTimer = setTimeout(() => {
+      this.#end(poolWorker);
     }, this.#options.idleMs);
   }
 
   #start(worker: JobWorker): PoolWorker {
-    const busy: PoolWorker = { worker, job: undefined, idleTimer: undefined };
-    this.#workers.add(busy);
+    const poolWorker: PoolWorker = { worker, job: undefined, idleTimer: undefined };
+    this.#workers.add(poolWorker);
     worker.onmessage = ({ data }) => {
-      this.#take(busy, data);
+      this.#finishJob(poolWorker, data);
     };
     worker.onerror = (event) => {
       // The worker's module did not load: jobs catch their own errors.
       event.preventDefault();
       this.#canStart = false;
-      const { job } = busy;
-      this.#end(busy);
+      const { job } = poolWorker;
+      this.#end(poolWorker);
       if (job) this.#waiting.unshift(job);
       this.#pump();
     };
-    return busy;
+    return poolWorker;
   }
 
-  #take(busy: PoolWorker, answer: AnswerMessage): void {
-    const { job } = busy;
-    busy.job = undefined;
+  #finishJob(poolWorker: PoolWorker, answer: AnswerMessage): void {
+    const { job } = poolWorker;
+    poolWorker.job = undefined;
     if ("output" in answer) job?.resolve(answer.output);
     else job?.reject(asError(answer));
-    this.#rest(busy);
+    this.#endWhenIdle(poolWorker);
     this.#pump();
   }
 
-  #end(busy: PoolWorker): void {
-    clearTimeout(busy.idleTimer);
-    busy.worker.terminate();
-    this.#workers.delete(busy);
+  #end(poolWorker: PoolWorker): void {
+    clearTimeout(poolWorker.idleTimer);
+    poolWorker.worker.terminate();
+    this.#workers.delete(poolWorker);
   }
 
   /** Runs one job after the other on the main thread, and yields to the page between them. */
   #runJobOnMainThread({ message, signal, resolve, reject }: Job): void {
-    this.#here = this.#here.then(async () => {
+    this.#mainThreadJobs = this.#mainThreadJobs.then(async () => {
       await new Promise((next) => {
         setTimeout(next);
       });

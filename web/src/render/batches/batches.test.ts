@@ -14,7 +14,7 @@ import {
 } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
-import type { BufferStage, StoredBytes } from "../../stage/stage.ts";
+import type { BufferStage, GpuArray } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
@@ -28,7 +28,7 @@ import { maxRepeatedLines } from "./instancedGeometry.ts";
 
 const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
 
-const arrays = new WeakMap<StoredBytes, ElementArray>();
+const arrays = new WeakMap<GpuArray, ElementArray>();
 
 const buffers: BufferProvider = {
   recordsOf: (bytes, type, stride) => new InterleavedBuffer(new (arrayTypeOf(type))(bytes.byteLength), stride),
@@ -40,7 +40,7 @@ const buffers: BufferProvider = {
 };
 
 function stored(array: ElementArray) {
-  const bytes: StoredBytes = { byteLength: array.byteLength, close: () => undefined };
+  const bytes: GpuArray = { byteLength: array.byteLength, close: () => undefined };
   arrays.set(bytes, array);
   return { bytes, type: elementTypeOf(array) };
 }

@@ -2,15 +2,15 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { BufferAttribute } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
-import type { BufferStage, DrawRange, StoredBytes } from "../../stage/stage.ts";
+import type { BufferStage, DrawRange, GpuArray } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import { outlineTriangles } from "../shaders/wideLineChunk.ts";
 import { wideLineGeometryOf } from "./wideLineGeometry.ts";
 import { withWideLines } from "./wideLines.ts";
 
-const contents = new Map<StoredBytes, ElementArray>();
+const contents = new Map<GpuArray, ElementArray>();
 
-function stored(array: ElementArray): StoredBytes {
+function stored(array: ElementArray): GpuArray {
   const bytes = { byteLength: array.byteLength, close: () => undefined };
   contents.set(bytes, array);
   return bytes;

@@ -72,7 +72,7 @@ export class DepthProbe {
       if (gl.isContextLost()) return undefined;
       const depths = depthsIn(words);
       return {
-        floor: { cells: floorCells, heights: heightsOf(depths.subarray(0, floorCells ** 2), searchDepth) },
+        floor: { cellsPerSide: floorCells, heights: heightsOf(depths.subarray(0, floorCells ** 2), searchDepth) },
         walls: wallsOf(depths.subarray(floorCells ** 2), near, far),
       };
     } finally {

@@ -5,7 +5,7 @@
 import type { Object3D } from "three";
 import { BufferAttribute, BufferGeometry, Texture } from "three";
 import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
-import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
+import type { BufferStage, DrawRange, Stage, GpuVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
 import { formatOf } from "../../document/encodings.ts";
 import { isPair } from "../../document/geometry.ts";
@@ -101,7 +101,7 @@ function expectedStages(geometry: GeometryDescription, isTextured: boolean): Sta
   return stages;
 }
 
-const placeholderVertices: StoredVertices = {
+const placeholderVertices: GpuVertices = {
   bytes: { byteLength: 0, close: () => undefined },
   type: "Int8",
   components: 3,

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import type { Object3D } from "three";
 import { PerspectiveCamera, PointLight, Vector3 } from "three";
 import type { SceneDescription, ShapeDescription } from "../../document/description.ts";
-import { Dice, EditedDocument } from "../../document/edits.testing.ts";
+import { RandomNumbers, EditedDocument } from "../../document/edits.testing.ts";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { nodeFields } from "../../document/nodes.ts";
 import { readScene } from "../../document/readScene.ts";
@@ -68,7 +68,7 @@ function buildGraph(scene: SceneDescription): SceneGroups {
 test("groups that follow edits of a document equal groups that are made from the edited document", () => {
   let shapes = 0;
   for (let seed = 1; seed <= 30; ++seed) {
-    const edited = new EditedDocument(new Dice(seed));
+    const edited = new EditedDocument(new RandomNumbers(seed));
     const following = new Watched();
     for (let round = 0; round < 15; ++round) {
       for (let edits = seed % 4; edits >= 0; --edits) edited.edit();

@@ -3,13 +3,13 @@
 
 import type { ElementType } from "../../stage/elementType.ts";
 import type { InterleavedBuffer, BufferAttribute, BufferGeometry } from "three";
-import type { StoredBytes } from "../../stage/stage.ts";
+import type { GpuArray } from "../../stage/stage.ts";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 
 /** An array that is being uploaded. */
 export interface BufferUpload {
   /** Complete after the last step. Closing it frees the buffer, even before the last step. */
-  readonly bytes: StoredBytes;
+  readonly bytes: GpuArray;
   /** Each step yields the number of bytes that it has uploaded. */
   readonly steps: Generator<number, void, void>;
 }
@@ -17,14 +17,14 @@ export interface BufferUpload {
 /** Access to stored arrays. All methods but `dispose` throw RangeError if an array is unknown or closed. */
 export interface BufferProvider {
   /** Records of `stride` elements, as three.js' InterleavedBuffer. */
-  recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer;
+  recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer;
   /** The whole array, as the index of a geometry. */
-  indexAttributeOf(bytes: StoredBytes, type: ElementType): BufferAttribute;
+  indexAttributeOf(bytes: GpuArray, type: ElementType): BufferAttribute;
   /**
    * Returns `count` elements from element `first` on; all that follow if `count` is undefined. If the array is on the
    * GPU, blocks until the GPU is done.
    */
-  read(bytes: StoredBytes, type: ElementType, first: number, count?: number): ElementArray;
+  read(bytes: GpuArray, type: ElementType, first: number, count?: number): ElementArray;
   /** Disposes of a geometry made from these arrays; the arrays stay. */
   dispose(geometry: BufferGeometry): void;
 }

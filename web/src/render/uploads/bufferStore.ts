@@ -9,7 +9,7 @@ import { GLBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import type { ElementType } from "../../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
-import type { ArrayUse, StoredBytes } from "../../stage/stage.ts";
+import type { ArrayUse, GpuArray } from "../../stage/stage.ts";
 import type { BufferProvider, BufferUpload } from "./bufferProvider.ts";
 
 const bytesPerStep = 2 ** 18;
@@ -35,7 +35,7 @@ const glTypes: Readonly<Record<ElementType, number>> = {
 
 export class BufferStore implements BufferProvider {
   readonly #gl: WebGL2RenderingContext;
-  readonly #buffers = new WeakMap<StoredBytes, WebGLBuffer | Kept>();
+  readonly #buffers = new WeakMap<GpuArray, WebGLBuffer | Kept>();
   #bytes = 0;
 
   constructor(gl: WebGL2RenderingContext) {
@@ -69,7 +69,7 @@ export class BufferStore implements BufferProvider {
     return { bytes, steps: pieces(gl, buffer, array, use) };
   }
 
-  recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer {
+  recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
     const attribute = new GLBufferAttribute(
       this.#bufferOf(bytes),
       glTypes[type],
@@ -86,7 +86,7 @@ export class BufferStore implements BufferProvider {
     }) as unknown as InterleavedBuffer;
   }
 
-  indexAttributeOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
+  indexAttributeOf(bytes: GpuArray, type: ElementType): BufferAttribute {
     return new GLBufferAttribute(
       this.#bufferOf(bytes),
       glTypes[type],
@@ -96,7 +96,7 @@ export class BufferStore implements BufferProvider {
     ) as unknown as BufferAttribute;
   }
 
-  read(bytes: StoredBytes, type: ElementType, first: number, count = Infinity): ElementArray {
+  read(bytes: GpuArray, type: ElementType, first: number, count = Infinity): ElementArray {
     const gl = this.#gl;
     const held = this.#heldOf(bytes);
     if (!(held instanceof WebGLBuffer)) {
@@ -124,7 +124,7 @@ export class BufferStore implements BufferProvider {
     geometry.dispose();
   }
 
-  #bufferOf(bytes: StoredBytes): WebGLBuffer {
+  #bufferOf(bytes: GpuArray): WebGLBuffer {
     const held = this.#heldOf(bytes);
     if (held instanceof WebGLBuffer) return held;
     const buffer = this.#gl.createBuffer();
@@ -133,7 +133,7 @@ export class BufferStore implements BufferProvider {
     return buffer;
   }
 
-  #heldOf(bytes: StoredBytes): WebGLBuffer | Kept {
+  #heldOf(bytes: GpuArray): WebGLBuffer | Kept {
     const held = this.#buffers.get(bytes);
     if (held === undefined) throw new RangeError("the array is closed");
     return held;

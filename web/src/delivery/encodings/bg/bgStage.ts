@@ -7,7 +7,7 @@ import { DecodeError } from "../../../decode/decodeError.ts";
 import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
 import { boundsOf, countThatFits, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
-import type { BufferStage, DrawRange, NormalFormat, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
+import type { BufferStage, DrawRange, NormalFormat, GpuIndex, GpuVertices } from "../../../stage/stage.ts";
 import { withoutStrips } from "../../../decode/strips.ts";
 import type { ElementType, GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
 import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geometry.ts";
@@ -18,11 +18,11 @@ import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
 interface AvailableArrays {
-  index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
-  coord?: StoredVertices;
+  index?: { readonly stored: GpuIndex | undefined; readonly draws: readonly DrawRange[] };
+  coord?: GpuVertices;
   bounds?: Bounds | undefined;
-  readonly attributes: Partial<Record<VertexRole, StoredVertices>>;
-  value?: StoredVertices;
+  readonly attributes: Partial<Record<VertexRole, GpuVertices>>;
+  value?: GpuVertices;
 }
 
 export function bgStageBuilder(
@@ -102,12 +102,12 @@ export function bgStageBuilder(
 }
 
 /** The fourth element of 16-bit coordinate records, which holds the normal as two bytes. */
-function fourthElementOf({ bytes, type, stride, offset }: StoredVertices): StoredVertices {
+function fourthElementOf({ bytes, type, stride, offset }: GpuVertices): GpuVertices {
   if (offset + 3 >= stride) throw new DecodeError("malformed", "has no fourth element in its records");
   return { bytes, type, components: 1, stride, offset: offset + 3 };
 }
 
-function countOf({ bytes, type, stride }: StoredVertices): number {
+function countOf({ bytes, type, stride }: GpuVertices): number {
   return Math.floor(bytes.byteLength / byteSizeOf(type) / stride);
 }
 

@@ -9,7 +9,7 @@ import { DecodeError } from "../../../decode/decodeError.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
 import type { PngHeader } from "../../../decode/png.ts";
 import { checkPng } from "../../../decode/png.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
+import type { BufferStage, DrawRange, GpuIndex, GpuVertices } from "../../../stage/stage.ts";
 import { withoutStrips } from "../../../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
 import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../../../document/dequantization.ts";
@@ -39,7 +39,7 @@ const attributeDecoders: Readonly<Record<VertexRole, AttributeDecoder>> = {
 };
 
 interface IndexedDraws {
-  readonly index: StoredIndex | undefined;
+  readonly index: GpuIndex | undefined;
   readonly draws: readonly DrawRange[];
 }
 
@@ -53,15 +53,15 @@ class AvailableArrays {
   /** The undecoded index image, until the first coordinate image is available. */
   waitingIndex: ImageFile | undefined;
   coordHeader: PngHeader | undefined;
-  coord: StoredVertices | undefined;
+  coord: GpuVertices | undefined;
   coordPlaneCount = 0;
   drawn: IndexedDraws | undefined;
-  attributes: Partial<Record<VertexRole, StoredVertices>> = {};
+  attributes: Partial<Record<VertexRole, GpuVertices>> = {};
   /** Normals computed from the slope of a grid without stored normals. */
-  slopeNormals: StoredVertices | undefined;
+  slopeNormals: GpuVertices | undefined;
   /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
-  value: StoredVertices | undefined;
+  value: GpuVertices | undefined;
 }
 
 export function bufferStageBuilder(
