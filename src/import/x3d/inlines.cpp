@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 void Inlines::requireNoCycle(const fs::path& file) const {
   if (std::ranges::find(options_.inlinedBy, file) != options_.inlinedBy.end())
-    throw Error(ErrorKind::malformed, "", fmt::format("names {}, which it stands in itself", file.filename().string()));
+    throw Error(ErrorKind::malformed, "", fmt::format("names {}, which contains it", file.filename().string()));
   if (options_.inlinedBy.size() > maxInlineDepth)
     throw Error(ErrorKind::unsupported, "",
                 fmt::format("names {}, more than {} documents deep", file.filename().string(), maxInlineDepth));

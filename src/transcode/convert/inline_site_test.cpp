@@ -89,8 +89,8 @@ TEST_F(InlineSite, WarnsOnceOfContentThatItLeavesOut) {
     return std::ranges::count_if(report.warnings,
                                  [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
   };
-  EXPECT_EQ(count("names row.x3d, which it stands in itself"), 1) << ::testing::PrintToString(report.warnings);
-  EXPECT_EQ(count("names hall.x3d, which it stands in itself"), 1);
+  EXPECT_EQ(count("names row.x3d, which contains it"), 1) << ::testing::PrintToString(report.warnings);
+  EXPECT_EQ(count("names hall.x3d, which contains it"), 1);
   EXPECT_EQ(count("1 Inline is left on other hosts"), 1);
   EXPECT_EQ(count("outside of the folder"), 1);
   EXPECT_EQ(report.warnings.size(), 4u) << ::testing::PrintToString(report.warnings);

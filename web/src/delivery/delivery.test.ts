@@ -77,7 +77,7 @@ describe("the stages of a patch of images", () => {
     const site = siteOf({ ...sigFiles(1), "a0.png": first.promise });
     const { stages, settled } = record(sigGeometry(1), site.pool);
     await shortDelay();
-    assert.equal(stages.length, 0); // without the first byte nothing can be shown
+    assert.equal(stages.length, 0); // without the first byte nothing can be displayed
     first.release();
     await settled;
     assert.deepEqual(
@@ -353,13 +353,13 @@ describe("a cancelled delivery", () => {
 
   test("does not abort files that another delivery uses", async () => {
     const site = siteOf(sigFiles(1));
-    const gone = record(sigGeometry(1), site.pool);
-    const stays = record(sigGeometry(1), site.pool);
-    gone.delivery.cancel();
-    gone.delivery.cancel(); // a second time does nothing
-    await stays.settled;
-    assert.equal(stays.stages.at(-1)?.stage.name, "full");
-    assert.deepEqual(gone.stages, []);
+    const cancelled = record(sigGeometry(1), site.pool);
+    const remaining = record(sigGeometry(1), site.pool);
+    cancelled.delivery.cancel();
+    cancelled.delivery.cancel(); // a second time does nothing
+    await remaining.settled;
+    assert.equal(remaining.stages.at(-1)?.stage.name, "full");
+    assert.deepEqual(cancelled.stages, []);
     assert.equal(site.images.open, 4);
   });
 });
@@ -394,17 +394,17 @@ describe("progress", () => {
     const site = siteOf({ ...sigFiles(2), "n1.png": 404 }, 2);
     const { delivery, settled } = record(sigGeometry(2), site.pool);
     let progress = progressOf(delivery.transfers, noProgress);
-    const seen = [progress.totalProgress];
+    const values = [progress.totalProgress];
     const timer = setInterval(() => {
       progress = progressOf(delivery.transfers, progress);
-      seen.push(progress.totalProgress);
+      values.push(progress.totalProgress);
     }, 0);
     await settled;
     clearInterval(timer);
     progress = progressOf(delivery.transfers, progress);
     assert.deepEqual(
-      seen,
-      seen.toSorted((a, b) => a - b),
+      values,
+      values.toSorted((a, b) => a - b),
     );
     assert.deepEqual(progress, {
       totalProgress: 1,

@@ -11,7 +11,7 @@ import { Inlines } from "./inlines.ts";
 const bytesOf = (text: string) => new TextEncoder().encode(text);
 const shape = bytesOf("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>");
 
-/** A document, read again whenever one of its Inlines has come. */
+/** A document, read again whenever the document of one of its Inlines has loaded. */
 function sceneOf(markup: string, files: Record<string, Answer>) {
   const { pool, requested, aborted } = siteOf(files);
   const log: string[] = [];
@@ -100,8 +100,8 @@ describe("documents that Inlines name", () => {
     assert.equal(scene.shapes(), 1);
     assert.deepEqual(scene.requested, ["circle.x3d"]);
     assert.deepEqual(scene.warnings(), [
-      "names https://site/circle.x3d, which it stands in itself",
-      "names https://site/main.x3d, which it stands in itself",
+      "names https://site/circle.x3d, which contains it",
+      "names https://site/main.x3d, which contains it",
     ]);
   });
 

@@ -14,7 +14,8 @@ export interface ShapeTexturesListener {
   onSettled(): void;
 }
 
-interface Followed {
+/** The texture of a role. */
+interface RoleTexture {
   readonly key: string;
   readonly joined: JoinedTexture;
 }
@@ -22,7 +23,7 @@ interface Followed {
 export class ShapeTextures {
   readonly #deliveries: TextureDeliveries;
   readonly #listener: ShapeTexturesListener;
-  #followed = new Map<TextureRole, Followed>();
+  #textures = new Map<TextureRole, RoleTexture>();
 
   constructor(deliveries: TextureDeliveries, listener: ShapeTexturesListener) {
     this.#deliveries = deliveries;
@@ -30,35 +31,37 @@ export class ShapeTextures {
   }
 
   get transfers(): readonly Readonly<Transfer>[] {
-    return Array.from(this.#followed.values()).flatMap(({ joined }) => joined.transfers);
+    return Array.from(this.#textures.values()).flatMap(({ joined }) => joined.transfers);
   }
 
-  /** None of their files is on its way. */
+  /** Whether no file of the textures is being loaded. */
   get isSettled(): boolean {
-    return Array.from(this.#followed.values()).every(({ joined }) => joined.isSettled);
+    return Array.from(this.#textures.values()).every(({ joined }) => joined.isSettled);
   }
 
   /**
    * Replaces the textures. New ones are joined before old ones are left, so that shared files are not fetched again.
    */
   follow(textures: readonly TextureDescription[]): void {
-    const before = this.#followed;
-    this.#followed = new Map(
+    const before = this.#textures;
+    this.#textures = new Map(
       textures.map((texture) => {
-        const known = before.get(texture.role);
+        const previous = before.get(texture.role);
         const key = textureKeyOf(texture);
-        return [texture.role, known?.key === key ? known : { key, joined: this.#join(texture) }];
+        return [texture.role, previous?.key === key ? previous : { key, joined: this.#join(texture) }];
       }),
     );
-    const left = Array.from(before).filter(([role, followed]) => this.#followed.get(role) !== followed);
+    const left = Array.from(before).filter(([role, texture]) => this.#textures.get(role) !== texture);
     for (const [role] of left) this.#listener.onTextureImage(role, undefined);
     for (const [, { joined }] of left) joined.cancel();
   }
 
-  /** No call to the listener follows until the next `follow`. Pictures must no longer be used. */
+  /**
+   * Leaves all deliveries. The listener is not called again before the next `follow`; images must no longer be used.
+   */
   cancel(): void {
-    for (const { joined } of this.#followed.values()) joined.cancel();
-    this.#followed.clear();
+    for (const { joined } of this.#textures.values()) joined.cancel();
+    this.#textures.clear();
   }
 
   #join(texture: TextureDescription): JoinedTexture {

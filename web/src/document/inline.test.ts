@@ -64,7 +64,7 @@ describe("Inline", () => {
     );
     assert.deepEqual(
       scene.warnings.map(({ message }) => message),
-      ["names a.x3d, which it stands in itself"],
+      ["names a.x3d, which contains it"],
     );
     const chain = inlinedFrom(
       Object.fromEntries(Array.from({ length: 40 }, (_, i) => [`${i}`, `<X3D><Inline url="${i + 1}"/></X3D>`])),

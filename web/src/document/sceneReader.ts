@@ -264,7 +264,7 @@ function problemWith(
   inlinedBy: readonly InlinedDocument[],
   ownUrl: string | undefined,
 ): string | undefined {
-  if (url === ownUrl || inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which it stands in itself`;
+  if (url === ownUrl || inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which contains it`;
   return inlinedBy.length >= maxInlineDepth ? `names ${url}, more than ${maxInlineDepth} documents deep` : undefined;
 }
 

@@ -8,7 +8,7 @@ import { attributeOf } from "../document/element.ts";
 import type { CameraController } from "../navigation/cameraController.ts";
 
 /** Modifier keys of a click. */
-type Keys = Pick<MouseEvent, "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
+type ModifierKeys = Pick<MouseEvent, "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
 export class AnchorLinks {
   readonly #nav: HTMLElement;
@@ -40,13 +40,13 @@ export class AnchorLinks {
     this.#nav.hidden = this.#links.size === 0;
   }
 
-  /** The link of an Anchor; undefined where it has no http(s) URL. */
+  /** The link of an Anchor; undefined for an Anchor without an http(s) URL. */
   of(anchor: AnchorDescription): HTMLAnchorElement | undefined {
     return this.#links.get(anchor.element);
   }
 
-  /** Clicks the Anchor's link with these keys held. */
-  follow(anchor: AnchorDescription, { ctrlKey, metaKey, shiftKey, altKey }: Keys): void {
+  /** Clicks the Anchor's link, with the modifier keys of the given click. */
+  follow(anchor: AnchorDescription, { ctrlKey, metaKey, shiftKey, altKey }: ModifierKeys): void {
     this.of(anchor)?.dispatchEvent(
       new MouseEvent("click", { view: window, bubbles: true, cancelable: true, ctrlKey, metaKey, shiftKey, altKey }),
     );
@@ -66,14 +66,17 @@ export class AnchorLinks {
     link.rel = "noopener";
     link.textContent = description || href;
     link.onclick = (event) => {
-      this.#bind(href, event);
+      this.#bindViewpoint(href, event);
     };
     this.#links.set(element, link);
     return link;
   }
 
-  /** `#NAME` binds the scene's Viewpoint of that name; where there is none, it is a fragment of the page. */
-  #bind(href: string, event: Event): void {
+  /**
+   * Binds the Viewpoint that `#NAME` names, instead of following the link. Without such a Viewpoint, `#NAME` is a
+   * fragment of the page.
+   */
+  #bindViewpoint(href: string, event: Event): void {
     const viewpoint =
       href.startsWith("#") &&
       this.#navigator.viewpoints.find(({ element }) => attributeOf(element, "DEF") === href.slice(1));

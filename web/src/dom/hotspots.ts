@@ -1,7 +1,7 @@
 // Hotspots: children of the view with slot="hotspot-…" at positions in the scene. They
-// remain the page's own elements, readable and focusable. This file sets where they are
-// on the screen, and whether they are visible: whether their surface faces the camera
-// and nothing of the scene covers them.
+// remain the page's own elements, readable and focusable. This file positions them on
+// the canvas and tells whether they are visible: whether their surface faces the camera
+// and the scene does not cover them.
 
 import type { View } from "../render/view.ts";
 
@@ -9,10 +9,11 @@ type Point = readonly [number, number, number];
 
 interface Hotspot {
   readonly element: HTMLElement;
-  readonly frame: HTMLElement;
+  /** The positioned element in the shadow tree, whose slot displays `element`. */
+  readonly container: HTMLElement;
   readonly position: Point;
   readonly normal: Point | undefined;
-  /** In CSS pixels of the canvas; undefined outside of it. */
+  /** The position on the canvas in CSS pixels; undefined outside of it. */
   pixel: readonly [x: number, y: number] | undefined;
   isFacing: boolean;
   isCovered: boolean;
@@ -20,7 +21,7 @@ interface Hotspot {
   isVisible: boolean | undefined;
 }
 
-/** What hotspots need to know of their view. */
+/** The view that hotspots are displayed in. */
 export interface HotspotView {
   /** Whether no frame is due. */
   readonly isStill: () => boolean;
@@ -29,7 +30,7 @@ export interface HotspotView {
 }
 
 /** A surface in front of a hotspot by at most this share of the distance counts as the hotspot's own surface. */
-const slack = 0.02;
+const coverTolerance = 0.02;
 
 export class Hotspots {
   readonly #host: Element;
@@ -38,27 +39,27 @@ export class Hotspots {
   #hotspots: Hotspot[] = [];
   #frameRequest = 0;
   /** Number of the current frame: results for an earlier frame are dropped. */
-  #frame = 0;
+  #frameNumber = 0;
 
-  constructor(host: Element, layer: HTMLElement, sight: HotspotView) {
+  constructor(host: Element, layer: HTMLElement, hotspotView: HotspotView) {
     this.#host = host;
     this.#layer = layer;
-    this.#hotspotView = sight;
+    this.#hotspotView = hotspotView;
   }
 
   /** Reads the page's hotspots again, after they have changed. */
   read(): void {
-    const frames = new Map(this.#hotspots.map(({ element, frame }) => [element, frame]));
+    const containers = new Map(this.#hotspots.map(({ element, container }) => [element, container]));
     this.#hotspots = Array.from(this.#host.children).flatMap((child) => {
       const position = pointOf(child.getAttribute("data-position"));
       if (!(child instanceof HTMLElement) || !child.slot.startsWith("hotspot") || position === undefined) return [];
-      const frame = frames.get(child) ?? document.createElement("div");
-      const slot = frame.querySelector("slot") ?? frame.appendChild(document.createElement("slot"));
+      const container = containers.get(child) ?? document.createElement("div");
+      const slot = container.querySelector("slot") ?? container.appendChild(document.createElement("slot"));
       slot.name = child.slot;
       return [
         {
           element: child,
-          frame,
+          container,
           position,
           normal: pointOf(child.getAttribute("data-normal")),
           pixel: undefined,
@@ -68,16 +69,19 @@ export class Hotspots {
         },
       ];
     });
-    this.#layer.replaceChildren(...this.#hotspots.map(({ frame }) => frame));
+    this.#layer.replaceChildren(...this.#hotspots.map(({ container }) => container));
   }
 
-  /** Positions all hotspots for a view of this size in CSS pixels. If no other frame follows, tests whether they are covered. */
+  /**
+   * Positions all hotspots for a view of this size in CSS pixels. If no other frame follows, tests whether they are
+   * covered.
+   */
   update(view: View, width: number, height: number): void {
     this.#invalidateFrame();
     if (this.#hotspots.length === 0) return;
     for (const hotspot of this.#hotspots) projectInto(view, width, height, hotspot);
     this.#frameRequest = requestAnimationFrame(() => {
-      if (this.#hotspotView.isStill()) void this.#testVisibility(view.position, this.#frame);
+      if (this.#hotspotView.isStill()) void this.#testVisibility(view.position, this.#frameNumber);
     });
   }
 
@@ -86,40 +90,40 @@ export class Hotspots {
   }
 
   #invalidateFrame(): void {
-    this.#frame += 1;
+    this.#frameNumber += 1;
     cancelAnimationFrame(this.#frameRequest);
   }
 
   /** Tests one hotspot after the other by picking, which draws no frame. */
-  async #testVisibility(eye: Point, frame: number): Promise<void> {
+  async #testVisibility(eye: Point, frameNumber: number): Promise<void> {
     for (const hotspot of this.#hotspots) {
       if (hotspot.pixel === undefined || !hotspot.isFacing) continue;
       const found = await this.#hotspotView.pointAt(...hotspot.pixel);
-      if (frame !== this.#frame) return;
+      if (frameNumber !== this.#frameNumber) return;
       hotspot.isCovered =
-        found !== undefined && distanceOf(eye, found) < (1 - slack) * distanceOf(eye, hotspot.position);
+        found !== undefined && distanceOf(eye, found) < (1 - coverTolerance) * distanceOf(eye, hotspot.position);
       sendVisibility(hotspot);
     }
   }
 }
 
 function projectInto(view: View, width: number, height: number, hotspot: Hotspot): void {
-  const { frame, position } = hotspot;
+  const { container, position } = hotspot;
   const [x, y, , w] = clipOf(view.clipFromScene, position);
   const isInView = w > 0 && Math.abs(x) <= w && Math.abs(y) <= w;
-  frame.classList.toggle("out-of-view", !isInView);
+  container.classList.toggle("out-of-view", !isInView);
   hotspot.pixel = isInView ? [((x / w + 1) / 2) * width, ((1 - y / w) / 2) * height] : undefined;
-  if (hotspot.pixel) frame.style.transform = `translate(${hotspot.pixel[0]}px, ${hotspot.pixel[1]}px)`;
-  hotspot.isFacing = hotspot.normal === undefined || facing(view.position, position, hotspot.normal);
+  if (hotspot.pixel) container.style.transform = `translate(${hotspot.pixel[0]}px, ${hotspot.pixel[1]}px)`;
+  hotspot.isFacing = hotspot.normal === undefined || isFacingCamera(view.position, position, hotspot.normal);
   sendVisibility(hotspot);
 }
 
 function sendVisibility(hotspot: Hotspot): void {
-  const { frame, element, isFacing, isCovered } = hotspot;
+  const { container, element, isFacing, isCovered } = hotspot;
   const isVisible = isFacing && !isCovered;
   if (isVisible === hotspot.isVisible) return;
   hotspot.isVisible = isVisible;
-  frame.classList.toggle("unseen", !isVisible);
+  container.classList.toggle("unseen", !isVisible);
   const name = element.getAttribute("data-visibility-attribute");
   if (name !== null && name !== "") element.toggleAttribute(`data-${name}`, isVisible);
   element.dispatchEvent(new CustomEvent("hotspot-visibility", { detail: { visible: isVisible } }));
@@ -129,7 +133,7 @@ function distanceOf(a: Point, b: Point): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-function facing(eye: Point, position: Point, normal: Point): boolean {
+function isFacingCamera(eye: Point, position: Point, normal: Point): boolean {
   return (
     normal[0] * (eye[0] - position[0]) + normal[1] * (eye[1] - position[1]) + normal[2] * (eye[2] - position[2]) > 0
   );

@@ -14,7 +14,7 @@ import { reportToManager } from "./managerProgress.ts";
 import { readDocument } from "./readDocument.ts";
 
 export interface LoadOptions {
-  /** Aborts this scene's loading; the loader's `abort` ends all. */
+  /** Aborts the loading of this scene; the loader's `abort` aborts that of all scenes. */
   readonly signal?: AbortSignal;
 }
 
@@ -41,7 +41,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     return this;
   }
 
-  /** Sets the URL of the package's `imgeo-worker.js`, where it is not beside the bundle. */
+  /** Sets the URL of the package's `imgeo-worker.js`, if that is not beside the bundle. */
   setWorkerUrl(url: string | URL): this {
     this.#workerUrl = url;
     this.#workers?.dispose();
@@ -50,9 +50,9 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
   }
 
   /**
-   * Calls `onLoad` with the scene when all of it displays something. The scene refines
+   * Calls `onLoad` with the scene when every visible patch displays something or has failed. The scene refines
    * itself until its promise `complete` resolves; `onProgress` is called until then.
-   * `onError` is called where there is no scene, or where none of it can be displayed.
+   * `onError` is called if the document cannot be loaded, or if nothing of the scene can be displayed.
    */
   override load(
     url: string,
@@ -85,7 +85,10 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     });
   }
 
-  /** Parses a document, whose relative URLs are resolved against `path`. The scene is returned at once, and is empty until its files come. */
+  /**
+   * Parses a document, whose relative URLs are resolved against `path`. The scene is returned at once, and is empty
+   * until its files arrive.
+   */
   parse(text: string, path = this.resourcePath || this.path): ImgeoScene {
     const url = new URL(path, document.baseURI).href;
     return this.#sceneOf(text, "the document", url);
@@ -110,21 +113,21 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     onProgress: ((event: ProgressEvent) => void) | undefined,
     { signal }: LoadOptions,
   ): Promise<ImgeoScene> {
-    const ended = AbortSignal.any([
+    const abortSignal = AbortSignal.any([
       ...(signal ? [signal] : []),
       this.#aborter.signal,
       this.manager.abortController.signal,
     ]);
-    const text = await this.#fetchText(documentUrl, ended);
+    const text = await this.#fetchText(documentUrl, abortSignal);
     const scene = this.#sceneOf(text, documentUrl, new URL(documentUrl, document.baseURI).href);
-    const end = () => {
+    const abortScene = () => {
       scene.abort();
     };
-    ended.addEventListener("abort", end, { once: true });
-    const forget = () => {
-      ended.removeEventListener("abort", end);
+    abortSignal.addEventListener("abort", abortScene, { once: true });
+    const stopListening = () => {
+      abortSignal.removeEventListener("abort", abortScene);
     };
-    scene.complete.then(forget, forget);
+    scene.complete.then(stopListening, stopListening);
     if (onProgress)
       scene.addEventListener("progress", ({ progress }) => {
         onProgress(progressEventOf(progress));
@@ -140,8 +143,8 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
 
   #sceneOf(text: string, name: string, documentUrl: string): ImgeoScene {
     const base = this.resourcePath === "" ? documentUrl : new URL(this.resourcePath, document.baseURI).href;
-    // What is no URL is passed on: the manager may know it, or the request fails and says why.
-    const urlOf = (named: string) => (URL.canParse(named, base) ? new URL(named, base).href : named);
+    // An invalid URL is passed on: the manager may map it, or the request fails with a message.
+    const urlOf = (url: string) => (URL.canParse(url, base) ? new URL(url, base).href : url);
     const resolve = (url: string) => this.manager.resolveURL(url);
     const scene = new ImgeoScene({
       x3d: readDocument(text, name),
@@ -154,7 +157,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
       runJob: (job, input, signal) => (this.#workers ??= pageWorkers(this.#workerUrl)).run(job, input, signal),
       fetch: (input, init) => fetch(input, { ...init, ...this.#requestInit }),
     });
-    reportToManager(scene, this.manager, (named) => resolve(urlOf(named)));
+    reportToManager(scene, this.manager, (url) => resolve(urlOf(url)));
     return scene;
   }
 

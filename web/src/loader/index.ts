@@ -1,4 +1,4 @@
-// The entry for three.js apps. Importing it defines no element and touches no page.
+// The entry for three.js apps. Importing it defines no element and does not change the page.
 
 export type { LoadOptions } from "./ImgeoLoader.ts";
 export { ImgeoLoader } from "./ImgeoLoader.ts";

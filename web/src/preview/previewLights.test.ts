@@ -22,12 +22,7 @@ const rounded = (values: readonly number[]) => values.map((value) => Math.round(
 
 test("lights have their positions and directions in view coordinates", () => {
   const viewFromScene = new Matrix4().makeTranslation(0, 0, -10);
-  const {
-    lightPositions: lightPositions,
-    lightDirections,
-    lightColors,
-    lightCones,
-  } = uniformsOf(
+  const { lightPositions, lightDirections, lightColors, lightCones } = uniformsOf(
     `<Transform rotation="0 1 0 1.5707963267948966" translation="1 0 0">
     <PointLight location="0 0 2" color="1 0.5 0" intensity="0.5"/>
     <SpotLight location="0 0 0" direction="0 0 -1" cutOffAngle="1" beamWidth="0.5"/></Transform><DirectionalLight direction="0 -2 0" on="false"/>`,
@@ -51,7 +46,7 @@ test("scaling a light scales its radius and its attenuation", () => {
 test("the headlight is an additional light, and ambient intensities add up", () => {
   const markup =
     '<DirectionalLight direction="0 -2 0" color="1 0 0" ambientIntensity="0.25"/><DirectionalLight color="0.5 0.5 0.5" ambientIntensity="0.5"/>';
-  const { lightPositions: lightPositions, lightDirections, ambientLight } = uniformsOf(markup, true);
+  const { lightPositions, lightDirections, ambientLight } = uniformsOf(markup, true);
   assert.deepEqual(lightKindsOf({ lights: [], headlight: true }), ["directional"]);
   assert.deepEqual(lightPositions.length, 3 * 3);
   assert.deepEqual(rounded(lightDirections).slice(0, 3), [0, -1, 0]);
@@ -65,16 +60,18 @@ test("a light that is not global is black outside of its group", () => {
     <DirectionalLight/><Shape/></Scene></X3D>`),
   );
   const { lights, shapes } = instancesOf(scene);
-  const seen = shapes.map(({ lightScope }) => lightUniformsOf({ lights, headlight: true }, lightScope, new Matrix4()));
+  const uniformsByShape = shapes.map(({ lightScope }) =>
+    lightUniformsOf({ lights, headlight: true }, lightScope, new Matrix4()),
+  );
   assert.deepEqual(
-    seen.map(({ lightColors }) => lightColors),
+    uniformsByShape.map(({ lightColors }) => lightColors),
     [
       [1, 0, 0, 1, 1, 1, 1, 1, 1],
       [0, 0, 0, 1, 1, 1, 1, 1, 1],
     ],
   );
   assert.deepEqual(
-    seen.map(({ ambientLight }) => ambientLight),
+    uniformsByShape.map(({ ambientLight }) => ambientLight),
     [
       [0.5, 0, 0],
       [0, 0, 0],

@@ -19,7 +19,7 @@ import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 /** Gives the base of a shape; undefined until it has been decoded. */
 export type BaseOf = (shape: PreviewShape) => Base | undefined;
 
-/** Whether the base holds what the document describes, and nothing translucent. */
+/** Whether a base matches what the document states of its shape, and is opaque. */
 export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | undefined): boolean {
   return (
     base?.segmentCount === geometry.patches.length &&
@@ -47,7 +47,7 @@ export class PreviewRenderer {
   }
 
   /**
-   * Prepares the GPU for the scene before its bases are here. Drivers finish compiling a
+   * Prepares the GPU for the scene before its bases have loaded. Drivers finish compiling a
    * program at the first draw with it, and allocate a canvas' memory at the first draw
    * into it; both can take longer than drawing the bases.
    */
@@ -78,11 +78,11 @@ export class PreviewRenderer {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    const { clipFromView, viewFromScene } = camerasOf(scene, width / height);
-    const lightsIn = new Map<LightScope, LightUniforms>();
+    const { clipFromView, viewFromScene } = cameraMatricesOf(scene, width / height);
+    const uniformsByScope = new Map<LightScope, LightUniforms>();
     for (const shape of scene.shapes) {
-      const lights = lightsIn.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
-      lightsIn.set(shape.lightScope, lights);
+      const lights = uniformsByScope.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
+      uniformsByScope.set(shape.lightScope, lights);
       const buffers = buffersOf(shape);
       if (buffers === undefined) continue;
       const program = this.#programFor(kindOf(shape, scene, buffers));
@@ -107,17 +107,17 @@ export class PreviewRenderer {
 
   #programFor(kind: PreviewProgramKind): PreviewProgram {
     const key = JSON.stringify(kind);
-    const known = this.#programs.get(key) ?? makePreviewProgram(this.#gl, kind);
-    this.#programs.set(key, known);
-    return known;
+    const program = this.#programs.get(key) ?? makePreviewProgram(this.#gl, kind);
+    this.#programs.set(key, program);
+    return program;
   }
 
   #drawBuffers(buffers: PatchBuffers): void {
     const gl = this.#gl;
-    const stored = this.#meshes.get(buffers) ?? this.#uploadMesh(buffers);
-    this.#meshes.set(buffers, stored);
-    gl.bindVertexArray(stored.vertices);
-    gl.drawElements(gl.TRIANGLES, stored.count, stored.indexType, 0);
+    const mesh = this.#meshes.get(buffers) ?? this.#uploadMesh(buffers);
+    this.#meshes.set(buffers, mesh);
+    gl.bindVertexArray(mesh.vertices);
+    gl.drawElements(gl.TRIANGLES, mesh.count, mesh.indexType, 0);
   }
 
   #uploadMesh({ coord, attributes: { normal, color }, index }: PatchBuffers): GpuMesh {
@@ -138,7 +138,7 @@ export class PreviewRenderer {
   /** `isNormalized`: integers are mapped to 0 … 1, signed ones to -1 … 1. */
   #uploadAttribute(location: number, { array, components, stride, offset }: VertexArray, isNormalized: boolean): void {
     const gl = this.#gl;
-    const size = array.BYTES_PER_ELEMENT;
+    const elementBytes = array.BYTES_PER_ELEMENT;
     this.#uploadBuffer(gl.ARRAY_BUFFER, array);
     gl.enableVertexAttribArray(location);
     const isFloat = array instanceof Float32Array;
@@ -147,8 +147,8 @@ export class PreviewRenderer {
       components,
       glTypes[elementTypeOf(array)],
       isNormalized && !isFloat,
-      stride * size,
-      offset * size,
+      stride * elementBytes,
+      offset * elementBytes,
     );
   }
 
@@ -161,7 +161,7 @@ export class PreviewRenderer {
   }
 }
 
-/** The constants of WebGL for element types. */
+/** WebGL's constants for element types. */
 const glTypes = {
   Int8: 0x1400,
   Uint8: 0x1401,
@@ -185,8 +185,8 @@ function kindOf(
   };
 }
 
-/** The matrices of the runtime's camera. */
-function camerasOf(
+/** The matrices of the camera, equal to the runtime's. */
+function cameraMatricesOf(
   { pose, sphere, clearance }: PreviewScene,
   aspect: number,
 ): { clipFromView: Matrix4; viewFromScene: Matrix4 } {

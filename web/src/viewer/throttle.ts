@@ -1,4 +1,4 @@
-/** Delays a call that may be requested often, so that it runs once in an interval. */
+/** Delays a call that may be requested often, so that all requests of an interval cause one call. */
 export class Throttle {
   readonly #intervalMs: number;
   readonly #call: () => void;
@@ -9,18 +9,20 @@ export class Throttle {
     this.#call = call;
   }
 
-  /** Calls within the interval, unless that has been requested already. */
+  /** Calls after the interval, unless a call is already pending. */
   request(): void {
     this.#timer ??= setTimeout(() => {
       this.callNow();
     }, this.#intervalMs);
   }
 
+  /** Calls now, in place of a pending call. */
   callNow(): void {
     this.cancel();
     this.#call();
   }
 
+  /** Cancels a pending call. */
   cancel(): void {
     clearTimeout(this.#timer);
     this.#timer = undefined;

@@ -1,5 +1,5 @@
-// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Images on the GPU become stages that
-// the shader reads; images that stay files are decoded by workers (classicBufferStage.ts).
+// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Shaders read images
+// that are on the GPU; workers decode images that are still files (classicBufferStage.ts).
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";
@@ -49,8 +49,8 @@ export function classicStageBuilder(
 }
 
 function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
-  let planes: (TexelRange | undefined)[] = [];
-  let values: (TexelRange | undefined)[] = [];
+  let coordPlanes: (TexelRange | undefined)[] = [];
+  let valuePlanes: (TexelRange | undefined)[] = [];
   let index: TexelRange | undefined;
   let attributes: ByVertexRole<TexelRange> = {};
   const normalFormat = normalFormatOf(geometry);
@@ -81,15 +81,15 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
     sweep: () => undefined,
 
     drop({ role, plane }) {
-      if (role === "coord") planes[plane] = undefined;
-      else if (role === "value") values[plane] = undefined;
+      if (role === "coord") coordPlanes[plane] = undefined;
+      else if (role === "value") valuePlanes[plane] = undefined;
       else if (role === "index") index = undefined;
       else if (role !== "patch" && role !== "base") attributes = { ...attributes, [role]: undefined };
     },
 
     clear() {
-      planes = [];
-      values = [];
+      coordPlanes = [];
+      valuePlanes = [];
       index = undefined;
       attributes = {};
     },
@@ -98,7 +98,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
       const range = { image, firstTexel: firstTexelOf(file.reference) };
-      const isPairs = file.role === "normal" && isPairFormat(normalFormat);
+      const holdsPairs = file.role === "normal" && isPairFormat(normalFormat);
       const needed = channelsOf(file.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (file.role === "index") {
@@ -107,16 +107,17 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
         return;
       }
       const records = patch.index === undefined && patch.grid === undefined ? cornerCount : patch.vertexCount;
-      if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
+      // The upper half of the image has the first number of each pair, the lower half the second.
+      if (holdsPairs) checkHolds(range, texelCountOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
-      if (file.role === "coord") planes[file.plane] = range;
-      else if (file.role === "value") values[file.plane] = range;
+      if (file.role === "coord") coordPlanes[file.plane] = range;
+      else if (file.role === "value") valuePlanes[file.plane] = range;
       else if (file.role !== "patch" && file.role !== "base") attributes = { ...attributes, [file.role]: range };
     },
 
     stage(): TextureStage | undefined {
-      const coord = leadingPlanes(planes);
-      const value = leadingPlanes(values);
+      const coord = leadingPlanes(coordPlanes);
+      const value = leadingPlanes(valuePlanes);
       const first = coord[0];
       if (first === undefined) return undefined;
       const name = attainedStageName(patch, {
@@ -128,7 +129,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       const points = {
         primitive: "points",
         first: 0,
-        count: patch.vertexCount || texelsOf(first.image) - first.firstTexel,
+        count: patch.vertexCount || texelCountOf(first.image) - first.firstTexel,
       } as const;
       return {
         kind: "textures",
@@ -159,12 +160,12 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
 
 /** The available planes before the first missing one: a plane is useful only together with all above it. */
 function leadingPlanes(planes: readonly (TexelRange | undefined)[]): TexelRange[] {
-  const whole = Array.from(planes); // without holes
-  const missing = whole.indexOf(undefined);
-  return whole.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
+  const dense = Array.from(planes); // `indexOf` skips the holes of a sparse array
+  const missing = dense.indexOf(undefined);
+  return dense.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
 }
 
-function texelsOf(image: DecodedImage): number {
+function texelCountOf(image: DecodedImage): number {
   return image.width * image.height;
 }
 
@@ -173,7 +174,7 @@ function checkHolds({ image, firstTexel: first }: TexelRange, count: number, imp
   if (count === 0) return;
   const last = count - 1;
   const lastTexel = first + Math.floor(last / implicitWidth) * image.width + Math.min(last, implicitWidth - 1);
-  if (implicitWidth > image.width || lastTexel >= texelsOf(image)) {
+  if (implicitWidth > image.width || lastTexel >= texelCountOf(image)) {
     throw new DecodeError(
       "malformed",
       `has ${image.width} x ${image.height} texels; ${count} in rows of ${implicitWidth} from texel ${first} on do not fit`,
