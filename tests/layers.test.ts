@@ -130,14 +130,13 @@ function checkCycles(tree: string): string[] {
   return cycles;
 }
 
-/** The table must be a ladder: what a folder uses stands above it. */
+/** Finds rows that use a folder of a later row. */
 function checkOrder(layers: Layers): string[] {
   const above = new Set<string>();
   const findings: string[] = [];
   for (const [folder, uses] of layers) {
     for (const used of uses) {
-      if (used.includes("/") && !above.has(used))
-        findings.push(`${folder} uses ${used}, which does not stand above it`);
+      if (used.includes("/") && !above.has(used)) findings.push(`${folder} uses ${used}, which is not above it`);
     }
     above.add(folder);
   }
@@ -248,7 +247,5 @@ test("a tree that keeps to the rules passes, node's modules in its tests too", (
 });
 
 test("a table with a cycle is found", () => {
-  assert.deepEqual(checkOrder(readLayers("src/a: src/b\nsrc/b: src/a\n")), [
-    "src/a uses src/b, which does not stand above it",
-  ]);
+  assert.deepEqual(checkOrder(readLayers("src/a: src/b\nsrc/b: src/a\n")), ["src/a uses src/b, which is not above it"]);
 });

@@ -1,4 +1,4 @@
-// The three tables of nodes and fields against each other: the converter's (vectors/nodes.json, written by
+// Compares the three tables of nodes and fields: the converter's (vectors/nodes.json, written by
 // src/documents/node_fields_test.cpp), the runtime's (web/src/document) and the tables of docs/formats/nodes.md.
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
@@ -17,7 +17,7 @@ interface Row {
 }
 type Table = ReadonlyMap<string, Row>;
 
-/** Documented tables by the heading that they stand under, each with the nodes that it describes. */
+/** Documented tables by their heading, each with the nodes that it describes. */
 interface Section {
   readonly nodes: readonly string[];
   readonly table: Table;
@@ -58,7 +58,7 @@ const sharedRows: Readonly<Record<string, string>> = { InlineGeometry: "Geometry
 /** Fields that the converter writes or reads and nodes.ts does not have, by the reason. */
 const notInRuntimeTable: Readonly<Record<string, readonly string[]>> = {
   "written by src/documents and read by no one": ["X3D.profile", "X3D.version", "TextureProperties.generateMipMaps"],
-  "shown by the page's title, or read by the converter": [
+  "used in the page's title, or read by the converter": [
     "WorldInfo.title",
     "WorldInfo.info",
     "MetadataString.name",

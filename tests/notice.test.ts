@@ -1,4 +1,4 @@
-// NOTICE against the lists of packages: whatever is installed to build, run or test imgeo stands in it.
+// Checks that NOTICE names every package that is installed to build, run or test imgeo.
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
@@ -27,7 +27,9 @@ function debianPackages(): string[] {
 
 function npmPackages(): string[] {
   const manifest = JSON.parse(read("package.json")) as Record<string, Record<string, string> | undefined>;
-  return ["dependencies", "devDependencies", "optionalDependencies"].flatMap((kind) => Object.keys(manifest[kind] ?? {}));
+  return ["dependencies", "devDependencies", "optionalDependencies"].flatMap((kind) =>
+    Object.keys(manifest[kind] ?? {}),
+  );
 }
 
 test("NOTICE names every Debian package that the scripts install", () => {

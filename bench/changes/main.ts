@@ -36,7 +36,7 @@ const changes: Record<string, (round: number) => void> = {
   "a Transform is moved": (round) => {
     document.querySelectorAll("transform")[5000]!.setAttribute("translation", `100 100 ${round % 2}`);
   },
-  "a Shape is hidden, or shown": (round) => {
+  "visibility of a Shape": (round) => {
     document.querySelectorAll("shape")[8000]!.setAttribute("visible", String(round % 2 === 0));
   },
   "a Material is coloured": (round) => {

@@ -398,7 +398,7 @@ describe("points", () => {
       plyOf("two-points", "float:x float:y float:z float:nx float:ny float:nz", ["-1 0 0 0 0 1", "2 0 -10 0 0 -1"]),
     );
 
-  async function shown(properties: string, check: (view: View, picture: Picture) => Promise<void>): Promise<void> {
+  async function withPoints(properties: string, check: (view: View, picture: Picture) => Promise<void>): Promise<void> {
     const site = cloud();
     const shape = shapeIn(site, "cloud").replace(
       /<Appearance[\s\S]*<\/Appearance>/i,
@@ -449,7 +449,7 @@ describe("points", () => {
   }
 
   test("are round, have the size in pixels of PointProperties, are hit where they are drawn, and are lit from both sides", async () => {
-    await shown('<PointProperties pointSizeScaleFactor="24"></PointProperties>', async (view, picture) => {
+    await withPoints('<PointProperties pointSizeScaleFactor="24"></PointProperties>', async (view, picture) => {
       savePicture("points-24", picture);
       await assertDisc(view, picture, near, 24);
       await assertDisc(view, picture, far, 24);
@@ -458,7 +458,7 @@ describe("points", () => {
 
   test("become smaller with distance, within limits", async () => {
     // At distances of about 10 and 20.
-    await shown(
+    await withPoints(
       '<PointProperties pointSizeScaleFactor="40" attenuation="0 0.1 0"></PointProperties>',
       async (view, picture) => {
         savePicture("points-far", picture);
@@ -466,7 +466,7 @@ describe("points", () => {
         await assertDisc(view, picture, far, 40 / (0.1 * Math.hypot(20, 2)));
       },
     );
-    await shown(
+    await withPoints(
       '<PointProperties pointSizeScaleFactor="40" attenuation="0 0.1 0" pointSizeMinValue="28" pointSizeMaxValue="30"></PointProperties>',
       async (view, picture) => {
         await assertDisc(view, picture, near, 30);

@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
-import { pictureSize, withPage, type View } from "./harness.ts";
+import { drawsOfFrame, pictureSize, withPage } from "./harness.ts";
 import { writePly } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { sceneOf } from "./scenes.ts";
@@ -107,15 +107,6 @@ function strokesFile(): string {
     writePly({ positions, triangles: new Uint32Array(0), lines: Uint32Array.from([0, 1, 1, 2, 2, 3, 3, 4]) }),
   );
   return path;
-}
-
-/** Number of draw calls and clears of a frame, counted outside of the runtime. */
-async function drawsOfFrame({ page }: View): Promise<number> {
-  return page.evaluate(async () => {
-    const before = window.observed.draws;
-    await document.querySelector<ViewElement>("x3d")!.toBlob();
-    return window.observed.draws - before;
-  });
 }
 
 test("shapes coloured by values and wide lines are batched in a scene of many shapes, with the same picture as drawn alone", async () => {

@@ -9,7 +9,7 @@ import { Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
-import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
+import { drawsOfFrame, pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { transformedPatches } from "./transformedPatches.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
@@ -50,15 +50,6 @@ function crowd(ball: string): string {
     return `<Transform translation="${x} ${y} 0" scale="0.45 0.45 0.45"><Shape id="s${n}"><Appearance><Material diffuseColor="${color}"></Material></Appearance>${own}</Shape></Transform>`;
   });
   return shapes.join("\n");
-}
-
-/** Number of draw calls and clears of a frame, counted outside of the runtime. */
-async function drawsOfFrame({ page }: View): Promise<number> {
-  return page.evaluate(async () => {
-    const before = window.observed.draws;
-    await document.querySelector<ViewElement>("x3d")!.toBlob();
-    return window.observed.draws - before;
-  });
 }
 
 /** The ids of the shapes at pixels. */

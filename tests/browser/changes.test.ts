@@ -6,7 +6,7 @@ import { cpSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, difference } from "./compare.ts";
-import { settle, until, withPage, type View } from "./harness.ts";
+import { finalPicture, settle, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { gate } from "./server.ts";
@@ -41,14 +41,8 @@ async function sceneText(view: View): Promise<string> {
 }
 
 async function freshPicture(site: string, scene: string): Promise<Picture> {
-  let seen: Picture | undefined;
   const replace = (html: Buffer): string => html.toString().replace(/<X3D[\s\S]*<\/X3D>/i, () => scene);
-  await withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
-    await view.promise("complete");
-    seen = await view.picture();
-  });
-  assert.ok(seen);
-  return seen;
+  return finalPicture(site, { server: (server) => server.when(/^\/$/, { replace }) });
 }
 
 type Changes = Record<string, () => void>;

@@ -56,9 +56,9 @@ let wholePicture: Picture | undefined;
 
 /** Asserts that all inner pixels of the whole shape are covered. */
 function assertNoHoles(picture: Picture, full: Picture | undefined, what: string): void {
-  assert.ok(full, "the test of mixtures comes first");
+  assert.ok(full, "the test of subsets runs first");
   const inside = inner(foreground(full), 4);
-  assert.ok(inside.length > 5000, `${inside.length} pixels lie inside`);
+  assert.ok(inside.length > 5000, `${inside.length} inner pixels`);
   const isMesh = foreground(picture);
   assert.equal(inside.filter((pixel) => !isMesh[pixel]).length, 0, `${what} has holes`);
 }

@@ -6,15 +6,15 @@ import { cpSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, difference } from "./compare.ts";
-import { until, withPage, type View } from "./harness.ts";
+import { finalPicture, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
-import { encodePng, type Picture } from "./png.ts";
+import { encodePng } from "./png.ts";
 import type { Behaviour } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 import type { ResourceEntry } from "../../web/src/dom/loadingEvents.ts";
 
-/** A site of two shapes, #good and #bad; the files of #bad lie in bad/. */
+/** A site of two shapes, #good and #bad; the files of #bad are in bad/. */
 function twoShapeSite(): string {
   const directory = join(outputDirectory, "sites", "faults");
   cpSync(siteOfGenerated("trefoil", "--profile", "classic"), directory, { recursive: true });
@@ -99,28 +99,21 @@ async function assertReported(view: View, url: string): Promise<void> {
   assert.deepEqual(await view.events("load", "shape#bad"), []);
 }
 
-async function goodAlone(): Promise<Picture> {
-  let seen: Picture | undefined;
-  await withPage(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
-    await view.promise("complete");
-    seen = await view.picture();
-  });
-  assert.ok(seen);
-  return seen;
-}
+/** The picture of #good alone. */
+const pictureOfGood = () => finalPicture(siteOfGenerated("trefoil", "--profile", "classic"));
 
 describe("a missing file", () => {
   test("does not affect the other shape if its own shape cannot be displayed without it", async () => {
     await withFault(0, { status: 404 }, async (view, url) => {
       await assertReported(view, url);
-      assertSamePicture("without the bad shape", await view.picture(), await goodAlone(), { mean: 0 });
+      assertSamePicture("without the bad shape", await view.picture(), await pictureOfGood(), { mean: 0 });
     });
   });
 
   test("limits the precision of its shape to that of the other files", async () => {
     await withFault(4, { status: 404 }, async (view, url) => {
       await assertReported(view, url);
-      assert.ok(difference(await view.picture(), await goodAlone()).mean > 1, "the coarse shape is not visible");
+      assert.ok(difference(await view.picture(), await pictureOfGood()).mean > 1, "the coarse shape is not visible");
     });
   });
 
@@ -172,7 +165,7 @@ describe("a damaged file is reported", () => {
     test(name, async () => {
       await withFault(0, behaviour, async (view, url) => {
         await assertReported(view, url);
-        assertSamePicture(`broken ${name}`, await view.picture(), await goodAlone(), { mean: 0 });
+        assertSamePicture(`broken ${name}`, await view.picture(), await pictureOfGood(), { mean: 0 });
       });
     });
   }

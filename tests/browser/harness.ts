@@ -232,7 +232,27 @@ export async function settle(page: Page, seconds = 60): Promise<void> {
     return [];
   }, 1000 * seconds);
   if (goingOn.length > 0)
-    throw new Error(`the page did not come to rest within ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
+    throw new Error(`the page has not finished drawing after ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
+}
+
+/** The picture of a page of `directory` after everything has loaded. */
+export async function finalPicture(directory: string, options: PageOptions = {}): Promise<Picture> {
+  let final: Picture | undefined;
+  await withPage(directory, options, async ({ promise, picture }) => {
+    await promise("complete");
+    final = await picture();
+  });
+  assert.ok(final);
+  return final;
+}
+
+/** Number of draw calls and clears of a frame, counted outside of the runtime. */
+export async function drawsOfFrame({ page }: View): Promise<number> {
+  return page.evaluate(async () => {
+    const before = window.observed.draws;
+    await (document.querySelector("x3d") as unknown as { toBlob: () => Promise<Blob> }).toBlob();
+    return window.observed.draws - before;
+  });
 }
 
 /** Polls a condition; throws after 20 s with its description. */

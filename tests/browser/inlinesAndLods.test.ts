@@ -81,7 +81,7 @@ test("inlined documents and levels of detail are fetched, displayed, picked and 
     const near = colorsOf(await view.picture());
     assert.ok(near.red > 5000 && near.green > 5000 && near.blue === 0, JSON.stringify(near));
     const asked = geometryRequests(view);
-    assert.ok(asked > 0 && asked <= 4, `${asked} requests: those of the red wall, none of the blue one`);
+    assert.ok(asked > 0 && asked <= 4, `${asked} requests: only files of the red wall are expected`);
     assert.equal(
       await page.evaluate(() => document.querySelectorAll("x3d shape").length),
       2,

@@ -63,10 +63,7 @@ describe("a material of X3D 4", () => {
         view,
         '<PhysicalMaterial baseColor="1 0.2 0.2" metallic="1" roughness="1"></PhysicalMaterial>',
       );
-      assert.ok(
-        red > 100 && red > 1.5 * green,
-        `a metal is ${red} ${green}: it shows its colour in the room around it`,
-      );
+      assert.ok(red > 100 && red > 1.5 * green, `a metal is ${red} ${green}: it reflects the room in its colour`);
 
       // Geometry in the document: a box around the sphere.
       await view.page.evaluate(() => {

@@ -117,7 +117,7 @@ describe("vertex data", () => {
           }
           return { seen: all, largest: largestPiece, kept: sum(memory.seen) };
         });
-        assert.ok(seen > 20_000, `${seen} bytes were seen`);
+        assert.ok(seen > 20_000, `${seen} bytes were sent to the GPU`);
         if (isLarge) assert.ok(seen > 2 ** 19 && largest <= 2 ** 18, `${seen} bytes in pieces of up to ${largest}`);
         // The warm-up of previews uploads one vertex and one triangle that are not part of the scene.
         assert.ok(kept <= (isLarge ? 18 : 0), `${kept} bytes are kept`);

@@ -6,7 +6,7 @@ import { describe, test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { drag, focusView, touch } from "./gestures.ts";
-import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { finalPicture, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import type { Picture } from "./png.ts";
 import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
@@ -39,12 +39,7 @@ async function pictureFrom(viewpoint: string): Promise<Picture> {
   const site = variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), "one-view", (page) =>
     page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint),
   );
-  let seen: Picture | undefined;
-  await withScene(site, {}, async (view) => {
-    seen = await view.picture();
-  });
-  assert.ok(seen);
-  return seen;
+  return finalPicture(site, { before: recordViewEvents });
 }
 
 /** The picture without the menus, which are displayed over the scene. */

@@ -4,24 +4,13 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
-import { settle, until, withPage, type View } from "./harness.ts";
-import type { Picture } from "./png.ts";
+import { finalPicture, settle, until, withPage, type View } from "./harness.ts";
 import { sceneOf, shapeIn } from "./scenes.ts";
 import { gate, startServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "1000");
-
-async function undisturbed(): Promise<Picture> {
-  let seen: Picture | undefined;
-  await withPage(site(), {}, async (view) => {
-    await view.promise("complete");
-    seen = await view.picture();
-  });
-  assert.ok(seen);
-  return seen;
-}
 
 function filesOf(ranks: (rank: number) => boolean): (path: string) => boolean {
   const paths = [...ranksOfFiles(pageOf(site()))].filter(([, rank]) => ranks(rank)).map(([url]) => `/${url}`);
@@ -63,7 +52,7 @@ describe("a slow host", () => {
       open();
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("slow host", await view.picture(), await undisturbed(), { mean: 0 });
+      assertSamePicture("slow host", await view.picture(), await finalPicture(site()), { mean: 0 });
     });
   });
 
@@ -78,7 +67,7 @@ describe("a slow host", () => {
     await withPage(site(), { server, expectedErrors: /503/ }, async (view) => {
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("busy host", await view.picture(), await undisturbed(), { mean: 0 });
+      assertSamePicture("busy host", await view.picture(), await finalPicture(site()), { mean: 0 });
     });
   });
 });
@@ -161,7 +150,7 @@ describe("a lost WebGL context", () => {
       await view.page.evaluate(restore);
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("context lost amid loading", await view.picture(), await undisturbed(), { mean: 0 });
+      assertSamePicture("context lost amid loading", await view.picture(), await finalPicture(site()), { mean: 0 });
     });
   });
 });
@@ -240,7 +229,7 @@ describe("a hidden tab", () => {
       });
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("hidden tab", await view.picture(), await undisturbed(), { mean: 0 });
+      assertSamePicture("hidden tab", await view.picture(), await finalPicture(site()), { mean: 0 });
       assert.equal((await view.observed()).live.bitmaps, 0);
     });
   });

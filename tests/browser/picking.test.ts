@@ -270,7 +270,7 @@ describe("a line is hit where it is drawn, and the event has its nearer end", ()
             const [toNearer, toFarther] = [nearer, farther].map((end) => Math.hypot(...minus(click.position!, end)));
             return toNearer! <= toFarther! + 1e-3 && toNearer! + toFarther! < Math.hypot(...minus(p, q)) + 1e-5;
           });
-          assert.ok(on, `${click.position!.join(" ")} lies on no line that ends at ${click.vertexId}`);
+          assert.ok(on, `${click.position!.join(" ")} is not on a line that ends at ${click.vertexId}`);
           assert.deepEqual([click.triangleId, click.normal], [null, null]);
         }
         assert.ok(hits >= 8, `${hits} hits`);

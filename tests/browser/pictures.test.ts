@@ -13,24 +13,13 @@ import {
   difference,
   isWithin,
 } from "./compare.ts";
-import { withPage, type PageOptions } from "./harness.ts";
+import { finalPicture, type PageOptions } from "./harness.ts";
 import { readObj, readPly } from "./meshes.ts";
 import { modelDirectory } from "./paths.ts";
-import { decodePng, encodePng, type Picture } from "./png.ts";
+import { decodePng, encodePng } from "./png.ts";
 import { referenceSettingsOf, patchOfInput, referencePicture } from "./reference.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
-
-/** The picture of the site's page after everything has loaded. */
-async function finalPicture(site: string, options: PageOptions = {}): Promise<Picture> {
-  let seen: Picture | undefined;
-  await withPage(site, options, async ({ promise, picture }) => {
-    await promise("complete");
-    seen = await picture();
-  });
-  assert.ok(seen);
-  return seen;
-}
 
 const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   ...["sig", "bg"].flatMap((container) =>

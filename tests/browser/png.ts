@@ -1,7 +1,6 @@
-// PNG in as few lines as possible, independent of the product's readers: for
-// screenshots, and for the container images that the reference pictures are
-// made of. 8 bits a channel, a palette expanded to RGB, no interlace; nothing is
-// validated, because both sides are ours.
+// A minimal PNG reader and writer, independent of the product's readers, for screenshots and for the container images
+// from which reference pictures are drawn: 8 bits a channel, palettes expanded to RGB, no interlacing. It does not
+// validate, because it reads only files of Chromium and of imgeo.
 
 import { crc32, deflateSync, inflateSync } from "node:zlib";
 
@@ -55,7 +54,7 @@ export function decodePng(bytes: Uint8Array): Picture {
   };
 }
 
-/** What the chunks of a type hold. */
+/** Contents of the chunks of a type. */
 function chunksOf(png: Buffer, type: string): Buffer[] {
   const bodies: Buffer[] = [];
   for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {

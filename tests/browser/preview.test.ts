@@ -51,7 +51,7 @@ function watchPreview(): void {
   const { attachShadow } = prototype;
   prototype.attachShadow = function (init) {
     const root = attachShadow.call(this, init);
-    // Called in the turn of the event loop in which it goes: what has been drawn in it can still be read.
+    // Called in the task in which the preview is removed, so the canvas can still be read.
     new MutationObserver((records) => {
       const isPreview = (node: Node): boolean => node instanceof Element && node.classList.contains("preview");
       if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isPreview)))
@@ -85,7 +85,7 @@ async function baseIsWaitedFor({ page, server }: View, base: string): Promise<vo
     async () =>
       server.requestsOf(new RegExp(base)).length === 1 && (await page.evaluate(() => window.endWait !== undefined)),
   );
-  assert.deepEqual(server.requestsOf(runtimeFile), [], "the runtime is not asked for before the base is here");
+  assert.deepEqual(server.requestsOf(runtimeFile), [], "the runtime is not requested before the base has arrived");
 }
 
 test("a preview displays the base before the runtime, which then displays the same", async () => {

@@ -90,7 +90,7 @@ describe("the order of requests", () => {
     );
   });
 
-  for (const [who, change] of [
+  for (const [cause, change] of [
     [
       "the camera",
       () => {
@@ -104,7 +104,7 @@ describe("the order of requests", () => {
       },
     ],
   ] as const) {
-    test(`changes while files wait: ${who}`, async () => {
+    test(`changes while files wait: ${cause}`, async () => {
       const { closed, open } = gate();
       await withPage(
         twoShapes(atKnot),

@@ -78,10 +78,10 @@ export function patchOfInput({
   lines = new Uint32Array(0),
 }: PlainMesh): PlainPatch {
   const isCloud = triangles.length + lines.length === 0;
-  const shown = normals ?? (triangles.length ? areaWeightedNormals({ positions, triangles }) : undefined);
+  const drawnNormals = normals ?? (triangles.length ? areaWeightedNormals({ positions, triangles }) : undefined);
   return {
     positions,
-    ...(shown && { normals: shown }),
+    ...(drawnNormals && { normals: drawnNormals }),
     ...(colors && { colors: Float32Array.from(colors, (byte) => byte / 255) }),
     triangles,
     lines,

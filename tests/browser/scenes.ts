@@ -15,7 +15,7 @@ export function shapeIn(site: string, folder: string, attributes = ""): string {
   return [...ranksOfFiles(html).keys()].reduce((text, url) => text.replaceAll(url, `${folder}/${url}`), shape);
 }
 
-/** A directory with each site in the folder of its name, and a page that shows `scene`. */
+/** A directory with each site in the folder of its name, and a page with `scene`. */
 export function sceneOf(name: string, sites: Record<string, string>, scene: string, x3dAttributes = ""): string {
   const directory = join(outputDirectory, "sites", name);
   rmSync(directory, { recursive: true, force: true });
@@ -35,7 +35,7 @@ export function sceneOf(name: string, sites: Record<string, string>, scene: stri
   return directory;
 }
 
-/** The ranks of ranksOfFiles for a site whose files lie in `folder`. */
+/** The ranks of ranksOfFiles for a site whose files are in `folder`. */
 export function ranksIn(site: string, folder: string): Map<string, number> {
   return new Map([...ranksOfFiles(pageOf(site))].map(([url, rank]) => [`${folder}/${url}`, rank]));
 }

@@ -50,13 +50,13 @@ test("shapes of one file load with one request, and each follows its element", a
   await withPage(site(), {}, async (view) => {
     await view.promise("complete");
     assert.equal(new Set(view.server.requestsOf(/geometry/).map(({ path }) => path)).size, 1);
-    const told = view.page.evaluate(() =>
+    const progressText = view.page.evaluate(() =>
       document
         .querySelector("imgeo-view")!
         .shadowRoot!.querySelector("[role=progressbar]")!
         .getAttribute("aria-valuetext"),
     );
-    assert.equal(await told, "100 %, all of it is shown");
+    assert.equal(await progressText, "100 %, all of it is shown");
     const all = Array.from({ length: count }, (_, n) => n);
     assert.deepEqual(await shapesAt(view, all), all.map(nameOf));
     await view.page.evaluate(() => {

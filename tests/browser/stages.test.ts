@@ -229,7 +229,7 @@ describe("files are requested", () => {
         assert.equal(
           view.server.requests.filter((request) => request.path === path).length,
           1,
-          `${path} is asked for twice`,
+          `${path} is requested twice`,
         );
       }
     });

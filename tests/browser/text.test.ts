@@ -139,13 +139,13 @@ describe("a text", () => {
         await promise("complete", "#bold");
         // No picture of this state: Playwright takes none while a font is loading.
         // Listeners added after the scene's run after the scene has requested the new glyphs.
-        const come = await page.evaluateHandle(() => ({
+        const fontLoad = await page.evaluateHandle(() => ({
           font: new Promise((resolve) => {
             document.fonts.addEventListener("loadingdone", resolve, { once: true });
           }),
         }));
         sendFont();
-        await come.evaluate(async ({ font }) => {
+        await fontLoad.evaluate(async ({ font }) => {
           await font;
         });
         await promise("complete", "#bold");
@@ -155,7 +155,7 @@ describe("a text", () => {
             changed.map((line) => (line.text === "near by" ? { ...line, font } : line)),
           );
         const withFont = await picture();
-        assertSamePicture("text-font-come", withFont, await writtenIn('SIZE "Late"'), { mean: 0.6 });
+        assertSamePicture("text-font-loaded", withFont, await writtenIn('SIZE "Late"'), { mean: 0.6 });
         assert.ok(difference(withFont, await writtenIn("SIZE sans-serif")).mean > 0.6);
       },
     );

@@ -4,22 +4,11 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Matrix4, Quaternion, Vector3 } from "three";
 import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
-import { withPage } from "./harness.ts";
+import { finalPicture, withPage } from "./harness.ts";
 import { transformedPatches } from "./transformedPatches.ts";
-import type { Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, variantOf, withShapes } from "./sites.ts";
-
-async function pictureOf(site: string): Promise<Picture> {
-  let seen: Picture | undefined;
-  await withPage(site, {}, async (view) => {
-    await view.promise("complete");
-    seen = await view.picture();
-  });
-  assert.ok(seen);
-  return seen;
-}
 
 const turn = (x: number, y: number, z: number, angle: number): Matrix4 =>
   new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(new Vector3(x, y, z).normalize(), angle));
@@ -61,7 +50,7 @@ describe("a Transform applies to positions and normals", () => {
       test(`${name}, ${container}`, async () => {
         const site = siteOfGenerated("trefoil-colors", "--profile", "classic", "--container", container);
         const page = withShapes(pageOf(site), markup);
-        const seen = await pictureOf(variantOf(site, "placed", () => page));
+        const seen = await finalPicture(variantOf(site, "placed", () => page));
         const expected = await referencePicture(page, transformedPatches(decodeSite(site), matrix));
         assertSamePicture(`${name} ${container}`, seen, expected, boundsOfQuantised);
       });
@@ -77,7 +66,7 @@ for (const container of ["sig", "bg"]) {
     );
     assertSamePicture(
       `no cube ${container}`,
-      await pictureOf(site),
+      await finalPicture(site),
       await referencePicture(pageOf(site), decodeSite(site)),
       boundsOfQuantised,
     );
@@ -135,7 +124,7 @@ describe("USE of", () => {
       test(`${name} displays it again without downloading or storing it again, ${container}`, async () => {
         const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
         const site = variantOf(original, "used", (page) => withShapes(page, used));
-        const expected = await pictureOf(variantOf(original, "full", (page) => withShapes(page, full)));
+        const expected = await finalPicture(variantOf(original, "full", (page) => withShapes(page, full)));
         await withPage(site, {}, async (view) => {
           await view.promise("complete");
           assertSamePicture(`USE of ${name}`, await view.picture(), expected, { mean: 0.001 });

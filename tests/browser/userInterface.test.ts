@@ -107,7 +107,7 @@ describe("attributes of <x3d>", () => {
     });
   });
 
-  test("leave wheel and fingers to the page where it says so", async () => {
+  test("leave wheel and touch gestures to the page if set", async () => {
     const site = siteWith("scrolls", {
       attributes: 'disable-zoom touch-action="pan-y"',
       after: '<div id="tall"></div>',

@@ -1,5 +1,4 @@
-// A walk through the hall that the tool generates: in by the door, down its stairs,
-// onto the stage, and nowhere through anything.
+// Tests WALK in the generated hall: in through the door, down the stairs, onto the stage, and not through walls.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -30,7 +29,7 @@ function floorAt(z: number): number {
   return rowRise * Math.min(Math.max(Math.round((z - firstRow) / rowDepth), 0), rows - 1);
 }
 
-/** The hall without what makes drawing it slow: nobody walks through its seats here. */
+/** The hall without shapes that are slow to draw; the test does not walk through its seats. */
 function hall(): string {
   mkdirSync(outputDirectory, { recursive: true });
   const file = join(outputDirectory, "hall.glb");
@@ -45,8 +44,8 @@ function hall(): string {
   );
 }
 
-/** Keeps every place of the eye in the page. */
-function follow(): void {
+/** Records every position of the camera in the page. */
+function recordPositions(): void {
   const eyes: unknown[] = [];
   Object.assign(window, { eyes });
   document.addEventListener("DOMContentLoaded", () => {
@@ -59,8 +58,8 @@ async function eyeIn({ page }: View): Promise<Eye> {
   return page.evaluate(() => ({ ...document.querySelector<ViewElement>("x3d")!.getCameraPosition() }));
 }
 
-/** Holds a key until the eye is there, and for some frames more, in which nothing may lead it further. */
-async function holdAgainst(view: View, key: string, what: string, isThere: (eye: Eye) => boolean): Promise<Eye> {
+/** Holds a key until the camera has reached a position, and for some more frames, in which it must not move on. */
+async function holdUntil(view: View, key: string, what: string, isThere: (eye: Eye) => boolean): Promise<Eye> {
   await view.page.keyboard.down(key);
   await until(what, async () => isThere(await eyeIn(view)));
   await view.page.evaluate(async () => {
@@ -74,13 +73,13 @@ const near = (actual: number, expected: number, tolerance: number, what: string)
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);
 };
 
-test("one walks into the hall, down its stairs and up to the stage, and through nothing", async () => {
-  await withPage(hall(), { before: follow, size: { width: 240, height: 180 } }, async (view) => {
+test("WALK leads into the hall, down its stairs and up to the stage, and not through walls", async () => {
+  await withPage(hall(), { before: recordPositions, size: { width: 240, height: 180 } }, async (view) => {
     await view.promise("complete");
     await focusView(view);
     const door = await eyeIn(view);
     near(door.z, back + 2.5, 1e-6, "the viewpoint before the door");
-    const front = await holdAgainst(view, "ArrowUp", "he is before the stage", ({ y, z }) => z < 1.9 && y < 1.65);
+    const front = await holdUntil(view, "ArrowUp", "the camera is before the stage", ({ y, z }) => z < 1.9 && y < 1.65);
     near(front.z, 1.5 + 0.25, 0.15, "before the stage");
     near(front.y, 1.6, 0.05, "on the floor before the stage");
 
@@ -89,17 +88,17 @@ test("one walks into the hall, down its stairs and up to the stage, and through 
     assert.ok(walked.length > 5, `${walked.length} frames`);
     for (const { y, z } of walked) {
       const floor = Math.min(floorAt(z - 0.3), floorAt(z + 0.3));
-      assert.ok(y > floor + 1.6 - rowRise - 0.05, `at ${z} his eye is ${y} above 0, the floor ${floor}`);
+      assert.ok(y > floor + 1.6 - rowRise - 0.05, `at z = ${z} the camera's y is ${y}, that of the floor ${floor}`);
     }
 
-    // From before its steps onto the stage.
+    // Up the steps of the stage.
     await view.page.evaluate(() => {
       document.querySelector<ViewElement>("x3d")!.bindViewpoint("Before the steps");
     });
-    const wall = await holdAgainst(
+    const wall = await holdUntil(
       view,
       "ArrowUp",
-      "he is on the stage, before the wall",
+      "the camera is on the stage, before the wall",
       ({ y, z }) => z < -3.6 && y > 2.45,
     );
     near(wall.y, 0.9 + 1.6, 0.05, "on the stage");
@@ -112,6 +111,6 @@ test("one walks into the hall, down its stairs and up to the stage, and through 
         for (let count = 0; count < 10; ++count) await new Promise(requestAnimationFrame);
         return frames() - before;
       });
-    await until("nothing is drawn for who stands still", async () => (await framesOfTen()) === 0);
+    await until("no frames are drawn after walking", async () => (await framesOfTen()) === 0);
   });
 });

@@ -162,7 +162,7 @@ for (const container of containers) {
       cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
     }
     for (const [what, mesh, more, bits] of cases) {
-      test(`shows ${what} as X3DOM shows them inline`, async () => {
+      test(`displays ${what} like the inline mesh`, async () => {
         const source = bits === undefined ? sourceOf(mesh) : onLattice(sourceOf(mesh), bits);
         await assertShows(
           bits === undefined ? mesh : `${mesh}-${bits}`,
@@ -173,7 +173,7 @@ for (const container of containers) {
       });
     }
 
-    test("shows a texture on many patches as X3DOM shows it inline", async () => {
+    test("displays a texture on many patches like the inline mesh", async () => {
       const mesh = withTexCoords(trefoil());
       await assertShows(
         "texture",
@@ -183,13 +183,13 @@ for (const container of containers) {
       );
     });
 
-    test("shows positions of 12 bits as X3DOM shows them inline", async () => {
+    test("displays positions of 12 bits like the inline mesh", async () => {
       const site = siteOfGenerated("sphere", ...options(container), "--position-bits", "12");
       await assertShows("sphere-12", site, container, onLattice(sourceOf("sphere"), 12));
     });
 
     if (container === "bg") {
-      test("shows a texture that repeats as X3DOM shows it inline", async () => {
+      test("displays a texture that repeats like the inline mesh", async () => {
         const mesh = withTexCoords(trefoil(), 3, -1);
         const records = ["--coord-type", "float32", "--layout", "interleaved"];
         await assertShows(
@@ -200,7 +200,7 @@ for (const container of containers) {
         );
       });
 
-      test("shows positions of 8 bits as uint8 and of 11 as int16 as X3DOM shows them inline", async () => {
+      test("displays positions of 8 bits as uint8 and of 11 as int16 like the inline mesh", async () => {
         for (const [type, bits] of [
           ["uint8", 8],
           ["int16", 11],
@@ -217,7 +217,7 @@ for (const container of containers) {
         }
       });
 
-      test("shows coloured points of interleaved bytes as X3DOM shows them inline", async () => {
+      test("displays coloured points of interleaved bytes like the inline mesh", async () => {
         const site = siteOfGenerated(
           "points",
           ...options(container),
@@ -230,21 +230,21 @@ for (const container of containers) {
       });
     }
 
-    test("shows coloured points as X3DOM shows them inline", async () => {
+    test("displays coloured points like the inline mesh", async () => {
       // A point is one pixel: half a step of the lattice moves some of them to the next pixel.
       const site = siteOfGenerated("points", ...options(container));
       await assertShows("points-16", site, container, onLattice(sourceOf("points"), 16, statedCube(site)));
     });
 
     for (const primitives of ["triangles", "strips"]) {
-      test(`shows coloured lines as ${primitives === "strips" ? "strips" : "lines"} as X3DOM shows them inline`, async () => {
+      test(`displays coloured lines as ${primitives === "strips" ? "strips" : "lines"} like the inline mesh`, async () => {
         const site = siteOfGenerated("coil", ...options(container), "--primitives", primitives);
         await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16, statedCube(site)));
       });
     }
 
     if (container === "sig") {
-      test("shows normals of a palette as its RGB values", async () => {
+      test("displays normals of a palette as its RGB values", async () => {
         const site = siteOfGenerated("trefoil", ...options(container), "--normals", "palette");
         const page = pageOf(site);
         const [, normals = ""] = /containerField="normal" url='"([^"]+)"'/.exec(page) ?? [];
@@ -258,7 +258,7 @@ for (const container of containers) {
     }
 
     test(
-      "shows the Stanford bunny as X3DOM shows it inline",
+      "displays the Stanford bunny like the inline mesh",
       { skip: !existsSync(join(modelDirectory, "stanford-bunny.obj")) },
       async () => {
         const file = join(modelDirectory, "stanford-bunny.obj");
@@ -290,7 +290,7 @@ for (const container of containers) {
       }
     });
 
-    test("shows scene.x3d in another page by Inline", async () => {
+    test("displays scene.x3d in another page by Inline", async () => {
       const site = siteOfGenerated("trefoil", ...options(container), ...patches);
       const page = pageOf(site);
       const before = page.slice(0, page.search(/<(Group|Shape)\b/)); // viewpoint, lights and ground
