@@ -62,6 +62,18 @@ std::size_t addColors(GltfArrays& arrays, const Mesh& mesh) {
   return accessor;
 }
 
+std::size_t addAttribute(GltfArrays& arrays, const Mesh& mesh, VertexRole role) {
+  switch (role) {
+  case VertexRole::normal:
+    return addNormals(arrays, mesh);
+  case VertexRole::texCoord:
+    return addTexCoords(arrays, mesh);
+  case VertexRole::color:
+    break;
+  }
+  return addColors(arrays, mesh);
+}
+
 std::size_t addNamedAttribute(GltfArrays& arrays, const NamedAttribute& attribute) {
   constexpr const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
   arrays.begin();
@@ -88,12 +100,10 @@ std::size_t addIndices(GltfArrays& arrays, const Mesh& mesh) {
 
 Json gltfPrimitive(GltfArrays& arrays, const Mesh& mesh) {
   Json attributes{{"POSITION", addPositions(arrays, mesh)}};
-  if (!mesh.normals.empty())
-    attributes["NORMAL"] = addNormals(arrays, mesh);
-  if (!mesh.texCoords.empty())
-    attributes["TEXCOORD_0"] = addTexCoords(arrays, mesh);
-  if (!mesh.colors.empty())
-    attributes["COLOR_0"] = addColors(arrays, mesh);
+  visitAttributes(mesh, [&](const auto& row, const auto& values) {
+    if (!values.empty())
+      attributes[row.gltfName] = addAttribute(arrays, mesh, row.role);
+  });
   for (const NamedAttribute& attribute : mesh.namedAttributes)
     attributes["_" + attribute.name] = addNamedAttribute(arrays, attribute);
   constexpr int modes[] = {0, 1, 4}; // POINTS, LINES, TRIANGLES

@@ -208,7 +208,10 @@ public:
         sources.push_back(source);
     }
     VertexAttributes attributes = gather(patch, sources);
-    attributes.normals.clear();
+    visitAttributes(attributes, [](const auto& row, auto& values) {
+      if (!isInBase(row.role))
+        values.clear();
+    });
     append(base_, wedgeCountBefore, attributes, sources.size());
     for (std::size_t corner = 0; corner < segment.wedges.corners.size(); corner += 3) {
       const auto wedgeOf = [&](std::size_t i) { return wedges[segment.wedges.corners[corner + i]]; };

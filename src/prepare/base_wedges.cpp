@@ -148,7 +148,10 @@ SimplifiedWedges plainWedges(const SimplifiedTriangles& simplified) {
 
 SimplifiedWedges wedgesOf(const SimplifiedTriangles& simplified, const Patch& patch,
                           std::span<const std::uint32_t> triangles) {
-  if (patch.texCoords.empty() && patch.colors.empty() && patch.namedAttributes.empty())
+  const bool hasAttributes = !patch.namedAttributes.empty() || std::ranges::any_of(vertexRoles, [&](VertexRole role) {
+    return isInBase(role) && hasAttribute(patch, role);
+  });
+  if (!hasAttributes)
     return plainWedges(simplified);
   WedgeSets sets(patch.wedgeCount());
   joinEqualTexCoords(sets, patch);

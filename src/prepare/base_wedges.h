@@ -10,6 +10,11 @@
 
 namespace imgeo {
 
+/// Whether base meshes have an attribute. They lack normals, which readers compute from the triangles.
+constexpr bool isInBase(VertexRole role) {
+  return role != VertexRole::normal;
+}
+
 struct SimplifiedWedges {
   std::vector<std::uint32_t> positions; ///< wedge -> position of the simplified triangles
   std::vector<std::uint32_t> sources;   ///< wedge -> the patch's wedge whose attributes it has

@@ -27,8 +27,14 @@ std::uint32_t keyOf(Rgba8 c) {
 bool same(const Vec3f& a, const Vec3f& b) {
   return keyOf(a.x) == keyOf(b.x) && keyOf(a.y) == keyOf(b.y) && keyOf(a.z) == keyOf(b.z);
 }
+template <typename Value> bool same(const Value& a, const Value& b) {
+  return keyOf(a) == keyOf(b);
+}
 std::uint64_t hashOf(std::uint64_t seed, const Vec3f& v) {
   return mixHash(mixHash(seed, keyOf(Vec2f{v.x, v.y})), keyOf(v.z));
+}
+template <typename Value> std::uint64_t hashOf(std::uint64_t seed, const Value& value) {
+  return mixHash(seed, keyOf(value));
 }
 
 /// New indices for positions or wedges, in the order of first use.
@@ -110,31 +116,29 @@ Renumbering weldPlainWedges(const Mesh& mesh) {
 
 /// `mesh.wedgePositions` must refer to welded positions, of which there are `positionCount`, for all wedges in use.
 Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
-  const bool arePlain =
-      mesh.normals.empty() && mesh.texCoords.empty() && mesh.colors.empty() && mesh.namedAttributes.empty();
-  if (arePlain || mesh.wedgeCount() == positionCount) // each wedge has a position of its own
+  if (!hasAnyAttribute(mesh) || mesh.wedgeCount() == positionCount) // each wedge has a position of its own
     return weldPlainWedges(mesh);
   Renumbering numbers(mesh.wedgeCount());
   IndexHashTable table(mesh.wedgeCount());
   const auto hash = [&](std::uint32_t w) {
     std::uint64_t result = mixHash(0, mesh.wedgePositions[w]);
-    if (!mesh.normals.empty())
-      result = hashOf(result, mesh.normals[w]);
-    if (!mesh.texCoords.empty())
-      result = mixHash(result, keyOf(mesh.texCoords[w]));
-    if (!mesh.colors.empty())
-      result = mixHash(result, keyOf(mesh.colors[w]));
+    visitAttributes(mesh, [&](const auto&, const auto& values) {
+      if (!values.empty())
+        result = hashOf(result, values[w]);
+    });
     for (const NamedAttribute& attribute : mesh.namedAttributes)
       for (const float value : valuesOf(attribute, w))
         result = mixHash(result, keyOf(value));
     return result;
   };
   const auto equal = [&](std::uint32_t a, std::uint32_t b) {
-    return mesh.wedgePositions[a] == mesh.wedgePositions[b] &&
-           (mesh.normals.empty() || same(mesh.normals[a], mesh.normals[b])) &&
-           (mesh.texCoords.empty() || keyOf(mesh.texCoords[a]) == keyOf(mesh.texCoords[b])) &&
-           (mesh.colors.empty() || keyOf(mesh.colors[a]) == keyOf(mesh.colors[b])) &&
-           std::ranges::all_of(mesh.namedAttributes, [&](const NamedAttribute& attribute) {
+    if (mesh.wedgePositions[a] != mesh.wedgePositions[b])
+      return false;
+    bool isSame = true;
+    visitAttributes(mesh, [&](const auto&, const auto& values) {
+      isSame = isSame && (values.empty() || same(values[a], values[b]));
+    });
+    return isSame && std::ranges::all_of(mesh.namedAttributes, [&](const NamedAttribute& attribute) {
              return std::ranges::equal(
                  valuesOf(attribute, a), valuesOf(attribute, b), {}, [](float value) { return keyOf(value); },
                  [](float value) { return keyOf(value); });

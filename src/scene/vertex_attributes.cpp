@@ -28,21 +28,38 @@ void append(std::vector<T>& values, std::size_t count, const std::vector<T>& mor
 
 } // namespace
 
+const char* nameOf(VertexRole role) {
+  const char* name = "";
+  visitAttributeRows([&](const auto& row) { name = row.role == role ? row.name : name; });
+  return name;
+}
+
+bool hasAttribute(const VertexAttributes& attributes, VertexRole role) {
+  bool isPresent = false;
+  visitAttributes(attributes,
+                  [&](const auto& row, const auto& values) { isPresent |= row.role == role && !values.empty(); });
+  return isPresent;
+}
+
+bool hasAnyAttribute(const VertexAttributes& attributes) {
+  return !attributes.namedAttributes.empty() ||
+         std::ranges::any_of(vertexRoles, [&](VertexRole role) { return hasAttribute(attributes, role); });
+}
+
 VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> from) {
-  VertexAttributes result{gather(attributes.normals, from),
-                          gather(attributes.texCoords, from),
-                          gather(attributes.colors, from),
-                          attributes.colorComponents,
-                          {}};
+  VertexAttributes result;
+  visitAttributes(attributes, result,
+                  [&](const auto&, const auto& values, auto& gathered) { gathered = gather(values, from); });
+  result.colorComponents = attributes.colorComponents;
   for (const NamedAttribute& attribute : attributes.namedAttributes)
     result.namedAttributes.push_back(gather(attribute, from));
   return result;
 }
 
 void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more, std::size_t moreCount) {
-  append(attributes.normals, count, more.normals, moreCount, {0, 0, 1});
-  append(attributes.texCoords, count, more.texCoords, moreCount, {0, 0});
-  append(attributes.colors, count, more.colors, moreCount, {255, 255, 255, 255});
+  visitAttributes(attributes, more, [&](const auto& row, auto& values, const auto& moreValues) {
+    append(values, count, moreValues, moreCount, row.missing);
+  });
   attributes.colorComponents = std::max(attributes.colorComponents, more.colorComponents);
   std::vector<NamedAttribute>& named = attributes.namedAttributes;
   for (const NamedAttribute& attribute : more.namedAttributes)
@@ -57,10 +74,12 @@ void append(VertexAttributes& attributes, std::size_t count, const VertexAttribu
 }
 
 bool isConsistent(const VertexAttributes& attributes, std::size_t count) {
-  const auto emptyOrAll = [&](const auto& values) { return values.empty() || values.size() == count; };
+  bool areEmptyOrAll = true;
+  visitAttributes(attributes, [&](const auto&, const auto& values) {
+    areEmptyOrAll = areEmptyOrAll && (values.empty() || values.size() == count);
+  });
   std::set<std::string> names;
-  return emptyOrAll(attributes.normals) && emptyOrAll(attributes.texCoords) && emptyOrAll(attributes.colors) &&
-         std::ranges::all_of(attributes.namedAttributes, [&](const NamedAttribute& attribute) {
+  return areEmptyOrAll && std::ranges::all_of(attributes.namedAttributes, [&](const NamedAttribute& attribute) {
            return attribute.components >= 1 && attribute.components <= 4 &&
                   attribute.values.size() == count * attribute.components && names.insert(attribute.name).second;
          });

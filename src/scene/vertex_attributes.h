@@ -3,9 +3,12 @@
 
 #include "base/vec.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -20,6 +23,21 @@ struct NamedAttribute {
   friend bool operator==(const NamedAttribute&, const NamedAttribute&) = default;
 };
 
+/// The attributes that shaders and file formats know by their meaning, in the order in which files and documents list
+/// them.
+enum class VertexRole : std::uint8_t { normal, texCoord, color };
+
+inline constexpr std::array vertexRoles{VertexRole::normal, VertexRole::texCoord, VertexRole::color};
+
+/// One value for each of these attributes.
+template <typename T> struct ByVertexRole {
+  std::array<T, vertexRoles.size()> values{};
+
+  constexpr T& operator[](VertexRole role) { return values[static_cast<std::size_t>(role)]; }
+  constexpr const T& operator[](VertexRole role) const { return values[static_cast<std::size_t>(role)]; }
+  friend bool operator==(const ByVertexRole&, const ByVertexRole&) = default;
+};
+
 /// All attributes, with one value for each wedge; an absent attribute is empty.
 struct VertexAttributes {
   std::vector<Vec3f> normals; ///< unit length
@@ -28,6 +46,56 @@ struct VertexAttributes {
   std::uint32_t colorComponents = 3;           ///< 3: every alpha is 255; 4: with alpha
   std::vector<NamedAttribute> namedAttributes; ///< with unique names
 };
+
+/// What code that treats these attributes alike needs to know of one of them.
+template <typename Value> struct VertexAttributeRow {
+  VertexRole role;
+  const char* name;     ///< role of its files, and field of X3D nodes
+  const char* plural;   ///< in messages
+  const char* gltfName; ///< name of the attribute of a glTF primitive
+  std::vector<Value> VertexAttributes::*values;
+  Value missing; ///< value of vertices that lack the attribute beside vertices that have it
+};
+
+/// One row for each VertexRole, in its order.
+inline constexpr std::tuple vertexAttributeTable{
+    VertexAttributeRow<Vec3f>{VertexRole::normal, "normal", "normals", "NORMAL", &VertexAttributes::normals, {0, 0, 1}},
+    VertexAttributeRow<Vec2f>{
+        VertexRole::texCoord, "texCoord", "texture coordinates", "TEXCOORD_0", &VertexAttributes::texCoords, {0, 0}},
+    VertexAttributeRow<Rgba8>{
+        VertexRole::color, "color", "colours", "COLOR_0", &VertexAttributes::colors, {255, 255, 255, 255}},
+};
+static_assert(std::tuple_size_v<decltype(vertexAttributeTable)> == vertexRoles.size());
+
+/// The row of a role that is known at compile time.
+template <VertexRole role>
+inline constexpr const auto& attributeRow = std::get<static_cast<std::size_t>(role)>(vertexAttributeTable);
+
+/// Calls visit(row) for each row of the table.
+template <typename Visit> constexpr void visitAttributeRows(Visit visit) {
+  std::apply([&](const auto&... rows) { (visit(rows), ...); }, vertexAttributeTable);
+}
+
+/// Calls visit(row, values) for each row of the table, also where `values` is empty. `Attributes` is VertexAttributes
+/// or derived from it, const or not.
+template <typename Attributes, typename Visit> constexpr void visitAttributes(Attributes& attributes, Visit visit) {
+  visitAttributeRows([&](const auto& row) { visit(row, attributes.*row.values); });
+}
+
+/// Calls visit(row, valuesOfFirst, valuesOfSecond) likewise.
+template <typename First, typename Second, typename Visit>
+constexpr void visitAttributes(First& first, Second& second, Visit visit) {
+  visitAttributeRows([&](const auto& row) { visit(row, first.*row.values, second.*row.values); });
+}
+
+/// "normal", "texCoord", "color".
+const char* nameOf(VertexRole role);
+
+/// Whether the attribute is present.
+bool hasAttribute(const VertexAttributes& attributes, VertexRole role);
+
+/// Whether any attribute is present, further ones included.
+bool hasAnyAttribute(const VertexAttributes& attributes);
 
 /// The values at the given indices; empty for an absent attribute.
 template <typename T> std::vector<T> gather(const std::vector<T>& values, std::span<const std::uint32_t> indices) {
@@ -42,7 +110,7 @@ template <typename T> std::vector<T> gather(const std::vector<T>& values, std::s
 VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> indices);
 
 /// Appends the attributes of `moreCount` vertices to those of `count` vertices. Where one side lacks an attribute that
-/// the other has, its values are the normal (0, 0, 1), white or zeros.
+/// the other has, its values are those of VertexAttributeRow::missing, and zeros for further attributes.
 void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more, std::size_t moreCount);
 
 /// Whether every attribute that is present has `count` values, and names are unique.

@@ -34,6 +34,25 @@ TEST(VertexAttributes, AreFilledWithDefaultsWhereOneSideLacksThem) {
   EXPECT_TRUE(isConsistent(plain, 4));
 }
 
+TEST(VertexAttributes, AreVisitedInTheOrderOfTheirRoles) {
+  VertexAttributes attributes, others;
+  attributes.texCoords = {{1, 2}};
+  others.colors = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+  std::vector<std::string> visited;
+  visitAttributes(attributes, others, [&](const auto& row, const auto& values, const auto& otherValues) {
+    EXPECT_EQ(row.role, vertexRoles[visited.size()]);
+    EXPECT_STREQ(row.name, nameOf(row.role));
+    EXPECT_EQ(hasAttribute(attributes, row.role), !values.empty());
+    visited.push_back(row.name + std::to_string(values.size()) + std::to_string(otherValues.size()));
+  });
+  EXPECT_EQ(visited, (std::vector<std::string>{"normal00", "texCoord10", "color02"}));
+  EXPECT_FALSE(hasAnyAttribute({}));
+  EXPECT_TRUE(hasAnyAttribute(attributes));
+  others = {};
+  others.namedAttributes = {{"heat", 1, {1}}};
+  EXPECT_TRUE(hasAnyAttribute(others));
+}
+
 TEST(VertexAttributes, AreInconsistentWithAnotherCountOrARepeatedName) {
   VertexAttributes attributes;
   attributes.namedAttributes = {{"heat", 1, {1, 2}}};

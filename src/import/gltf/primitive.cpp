@@ -159,8 +159,11 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
   const auto vec3 = [](const PrimitiveData::Attribute& from, std::uint32_t vertex) {
     return Vec3f(Vec3d{from.number(vertex, 0), from.number(vertex, 1), from.number(vertex, 2)});
   };
-  const PrimitiveData::Attribute *positions = attribute("POSITION", 3, 3), *normals = attribute("NORMAL", 3, 3),
-                                 *texCoords = attribute("TEXCOORD_0", 2, 2), *colors = attribute("COLOR_0", 3, 4);
+  const char* texCoordName = attributeRow<VertexRole::texCoord>.gltfName;
+  const PrimitiveData::Attribute *positions = attribute("POSITION", 3, 3),
+                                 *normals = attribute(attributeRow<VertexRole::normal>.gltfName, 3, 3),
+                                 *texCoords = attribute(texCoordName, 2, 2),
+                                 *colors = attribute(attributeRow<VertexRole::color>.gltfName, 3, 4);
   if (!positions)
     primitive["attributes"].fail(ErrorKind::malformed, "has no POSITION");
   for (const std::uint32_t vertex : vertices) {
@@ -177,7 +180,7 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
       const Vec2f texCoord{static_cast<float>(texCoords->number(vertex, 0)),
                            static_cast<float>(1 - texCoords->number(vertex, 1))}; // glTF measures v down
       if (!std::isfinite(texCoord.x) || !std::isfinite(texCoord.y))
-        primitive["attributes"]["TEXCOORD_0"].fail(ErrorKind::malformed,
+        primitive["attributes"][texCoordName].fail(ErrorKind::malformed,
                                                    fmt::format("of vertex {} is not a number", vertex));
       mesh.texCoords.push_back(texCoord);
     }
@@ -197,7 +200,9 @@ void PrimitiveReader::addNamedAttributes(const Value& primitive, const Primitive
                                          const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
   for (const PrimitiveData::Attribute& attribute : data.attributes) {
     const std::string& name = attribute.name;
-    if (name == "POSITION" || name == "NORMAL" || name == "TEXCOORD_0" || name == "COLOR_0")
+    bool isRead = name == "POSITION";
+    visitAttributeRows([&](const auto& row) { isRead = isRead || name == row.gltfName; });
+    if (isRead)
       continue;
     const bool isOwn = name.starts_with("_") && attribute.components <= 4;
     const std::string ownName = isOwn ? name.substr(1) : "";

@@ -14,7 +14,8 @@ void members(auto& archive, auto& v, const NamedAttribute*) {
 }
 void members(auto& archive, auto& v, const Mesh*) {
   archive(v.name, v.topology, v.positions, v.wedgePositions, v.corners);
-  archive(v.normals, v.texCoords, v.colors, v.colorComponents, v.namedAttributes);
+  visitAttributes(v, [&](const auto&, auto& values) { archive(values); });
+  archive(v.colorComponents, v.namedAttributes);
 }
 void members(auto& archive, auto& v, const Viewpoint*) {
   archive(v.description, v.position, v.orientation, v.fieldOfView, v.centerOfRotation);

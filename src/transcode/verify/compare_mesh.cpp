@@ -104,15 +104,13 @@ double positionTolerance(const Mesh& mesh, const Lattice& lattice) {
 }
 
 void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& patches, Findings& findings) {
-  const auto check = [&](const char* what, bool inInput, auto member) {
+  visitAttributes(mesh, [&](const auto& row, const auto& values) {
+    const bool inInput = !values.empty();
     for (const IndexedPatch& patch : patches)
-      if ((patch.*member).empty() == inInput && patch.vertexCount() > 0)
-        return findings.add("The {} {} {}.", inInput ? "input has" : "site has", what,
+      if ((patch.*row.values).empty() == inInput && patch.vertexCount() > 0)
+        return findings.add("The {} {} {}.", inInput ? "input has" : "site has", row.plural,
                             inInput ? "that the site lacks" : "that the input lacks");
-  };
-  check("normals", !mesh.normals.empty(), &IndexedPatch::normals);
-  check("texture coordinates", !mesh.texCoords.empty(), &IndexedPatch::texCoords);
-  check("colours", !mesh.colors.empty(), &IndexedPatch::colors);
+  });
   const auto namesOf = [](const VertexAttributes& attributes) {
     std::set<std::string> names;
     for (const NamedAttribute& attribute : attributes.namedAttributes)
