@@ -61,11 +61,10 @@ export interface ImageVertexUniforms extends VertexUniforms, Record<`${VertexRol
   colorHasAlpha: IUniform<boolean>;
 }
 
-/**
- * Samplers in vertex shaders (images, values and instance records), hence texture units that a vertex shader must
- * have.
- */
-export const minVertexTextureUnits = 12;
+/** Samplers in vertex shaders beside those of attributes: the index, coordinates (4), values (3), instance records. */
+const otherSamplerCount = 9;
+/** Samplers in vertex shaders, hence texture units that a vertex shader must have. */
+export const minVertexTextureUnits = otherSamplerCount + vertexRoles.length;
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
