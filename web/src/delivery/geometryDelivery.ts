@@ -266,13 +266,13 @@ function trackedFilesOf(geometry: GeometryDescription, patch: PatchDescription, 
   return deliveryOf(geometry)
     .patchFilesOf(geometry, patch, maxTextureSize)
     .sort((a, b) => usageRank(a) - usageRank(b))
-    .map((part): TrackedFile => ({
-      file: part,
+    .map((file): TrackedFile => ({
+      file,
       handle: undefined,
       transfer: undefined,
       aborter: new AbortController(),
       state: "absent",
-      storedBytes: part.storedBytes,
+      storedBytes: file.storedBytes,
     }));
 }
 

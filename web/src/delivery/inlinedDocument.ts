@@ -4,17 +4,20 @@
 import { DecodeError } from "../decode/decodeError.ts";
 import { absoluteUrls } from "../document/absoluteUrls.ts";
 
-/** Rejects urls of other schemes. */
+/** Throws DecodeError for a URL of another scheme than http and https. */
 export function requireHttp(url: string): void {
   if (!/^https?:/i.test(url)) throw new DecodeError("unsupported", "an Inline is read over http alone");
 }
 
-/** Rejects document types that define entities, and whatever is no X3D in XML. Urls become absolute. */
+/**
+ * Parses a document to its X3D element; relative URLs become absolute. Throws DecodeError for anything but X3D in XML,
+ * and for document types that define entities.
+ */
 export function parseInlined(bytes: Uint8Array, url: string): Element {
   const text = new TextDecoder().decode(bytes);
   if (/^#(VRML|X3D) V/.test(text))
     throw new DecodeError("unsupported", "is in VRML encoding; pages read X3D in XML, which imgeo convert makes of it");
-  // Entities are what XML bombs are made of.
+  // XML bombs consist of entities.
   if (/<!DOCTYPE[^>[]*\[/.test(text)) throw new DecodeError("unsupported", "its document type defines entities");
   const parsed = new DOMParser().parseFromString(text, "application/xml");
   const problem = parsed.querySelector("parsererror")?.textContent.trim().split("\n")[0];

@@ -1,6 +1,5 @@
 // Loads the documents that Inlines name, through the same queue as all files but with a higher priority. They are kept
-// outside the
-// page's DOM, and freed with the last Inline that names them.
+// outside of the page's DOM, and freed with the last Inline that names them.
 
 import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";

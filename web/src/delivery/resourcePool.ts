@@ -145,7 +145,7 @@ export class ResourcePool {
       },
       setPriority(priority) {
         state.priority = priority;
-        resource.reconsider();
+        resource.invalidatePriority();
         scheduler.reorder();
       },
       fail(error) {
@@ -222,9 +222,10 @@ class Resource {
   }
 
   /**
-   * Call when a handle's priority has changed. It is recomputed when the scheduler reads it: there may be thousands.
+   * Call when a handle's priority has changed. The maximum is computed when the scheduler reads it: there may be
+   * thousands of handles.
    */
-  reconsider(): void {
+  invalidatePriority(): void {
     this.#priority = undefined;
   }
 
@@ -232,12 +233,12 @@ class Resource {
     this.#handles.add(handle);
     this.#reading.add(handle);
     this.#expect(handle.expectedBytes);
-    this.reconsider();
+    this.invalidatePriority();
   }
 
   /** False where the handle was released before. */
   remove(handle: HandleState): boolean {
-    this.reconsider();
+    this.invalidatePriority();
     this.#reading.delete(handle);
     if (!this.#handles.delete(handle)) return false;
     this.#expect(-handle.expectedBytes);

@@ -24,7 +24,7 @@ export class RequestError extends Error {
   }
 }
 
-/** Far more than any file of a site has. */
+/** Maximum size of a file, far above that of any file of a site. */
 export const maxDownloadBytes = 2 ** 30;
 
 export interface DownloadOptions {

@@ -1,4 +1,4 @@
-// How many downloads run at a time: few, so that the most important ones get the whole bandwidth and the order can
+// The number of parallel downloads: few, so that the most important ones get the whole bandwidth and the order can
 // still change (paper section 5.4), but enough that the connection is never idle while a response is on its way.
 
 /**

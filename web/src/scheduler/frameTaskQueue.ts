@@ -1,7 +1,10 @@
 // Runs long work in small steps before frames, within limits of bytes and milliseconds, so that no frame is late while
 // a scene loads.
 
-/** Limit of what the element, or a scene in a three.js app, uploads to the GPU before a frame: 240 MiB a second at 60 Hz. */
+/**
+ * Limit of what the element, or a scene in a three.js app, uploads to the GPU before a frame: 240 MiB a second at 60
+ * Hz.
+ */
 export const uploadBytesPerFrame = 4 * 2 ** 20;
 
 export interface FrameTaskQueueOptions {

@@ -1,4 +1,4 @@
-// Which failed requests are tried again, and after how long.
+// Decides which failed requests are tried again, and after how long.
 
 /** A failed request. */
 export interface Failure {

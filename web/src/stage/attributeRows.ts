@@ -1,5 +1,6 @@
-// The table of vertex attributes whose meaning formats and shaders know: one row for each. Documents, delivery, decoders
-// and the renderer loop over the rows. Positions, indices and further attributes (FloatVertexAttribute) are not in it.
+// The table of vertex attributes whose meaning formats and shaders know: one row for each. Documents, delivery,
+// decoders and the renderer loop over the rows. Positions, indices and further attributes (FloatVertexAttribute) are
+// not in it.
 
 export interface AttributeRow {
   /** Numbers of an element, where the document states no other number. */
