@@ -1,6 +1,6 @@
 // Decides which data stay on the GPU: the most important that fit, by the priorities that also order requests. Where
-// memory is short, the finest data of shapes that are small, far or out of view are evicted first, and the coarse data of
-// shapes that are large in front of the camera last.
+// memory is short, the finest data of shapes that are small, far or out of view are evicted first, and the coarse data
+// of shapes that are large in front of the camera last.
 
 /** A request for GPU memory. */
 export interface BudgetRequest {

@@ -23,10 +23,10 @@ export type ChunkType = (typeof chunkTypes)[number];
 export type ChunkWeights = Readonly<Record<ChunkType, number>>;
 
 /**
- * Coarse shapes first, then their refinements. Most weights differ by a factor of 4 from the next, as much as an author's
- * `high` gives, or a size on the screen that is 16 times as large. So all patches of one object, and all objects of
- * about the same size, are coarse before one is fine; but an object that fills the screen does not wait for one of a few
- * pixels.
+ * Coarse shapes first, then their refinements. Most weights differ by a factor of 4 from the next, as much as an
+ * author's `high` gives, or a size on the screen that is 16 times as large. So all patches of one object, and all
+ * objects of about the same size, are coarse before one is fine; but an object that fills the screen does not wait for
+ * one of a few pixels.
  */
 export const defaultChunkWeights: ChunkWeights = {
   base: 4096,
