@@ -35,7 +35,7 @@ const notes: readonly Note[] = [
     name: "Claw",
     position: [-0.052, 0.0676, 0.0355],
     normal: [0.465, 0.307, 0.83],
-    text: "The whole shape was here with a small part of the bytes; what you look at became sharp first.",
+    text: "A small part of the bytes displayed the whole shape; details came first where you look.",
   },
 ];
 

@@ -30,7 +30,7 @@ export interface GeometryInstance {
   readonly isTextured: boolean;
 }
 
-/** The sphere of a patch without known bounds: it counts as in view, and as large. */
+/** The sphere of a patch without known bounds: the patch counts as large and in view. */
 const anywhere: Sphere = { center: [0, 0, 0], radius: 1e12 };
 
 export function geometryInstance(
@@ -42,7 +42,7 @@ export function geometryInstance(
   const scale = scaleOf(sceneFromShape);
   return {
     geometry,
-    authorPriority: authorPriority,
+    authorPriority,
     isTextured,
     spheres: geometry.patches.map((patch) =>
       isUnbounded(geometry, patch)
@@ -55,14 +55,14 @@ export function geometryInstance(
   };
 }
 
-/** What all shapes of a scene have in common. */
+/** The camera and the weights of file contents, which all shapes of a scene share. */
 export interface ViewState {
   /** Undefined before the first frame: all files are then needed. */
   readonly camera: Camera | undefined;
   readonly weights: ChunkWeights;
 }
 
-/** The priorities of a geometry's files for its visible instances; undefined for all files where there are none. */
+/** The priorities of a geometry's files for its visible instances; undefined for all files if there are none. */
 export function filePriorityFor(instances: Iterable<GeometryInstance>, view: ViewState): FilePriority {
   // Computed lazily: most calls concern geometries whose files are all ready.
   let priorities: readonly FilePriority[] | undefined;
@@ -86,9 +86,14 @@ export function texturePriorityFor(
   type: TextureChunk,
   { camera, weights }: ViewState,
 ): number | undefined {
-  const priorities = Array.from(instances).flatMap(({ spheres, authorPriority: content }) =>
+  const priorities = Array.from(instances).flatMap(({ spheres, authorPriority }) =>
     spheres.map((sphere) =>
-      priorityOf(content, { type, plane: 0 }, camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics, weights),
+      priorityOf(
+        authorPriority,
+        { type, plane: 0 },
+        camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics,
+        weights,
+      ),
     ),
   );
   return priorities.length > 0 ? Math.max(...priorities) : undefined;

@@ -10,30 +10,30 @@ import type { Transfer } from "./progress.ts";
 import type { ResourcePool } from "./resourcePool.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
 
-/** A member's view of a shared delivery. */
+/** A shared delivery as one of its members has joined it. */
 export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel">;
 
-interface Shared {
+interface SharedDelivery {
   readonly delivery: Delivery;
   /** Number of joined members. */
   memberCount: number;
-  /** The members that have been given what arrived before they joined. */
+  /** Listeners of the members that have received the stages and errors from before they joined. */
   readonly listeners: Set<DeliveryListener>;
-  /** What has been reported so far, for members that join later. */
+  /** The present stages and all errors, for members that join later. */
   readonly stages: Map<number, Stage>;
   readonly errors: DeliveryError[];
 }
 
 export class GeometryDeliveries {
   readonly #pool: ResourcePool;
-  readonly #shared = new Map<GeometryDescription, Shared>();
+  readonly #shared = new Map<GeometryDescription, SharedDelivery>();
 
   constructor(pool: ResourcePool) {
     this.#pool = pool;
   }
 
   /**
-   * Reports the geometry's stages as they arrive; those that are there already follow in the next microtask. Never
+   * Reports the geometry's stages as they are built, and those that have been built in the next microtask. Never
    * calls the listener before it returns. The delivery ends when its last member cancels.
    */
   join(geometry: GeometryDescription, listener: DeliveryListener): JoinedDelivery {
@@ -84,21 +84,21 @@ export class GeometryDeliveries {
     return Array.from(all);
   }
 
-  /** What all geometries need and have of the GPU. */
+  /** The GPU memory that the geometries require or hold. */
   budgetRequests(priorityOf: (geometry: GeometryDescription) => FilePriority): readonly (readonly BudgetRequest[])[] {
     return Array.from(this.#shared).flatMap(([geometry, { delivery }]) =>
       delivery.budgetRequests(priorityOf(geometry)),
     );
   }
 
-  /** Updates the priorities of all files. Where `granted` is given, budget requests that are not in it are evicted. */
+  /** Updates the priorities of all files. If `granted` is given, budget requests that are not in it are evicted. */
   request(priorityOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [geometry, { delivery }] of this.#shared) {
       if (granted !== undefined || !delivery.isExhausted) delivery.request(priorityOf(geometry), granted);
     }
   }
 
-  #start(geometry: GeometryDescription): Shared {
+  #start(geometry: GeometryDescription): SharedDelivery {
     const listeners = new Set<DeliveryListener>();
     const stages = new Map<number, Stage>();
     const errors: DeliveryError[] = [];
@@ -116,7 +116,7 @@ export class GeometryDeliveries {
         for (const listener of listeners) listener.onSettled();
       },
     });
-    const shared: Shared = { delivery, memberCount: 0, listeners, stages, errors };
+    const shared: SharedDelivery = { delivery, memberCount: 0, listeners, stages, errors };
     this.#shared.set(geometry, shared);
     return shared;
   }

@@ -15,16 +15,16 @@ export interface TextureListener {
   onTextureImage(image: TextureImage | undefined): void;
   /** Called once, when the texture has failed. */
   onError(error: DeliveryError): void;
-  /** Every requested file is ready or has failed. */
+  /** Every requested file has loaded or failed. */
   onSettled(): void;
 }
 
-/** A member's view of a texture's delivery. */
+/** A shared texture as one of its members has joined it. */
 export interface JoinedTexture {
   readonly transfers: readonly Readonly<Transfer>[];
-  /** None of its files is on its way. */
+  /** Whether no file of the texture is being loaded. */
   readonly isSettled: boolean;
-  /** No call to the listener follows. The image must no longer be used. */
+  /** Leaves the delivery. The listener is not called again; the image must no longer be used. */
   cancel(): void;
 }
 
@@ -35,29 +35,30 @@ export type TextureChunk = "preview" | "texture";
 export type TexturePriority = (key: string, chunk: TextureChunk) => number | undefined;
 
 /** A file of a texture, and its state. */
-interface Source {
+interface TextureFile {
   readonly chunk: TextureChunk;
   readonly url: string;
   handle: ResourceHandle | undefined;
   state: "absent" | "requested" | "ready" | "failed";
   image: TextureImage | undefined;
-  /** Bytes on the GPU: an estimate until the file has been there once. */
+  /** Bytes on the GPU: an estimate until the image has been decoded once. */
   storedBytes: number;
   budgetRequest: BudgetRequest | undefined;
 }
 
-interface Shared {
+interface SharedTexture {
   readonly sampling: SamplingDescription;
-  /** The preview, where there is one, before the full image. */
-  readonly sources: readonly Source[];
+  /** The preview, if there is one, before the full image. */
+  readonly files: readonly TextureFile[];
   readonly listeners: Set<TextureListener>;
   memberCount: number;
   displayed: TextureImage | undefined;
   error: DeliveryError | undefined;
 }
 
-/** Mipmaps take a third more. An image counts as 512 x 512 texels until it is there. */
+/** Mipmaps take a third more. */
 const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
+/** Estimates until an image has been decoded. */
 const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
 
 /** Textures of equal keys share an image. */
@@ -67,7 +68,7 @@ export function textureKeyOf({ url, preview, sampling }: TextureDescription): st
 
 export class TextureDeliveries {
   readonly #pool: ResourcePool;
-  readonly #shared = new Map<string, Shared>();
+  readonly #shared = new Map<string, SharedTexture>();
 
   constructor(pool: ResourcePool) {
     this.#pool = pool;
@@ -87,7 +88,7 @@ export class TextureDeliveries {
       shared.listeners.add(listener);
       if (shared.displayed !== undefined) listener.onTextureImage(shared.displayed);
       if (shared.error !== undefined) listener.onError(shared.error);
-      if (isSettled(shared) && !shared.sources.every(({ state }) => state === "absent")) listener.onSettled();
+      if (isSettled(shared) && !shared.files.every(({ state }) => state === "absent")) listener.onSettled();
     });
     return {
       get transfers() {
@@ -103,7 +104,7 @@ export class TextureDeliveries {
         shared.memberCount -= 1;
         if (shared.memberCount > 0) return;
         this.#shared.delete(key);
-        for (const source of shared.sources) release(source);
+        for (const file of shared.files) release(file);
       },
     };
   }
@@ -111,8 +112,8 @@ export class TextureDeliveries {
   /** Estimated bytes of all textures on the GPU. */
   get storedBytes(): number {
     let bytes = 0;
-    for (const { sources } of this.#shared.values())
-      for (const source of sources) if (source.state !== "failed") bytes += source.storedBytes;
+    for (const { files } of this.#shared.values())
+      for (const file of files) if (file.state !== "failed") bytes += file.storedBytes;
     return bytes;
   }
 
@@ -120,33 +121,33 @@ export class TextureDeliveries {
     return Array.from(this.#shared.values()).flatMap(transfersOf);
   }
 
-  /** What each texture needs and has of the GPU: its preview before the full image. */
+  /** The GPU memory that each texture requires or holds: the preview's before the full image's. */
   budgetRequests(priorityOf: TexturePriority): readonly (readonly BudgetRequest[])[] {
     return Array.from(this.#shared, ([key, shared]) =>
-      shared.sources.flatMap((source) => {
-        const isUnneeded = source.chunk === "preview" && hasTexture(shared);
-        const priority = isUnneeded ? undefined : priorityOf(key, source.chunk);
-        source.budgetRequest =
-          source.state === "failed" || (priority === undefined && source.state === "absent")
+      shared.files.flatMap((file) => {
+        const isUnneeded = file.chunk === "preview" && isFullImageReady(shared);
+        const priority = isUnneeded ? undefined : priorityOf(key, file.chunk);
+        file.budgetRequest =
+          file.state === "failed" || (priority === undefined && file.state === "absent")
             ? undefined
             : {
-                key: source,
-                bytes: source.storedBytes,
+                key: file,
+                bytes: file.storedBytes,
                 priority: priority ?? 0,
-                isAllocated: source.state !== "absent",
+                isAllocated: file.state !== "absent",
               };
-        return source.budgetRequest ?? [];
+        return file.budgetRequest ?? [];
       }),
     );
   }
 
   /**
-   * Requests the files that have a priority and aborts those without. Ready files stay; but where `granted` is given,
+   * Requests the files that have a priority and aborts those without. Ready files stay; but if `granted` is given,
    * budget requests that are not in it are evicted. A preview is not requested once its full image is ready.
    */
   request(priorityOf: TexturePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [key, shared] of this.#shared) {
-      const denied = shared.sources.filter(
+      const denied = shared.files.filter(
         ({ budgetRequest }) => granted !== undefined && budgetRequest !== undefined && !granted.has(budgetRequest),
       );
       const evicted = denied.filter(({ state }) => state === "ready");
@@ -154,45 +155,45 @@ export class TextureDeliveries {
         updateDisplayed(shared, evicted);
         evicted.forEach(release);
       }
-      for (const source of shared.sources) {
-        if (source.state === "ready" || source.state === "failed") continue;
-        const isUnneeded = denied.includes(source) || (source.chunk === "preview" && hasTexture(shared));
-        const priority = isUnneeded ? undefined : priorityOf(key, source.chunk);
-        if (priority === undefined) release(source);
-        else if (source.handle !== undefined) source.handle.setPriority(priority);
-        else this.#startRequest(shared, source, priority);
+      for (const file of shared.files) {
+        if (file.state === "ready" || file.state === "failed") continue;
+        const isUnneeded = denied.includes(file) || (file.chunk === "preview" && isFullImageReady(shared));
+        const priority = isUnneeded ? undefined : priorityOf(key, file.chunk);
+        if (priority === undefined) release(file);
+        else if (file.handle !== undefined) file.handle.setPriority(priority);
+        else this.#startRequest(shared, file, priority);
       }
     }
   }
 
-  #startRequest(shared: Shared, source: Source, priority: number): void {
-    const { url, chunk } = source;
-    source.handle = this.#pool.acquire({
+  #startRequest(shared: SharedTexture, file: TextureFile, priority: number): void {
+    const { url, chunk } = file;
+    file.handle = this.#pool.acquire({
       kind: "textureImage",
       url,
       sampling: shared.sampling,
       priority,
       expectedBytes: expected[chunk].bytes,
     });
-    source.state = "requested";
-    void this.#receive(shared, source, source.handle);
+    file.state = "requested";
+    void this.#receive(shared, file, file.handle);
   }
 
-  async #receive(shared: Shared, source: Source, handle: ResourceHandle): Promise<void> {
-    // Withdrawn meanwhile, or withdrawn and requested again.
-    const isOver = () => source.handle !== handle;
+  async #receive(shared: SharedTexture, file: TextureFile, handle: ResourceHandle): Promise<void> {
+    // The file may have been released since, and requested again.
+    const isReplaced = () => file.handle !== handle;
     try {
       const content = await handle.content;
-      if (isOver() || content.kind !== "textureImage") return;
-      source.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
-      source.state = "ready";
-      source.image = content;
+      if (isReplaced() || content.kind !== "textureImage") return;
+      file.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
+      file.state = "ready";
+      file.image = content;
       updateDisplayed(shared);
     } catch (error) {
-      if (isOver()) return;
-      source.state = "failed";
-      if (source.chunk === "texture") {
-        shared.error = asDeliveryError(error, source.url);
+      if (isReplaced()) return;
+      file.state = "failed";
+      if (file.chunk === "texture") {
+        shared.error = asDeliveryError(error, file.url);
         for (const listener of shared.listeners) listener.onError(shared.error);
       }
     }
@@ -200,8 +201,8 @@ export class TextureDeliveries {
   }
 }
 
-function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
-  const source = (chunk: TextureChunk, url: string): Source => ({
+function sharedOf({ url, preview, sampling }: TextureDescription): SharedTexture {
+  const makeFile = (chunk: TextureChunk, url: string): TextureFile => ({
     chunk,
     url,
     handle: undefined,
@@ -216,33 +217,33 @@ function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
     memberCount: 0,
     displayed: undefined,
     error: undefined,
-    sources: [...(preview === "" ? [] : [source("preview", preview)]), source("texture", url)],
+    files: [...(preview === "" ? [] : [makeFile("preview", preview)]), makeFile("texture", url)],
   };
 }
 
-function hasTexture({ sources }: Shared): boolean {
-  return sources.some(({ chunk, state }) => chunk === "texture" && state === "ready");
+function isFullImageReady({ files }: SharedTexture): boolean {
+  return files.some(({ chunk, state }) => chunk === "texture" && state === "ready");
 }
 
-function isSettled({ sources }: Shared): boolean {
-  return sources.every(({ state }) => state !== "requested");
+function isSettled({ files }: SharedTexture): boolean {
+  return files.every(({ state }) => state !== "requested");
 }
 
-function transfersOf({ sources }: Shared): Readonly<Transfer>[] {
-  return sources.flatMap(({ handle }) => (handle ? [handle.transfer] : []));
+function transfersOf({ files }: SharedTexture): Readonly<Transfer>[] {
+  return files.flatMap(({ handle }) => (handle ? [handle.transfer] : []));
 }
 
-/** Displays the best image that is ready, except those of `without`. */
-function updateDisplayed(shared: Shared, without: readonly Source[] = []): void {
-  const best = shared.sources.findLast((source) => source.image !== undefined && !without.includes(source))?.image;
+/** Displays the full image or else the preview, if ready and not in `without`. */
+function updateDisplayed(shared: SharedTexture, without: readonly TextureFile[] = []): void {
+  const best = shared.files.findLast((file) => file.image !== undefined && !without.includes(file))?.image;
   if (best === shared.displayed) return;
   shared.displayed = best;
   for (const listener of shared.listeners) listener.onTextureImage(best);
 }
 
-function release(source: Source): void {
-  source.handle?.release();
-  source.handle = undefined;
-  source.image = undefined;
-  if (source.state !== "failed") source.state = "absent";
+function release(file: TextureFile): void {
+  file.handle?.release();
+  file.handle = undefined;
+  file.image = undefined;
+  if (file.state !== "failed") file.state = "absent";
 }

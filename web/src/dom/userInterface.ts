@@ -20,7 +20,10 @@ export interface UserInterface {
   showMessage(text: string): void;
 }
 
-/** Fills the shadow root. `preview`: a canvas in it that stays, in front of the view's canvas and behind everything else. */
+/**
+ * Fills the shadow root. `preview`: a canvas in the root, which stays in front of the view's canvas and behind all
+ * other elements.
+ */
 export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement): UserInterface {
   root.adoptedStyleSheets = [viewStyle];
   const canvas = document.createElement("canvas");
@@ -49,12 +52,12 @@ export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement)
   const links = elementOf("nav", { class: "links", "aria-label": "Links in the scene", hidden: "" });
   const spoken = elementOf("p", { class: "spoken", role: "status" });
   const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
-  const above = [hotspots, poster, links, slotOf("controls", controls), barSlot, spoken, message];
+  const overCanvas = [hotspots, poster, links, slotOf("controls", controls), barSlot, spoken, message];
   if (preview?.parentNode === root) {
     preview.before(canvas);
-    preview.after(...above);
+    preview.after(...overCanvas);
   } else {
-    root.replaceChildren(canvas, ...above);
+    root.replaceChildren(canvas, ...overCanvas);
   }
 
   return {
@@ -84,7 +87,7 @@ export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement)
   };
 }
 
-/** A slot whose default content are the children. */
+/** A slot with `children` as its default content. */
 function slotOf(name: string, ...children: Node[]): HTMLSlotElement {
   return elementOf("slot", { name }, ...children);
 }

@@ -21,7 +21,12 @@ import type { UploadThrottle } from "./uploadThrottle.ts";
 export const maxTextureSize = 4096;
 
 export class BitmapTextures implements TextureProvider {
+  readonly #uploadThrottle: UploadThrottle;
   readonly #textures = new WeakMap<DecodedImage, Texture>();
+
+  constructor(uploadThrottle: UploadThrottle) {
+    this.#uploadThrottle = uploadThrottle;
+  }
 
   textureOf(image: DecodedImage): Texture {
     const texture = this.#textures.get(image);
@@ -29,19 +34,16 @@ export class BitmapTextures implements TextureProvider {
     return texture;
   }
 
-  readonly #admission: UploadThrottle;
-
-  constructor(admission: UploadThrottle) {
-    this.#admission = admission;
-  }
-
-  /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
+  /**
+   * Decodes an image of vertex data. Rejects with DecodeError, or with the signal's reason; nothing is then left in
+   * memory.
+   */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, maxTextureSize);
-    return { image: await this.#keep(bitmap, dataTextureOf(bitmap), signal), channels };
+    return { image: await this.#store(bitmap, dataTextureOf(bitmap), signal), channels };
   }
 
-  /** The same for a texture of an appearance. */
+  /** Decodes a texture of an appearance. Rejects as `makeImage` does. */
   async makeTextureImage(
     bytes: Uint8Array<ArrayBuffer>,
     sampling: SamplingDescription,
@@ -53,12 +55,12 @@ export class BitmapTextures implements TextureProvider {
     texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;
     setSampling(texture, sampling);
     texture.needsUpdate = true;
-    return { image: await this.#keep(bitmap, texture, signal), hasAlpha };
+    return { image: await this.#store(bitmap, texture, signal), hasAlpha };
   }
 
-  async #keep(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): Promise<DecodedImage> {
+  async #store(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): Promise<DecodedImage> {
     try {
-      await this.#admission.waitForFrame(bitmap.width * bitmap.height * bytesPerTexel, signal);
+      await this.#uploadThrottle.waitForFrame(bitmap.width * bitmap.height * bytesPerTexel, signal);
       signal.throwIfAborted();
     } catch (error) {
       bitmap.close();

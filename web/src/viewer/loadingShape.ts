@@ -1,5 +1,5 @@
 // One shape of a scene while it loads: the deliveries of its geometry and of its
-// textures. What is displayed of them is the business of the derived class.
+// textures. A derived class for each host displays them.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
@@ -49,11 +49,11 @@ export abstract class LoadingShape {
   /** A texture has another image; undefined: none. The image before is not used after this call. */
   protected abstract onTextureImage(role: TextureRole, image: TextureImage | undefined): void;
   protected abstract onError(error: DeliveryError): void;
-  /** All files that were requested of the geometry, or of a texture, have come or failed. */
+  /** All files that were requested of the geometry, or of a texture, have loaded or failed. */
   protected abstract onSettled(): void;
   /**
-   * The scene no longer has the shape, or the shape another geometry: nothing that deliveries brought may be displayed
-   * any more.
+   * The scene no longer has the shape, or the shape has another geometry. Stages and images of its deliveries must no
+   * longer be displayed.
    */
   abstract onRemoved(): void;
 
@@ -67,12 +67,12 @@ export abstract class LoadingShape {
     return this.#delivery !== undefined;
   }
 
-  /** No file of the geometry is being loaded. */
+  /** Whether no file of the geometry is being loaded. */
   get isGeometrySettled(): boolean {
     return this.geometry === undefined || this.#delivery?.isSettled === true;
   }
 
-  /** No file of the shape, its textures included, is being loaded. */
+  /** Whether no file of the shape, its textures included, is being loaded. */
   get isSettled(): boolean {
     return this.isGeometrySettled && this.#textures.isSettled;
   }
@@ -107,7 +107,7 @@ export abstract class LoadingShape {
     this.#textures.follow(this.#describedTextures);
   }
 
-  /** Leaves all deliveries, and tells that textures have no images any more; `join` joins them again. */
+  /** Leaves all deliveries and reports that textures have no images any more; `join` joins them again. */
   suspend(): void {
     this.#delivery?.cancel();
     this.#delivery = undefined;

@@ -10,7 +10,7 @@ export abstract class LoadingShapes<Shape extends LoadingShape> implements Itera
 
   protected abstract makeShape(described: ShapeDescription): Shape;
 
-  /** While true, shapes join no deliveries: a lost WebGL context could not take what they bring. */
+  /** While true, shapes join no deliveries: a lost WebGL context cannot store vertices and images. */
   protected abstract get isSuspended(): boolean;
 
   get(element: SceneElement): Shape | undefined {
@@ -27,23 +27,23 @@ export abstract class LoadingShapes<Shape extends LoadingShape> implements Itera
    * files that both use are not fetched again.
    */
   follow({ shapes, removed }: SceneChanges): () => void {
-    const left: Shape[] = [];
-    for (const element of removed) this.#remove(element, left);
+    const removedShapes: Shape[] = [];
+    for (const element of removed) this.#remove(element, removedShapes);
     for (const [element, described] of shapes) {
-      if (this.#shapes.get(element)?.geometry !== described.geometry) this.#remove(element, left);
+      if (this.#shapes.get(element)?.geometry !== described.geometry) this.#remove(element, removedShapes);
       this.#shapeOf(described).follow(described, this.isSuspended);
     }
     return () => {
-      for (const shape of left) shape.cancel();
+      for (const shape of removedShapes) shape.cancel();
     };
   }
 
-  /** All leave their deliveries, until `join`. Nothing that those brought may be displayed any more. */
+  /** All shapes leave their deliveries, until `join`. What these have loaded must no longer be displayed. */
   suspend(): void {
     for (const shape of this) shape.suspend();
   }
 
-  /** All join their deliveries once more. */
+  /** All shapes join their deliveries again. */
   join(): void {
     for (const shape of this) shape.join();
   }
@@ -55,16 +55,16 @@ export abstract class LoadingShapes<Shape extends LoadingShape> implements Itera
   }
 
   #shapeOf(described: ShapeDescription): Shape {
-    const known = this.#shapes.get(described.element) ?? this.makeShape(described);
-    this.#shapes.set(described.element, known);
-    return known;
+    const shape = this.#shapes.get(described.element) ?? this.makeShape(described);
+    this.#shapes.set(described.element, shape);
+    return shape;
   }
 
-  #remove(element: SceneElement, left: Shape[]): void {
+  #remove(element: SceneElement, removedShapes: Shape[]): void {
     const shape = this.#shapes.get(element);
     if (shape === undefined) return;
     this.#shapes.delete(element);
     shape.onRemoved();
-    left.push(shape);
+    removedShapes.push(shape);
   }
 }

@@ -11,7 +11,7 @@ import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 /** Keyed by the instance of the shape's node. */
 type Instances = Map<object, GeometryInstance>;
 
-const none: Instances = new Map();
+const noInstances: Instances = new Map();
 
 export class VisibleInstances {
   readonly #geometries = new Map<GeometryDescription, Instances>();
@@ -19,6 +19,7 @@ export class VisibleInstances {
   readonly #textures = new Map<string, Instances>();
   readonly #visible = new Map<object, ShapeInstance>();
 
+  /** Updates instances that have been added, changed or removed (undefined). */
   follow(instances: SceneChanges["instances"]): void {
     for (const [node, instance] of instances) {
       const before = this.#visible.get(node);
@@ -28,11 +29,11 @@ export class VisibleInstances {
   }
 
   ofGeometry(geometry: GeometryDescription): Iterable<GeometryInstance> {
-    return (this.#geometries.get(geometry) ?? none).values();
+    return (this.#geometries.get(geometry) ?? noInstances).values();
   }
 
   ofTexture(key: string): Iterable<GeometryInstance> {
-    return (this.#textures.get(key) ?? none).values();
+    return (this.#textures.get(key) ?? noInstances).values();
   }
 
   #add(node: object, instance: ShapeInstance): void {

@@ -1,4 +1,4 @@
-// BG's row: typed arrays for each attribute of a patch, in files of their own or interleaved in one.
+// Delivery of BG: a typed array for each attribute of a patch, each in a file of its own or interleaved in one file.
 
 import { hasNormalsInCoords } from "../../../document/geometry.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
@@ -8,8 +8,8 @@ import { bgStageBuilder, byteStrideOf, componentsOf, elementTypeOf } from "./bgS
 
 export const bgDelivery: EncodingDelivery = {
   patchFilesOf(geometry, patch) {
-    const ownFiles = hasNormalsInCoords(geometry, patch) ? { ...patch, normal: undefined } : patch;
-    return attributeFilesOf(ownFiles, { kind: "bytes" }, (role, reference, elementCount) => {
+    const fileAttributes = hasNormalsInCoords(geometry, patch) ? { ...patch, normal: undefined } : patch;
+    return attributeFilesOf(fileAttributes, { kind: "bytes" }, (role, reference, elementCount) => {
       const elementSize = byteSizeOf(elementTypeOf(geometry, role)) * componentsOf(geometry, role);
       const bytes = elementCount * (byteStrideOf(reference) || elementSize);
       return { expectedBytes: bytes, storedBytes: bytes };

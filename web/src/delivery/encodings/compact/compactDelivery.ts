@@ -1,4 +1,4 @@
-// Compact's row: one file holds all of a patch, and another the base mesh of all patches.
+// Delivery of compact: one file holds all of a patch, and another the base mesh of all patches.
 
 import type { PatchDescription } from "../../../document/description.ts";
 import type { PatchFile } from "../../patchFiles.ts";
@@ -6,7 +6,7 @@ import { cornerCountOf } from "../../patchFiles.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
 import { compactStageBuilder } from "./compactStage.ts";
 
-/** A base mesh's share of its patches' triangles, and bytes, roughly. */
+/** Approximate bytes of a base mesh's segment per byte of its patch. */
 const baseShare = 0.03;
 
 export const compactDelivery: EncodingDelivery = {
@@ -41,10 +41,11 @@ export const compactDelivery: EncodingDelivery = {
   needsWorkers: () => true,
 };
 
+/** Estimates by typical patches. */
 function sizesOf(patch: PatchDescription): Pick<PatchFile, "expectedBytes" | "storedBytes"> {
   const cornerCount = cornerCountOf(patch);
   return {
     expectedBytes: 2 * patch.vertexCount + cornerCount / 6,
-    storedBytes: 12 * patch.vertexCount + 2 * cornerCount, // words of positions, bytes of normals, short indices
+    storedBytes: 12 * patch.vertexCount + 2 * cornerCount, // 8 of coordinates and 4 of the normal, and 16-bit indices
   };
 }
