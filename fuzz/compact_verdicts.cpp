@@ -1,6 +1,6 @@
-// What the C++ decoder says of every file of some directories, payloads and the images
-// that carry them: a line each of its verdict, a tab and its path. tests/verdicts.ts
-// asks the runtime's decoder the same.
+// Prints the verdict of the C++ decoder on every file of some directories: one line with the verdict, a tab and the
+// path. Files are payloads or PNG images that hold one. tests/verdicts.ts compares the runtime's verdicts with these
+// lines.
 //
 //   compact_verdicts DIRECTORY... | node tests/verdicts.ts
 #include "base/file.h"

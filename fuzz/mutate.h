@@ -1,5 +1,5 @@
 #pragma once
-// Inputs made from a corpus by small damage; the same sequence on every machine.
+// Makes inputs by small damage to inputs of a corpus. The sequence is the same on every machine.
 
 #include <algorithm>
 #include <array>
@@ -43,25 +43,25 @@ private:
     case 2: // cut short
       input.resize(offset);
       break;
-    case 3: // a piece lost
+    case 3: // a range removed
       input.erase(at(input, offset), at(input, offset + length));
       break;
-    case 4: { // a piece doubled
-      const Input piece(at(input, offset), at(input, offset + length));
-      input.insert(at(input, below(input.size() + 1)), piece.begin(), piece.end());
+    case 4: { // a range copied to another offset
+      const Input range(at(input, offset), at(input, offset + length));
+      input.insert(at(input, below(input.size() + 1)), range.begin(), range.end());
       break;
     }
-    case 5: { // the end of another seed
+    case 5: { // the end of another input
       const Input& other = corpus_[below(corpus_.size())];
       input.resize(offset);
       input.insert(input.end(), other.begin() + static_cast<std::ptrdiff_t>(below(other.size() + 1)), other.end());
       break;
     }
-    case 6: // four bytes that make a count or a size absurd
+    case 6: // four random bytes, such as a huge count
       for (std::size_t i = offset; i < std::min(input.size(), offset + 4); ++i)
         input[i] = static_cast<std::uint8_t>(engine_());
       break;
-    case 7: { // a number that text readers stumble over
+    case 7: { // text that number parsers may mishandle
       static constexpr std::array<std::string_view, 8> numbers{
           "-1", "4294967296", "nan", "1e999", "99999999999999999999", " ", "\n", "0"};
       const std::string_view number = numbers[below(numbers.size())];

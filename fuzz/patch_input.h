@@ -1,6 +1,6 @@
 #pragma once
-// A patch's description and files made of fuzz input, and what holds for
-// whatever a container reader makes of them. Anything else ends the process.
+// Makes the description and the files of a patch from fuzz input, and checks what container readers return for them. A
+// failed check aborts the process.
 
 #include "base/error.h"
 #include "containers/container_reader.h"
@@ -18,7 +18,7 @@ inline void require(bool condition) {
     std::abort();
 }
 
-/// Takes values off the front of the input; zeros behind its end.
+/// Reads values from the front of the input; 0 after its end.
 class InputReader {
 public:
   explicit InputReader(ByteSpan bytes) : bytes_(bytes) {}
@@ -40,9 +40,8 @@ private:
   ByteSpan bytes_;
 };
 
-/// A patch of at most three draws whose files are called "0", "1" ...: index,
-/// `coords` files of coordinates, normal, texCoord, color, each but coordinates
-/// absent where a bit of the input says so.
+/// A patch of one to three draws whose files are named "0", "1" ... in the order index, `coords` files of coordinates,
+/// normal, texCoord, color. Bits of the input decide which files other than coordinates exist.
 inline PatchDescription readDescription(InputReader& input, Encoding encoding, std::size_t coords) {
   PatchDescription patch;
   const std::uint32_t present = input.bits(8);
@@ -72,7 +71,7 @@ inline PatchDescription readDescription(InputReader& input, Encoding encoding, s
   return patch;
 }
 
-/// An Error with a message, or a patch in which everything fits together.
+/// Decodes a patch and checks that it is consistent, or that the Error has a message. Returns 0, as fuzz targets do.
 inline int decodeOrRefuse(const PatchDescription& patch, const GeometryDescription& geometry,
                           const std::map<std::string, Bytes>& files) {
   const FetchFile fetch = [&](const std::string& url) {

@@ -55,7 +55,7 @@ struct EncodingRow {
   const char* name = "";      ///< see nameOf(Encoding)
   const char* container = ""; ///< value of --container, and of `container` in --json and imgeo.json
   const char* profile = "";   ///< value of --profile, and of `profile` in imgeo.json and `convert --json`
-  const char* fileKind = "";  ///< for people: "PNG images", "typed arrays"
+  const char* fileKind = "";  ///< for messages: "PNG images", "typed arrays"
   GeometryNode node;
   PatchStorage storage = PatchStorage::bytePlanes;
   FileLocation location;               ///< the beginning of a file, in the unit of this encoding's references
@@ -65,9 +65,9 @@ struct EncodingRow {
   Capabilities capabilities;
 
   /// Fills in the defaults that depend on the encoding. Throws Error{usage}, which names the option, for options that
-  /// the encoding cannot hold. A row leaves checks to its callers that follow from `capabilities`.
+  /// the encoding cannot hold. Callers check what `capabilities` states.
   void (*resolveOptions)(ConvertOptions& options);
-  /// Sets the fields of a node that only this encoding has, or has otherwise than describe() set them. Throws
+  /// Sets the fields of a node that only this encoding has, or whose values differ from those of describe(). Throws
   /// Error{unsupported} for attributes that the target cannot read.
   void (*describe)(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options);
   /// Writes vertices in a given order; nullptr: the encoding orders vertices itself, and writes by `sharing`.

@@ -1,6 +1,5 @@
-// Files of format version 1, as they were first written: readers must read them
-// for ever. IMGEO_REWRITE_GOLDEN=1 writes them anew, which is a new version of
-// the format and a new name.
+// Files of version 1 of the classic and BG formats, which all later readers must read. IMGEO_REWRITE_GOLDEN=1 writes
+// them again; files that change need a new version of the format and a new name.
 #include "base/file.h"
 #include "containers/normals.h"
 #include "containers/png/png.h"
@@ -15,7 +14,7 @@ namespace {
 
 const std::filesystem::path golden = IMGEO_GOLDEN;
 
-/// A small torus whose every attribute has something in each channel.
+/// A small torus with normals, texture coordinates and colours that vary in all channels.
 PatchedMesh goldenMesh() {
   Mesh mesh = testing::torus(5, 4);
   mesh.colorComponents = 4;
@@ -32,7 +31,7 @@ struct GoldenPatch {
   EncodedPatch encoded;
 };
 
-/// A way to write the mesh, by the beginning of its files' names.
+/// Options to encode the mesh with; `name` begins the names of its files.
 struct Variant {
   const char* name;
   EncodeOptions options;
@@ -92,7 +91,7 @@ TEST_P(Golden, FilesAreStillWritten) {
   for (std::size_t i = 0; i < patch.encoded.files.size(); ++i) {
     const std::filesystem::path path = pathOf(GetParam(), i, patch.encoded.files[i]);
     const Bytes &now = patch.encoded.files[i].bytes, before = readFile(path);
-    // Another libdeflate may find other matches: pixels count.
+    // Another version of libdeflate may compress differently, so PNGs are compared by their pixels.
     if (path.extension() == ".png")
       EXPECT_EQ(decodePng(now, "now"), decodePng(before, "before")) << path;
     else

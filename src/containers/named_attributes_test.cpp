@@ -9,7 +9,7 @@
 namespace imgeo {
 namespace {
 
-/// A grid with one attribute of these values over and over.
+/// A grid with one attribute that repeats these values.
 PatchedMesh withValues(const std::vector<float>& values, std::uint32_t components = 1) {
   Mesh mesh = testing::grid(9);
   NamedAttribute attribute{"heat", components, {}};
@@ -26,7 +26,7 @@ NamedAttribute readBack(const PatchedMesh& mesh, const EncodeOptions& options) {
   return decodePatch(encoded, geometry).namedAttributes.at(0);
 }
 
-TEST(NamedAttributes, OfWholeNumbersTakeNoMoreBytesThanTheyNeedAndAreExact) {
+TEST(NamedAttributes, StoreIntegersExactlyInAsFewBytesAsTheyNeed) {
   struct {
     std::vector<float> values;
     std::uint32_t bits, bytes;
@@ -51,7 +51,7 @@ TEST(NamedAttributes, AreExactAsTypedArrays) {
     EXPECT_EQ(readBack(mesh, {.encoding = Encoding::bg, .layout = layout}), mesh.patches[0].namedAttributes[0]);
 }
 
-TEST(NamedAttributes, HaveAStepThatIsTheirRangeOverTheirBits) {
+TEST(NamedAttributes, AreQuantisedOverTheirRange) {
   const PatchedMesh mesh = withValues({-1.5f, 2.5f, 0.3f});
   const EncodeOptions options{.attributeBits = 8};
   const AttributeDescription described = describe(mesh, options).attributes.at(0);
@@ -62,7 +62,7 @@ TEST(NamedAttributes, HaveAStepThatIsTheirRangeOverTheirBits) {
   EXPECT_NEAR(readBack(mesh, options).values[2], 0.3f, numberBound(Encoding::classic, described, 0));
 }
 
-TEST(NamedAttributes, AreRefusedWhereFilesAreMissingOrNoNumbers) {
+TEST(NamedAttributes, AreRefusedIfFilesAreMissingOrHoldNaN) {
   const PatchedMesh mesh = withValues({1, 2, 300});
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     const EncodeOptions options{.encoding = encoding};

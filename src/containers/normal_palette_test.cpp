@@ -33,18 +33,18 @@ double meanErrorDegrees(const std::vector<Vec3f>& normals, const NormalPalette& 
   return sum / static_cast<double>(normals.size()) * 180 / std::numbers::pi;
 }
 
-TEST(NormalPalette, SpreadsOverEvenlyDistributedNormals) {
+TEST(NormalPalette, CoversEvenlyDistributedNormals) {
   const std::vector<Vec3f> normals = randomNormals(20000, {1, 1, 1});
   // A disc of 1/256 of the sphere has a radius of 7.2 degrees and a mean distance of 2/3 of it.
   EXPECT_LT(meanErrorDegrees(normals, normalPalette(normals)), 5.2);
 }
 
-TEST(NormalPalette, AdaptsToTheNormalsThereAre) {
+TEST(NormalPalette, AdaptsToTheDistributionOfNormals) {
   const std::vector<Vec3f> even = randomNormals(20000, {1, 1, 1}), flat = randomNormals(20000, {1, 1, 0.05f});
   EXPECT_LT(meanErrorDegrees(flat, normalPalette(flat)), 0.6 * meanErrorDegrees(even, normalPalette(even)));
 }
 
-TEST(NormalPalette, IsExactUpToItsBytesForFewDirections) {
+TEST(NormalPalette, HasOnlyRoundingErrorsForFewDirections) {
   const std::vector<Vec3f> few = randomNormals(200, {1, 1, 1});
   std::vector<Vec3f> normals;
   for (int copy = 0; copy < 5; ++copy)
@@ -73,7 +73,7 @@ TEST(NormalPalette, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(alone.indices, together.indices);
 }
 
-TEST(NormalPalette, OfNothingIsStillATable) {
+TEST(NormalPalette, OfNoNormalsHasNoIndices) {
   EXPECT_TRUE(normalPalette({}).indices.empty());
 }
 

@@ -21,11 +21,11 @@ struct EncodeOptions {
   std::uint32_t normalBits = 8;
   int effort = 5; ///< 0 fastest .. 9 smallest
   Target target = Target::web;
-  NormalEncoding normals = NormalEncoding::rgb;   ///< palette: SIG alone. Compact: octahedral or derived
+  NormalEncoding normals = NormalEncoding::rgb;   ///< palette: classic only. Compact: octahedral or derived
   std::optional<ElementType> coordType{};         ///< BG; nothing: the smallest unsigned type
   Layout layout = Layout::separate;               ///< BG
   std::uint32_t attributeBits = 16;               ///< SIG: 8, 16 or 24; BG has Float32
-  std::uint32_t texCoordBits = 16, colorBits = 8; ///< only compact has others
+  std::uint32_t texCoordBits = 16, colorBits = 8; ///< classic and BG: only these
   Primitives primitives = Primitives::triangles;  ///< point clouds are always points
   bool indexed = true;                            ///< false: vertices are repeated wherever they are drawn
 };

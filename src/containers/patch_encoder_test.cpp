@@ -46,8 +46,8 @@ void expectEqualWithinSteps(const NamedAttribute& decoded, const NamedAttribute&
   }
 }
 
-/// Everything integer comes back exactly, texture coordinates within half of
-/// their step, normals within the angle that their encoding states.
+/// Expects integers to decode exactly, texture coordinates within half a step, and normals within the angle that their
+/// encoding states.
 void expectEqualWithinSteps(const Encoded& encoded) {
   const IndexedPatch& source = encoded.source;
   const IndexedPatch decoded = encoded.decoded();
@@ -74,7 +74,7 @@ void expectEqualWithinSteps(const Encoded& encoded) {
 
 constexpr std::uint32_t everyPrecision[] = {8, 10, 12, 16, 20, 24, 32};
 
-/// Every way to store normals beside coordinates of so many bits.
+/// Options for every normal encoding that coordinates of so many bits allow.
 std::vector<EncodeOptions> everyNormalEncoding(std::uint32_t bits) {
   const auto options = [](Encoding encoding, NormalEncoding normals, std::uint32_t normalBits) {
     return EncodeOptions{encoding, normalBits, 1, Target::web, normals};
@@ -93,7 +93,7 @@ std::vector<EncodeOptions> everyNormalEncoding(std::uint32_t bits) {
   return all;
 }
 
-TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
+TEST(Containers, DecodeEveryMeshAtEveryPrecision) {
   Random random(1);
   for (const std::uint32_t bits : everyPrecision)
     for (std::uint32_t seed = 0; seed < 24; ++seed) {
@@ -124,7 +124,7 @@ Mesh richMesh(std::uint32_t seed) {
   return mesh;
 }
 
-TEST(Containers, GiveBackEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
+TEST(Containers, DecodeEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
   using enum Primitive;
   std::uint32_t seed = 0;
   for (const Encoding encoding : {Encoding::classic, Encoding::bg})
@@ -146,7 +146,7 @@ TEST(Containers, GiveBackEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
         }
 }
 
-/// Every BG of coordinates of so many bits.
+/// BG options for every coordinate type, layout and normal encoding that holds coordinates of so many bits.
 std::vector<EncodeOptions> everyArray(std::uint32_t bits) {
   std::vector<EncodeOptions> all;
   for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
@@ -162,7 +162,7 @@ std::vector<EncodeOptions> everyArray(std::uint32_t bits) {
   return all;
 }
 
-TEST(Containers, GiveBackEveryMeshFromEveryArray) {
+TEST(Containers, DecodeEveryMeshFromEveryArrayType) {
   std::uint32_t seed = 0;
   for (std::uint32_t bits = 8; bits <= 32; ++bits)
     for (const EncodeOptions& options : everyArray(bits)) {
@@ -178,7 +178,7 @@ TEST(Containers, GiveBackEveryMeshFromEveryArray) {
     }
 }
 
-TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
+TEST(Containers, DecodeFloatsWithinSinglePrecision) {
   for (const std::uint32_t bits : {8u, 12u, 20u, 24u, 32u})
     for (const Layout layout : {Layout::separate, Layout::interleaved})
       for (std::uint32_t seed = 0; seed < 20; ++seed) {
@@ -203,7 +203,7 @@ TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
       }
 }
 
-TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
+TEST(Containers, StoreTwoComponentNormalsInThePaddingOfCoordinates) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
     const Encoded encoded =
         encode(testing::torus(9, 9), Primitive::triangles, true, 16, {Encoding::bg, 8, 1, Target::web, normals});
@@ -213,7 +213,7 @@ TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
   }
 }
 
-TEST(Containers, GiveBackPairsOfNormalsOfMoreVerticesThanAnIndexCouldName) {
+TEST(Containers, DecodeTwoComponentNormalsOfMoreVerticesThanIndicesOf16BitsAddress) {
   for (const std::uint32_t count : {65537u, 1048577u}) {
     Mesh mesh = testing::pointCloud(count, 3);
     Random random(count);
@@ -224,7 +224,7 @@ TEST(Containers, GiveBackPairsOfNormalsOfMoreVerticesThanAnIndexCouldName) {
   }
 }
 
-TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
+TEST(Containers, DecodePatchesOfEverySizeAroundAnImageRow) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 65535u})
       for (const bool indexed : {false, true})
@@ -232,13 +232,13 @@ TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
             encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {encoding, 8, 0}));
 }
 
-TEST(Containers, GiveBackMoreVerticesThanAnIndexCouldName) {
+TEST(Containers, DecodeMoreVerticesThanIndicesOf16BitsAddress) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t count : {65536u, 65537u, 262144u, 262145u})
       expectEqualWithinSteps(encode(testing::pointCloud(count, count), Primitive::points, false, 16, {encoding, 8, 0}));
 }
 
-TEST(Containers, GiveBackIndicesOf32Bits) {
+TEST(Containers, DecodeIndicesOf32Bits) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t side : {256u, 300u, 1030u}) { // 66,049, 90,601 and 1,062,961 vertices
       Mesh mesh = testing::grid(side);
@@ -267,7 +267,7 @@ TEST(Containers, RefuseMoreVerticesThanTheLargestImageHolds) {
   }
 }
 
-TEST(Containers, GiveBackSeveralDraws) {
+TEST(Containers, DecodeSeveralDraws) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     const PatchedMesh patched = onePatch(testing::grid(9), 12);
     const EncodeOptions options{encoding};
@@ -292,7 +292,7 @@ TEST(Containers, RefuseIndicesOf32BitsBeyondTheVertices) {
   }
 }
 
-TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
+TEST(Containers, RefuseAnIndexWhoseVertexCountOverflows) {
   Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {Encoding::bg, 8, 0});
   encoded.description.vertexCount = 0;
   EXPECT_NO_THROW(encoded.decoded());
@@ -302,7 +302,7 @@ TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
   EXPECT_THROW(encoded.decoded(), Error);
 }
 
-TEST(Containers, FindTheNumberOfVerticesInTheIndicesWhereItIsNotStated) {
+TEST(Containers, DeriveTheVertexCountFromTheIndicesIfItIsNotStated) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     Encoded encoded = encode(testing::torus(5, 7), Primitive::triangles, true, 16, {encoding});
     encoded.description.vertexCount = 0;
@@ -337,7 +337,7 @@ TEST(Containers, RefuseAFileWhoseEndIsMissing) {
   }
 }
 
-TEST(Containers, NoticeSwappedPlanes) {
+TEST(Containers, RefuseSwappedBytePlanes) {
   for (const std::uint32_t bits : {12u, 16u, 20u, 24u, 32u}) {
     Encoded encoded = encode(testing::torus(16, 8), Primitive::triangles, true, bits, {Encoding::classic});
     std::swap(encoded.description.coord[0], encoded.description.coord[1]);
@@ -345,7 +345,7 @@ TEST(Containers, NoticeSwappedPlanes) {
   }
 }
 
-/// The kind of Error that decoding throws, which must name one of the urls.
+/// The kind of the Error that decoding throws.
 ErrorKind kindOfDecoding(const Encoded& encoded) {
   try {
     encoded.decoded();
@@ -356,7 +356,7 @@ ErrorKind kindOfDecoding(const Encoded& encoded) {
   return ErrorKind::usage;
 }
 
-/// Sets the stride where the reference has one.
+/// Sets the stride of a reference in bytes; texel references have none.
 void setStride(Reference& reference, std::uint32_t stride) {
   if (ByteLocation* location = std::get_if<ByteLocation>(&reference.location))
     location->byteStride = stride;
@@ -380,7 +380,7 @@ TEST_P(HostilePatch, WithAMissingFileIsAnInputError) {
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::io);
 }
 
-TEST_P(HostilePatch, WithFewerVerticesThanItsIndicesNameIsMalformed) {
+TEST_P(HostilePatch, WithIndicesBeyondItsVerticesIsMalformed) {
   patch.vertexCount -= 1;
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
 }
@@ -420,19 +420,19 @@ TEST_P(HostilePatch, WithoutCoordinatesIsMalformed) {
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
 }
 
-TEST_P(HostilePatch, ThatBeginsBehindItsFilesIsRefused) {
+TEST_P(HostilePatch, ThatBeginsBeyondTheEndOfItsFilesIsRefused) {
   for (const std::uint32_t first : {1024u * 64u, 0xffffffffu}) {
     setBegin(patch.coord[0], first);
     EXPECT_THROW(encoded.decoded(), Error) << first;
   }
 }
 
-TEST_P(HostilePatch, WhoseFilesAreTakenForOneAnotherIsRefused) {
+TEST_P(HostilePatch, WithSwappedFilesIsRefused) {
   std::swap(patch.coord[0], *patch.index);
   EXPECT_THROW(encoded.decoded(), Error);
 }
 
-TEST_P(HostilePatch, OutsideOfItsStatedBoxIsMalformed) {
+TEST_P(HostilePatch, OutsideItsStatedBoxIsMalformed) {
   patch.box.max.x -= 0.1;
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
 }

@@ -48,7 +48,7 @@ bool isFloat(const GeometryDescription& geometry) {
   return geometry.encoding == Encoding::bg && geometry.coordType == ElementType::float32;
 }
 
-TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
+TEST(StoredCoords, AreDecodedByX3domToLatticePoints) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     if (isFloat(geometry))
       continue;
@@ -58,7 +58,7 @@ TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
     const bool isSigned = geometry.encoding == Encoding::bg && !isUnsigned(geometry.coordType);
     const std::uint32_t maximum = geometry.lattice.maximum();
     for (const std::uint32_t q : {0u, 1u, maximum / 3, maximum - 1, maximum}) {
-      // docs/formats/nodes.md, in X3DOM's words.
+      // The formula of X3DOM: docs/formats/nodes.md.
       const double share = static_cast<double>(storeCoord(q, stored)) / stored.maximum;
       const double x = fields.position.x + fields.size.x * (isSigned ? share : share - 0.5);
       EXPECT_NEAR(x, geometry.lattice.point({q, 0, 0}).x, 1e-13 * fields.size.x) << q;
@@ -66,7 +66,7 @@ TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
   }
 }
 
-TEST(StoredCoords, FitTheirTypeAndComeBack) {
+TEST(StoredCoords, FitTheirTypeAndDecodeExactly) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     if (isFloat(geometry) || geometry.encoding == Encoding::classic)
       continue;
@@ -96,13 +96,13 @@ TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
     EXPECT_LE(storeCoord(geometry.lattice.maximum(), stored), 16383);
     const double edge = decodeFields(geometry).size.x, extent = geometry.lattice.step * geometry.lattice.maximum();
     EXPECT_GE(edge, extent * 0.9999);
-    EXPECT_LE(edge, extent * 1.004) << "a box much larger than the mesh is culled too late";
+    EXPECT_LE(edge, extent * 1.004) << "the box is much larger than the mesh";
   }
 }
 
 TEST(LatticeFor, HasOriginAndStepWithFewDecimalDigits) {
-  // What single precision makes of 0.1, 2.01 and 5.505, of which the last is coarser than a 1024th of a step;
-  // and far from the origin, where a step is less than what single precision tells apart.
+  // Single precision of 0.1, 2.01 and 5.505. The last is rounded more coarsely than to 1/1024 of a step. `far` has a
+  // step below the resolution of single precision.
   Box3d box;
   box.add({0.1f, 0, 5.505f});
   box.add({0.1 + 2.01f, 1, 6});
@@ -116,7 +116,7 @@ TEST(LatticeFor, HasOriginAndStepWithFewDecimalDigits) {
   EXPECT_EQ(latticeFor(box, ElementType::uint32, 32).origin, box.min);
 }
 
-TEST(DecodeFields, GiveTheLatticeBack) {
+TEST(DecodeFields, DetermineTheLattice) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     SCOPED_TRACE(nameOf(geometry));
     const Lattice &lattice = geometry.lattice,
@@ -129,7 +129,7 @@ TEST(DecodeFields, GiveTheLatticeBack) {
   }
 }
 
-TEST(DecodeFields, HaveTheSourcesEdgeWhereBitsFillTheirBytes) {
+TEST(DecodeFields, HaveTheExactEdgeIfBitsFillTheirBytes) {
   GeometryDescription geometry = images(16);
   geometry.lattice.step = 2.0 / 65535;
   EXPECT_DOUBLE_EQ(decodeFields(geometry).size.x, 2);
@@ -137,7 +137,7 @@ TEST(DecodeFields, HaveTheSourcesEdgeWhereBitsFillTheirBytes) {
   EXPECT_EQ(coordBytes(Encoding::bg, 24), 4u);
 }
 
-TEST(NearestPoint, KeepsASinglesOwnValueFromTheSourcesLattice) {
+TEST(NearestPoint, KeepsSinglePrecisionValuesOnTheFinestLattice) {
   const Box3d box{{-1, 2, 5}, {3, 2.5, 6}};
   const Lattice lattice = latticeFor(box, ElementType::float32, sourceBits);
   for (const float x : {-1.0f, -0.7f, 0.1f, 1.0f / 3, 2.9999998f, 3.0f}) {
@@ -146,7 +146,7 @@ TEST(NearestPoint, KeepsASinglesOwnValueFromTheSourcesLattice) {
   }
 }
 
-TEST(NearestPoint, RefusesWhatIsFarOutsideAndWhatIsNoNumber) {
+TEST(NearestPoint, RefusesPositionsFarOutsideAndNaN) {
   const Lattice lattice{{0, 0, 0}, 0.25, 10};
   EXPECT_EQ(nearestPoint({255.8f, 0.1f, -0.2f}, lattice, ""), (Vec3u{1023, 0, 0}));
   for (const float x : {-1.0f, 257.0f, std::numeric_limits<float>::infinity(), std::nanf("")})

@@ -1,5 +1,5 @@
 #pragma once
-// Patches for tests of containers and documents. Header-only and for tests alone.
+// Patches for tests of containers and documents.
 
 #include "base/error.h"
 #include "containers/container_reader.h"

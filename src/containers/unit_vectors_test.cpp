@@ -31,7 +31,7 @@ TEST(Octahedral, KeepsEveryDirectionWithinItsBound) {
     for (const Vec3f v : directions())
       worst = std::max(worst, angleBetween(v, unitFromOctahedral(octahedralFromUnit(v, bits), bits)));
     EXPECT_LE(worst, octahedralErrorBound(bits)) << bits << " bits";
-    EXPECT_GE(worst, 0.9 * octahedralErrorBound(bits)) << "a bound this loose says nothing, " << bits;
+    EXPECT_GE(worst, 0.9 * octahedralErrorBound(bits)) << "the bound is too loose, " << bits << " bits";
   }
 }
 
@@ -41,7 +41,7 @@ TEST(Octahedral, KeepsTheAxesExactly) {
     EXPECT_EQ(angleBetween(unitFromOctahedral(octahedralFromUnit(axis, 8), 8), axis), 0);
 }
 
-TEST(Octahedral, MapsEveryCodeBackToItselfUpToTheSeam) {
+TEST(Octahedral, DecodesEveryCodeToADirectionThatEncodesEqual) {
   for (std::uint32_t x = 0; x <= 254; ++x)
     for (std::uint32_t y = 0; y <= 254; ++y) {
       const Vec3f v = unitFromOctahedral({x, y}, 8);
@@ -50,8 +50,7 @@ TEST(Octahedral, MapsEveryCodeBackToItselfUpToTheSeam) {
     }
 }
 
-TEST(Octahedral, TakesTheNearestOfAllCodesInTheCell) {
-  // Rounding each coordinate alone must never beat the precise search.
+TEST(Octahedral, TakesTheNearestOfAllNeighbouringCodes) {
   for (const Vec3f v : directions()) {
     const auto code = octahedralFromUnit(v, 8);
     const double error = angleBetween(v, unitFromOctahedral(code, 8));

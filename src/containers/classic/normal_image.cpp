@@ -22,8 +22,8 @@ Image rgbImage(const IndexedPatch& patch, ImageSize records) {
   });
 }
 
-/// Two gray halves, not two channels: deflate finds a third more matches in them (docs/decisions/normals.md), and an
-/// image without alpha cannot be premultiplied by a browser.
+/// Stores the two numbers of every normal in the first and the second half of a gray image. RGB with a constant channel
+/// would be larger (docs/decisions/normals.md), and browsers multiply gray by alpha.
 Image pairImage(const IndexedPatch& patch, NormalEncoding encoding, ImageSize records) {
   const ImageSize size = pairImageSize(records);
   if (size.columns > guaranteedImageEdge)
@@ -42,7 +42,7 @@ Image pairImage(const IndexedPatch& patch, NormalEncoding encoding, ImageSize re
   return image;
 }
 
-/// The palette has only the entries that normals use.
+/// An indexed image whose palette has only the entries that normals use.
 Image paletteImage(const IndexedPatch& patch, ImageSize records) {
   const NormalPalette palette = normalPalette(patch.normals);
   std::array<std::uint8_t, 256> entryOf{};

@@ -44,38 +44,38 @@ EncodedBase encoded(Mesh mesh, std::uint32_t maxWedges) {
   return result;
 }
 
-TEST(CompactBase, ComesBackClosedAgainstPatches) {
+TEST(CompactBase, DecodesWithoutGapsToPatches) {
   const EncodedBase mesh = encoded(sphere(100, 100), 3000);
   ASSERT_GT(mesh.patched.patches.size(), 3u);
-  const BaseMesh back = ContainerReader(mesh.fetch()).decodeBase(mesh.geometry);
-  EXPECT_EQ(back.triangleCount(), mesh.base.triangleCount());
-  EXPECT_EQ(back.positions.size(), mesh.base.positions.size());
-  EXPECT_TRUE(meetsAtBorders(back, mesh.triangles()));
-  expectClosedMixtures(back, mesh.triangles());
+  const BaseMesh decoded = ContainerReader(mesh.fetch()).decodeBase(mesh.geometry);
+  EXPECT_EQ(decoded.triangleCount(), mesh.base.triangleCount());
+  EXPECT_EQ(decoded.positions.size(), mesh.base.positions.size());
+  EXPECT_TRUE(meetsAtBorders(decoded, mesh.triangles()));
+  expectClosedMixtures(decoded, mesh.triangles());
 }
 
-TEST(CompactBase, MovesVerticesByLittle) {
+TEST(CompactBase, MovesVerticesByNoMoreThanTwoPercent) {
   const EncodedBase mesh = encoded(sphere(100, 100), 65535);
-  const BaseMesh back = ContainerReader(mesh.fetch()).decodeBase(mesh.geometry);
+  const BaseMesh decoded = ContainerReader(mesh.fetch()).decodeBase(mesh.geometry);
   const double radius = mesh.patched.lattice.maximum() / 2.0;
-  for (const Vec3u& position : back.positions)
+  for (const Vec3u& position : decoded.positions)
     EXPECT_NEAR(length(Vec3d(position) - Vec3d{radius, radius, radius}), radius, 0.02 * radius);
 }
 
-TEST(CompactBase, TakesAFewBytesATriangle) {
+TEST(CompactBase, TakesLessThanOneAndAHalfBytesPerTriangle) {
   const EncodedBase mesh = encoded(sphere(200, 200), 65535);
   EXPECT_LT(static_cast<double>(baseFile(mesh.bases).bytes.size()),
             1.5 * static_cast<double>(mesh.base.triangleCount()));
 }
 
-TEST(CompactBase, StandsBehindOthersInAFile) {
+TEST(CompactBase, IsReadFromAFileOfSeveralBases) {
   EncodedBase mesh = encoded(sphere(100, 100), 3000);
   mesh.bases.push_back(mesh.bases[0]);
   mesh.geometry.base->location = PatchLocation{1};
   EXPECT_EQ(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry).triangleCount(), mesh.base.triangleCount());
 }
 
-TEST(CompactBase, IsRefusedWhereItIsNotTheNodes) {
+TEST(CompactBase, IsRefusedIfItDoesNotMatchTheNode) {
   EncodedBase mesh = encoded(sphere(100, 100), 3000);
   mesh.geometry.patches.emplace_back();
   EXPECT_THROW(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry), Error);

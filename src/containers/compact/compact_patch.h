@@ -1,6 +1,6 @@
 #pragma once
-// A quantised patch. Coding is lossless but for the order of elements, corners,
-// vertices and wedges.
+// A quantised patch. The compact format keeps it exactly, except for the order of elements, corners, vertices and
+// wedges, and except for what `residualShift` rounds in a base.
 
 #include "base/vec.h"
 #include "scene/mesh.h"
@@ -14,7 +14,8 @@ namespace imgeo::compact {
 
 enum class AttributeKind : std::uint8_t { normal, texCoord, color, other };
 
-/// How a normal is predicted, and whether the prediction is the normal.
+/// How the normal of a wedge is predicted from the normals of its triangles: weighted by area or all alike. With a
+/// derived mode the prediction is the normal, and the file stores no normals.
 enum class NormalMode : std::uint8_t { area, uniform, derivedArea, derivedUniform };
 
 struct AttributeType {
@@ -44,8 +45,8 @@ struct Attribute {
   friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
-/// The planes on which isosurfaces have their vertices: coordinate number i of an
-/// axis is round(origin + i * step), both in 1/65536 lattice steps.
+/// Planes perpendicular to the axes on which most vertices lie, as those of isosurfaces do. The coordinate of plane i
+/// of an axis is round(origin + i * step), where `origin` and `step` are in 1/65536 lattice steps.
 struct Grid {
   Vec3u origin, step;
   friend bool operator==(const Grid&, const Grid&) = default;
@@ -56,7 +57,7 @@ struct CompactPatch {
   std::uint32_t positionBits = 16;           ///< 1 .. 30
   std::vector<Vec3u> positions;              ///< per vertex, 0 .. 2^positionBits - 1
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> vertex
-  std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) an element
+  std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) corners per element
   std::vector<Attribute> attributes;
   /// Base only: the segment of each triangle, below `segmentCount`. Empty in a patch.
   std::vector<std::uint32_t> segments;

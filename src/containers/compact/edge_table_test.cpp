@@ -10,7 +10,7 @@ namespace {
 
 using Corners = std::vector<std::uint32_t>;
 
-/// The corner of the edge that is found.
+/// The corner at the start of the edge that the table finds; `none` if it finds none.
 std::uint32_t cornerOf(EdgeTable& table, std::uint32_t from, std::uint32_t to) {
   const EdgeTable::Edge* edge = table.find(from, to);
   return edge ? edge->corner : none;
@@ -30,13 +30,13 @@ TEST(EdgeTable, FindsEveryEdgeUntilItsTriangleIsTaken) {
     table.take(corner / 3);
     EXPECT_EQ(cornerOf(table, from, to), none);
     if (to != 0) {
-      EXPECT_EQ(cornerOf(table, to, from), none) << "has the other direction";
+      EXPECT_EQ(cornerOf(table, to, from), none) << "the opposite edge";
     }
     table = EdgeTable(corners, count + 1);
   }
 }
 
-TEST(EdgeTable, GivesTheTrianglesOfOneEdgeInTheirOrder) {
+TEST(EdgeTable, FindsTheTrianglesOfOneEdgeInSourceOrder) {
   for (const std::uint32_t count : {2u, 7u, 50'000u}) {
     Corners corners;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -51,7 +51,7 @@ TEST(EdgeTable, GivesTheTrianglesOfOneEdgeInTheirOrder) {
   }
 }
 
-TEST(EdgeTable, HasNoEdgesOfTrianglesThatAreNone) {
+TEST(EdgeTable, LeavesOutTrianglesWithEqualCorners) {
   const Corners corners{0, 0, 1, 1, 2, 1, 2, 0, 0};
   EdgeTable table(corners, 3);
   for (std::uint32_t from = 0; from < 3; ++from)

@@ -20,7 +20,8 @@ struct Ordered {
   std::vector<std::uint32_t> sourceVertex; ///< vertex -> vertex of the source
 };
 
-/// One of several first triangles of a patch. They lead to different orders, and none is best for all patches.
+/// Chooses one of `count` first triangles of a patch. They lead to different orders, none of which is the smallest for
+/// all patches.
 struct Attempt {
   std::uint32_t number = 0, count = 1;
 
@@ -55,7 +56,7 @@ Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& ver
 }
 
 /// Whether the sums of absolute triangle normals around each vertex are below 2^30, with edges shifted right.
-bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, std::uint32_t shift) {
+bool normalSumsFit(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, std::uint32_t shift) {
   constexpr std::int64_t limit = 1 << 30;
   std::vector<std::int64_t> sums(patch.positions.size());
   for (std::size_t corner = 0; corner < vertices.size(); corner += 3) {
@@ -73,10 +74,10 @@ bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& 
   return true;
 }
 
-/// The smallest shift with which they are.
+/// The smallest shift for which normalSumsFit holds.
 std::uint32_t normalShiftFor(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices) {
   std::uint32_t shift = 0;
-  while (patch.topology == Topology::triangles && !fitNormalSums(patch, vertices, shift))
+  while (patch.topology == Topology::triangles && !normalSumsFit(patch, vertices, shift))
     ++shift;
   return shift;
 }
@@ -133,8 +134,8 @@ template <typename T> std::uint32_t indexIn(std::vector<T>& list, const T& value
   return static_cast<std::uint32_t>(list.size() - 1);
 }
 
-/// From 7 on 2, 4 and 8.
-constexpr std::uint32_t attemptsOf(int effort) {
+/// The number of orders that are tried: 1 for efforts below 7, then 2, 4 and 8.
+constexpr std::uint32_t attemptCountOf(int effort) {
   return effort < 7 ? 1 : 1u << (effort - 6);
 }
 
@@ -166,16 +167,17 @@ public:
   }
 
 private:
-  /// Several attributes of a patch that have the same type are different attributes of the file.
+  /// The type of a patch. Adds missing attribute types to the header; attributes of one patch never share an entry of
+  /// the header, even if they have the same type.
   PatchType typeOf(const CompactPatch& patch) {
     PatchType type{patch.topology, patch.positionBits, patch.segmentCount > 0, {}};
     for (const Attribute& attribute : patch.attributes) {
-      const auto isOther = [&](std::uint32_t attributeIndex) {
+      const auto isUnusedMatch = [&](std::uint32_t attributeIndex) {
         return header_.attributes[attributeIndex] == attribute.type &&
                std::ranges::find(type.attributes, attributeIndex) == type.attributes.end();
       };
       std::uint32_t attributeIndex = 0;
-      while (attributeIndex < header_.attributes.size() && !isOther(attributeIndex))
+      while (attributeIndex < header_.attributes.size() && !isUnusedMatch(attributeIndex))
         ++attributeIndex;
       if (attributeIndex == header_.attributes.size())
         header_.attributes.push_back(attribute.type);
@@ -289,7 +291,8 @@ private:
     return as.isDerived() ? error : static_cast<double>(encoder.finish().size());
   }
   static constexpr std::uint32_t sampledNormals = 4096;
-  static constexpr double smallSample = sampledNormals / 16.0; ///< half a bit a normal: the mode is right
+  static constexpr double smallSample =
+      sampledNormals / 16.0; ///< half a bit per normal: another mode would save little
   static constexpr int effortOfWholeTrials = 7;
 
   int effort_;
@@ -302,7 +305,7 @@ private:
 } // namespace
 
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort) {
-  const std::uint32_t attempts = attemptsOf(effort);
+  const std::uint32_t attempts = attemptCountOf(effort);
   EncodedPatches best;
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
     EncodedPatches encoded = FileEncoder(patches, effort, {attempt, attempts}).run();

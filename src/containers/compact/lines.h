@@ -6,13 +6,13 @@
 
 namespace imgeo::compact {
 
-/// They follow the models of triangles in the same stream.
+/// The models of lines. They follow the models of triangles in the same stream.
 namespace lineModelOffsets {
 inline constexpr std::size_t chain = conquestModels::count, old = chain + 1, vertex = old + 2,
                              count = vertex + numberModels;
 }
 
-/// `Guide` knows the lines of an encoder; decoders do not use it.
+/// Codes all lines. The `guide` of an encoder knows the source lines; decoders do not use it.
 template <typename Coder, typename Guide>
 Connectivity codeLines(Coder& coder, Guide& guide, std::uint32_t lineCount, std::uint32_t vertexCount) {
   namespace models = lineModelOffsets;
@@ -20,7 +20,7 @@ Connectivity codeLines(Coder& coder, Guide& guide, std::uint32_t lineCount, std:
   out.vertex.reserve(std::size_t{lineCount} * 2);
   out.from.assign(vertexCount, none);
 
-  /// Codes an end of a line; true if it is a new vertex.
+  // Codes one end of a line. Returns true if it is a new vertex.
   const auto codeEnd = [&](std::uint32_t corner, std::uint32_t& vertex) {
     std::uint32_t known = none;
     if constexpr (Coder::encodes)

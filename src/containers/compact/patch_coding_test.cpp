@@ -10,29 +10,30 @@
 namespace imgeo::compact {
 namespace {
 
-/// A corner as what can be told of it, whatever its number.
-using CornerText = std::vector<std::int64_t>;
-using ElementText = std::vector<CornerText>;
+/// The position and the attributes of a corner: what does not depend on its index.
+using CornerValues = std::vector<std::int64_t>;
+using ElementValues = std::vector<CornerValues>;
 
-CornerText textOf(const CompactPatch& patch, std::uint32_t wedge) {
+CornerValues cornerValues(const CompactPatch& patch, std::uint32_t wedge) {
   const Vec3u& at = patch.positions[patch.wedgePositions[wedge]];
-  CornerText text{at.x, at.y, at.z};
+  CornerValues values{at.x, at.y, at.z};
   for (const Attribute& attribute : patch.attributes)
     if (!attribute.type.isDerived())
       for (std::uint32_t i = 0; i < attribute.type.components; ++i)
-        text.push_back(attribute.values[wedge][i]);
-  return text;
+        values.push_back(attribute.values[wedge][i]);
+  return values;
 }
 
-/// The elements in an order of their own, each turned to its lexicographically smallest rotation.
-std::vector<ElementText> elementsOf(const CompactPatch& patch) {
+/// The elements of a patch, sorted, so that two patches compare equal if only the orders of their elements and corners
+/// differ. The corners of a triangle are rotated to the smallest of their three orders.
+std::vector<ElementValues> elementsOf(const CompactPatch& patch) {
   const std::size_t count = cornersPerElement(patch.topology);
-  std::vector<ElementText> elements;
+  std::vector<ElementValues> elements;
   for (std::size_t first = 0; first < patch.corners.size(); first += count) {
-    ElementText element;
+    ElementValues element;
     for (std::size_t i = 0; i < count; ++i)
-      element.push_back(textOf(patch, patch.corners[first + i]));
-    ElementText smallest = element;
+      element.push_back(cornerValues(patch, patch.corners[first + i]));
+    ElementValues smallest = element;
     for (std::size_t turn = 1; turn < count && count == 3; ++turn) {
       std::rotate(element.begin(), element.begin() + 1, element.end());
       smallest = std::min(smallest, element);
@@ -47,7 +48,7 @@ Bytes bytesOf(const CompactPatch& patch, int effort = 0) {
   return encodePatches({&patch, 1}, effort).bytes;
 }
 
-void expectIs(const CompactPatch& back, const CompactPatch& patch) {
+void expectSamePatch(const CompactPatch& back, const CompactPatch& patch) {
   EXPECT_EQ(back.topology, patch.topology);
   EXPECT_EQ(back.positionBits, patch.positionBits);
   EXPECT_EQ(back.positions.size(), patch.positions.size());
@@ -58,28 +59,28 @@ void expectIs(const CompactPatch& back, const CompactPatch& patch) {
   EXPECT_EQ(elementsOf(back), elementsOf(patch));
 }
 
-void expectComeBack(std::span<const CompactPatch> patches) {
+void expectDecodeEqual(std::span<const CompactPatch> patches) {
   const std::vector<CompactPatch> back = decodePatches(encodePatches(patches, 0).bytes, "x.png");
   ASSERT_EQ(back.size(), patches.size());
   for (std::size_t i = 0; i < back.size(); ++i)
-    expectIs(back[i], patches[i]);
+    expectSamePatch(back[i], patches[i]);
 }
 
-void expectComesBack(const CompactPatch& patch) {
-  expectComeBack({&patch, 1});
+void expectDecodesEqual(const CompactPatch& patch) {
+  expectDecodeEqual({&patch, 1});
 }
 
-TEST(Compact, GivesBackRandomMeshes) {
+TEST(Compact, DecodesRandomMeshes) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
     AttributeBits bits{4 + seed % 13, 1 + seed % 16, 1 + seed % 8, static_cast<NormalMode>(seed / 2 % 4)};
-    expectComesBack(testing::patchOf(imgeo::testing::randomMesh(seed), 8 + seed % 23, bits));
+    expectDecodesEqual(testing::patchOf(imgeo::testing::randomMesh(seed), 8 + seed % 23, bits));
     if (HasFailure())
       return;
   }
 }
 
-TEST(Compact, GivesBackManyPatchesOfAFile) {
+TEST(Compact, DecodesManyPatchesOfAFile) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     testing::Random random(seed);
@@ -88,13 +89,13 @@ TEST(Compact, GivesBackManyPatchesOfAFile) {
       const AttributeBits bits{4 + i % 13, 1 + i % 16, 1 + i % 8, static_cast<NormalMode>(i / 2 % 4)};
       patches.push_back(testing::patchOf(imgeo::testing::randomMesh(random.below(400)), 8 + i % 5, bits));
     }
-    expectComeBack(patches);
+    expectDecodeEqual(patches);
     if (HasFailure())
       return;
   }
 }
 
-TEST(Compact, TakesLessForPatchesTogetherThanForEachAlone) {
+TEST(Compact, EncodesPatchesTogetherInFewerBytesThanAlone) {
   std::vector<CompactPatch> patches;
   std::size_t alone = 0;
   for (std::uint32_t i = 0; i < 200; ++i) {
@@ -104,7 +105,7 @@ TEST(Compact, TakesLessForPatchesTogetherThanForEachAlone) {
   EXPECT_LT(static_cast<double>(encodePatches(patches, 0).bytes.size()), 0.75 * static_cast<double>(alone));
 }
 
-TEST(Compact, TakesNoMoreBytesForMoreEffort) {
+TEST(Compact, TakesNoMoreBytesAtHighEffortAndDecodesEqual) {
   std::size_t bytesWithLowEffort = 0, bytesWithHighEffort = 0;
   for (const testing::Sample& sample : testing::files()) {
     SCOPED_TRACE(sample.name);
@@ -126,14 +127,14 @@ TEST(Compact, TakesNoMoreBytesForMoreEffort) {
   EXPECT_LT(bytesWithHighEffort, bytesWithLowEffort);
 }
 
-TEST(Compact, TellsTheAttributesOfPatchesWithoutDecodingThem) {
+TEST(Compact, ListsTheAttributesOfPatchesWithoutDecodingThem) {
   for (const testing::Sample& sample : testing::files()) {
-    const auto told = attributesOfPatches(encodePatches(sample.patches, 0).bytes, "x.png");
-    ASSERT_EQ(told.size(), sample.patches.size());
-    for (std::size_t i = 0; i < told.size(); ++i) {
-      ASSERT_EQ(told[i].size(), sample.patches[i].attributes.size());
-      for (std::size_t a = 0; a < told[i].size(); ++a)
-        EXPECT_EQ(told[i][a], sample.patches[i].attributes[a].type);
+    const auto types = attributesOfPatches(encodePatches(sample.patches, 0).bytes, "x.png");
+    ASSERT_EQ(types.size(), sample.patches.size());
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      ASSERT_EQ(types[i].size(), sample.patches[i].attributes.size());
+      for (std::size_t a = 0; a < types[i].size(); ++a)
+        EXPECT_EQ(types[i][a], sample.patches[i].attributes[a].type);
     }
   }
 }
@@ -202,19 +203,19 @@ std::vector<Hostile> hostilePatches() {
   return patches;
 }
 
-TEST(Compact, GivesBackWhatNoSurfaceIs) {
+TEST(Compact, DecodesTrianglesThatFormNoSurface) {
   for (const Hostile& hostile : hostilePatches()) {
     SCOPED_TRACE(hostile.name);
-    expectComesBack(hostile.patch);
+    expectDecodesEqual(hostile.patch);
     const double bytes = static_cast<double>(bytesOf(hostile.patch).size());
     EXPECT_LT(bytes / static_cast<double>(hostile.patch.elementCount()), hostile.maxBytesPerTriangle);
-    // Words for coordinates and for indices: what no coding at all would take.
+    // A list of 16-bit coordinates and 16-bit indices.
     const auto plain = 6.0 * static_cast<double>(hostile.patch.positions.size() + hostile.patch.elementCount());
     EXPECT_LT(bytes, plain);
   }
 }
 
-/// Bits of a plain list of what a patch holds: its indices of 16, its values as they are.
+/// The bits of an uncompressed list of the values of a patch, with indices of 16 bits.
 double plainBitsOf(const CompactPatch& patch) {
   std::size_t bits = 3 * patch.positionBits * patch.positions.size();
   if (patch.topology != Topology::points)
@@ -225,7 +226,7 @@ double plainBitsOf(const CompactPatch& patch) {
   return static_cast<double>(bits);
 }
 
-TEST(Compact, TakesHardlyMoreThanAPlainListForNoise) {
+TEST(Compact, TakesHardlyMoreBytesForNoiseThanAPlainList) {
   using enum AttributeKind;
   const AttributeType noise[] = {{normal, 3, 8, NormalMode::area},
                                  {texCoord, 2, 12, NormalMode::area},
@@ -236,14 +237,14 @@ TEST(Compact, TakesHardlyMoreThanAPlainListForNoise) {
       for (const std::size_t attributes : {std::size_t{0}, std::size(noise)}) {
         CompactPatch patch = testing::tangle(topology, 20'000, 20'000, 20'000, bits);
         for (std::size_t i = 0; i < attributes; ++i)
-          testing::addAny(patch, noise[i], static_cast<std::uint32_t>(i));
+          testing::addRandom(patch, noise[i], static_cast<std::uint32_t>(i));
         const double share = 8 * static_cast<double>(bytesOf(patch).size()) / plainBitsOf(patch);
         EXPECT_LT(share, topology == Topology::points ? 1.11 : 0.97)
             << static_cast<int>(topology) << " of " << bits << " bits, " << attributes;
         if (bits == 16)
-          expectComesBack(patch);
+          expectDecodesEqual(patch);
       }
-  // Points come in an order that is theirs to choose, which noise gains by, too.
+  // Points are sorted before they are encoded, which saves bytes even for noise.
   const CompactPatch cloud = testing::patchOf(imgeo::testing::pointCloud(20'000, 1), 16);
   EXPECT_LT(8 * static_cast<double>(bytesOf(cloud).size()) / plainBitsOf(cloud), 0.95);
 }
@@ -253,14 +254,14 @@ TEST(Compact, EncodesTheSameBytesEveryTime) {
   EXPECT_EQ(bytesOf(patch, 5), bytesOf(patch, 5));
 }
 
-TEST(Compact, IsNotLargerWithMoreEffort) {
+TEST(Compact, TakesNoMoreBytesAtTheHighestEffortThanAtTheLowest) {
   for (const testing::Sample& sample : testing::files())
     EXPECT_LE(encodePatches(sample.patches, 9).bytes.size(), encodePatches(sample.patches, 0).bytes.size())
         << sample.name;
 }
 
-TEST(Compact, IsRefusedWhenAnyOfItsEndIsMissing) {
-  const Bytes bytes = bytesOf(testing::samples()[3].patch());
+TEST(Compact, IsRefusedIfItIsCutAnywhere) {
+  const Bytes bytes = bytesOf(testing::samples()[3].firstPatch());
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_THROW(decodePatches(ByteSpan(bytes).first(length), "x.png"), Error) << length;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Patches that between them use every feature of the format. Header-only and for tests alone.
+// Sample patches for tests: together they use every feature of the compact format.
 
 #include "containers/compact/compact_patch.h"
 #include "containers/compact/quantise.h"
@@ -15,7 +15,7 @@ namespace imgeo::compact::testing {
 
 using imgeo::testing::Random;
 
-/// A mesh on its lattice, welded, with what it has of attributes.
+/// A welded mesh on the lattice of its box, as one compact patch with all attributes of the mesh.
 inline CompactPatch patchOf(Mesh mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
   const Lattice lattice = latticeFor(boxOf(mesh), bits);
   weld(mesh);
@@ -23,20 +23,29 @@ inline CompactPatch patchOf(Mesh mesh, std::uint32_t bits, const AttributeBits& 
   return quantise(patched.patches.at(0), describe(patched, {}), attributeBits);
 }
 
-/// An attribute of kind `other` with values all over its range.
-inline void addOther(CompactPatch& patch, std::uint8_t components, std::uint8_t bits, std::uint32_t seed) {
+/// Adds an attribute of a type, whose values are random over its whole range.
+inline void addRandom(CompactPatch& patch, const AttributeType& type, std::uint32_t seed) {
   Random random(seed);
-  Attribute attribute{{AttributeKind::other, components, bits, NormalMode::area}, {}};
+  Attribute attribute{type, {}};
+  const std::int32_t radius = (1 << (type.bits - 1)) - 1;
   for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
-    Value value;
-    for (std::uint32_t i = 0; i < components; ++i)
-      value[i] = static_cast<std::int32_t>(random.bits() >> (32 - bits));
-    attribute.values.push_back(value);
+    Value& value = attribute.values.emplace_back();
+    if (type.kind == AttributeKind::normal) {
+      const auto below = [&](std::int32_t n) {
+        return static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n)));
+      };
+      const auto either = [&](std::int32_t n) { return random.once(2) ? n : -n; };
+      const std::int32_t x = below(radius + 1), y = below(radius - x + 1);
+      value = {{either(x), either(y), either(radius - x - y), 0}};
+      continue;
+    }
+    for (std::uint32_t i = 0; i < type.components; ++i)
+      value[i] = static_cast<std::int32_t>(random.bits() >> (32 - type.bits));
   }
-  patch.attributes.push_back(attribute);
+  patch.attributes.push_back(std::move(attribute));
 }
 
-/// A cube each of whose corners has three wedges, one a face.
+/// A cube with flat faces: each vertex has three wedges, one per face.
 inline Mesh creasedCube() {
   Mesh mesh;
   for (std::uint32_t i = 0; i < 8; ++i)
@@ -61,7 +70,8 @@ inline Mesh creasedCube() {
   return mesh;
 }
 
-/// A cone of flat triangles: its apex has a wedge for each, its rim two a position.
+/// A cone whose triangles each have one random normal: its apex has a wedge for each triangle, each rim vertex has two
+/// wedges.
 inline Mesh flatCone(std::uint32_t triangles) {
   Mesh mesh;
   mesh.positions.push_back({0, 0, 1});
@@ -81,7 +91,7 @@ inline Mesh flatCone(std::uint32_t triangles) {
   return mesh;
 }
 
-/// A height field whose x and y are multiples of a step.
+/// A height field over a regular grid in x and y.
 inline Mesh terrain(std::uint32_t n) {
   Mesh mesh = imgeo::testing::grid(n);
   Random random(n);
@@ -90,7 +100,7 @@ inline Mesh terrain(std::uint32_t n) {
   return mesh;
 }
 
-/// A fan of triangles around one vertex.
+/// A fan of triangles around one vertex, without seams.
 inline Mesh star(std::uint32_t triangles) {
   Mesh mesh = flatCone(triangles);
   mesh.corners.clear();
@@ -102,7 +112,7 @@ inline Mesh star(std::uint32_t triangles) {
   return mesh;
 }
 
-/// Three segments, whose common positions are exact where others are not.
+/// A base of three segments: positions that segments share are exact, others are rounded.
 inline CompactPatch baseOf(const Mesh& mesh, NormalMode normals = NormalMode::derivedArea) {
   CompactPatch base = patchOf(mesh, 16, {8, 12, 8, normals});
   base.segmentCount = 3;
@@ -114,15 +124,15 @@ inline CompactPatch baseOf(const Mesh& mesh, NormalMode normals = NormalMode::de
   return base;
 }
 
-/// A file to be.
+/// The patches of a file and the name of the file.
 struct Sample {
   std::string name;
   std::vector<CompactPatch> patches;
 
-  Sample(std::string called, CompactPatch only) : name(std::move(called)), patches{std::move(only)} {}
-  Sample(std::string called, std::vector<CompactPatch> all) : name(std::move(called)), patches(std::move(all)) {}
-  CompactPatch& patch() { return patches[0]; }
-  const CompactPatch& patch() const { return patches[0]; }
+  Sample(std::string fileName, CompactPatch patch) : name(std::move(fileName)), patches{std::move(patch)} {}
+  Sample(std::string fileName, std::vector<CompactPatch> all) : name(std::move(fileName)), patches(std::move(all)) {}
+  CompactPatch& firstPatch() { return patches[0]; }
+  const CompactPatch& firstPatch() const { return patches[0]; }
 };
 
 /// Files of one patch.
@@ -166,38 +176,17 @@ inline std::vector<Sample> samples() {
     pointsWithNormals.normals.push_back(random.direction());
   samples.push_back({"points-with-normals", patchOf(pointsWithNormals, 20)});
   samples.push_back({"others", patchOf(torus(5, 7), 16)});
-  addOther(samples.back().patch(), 1, 24, 1);
-  addOther(samples.back().patch(), 4, 3, 2);
+  addRandom(samples.back().firstPatch(), {AttributeKind::other, 1, 24, NormalMode::area}, 1);
+  addRandom(samples.back().firstPatch(), {AttributeKind::other, 4, 3, NormalMode::area}, 2);
   samples.push_back({"base", baseOf(sphere(12, 16))});
   samples.push_back({"base-colors", baseOf(colored(grid(6), 3))});
   samples.push_back({"base-seams", baseOf(torus(8, 6))});
-  addOther(samples.back().patch(), 2, 11, 3);
+  addRandom(samples.back().firstPatch(), {AttributeKind::other, 2, 11, NormalMode::area}, 3);
   return samples;
 }
 
-/// An attribute of any kind, with values all over its range.
-inline void addAny(CompactPatch& patch, const AttributeType& type, std::uint32_t seed) {
-  Random random(seed);
-  Attribute attribute{type, {}};
-  const std::int32_t radius = (1 << (type.bits - 1)) - 1;
-  for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
-    Value& value = attribute.values.emplace_back();
-    if (type.kind == AttributeKind::normal) {
-      const auto below = [&](std::int32_t n) {
-        return static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n)));
-      };
-      const auto either = [&](std::int32_t n) { return random.once(2) ? n : -n; };
-      const std::int32_t x = below(radius + 1), y = below(radius - x + 1);
-      value = {{either(x), either(y), either(radius - x - y), 0}};
-      continue;
-    }
-    for (std::uint32_t i = 0; i < type.components; ++i)
-      value[i] = static_cast<std::int32_t>(random.bits() >> (32 - type.bits));
-  }
-  patch.attributes.push_back(std::move(attribute));
-}
-
-/// Elements over `vertexCount` random points, each of which is in use, with `wedgeCount` wedges.
+/// Random elements over `vertexCount` random points with `wedgeCount` wedges. Elements use every wedge if they have
+/// at least `wedgeCount` corners.
 inline CompactPatch tangle(Topology topology, std::uint32_t vertexCount, std::uint32_t wedgeCount,
                            std::uint32_t elementCount, std::uint32_t bits) {
   Random random(wedgeCount);
@@ -215,7 +204,7 @@ inline CompactPatch tangle(Topology topology, std::uint32_t vertexCount, std::ui
   return patch;
 }
 
-/// Gives wedges of a vertex the value of its first one, but for some.
+/// Gives every wedge the value of the first wedge of its vertex, except for about one wedge in `once`.
 inline void repeatValues(CompactPatch& patch, std::uint32_t once) {
   Random random(once);
   for (Attribute& attribute : patch.attributes)
@@ -224,46 +213,44 @@ inline void repeatValues(CompactPatch& patch, std::uint32_t once) {
         attribute.values[wedge] = attribute.values[patch.wedgePositions[wedge] % patch.positions.size()];
 }
 
-/// Patches for what meshes seldom need of the format.
+/// Samples of features that meshes seldom need.
 inline std::vector<Sample> rareSamples() {
   using enum AttributeKind;
   using enum NormalMode;
   std::vector<Sample> samples;
-  // Triangles on any vertices: boundaries end in vertices that lie on none.
+  // Triangles between random vertices: a patch that is no surface.
   samples.push_back({"tangle", tangle(Topology::triangles, 40, 60, 120, 16)});
-  addAny(samples.back().patch(), {normal, 3, 8, area}, 1);
-  addAny(samples.back().patch(), {texCoord, 2, 9, area}, 2);
-  addAny(samples.back().patch(), {color, 3, 8, area}, 3);
-  addAny(samples.back().patch(), {other, 3, 7, area}, 4);
-  repeatValues(samples.back().patch(), 4);
-  // More wedges a vertex than there are steps of a ring.
+  addRandom(samples.back().firstPatch(), {normal, 3, 8, area}, 1);
+  addRandom(samples.back().firstPatch(), {texCoord, 2, 9, area}, 2);
+  addRandom(samples.back().firstPatch(), {color, 3, 8, area}, 3);
+  addRandom(samples.back().firstPatch(), {other, 3, 7, area}, 4);
+  repeatValues(samples.back().firstPatch(), 4);
+  // Vertices with more wedges than a step around the vertex can address.
   samples.push_back({"crowded", tangle(Topology::triangles, 5, 120, 300, 12)});
-  addAny(samples.back().patch(), {normal, 3, 16, uniform}, 5);
+  addRandom(samples.back().firstPatch(), {normal, 3, 16, uniform}, 5);
   samples.push_back({"lines-with-seams", tangle(Topology::lines, 30, 50, 80, 16)});
-  addAny(samples.back().patch(), {normal, 3, 6, area}, 6);
-  addAny(samples.back().patch(), {texCoord, 2, 10, area}, 7);
-  addAny(samples.back().patch(), {color, 4, 16, area}, 8);
-  repeatValues(samples.back().patch(), 3);
+  addRandom(samples.back().firstPatch(), {normal, 3, 6, area}, 6);
+  addRandom(samples.back().firstPatch(), {texCoord, 2, 10, area}, 7);
+  addRandom(samples.back().firstPatch(), {color, 4, 16, area}, 8);
+  repeatValues(samples.back().firstPatch(), 3);
   samples.push_back({"points-with-all", tangle(Topology::points, 30, 30, 30, 24)});
-  addAny(samples.back().patch(), {texCoord, 2, 16, area}, 9);
-  addAny(samples.back().patch(), {other, 2, 24, area}, 10);
-  addAny(samples.back().patch(), {normal, 3, 8, derivedArea}, 11);
-  // The fewest bits of everything: many places are one, and triangles have no area.
+  addRandom(samples.back().firstPatch(), {texCoord, 2, 16, area}, 9);
+  addRandom(samples.back().firstPatch(), {other, 2, 24, area}, 10);
+  addRandom(samples.back().firstPatch(), {normal, 3, 8, derivedArea}, 11);
+  // The smallest number of bits of each value: many positions are equal, so triangles have no area.
   samples.push_back({"fewest-bits", tangle(Topology::triangles, 20, 25, 40, 1)});
-  addAny(samples.back().patch(), {normal, 3, 4, area}, 12);
-  addAny(samples.back().patch(), {texCoord, 2, 1, area}, 13);
-  addAny(samples.back().patch(), {color, 3, 1, area}, 14);
-  addAny(samples.back().patch(), {other, 1, 1, area}, 15);
+  addRandom(samples.back().firstPatch(), {normal, 3, 4, area}, 12);
+  addRandom(samples.back().firstPatch(), {texCoord, 2, 1, area}, 13);
+  addRandom(samples.back().firstPatch(), {color, 3, 1, area}, 14);
+  addRandom(samples.back().firstPatch(), {other, 1, 1, area}, 15);
   samples.push_back({"most-attributes", tangle(Topology::triangles, 6, 8, 9, 30)});
+  constexpr std::uint8_t componentCounts[] = {3, 2, 4, 4}; // by AttributeKind
   for (std::uint32_t i = 0; i < maxAttributes; ++i)
-    addAny(samples.back().patch(),
-           {static_cast<AttributeKind>(i % 4),
-            static_cast<std::uint8_t>(i % 4 == 0   ? 3
-                                      : i % 4 == 1 ? 2
-                                                   : 4),
-            static_cast<std::uint8_t>(4 + i % 13), i % 4 == 0 ? static_cast<NormalMode>(i / 4) : area},
-           20 + i);
-  // A base of an isosurface: exact on its grid, rounded beside it.
+    addRandom(samples.back().firstPatch(),
+              {static_cast<AttributeKind>(i % 4), componentCounts[i % 4], static_cast<std::uint8_t>(4 + i % 13),
+               i % 4 == 0 ? static_cast<NormalMode>(i / 4) : area},
+              20 + i);
+  // A base with a grid: coordinates on the grid are exact, others are rounded.
   samples.push_back({"base-grid", baseOf(terrain(9), derivedUniform)});
   return samples;
 }
@@ -271,19 +258,19 @@ inline std::vector<Sample> rareSamples() {
 /// Files of one patch and files of several patches.
 inline std::vector<Sample> files() {
   std::vector<Sample> files = samples();
-  const auto of = [&](std::initializer_list<const char*> names) {
+  const auto patchesNamed = [&](std::initializer_list<const char*> names) {
     std::vector<CompactPatch> patches;
     for (const char* name : names)
-      patches.push_back(std::ranges::find(files, name, &Sample::name)->patch());
+      patches.push_back(std::ranges::find(files, name, &Sample::name)->firstPatch());
     return patches;
   };
-  std::vector<CompactPatch> alike;
+  std::vector<CompactPatch> spheres;
   for (std::uint32_t i = 3; i < 12; ++i)
-    alike.push_back(patchOf(imgeo::testing::sphere(i, i + 1), 12));
-  const auto several = of({"cube", "sphere", "lines", "others", "terrain", "points-with-normals", "torus", "cube",
-                           "torus-plain-colors", "sphere-derived"}),
-             bases = of({"base", "base-colors", "base"});
-  files.emplace_back("alike", std::move(alike));
+    spheres.push_back(patchOf(imgeo::testing::sphere(i, i + 1), 12));
+  const auto several = patchesNamed({"cube", "sphere", "lines", "others", "terrain", "points-with-normals", "torus",
+                                     "cube", "torus-plain-colors", "sphere-derived"}),
+             bases = patchesNamed({"base", "base-colors", "base"});
+  files.emplace_back("alike", std::move(spheres));
   files.emplace_back("several", several);
   files.emplace_back("bases", bases);
   std::ranges::move(rareSamples(), std::back_inserter(files));

@@ -13,7 +13,7 @@ static_assert(maxPayloadBytes == std::size_t{maxImageEdge} * maxImageEdge);
 
 Bytes imageOfPayload(ByteSpan payload) {
   assert(!payload.empty() && payload.size() <= maxPayloadBytes);
-  // As few rows as possible, since each has a filter byte, and then as short as possible.
+  // The image has as few rows as possible, since each has a filter byte, and then the smallest width.
   const auto ceilDivide = [](std::size_t a, std::size_t b) { return static_cast<std::uint32_t>((a + b - 1) / b); };
   const std::uint32_t height = ceilDivide(payload.size(), maxImageEdge), width = ceilDivide(payload.size(), height);
   Image image{width, height, 1, Bytes(std::size_t{width} * height)};

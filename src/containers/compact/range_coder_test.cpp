@@ -8,13 +8,14 @@
 namespace imgeo::compact {
 namespace {
 
+/// What a test codes: a bit of a model, a tree of such bits, or raw bits.
 struct Item {
   enum class Kind { bit, tree, raw } kind;
-  std::uint32_t size; ///< bits of a tree or of raw ones
+  std::uint32_t size; ///< in bits; ignored for Kind::bit
   std::uint32_t value;
 };
 
-/// Random items; one modelled bit in `rarity` is 1, the others are 0.
+/// Random items. Among bits that a model predicts, one in `rarity` is 1.
 std::vector<Item> randomItems(std::mt19937& random, std::size_t count, std::uint32_t rarity) {
   const auto rareBit = [&] { return std::uint32_t{random() % rarity == 0}; };
   std::vector<Item> items;
@@ -43,8 +44,8 @@ template <typename Coder> std::uint32_t code(Coder& coder, const Item& item) {
   return 0;
 }
 
-// Rare bits make a probability extreme: its bits carry over many bytes and move two at a time.
-TEST(RangeCoder, GivesBackWhatWasCoded) {
+// A rare bit makes probabilities extreme: a carry then runs over many bytes, and one bit can move two bytes.
+TEST(RangeCoder, DecodesWhatWasEncoded) {
   std::mt19937 random(1);
   const std::string location = "test";
   for (int round = 0; round < 300; ++round) {
@@ -61,17 +62,17 @@ TEST(RangeCoder, GivesBackWhatWasCoded) {
   }
 }
 
-TEST(RangeCoder, TellsWhatATreeCosts) {
+TEST(RangeCoder, MeasuresATreeLikeItsBits) {
   std::mt19937 random(2);
   RangeEncoder encoder(32);
   for (int i = 0; i < 200; ++i) {
     const auto value = static_cast<std::uint32_t>(random() % 16);
-    CostMeter ofTree(encoder, UINT32_MAX), ofBits(encoder, UINT32_MAX);
-    codeTree(ofTree, 16, 4, value);
+    CostMeter treeMeter(encoder, UINT32_MAX), bitMeter(encoder, UINT32_MAX);
+    codeTree(treeMeter, 16, 4, value);
     std::uint32_t node = 1;
     for (std::uint32_t level = 4; level-- > 0;)
-      node = node << 1 | std::uint32_t{ofBits.bit(16 + node, value >> level & 1)};
-    EXPECT_EQ(ofTree.cost(), ofBits.cost());
+      node = node << 1 | std::uint32_t{bitMeter.bit(16 + node, value >> level & 1)};
+    EXPECT_EQ(treeMeter.cost(), bitMeter.cost());
     codeTree(encoder, 16, 4, i % 3 == 0 ? value : 0);
   }
 }

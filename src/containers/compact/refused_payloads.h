@@ -1,6 +1,6 @@
 #pragma once
-// Payloads that every reader refuses and that no few bytes make of a good one, each
-// under the name of what is wrong with it. Header-only and for tests alone.
+// Payloads for tests that every reader refuses, each with a name that says what is wrong with it. Damage to a few bytes
+// of a valid payload does not produce them.
 
 #include "containers/compact/code_positions.h"
 #include "containers/compact/conquest.h"
@@ -16,7 +16,7 @@
 
 namespace imgeo::compact::testing {
 
-/// A file of patches of one type, without attributes, of these streams and no others.
+/// The payload of patches of one type without attributes; streams that are missing from `streams` are empty.
 inline Bytes payloadOf(const PatchType& type, std::uint32_t patchCount, const std::map<StreamName, Bytes>& streams) {
   FileHeader header{{}, {type}, patchCount, std::vector<std::uint32_t>(5)};
   for (const auto& [name, bytes] : streams)
@@ -28,7 +28,7 @@ inline Bytes payloadOf(const PatchType& type, std::uint32_t patchCount, const st
   return payload;
 }
 
-/// The sizes of patches of one type, whatever they are.
+/// The stream of the sizes of patches of one type. The sizes may be invalid.
 inline Bytes sizesStream(const PatchType& type, const std::vector<PatchSizes>& patches) {
   RangeEncoder encoder(sizeModels::count);
   for (const PatchSizes& sizes : patches) {
@@ -49,7 +49,7 @@ inline Bytes sizesStream(const PatchType& type, const std::vector<PatchSizes>& p
   return encoder.finish();
 }
 
-/// Four lines from one vertex to another, the last of which names for its first end a wedge of its second.
+/// Four lines between two vertices. The first end of the last line refers to a wedge of the other vertex.
 inline Bytes wedgeOfAnotherVertex() {
   const PatchType type{Topology::lines, 30, false, {}};
   RangeEncoder connectivity(lineModelOffsets::count), positions(positionModels::countWithGrid),
@@ -63,7 +63,7 @@ inline Bytes wedgeOfAnotherVertex() {
         codeNumber(connectivity, lineModelOffsets::vertex, 1 - end);
     }
   }
-  for (int vertex = 0; vertex < 2; ++vertex) // both in the middle
+  for (int vertex = 0; vertex < 2; ++vertex) // both in the middle of the lattice of the lattice
     for (const std::size_t models : {positionModels::first, positionModels::second, positionModels::third})
       codeSigned(positions, models, 0);
   wedges.bit(wedgeModels::split, true);
@@ -75,7 +75,7 @@ inline Bytes wedgeOfAnotherVertex() {
   wedges.bit(wedgeModels::same + 6, false);
   wedges.bit(wedgeModels::made + 2, false);
   codeTree(wedges, wedgeModels::step, 4, 15);
-  codeNumber(wedges, wedgeModels::wedge, 2); // the second of four
+  codeNumber(wedges, wedgeModels::wedge, 2); // a wedge of the other vertex
   return payloadOf(type, 1,
                    {{StreamName::sizes, sizesStream(type, {{0, 2, 4, 4, 0, {}, 0, 0}})},
                     {StreamName::connectivity, connectivity.finish()},
@@ -83,42 +83,43 @@ inline Bytes wedgeOfAnotherVertex() {
                     {StreamName::wedges, wedges.finish()}});
 }
 
+/// The name and the bytes of each payload. vectors/compact-1/refused.json lists the names.
 inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
   const PatchType points{Topology::points, 30, false, {}}, lines{Topology::lines, 30, false, {}},
       onGrid{Topology::points, 16, false, {}};
-  const auto ofSizes = [](const PatchType& type, const std::vector<PatchSizes>& sizes) {
+  const auto withSizes = [](const PatchType& type, const std::vector<PatchSizes>& sizes) {
     return payloadOf(type, static_cast<std::uint32_t>(sizes.size()), {{StreamName::sizes, sizesStream(type, sizes)}});
   };
-  const auto ofGrid = [&](std::uint32_t origin, std::uint32_t step) {
+  const auto withGrid = [&](std::uint32_t origin, std::uint32_t step) {
     const Grid grid{{0, 0, origin}, {1u << 20, 1u << 20, step}};
-    return ofSizes(onGrid, {{0, 1, 1, 1, 0, grid, 0, 0}});
+    return withSizes(onGrid, {{0, 1, 1, 1, 0, grid, 0, 0}});
   };
   const Bytes begin{'I', 'G', 'C', 1};
-  const auto ofHeader = [&](std::initializer_list<std::uint8_t> rest) {
+  const auto withHeader = [&](std::initializer_list<std::uint8_t> rest) {
     Bytes bytes = begin;
     bytes.insert(bytes.end(), rest);
     bytes.resize(64);
     return bytes;
   };
   return {
-      {"more vertices", ofSizes(points, {{0, maxPatchCount, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
-      {"more wedges", ofSizes(lines, {{0, 1, maxPatchCount + 1, maxPatchCount, 0, {}, 0, 0}})},
-      {"more elements", ofSizes(lines, {{0, 1, 1, maxPatchCount + 1, 0, {}, 0, 0}})},
+      {"more vertices", withSizes(points, {{0, maxPatchCount, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
+      {"more wedges", withSizes(lines, {{0, 1, maxPatchCount + 1, maxPatchCount, 0, {}, 0, 0}})},
+      {"more elements", withSizes(lines, {{0, 1, 1, maxPatchCount + 1, 0, {}, 0, 0}})},
       {"another format", {'I', 'G', 'D', 1, 0, 0}},
       {"another version", {'I', 'G', 'C', 2, 0, 0}},
       {"half a header", {'I', 'G', 'C', 1, 1, 0}},
-      {"more attributes", ofHeader({0x81, 2})},
-      {"more types", ofHeader({0, 0x81, 2})},
-      {"more patches", ofHeader({0, 1, 1, 16, 0, 0, 0x81, 0x80, 4})},
-      {"no patches", ofHeader({0, 1, 1, 16, 0, 0, 0})},
-      {"a patch of no type", ofHeader({0, 0, 1, 3, 0, 0, 0, 0})},
-      {"a number of five bytes", ofHeader({0x80, 0x80, 0x80, 0x80, 0})},
+      {"more attributes", withHeader({0x81, 2})},
+      {"more types", withHeader({0, 0x81, 2})},
+      {"more patches", withHeader({0, 1, 1, 16, 0, 0, 0x81, 0x80, 4})},
+      {"no patches", withHeader({0, 1, 1, 16, 0, 0, 0})},
+      {"a patch of no type", withHeader({0, 0, 1, 3, 0, 0, 0, 0})},
+      {"a number of five bytes", withHeader({0x80, 0x80, 0x80, 0x80, 0})},
       {"streams of more than 32 bits",
-       ofHeader({0, 1, 1, 16, 0, 0, 1, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff, 0x7f})},
-      {"a base of points", ofHeader({0, 1, 1, 16, 1, 0, 1, 0, 0, 0, 0, 0})},
-      {"bases beside patches", ofHeader({0, 2, 3, 16, 1, 0, 3, 16, 0, 0, 1, 0, 0, 0, 0, 0})},
-      {"lines of a grid that are too near", ofGrid(0, 2 * 65536 - 1)},
-      {"a grid that begins behind its first line", ofGrid(1u << 20, 1u << 20)},
+       withHeader({0, 1, 1, 16, 0, 0, 1, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff, 0x7f})},
+      {"a base of points", withHeader({0, 1, 1, 16, 1, 0, 1, 0, 0, 0, 0, 0})},
+      {"bases beside patches", withHeader({0, 2, 3, 16, 1, 0, 3, 16, 0, 0, 1, 0, 0, 0, 0, 0})},
+      {"lines of a grid that are too near", withGrid(0, 2 * 65536 - 1)},
+      {"a grid that begins behind its first line", withGrid(1u << 20, 1u << 20)},
       {"a wedge of another vertex", wedgeOfAnotherVertex()},
   };
 }

@@ -1,7 +1,6 @@
 #pragma once
-// Numbers as adaptive and raw bits. Each function encodes and decodes: a Coder is a
-// RangeEncoder or a CostMeter, which take the value, or a RangeDecoder, which ignores the
-// argument and returns the value.
+// Codes numbers as adaptive and raw bits. Each function encodes or decodes: a Coder is a RangeEncoder or a CostMeter,
+// which code the argument, or a RangeDecoder, which ignores the argument. All return the coded value.
 
 #include <bit>
 #include <cstddef>
@@ -12,7 +11,7 @@ namespace imgeo::compact {
 /// Number of models of a number.
 inline constexpr std::size_t numberModels = 32;
 
-/// 0 .. 2^depth - 1 in models + 1 .. models + 2^depth - 1.
+/// Codes a value of 0 .. 2^depth - 1 as a binary tree, with the models models + 1 .. models + 2^depth - 1.
 template <typename Coder>
 std::uint32_t codeTree(Coder& coder, std::size_t models, std::uint32_t depth, std::uint32_t value = 0) {
   if constexpr (requires { coder.tree(models, depth, value); })
@@ -23,13 +22,13 @@ std::uint32_t codeTree(Coder& coder, std::size_t models, std::uint32_t depth, st
   return node - (1u << depth);
 }
 
-/// A number's length in bits, 0 .. 30.
+/// Codes the length of a number in bits, 0 .. 30.
 template <typename Coder> std::uint32_t codeClass(Coder& coder, std::size_t models, std::uint32_t value = 0) {
   const std::uint32_t shortClass = codeTree(coder, models, 4, value < 15 ? value : 15);
   return shortClass < 15 ? shortClass : 15 + codeTree(coder, models + 16, 4, value - 15);
 }
 
-/// 0 .. 2^30 - 1.
+/// Codes a number of 0 .. 2^30 - 1.
 template <typename Coder> std::uint32_t codeNumber(Coder& coder, std::size_t models, std::uint32_t value = 0) {
   const std::uint32_t length = codeClass(coder, models, static_cast<std::uint32_t>(std::bit_width(value)));
   if (length == 0)
@@ -43,7 +42,7 @@ struct SignedNumber {
   std::uint32_t length = 0; ///< of its absolute value, in bits: a context for the next numbers
 };
 
-/// A number whose length `codeLength(magnitude's length)` codes.
+/// Codes a signed number; `codeLength(length)` codes the length of its absolute value in bits and returns it.
 template <typename Coder, typename CodeLength>
 SignedNumber codeSignedBy(Coder& coder, std::int64_t value, CodeLength codeLength) {
   const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
@@ -56,12 +55,12 @@ SignedNumber codeSignedBy(Coder& coder, std::int64_t value, CodeLength codeLengt
   return {rest & 1 ? -decoded : decoded, length};
 }
 
-/// -(2^30 - 1) .. 2^30 - 1.
+/// Codes a number of -(2^30 - 1) .. 2^30 - 1.
 template <typename Coder> SignedNumber codeSigned(Coder& coder, std::size_t models, std::int64_t value = 0) {
   return codeSignedBy(coder, value, [&](std::uint32_t length) { return codeClass(coder, models, length); });
 }
 
-/// A signed number that is mostly 0: its length is coded in unary.
+/// Codes a signed number that is mostly 0: its length is coded in unary.
 template <typename Coder> SignedNumber codeSmall(Coder& coder, std::size_t models, std::int64_t value = 0) {
   return codeSignedBy(coder, value, [&](std::uint32_t length) {
     std::uint32_t i = 0;

@@ -1,8 +1,7 @@
-// vectors/compact-1: files and what decodes from them, for readers in any language.
-// NAME.png holds the patches of NAME.json. edits.json lists edits of payloads, and
-// what is to come of each: the kind of error, or the FNV-1a sum of what decodes.
-// refused.json has whole payloads, in base 16. IMGEO_REWRITE_GOLDEN=1 writes all
-// anew; where a file that there was has changed, that is a new version of the format.
+// Checks the test vectors in vectors/compact-1, which readers in every language share. NAME.png holds the patches of
+// NAME.json. edits.json lists edits of payloads and the verdict on each: the kind of error, or the FNV-1a sum of the
+// decoded numbers. refused.json holds whole payloads in base 16. IMGEO_REWRITE_GOLDEN=1 writes all files again; an
+// existing file that changes means a new version of the format.
 #include "base/file.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/patch_samples.h"
@@ -53,13 +52,13 @@ Json jsonOf(const std::vector<CompactPatch>& patches) {
   return json;
 }
 
-/// A number where the payload decodes.
+/// The verdict on a payload: a number if it decodes, otherwise the kind of error.
 Json verdictOn(const Bytes& payload) {
   const std::string verdict = testing::verdictOn(payload);
   return std::isdigit(static_cast<unsigned char>(verdict.front())) ? Json(std::stoul(verdict)) : Json(verdict);
 }
 
-/// A payload after [byte, value] pairs and, where "length" stands, cut to it.
+/// A payload after the edits of an entry: "edits" are pairs [byte offset, value]; "length", if given, cuts the payload.
 Bytes edited(Bytes payload, const Json& entry) {
   for (const Json& edit : entry.at("edits"))
     payload.at(edit.at(0).get<std::size_t>()) = edit.at(1).get<std::uint8_t>();
@@ -77,7 +76,7 @@ Json read(const std::string& name) {
   return Json::parse(asText(readFile(folder / name)));
 }
 
-/// Every byte of a header made wrong, every stream cut, and damage anywhere.
+/// Entries with changed bytes in the header, with one or two changed bytes anywhere, and with a payload cut anywhere.
 Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) {
   Json entries = Json::array();
   const auto add = [&](Json edits, std::optional<std::size_t> length = {}) {
@@ -155,13 +154,13 @@ TEST_F(Vectors, AreDecodedExactly) {
   EXPECT_GT(count, 15u);
 }
 
-TEST_F(Vectors, AreWhatIsEncodedToday) {
+TEST_F(Vectors, EqualWhatTheEncoderWrites) {
   for (const testing::Sample& sample : testing::files())
     EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0).bytes), readFile(folder / (sample.name + ".png")))
         << sample.name;
 }
 
-TEST_F(Vectors, AreRefusedWhereTheyAreMadeToBe) {
+TEST_F(Vectors, OfInvalidPayloadsAreRefused) {
   const Json refused = read("refused.json");
   EXPECT_GT(refused.size(), 10u);
   for (const Json& entry : refused) {
@@ -171,7 +170,7 @@ TEST_F(Vectors, AreRefusedWhereTheyAreMadeToBe) {
   }
 }
 
-TEST_F(Vectors, AreRefusedOrDecodedAsStatedWhenEdited) {
+TEST_F(Vectors, AreRefusedOrDecodedAsStatedAfterEdits) {
   std::map<std::string, Bytes> payloads;
   std::map<std::string, std::size_t> verdicts;
   for (const Json& entry : read("edits.json")) {

@@ -1,6 +1,6 @@
 #pragma once
-// For tests: the outcome of decoding a file in one word, to compare readers in several
-// languages (web/src/decode/compact/verdict.testing.ts has the same).
+// For tests: states the outcome of decoding a file in one word, so that readers in several languages can be compared.
+// web/src/decode/compact/verdict.testing.ts is the counterpart of the runtime.
 
 #include "base/bytes.h"
 #include "base/error.h"

@@ -40,13 +40,13 @@ Bytes deflate(ByteSpan bytes, int level) {
   return Bytes(out.get(), out.get() + size);
 }
 
-/// Levels are libdeflate's, 0 .. 12, from 10 on by near-optimal parsing.
+/// How hard to compress. Levels are those of libdeflate, 0 .. 12; from 10 on it parses near-optimally.
 struct Effort {
   int levelOfDense;        ///< for images with few repetitions: low bytes, normals
   int level, levelOfLarge; ///< for other images, where long matches slow parsing down
   std::span<const RowFilter> filters;
-  int probeLevel = 1;                            ///< filters are compared at this level
-  std::size_t probeBytes = std::size_t{1} << 15; ///< and on at most so many bytes of an image
+  int probeLevel = 1;                            ///< level at which filters are compared
+  std::size_t probeBytes = std::size_t{1} << 15; ///< maximum size of the sample on which they are compared
 };
 
 /// Record images are at most this large; larger images hold indices.
@@ -55,20 +55,20 @@ constexpr std::size_t largeImageBytes = std::size_t{256} * 256 * 4;
 /// Images that deflate below this ratio at the probe level count as repetitive.
 constexpr double repetitiveRatio = 0.3;
 
-/// Measured in docs/decisions/png-effort.md. Neighbours in the images of a mesh
-/// are next to each other in a row, rarely in a column: sub nearly always wins.
+/// Levels and filters of an effort of 0 .. 9, measured in docs/decisions/png-effort.md. Vertices that are close to each
+/// other lie side by side in a row of an image, rarely in a column: sub is nearly always the best filter.
 Effort effortOf(int effort) {
   assert(effort >= 0 && effort <= 9);
   static constexpr RowFilter all[] = {RowFilter::sub,      RowFilter::none, RowFilter::paeth,
                                       RowFilter::adaptive, RowFilter::up,   RowFilter::average};
   static constexpr std::span<const RowFilter> filters(all);
-  static const Effort ladder[] = {
+  static const Effort efforts[] = {
       {1, 1, 1, filters.first(1)},         {1, 1, 1, filters.first(2)},    {1, 4, 4, filters.first(2)},
       {1, 6, 6, filters.first(3)},         {1, 7, 7, filters.first(4)},    {10, 7, 7, filters.first(4)},
       {10, 10, 7, filters.first(4)},       {10, 10, 10, filters.first(4)}, {12, 12, 12, filters.first(4)},
       {12, 12, 12, filters, 12, SIZE_MAX},
   };
-  return ladder[effort];
+  return efforts[effort];
 }
 
 /// The image on which filters are compared: the whole image, or bands of rows spread evenly over it if it has more than
@@ -160,7 +160,7 @@ Bytes encodePlainPng(const Image& image) {
   assert(isEncodable(image));
   const Bytes rows = filterRows(image, RowFilter::none);
   const Bytes packed = deflate(rows, 1);
-  // Stored bytes are fast to read: they may be a little larger.
+  // Stored bytes are faster to read than deflated ones, so they are used unless deflating saves 1/256.
   return pngOf(image, packed.size() + rows.size() / 256 < rows.size() ? packed : deflate(rows, 0));
 }
 

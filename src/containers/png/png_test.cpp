@@ -9,7 +9,7 @@
 namespace imgeo {
 namespace {
 
-/// Noise over a smooth ramp: every filter has rows where it wins.
+/// Noise over a smooth ramp, so that each row filter is the best for some rows.
 Image randomImage(std::mt19937& random, std::uint32_t channels) {
   const auto upTo = [&](std::uint32_t count) { return std::uniform_int_distribution<std::uint32_t>(1, count)(random); };
   Image image{upTo(40), upTo(40), channels, {}};
@@ -31,7 +31,7 @@ std::uint32_t crcOf(ByteSpan bytes) {
   return ~crc;
 }
 
-/// A PNG header with right check sum and an IDAT of no use.
+/// A PNG with these fields in its header, whose data is that of one gray pixel.
 Bytes headerOnly(std::uint32_t width, std::uint32_t height, std::uint8_t depth, std::uint8_t colorType) {
   Bytes png = encodePng({1, 1, 1, {7}}, 0);
   Bytes size, sum;
@@ -68,7 +68,7 @@ ErrorKind kindOfDecoding(const Bytes& png) {
   return ErrorKind::usage;
 }
 
-TEST(Png, ComesBackExactlyAtEveryEffort) {
+TEST(Png, DecodesExactlyAtEveryEffort) {
   std::mt19937 random(1);
   for (const std::uint32_t channels : {1u, 3u, 4u})
     for (int effort = 0; effort <= 9; ++effort)
@@ -78,7 +78,7 @@ TEST(Png, ComesBackExactlyAtEveryEffort) {
       }
 }
 
-TEST(Png, OfAPaletteComesBackExpanded) {
+TEST(Png, WithAPaletteDecodesToRgb) {
   std::mt19937 random(6);
   for (const std::size_t entries : {1u, 2u, 77u, 256u}) {
     Image indices = randomImage(random, 1), rgb{indices.width, indices.height, 3, {}};
@@ -92,31 +92,31 @@ TEST(Png, OfAPaletteComesBackExpanded) {
   }
 }
 
-TEST(Png, WhosePixelsNameMoreThanItsPaletteHoldsIsMalformed) {
+TEST(Png, WithPixelsBeyondItsPaletteIsMalformed) {
   const Image image{2, 1, 1, {0, 3}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
   EXPECT_EQ(kindOfDecoding(encodePng(image, 5)), ErrorKind::malformed);
 }
 
-TEST(Png, WhosePaletteIsTransparentIsUnsupported) {
+TEST(Png, WithATransparentPaletteIsUnsupported) {
   EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {0}, {1, 2, 3}}, 5), "tRNS", {128})), ErrorKind::unsupported);
 }
 
-TEST(Png, OfGrayThatIsSeeThroughIsUnsupported) {
+TEST(Png, WithATransparentGrayIsUnsupported) {
   EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {7}}, 5), "tRNS", {0, 7})), ErrorKind::unsupported);
 }
 
-TEST(Png, IsReadWithWhateverElseStandsInIt) {
+TEST(Png, IsReadDespiteTextChunks) {
   Bytes png = encodePng({1, 1, 1, {7}}, 5);
   for (int i = 0; i < 300; ++i)
     png = withChunk(png, "tEXt", {'T', 0, 'x'});
   EXPECT_EQ(decodePng(png, "x.png").pixels, Bytes{7});
 }
 
-TEST(Png, OfChunksThatNobodyKnowsOrInAnotherOrderIsMalformed) {
+TEST(Png, WithUnknownCriticalChunksOrSeparatedDataIsMalformed) {
   const Bytes png = encodePng({1, 1, 1, {7}}, 5);
   for (const char* type : {"ABCD", "IHDR"})
     EXPECT_EQ(kindOfDecoding(withChunk(png, type, {})), ErrorKind::malformed) << type;
-  EXPECT_EQ(decodePng(withChunk(png, "IDAT", {}), "x.png").pixels, Bytes{7}); // behind each other
+  EXPECT_EQ(decodePng(withChunk(png, "IDAT", {}), "x.png").pixels, Bytes{7}); // adjacent IDAT chunks
   Bytes apart = withChunk(png, "IDAT", {}); // with a text between the first and the second
   const std::size_t second = asText(apart).find("IDAT", asText(apart).find("IDAT") + 4) - 4;
   const Bytes text = withChunk(png, "tEXt", {'T', 0, 'x'});
@@ -126,7 +126,7 @@ TEST(Png, OfChunksThatNobodyKnowsOrInAnotherOrderIsMalformed) {
   EXPECT_EQ(kindOfDecoding(apart), ErrorKind::malformed);
 }
 
-TEST(Png, HoldsThreeChunksOnly) {
+TEST(Png, HasThreeChunks) {
   std::mt19937 random(2);
   const Bytes png = encodePng(randomImage(random, 3), 5);
   std::string types;
@@ -135,7 +135,7 @@ TEST(Png, HoldsThreeChunksOnly) {
   EXPECT_EQ(types, "IHDR IDAT IEND ");
 }
 
-TEST(Png, IsNotLargerWithMoreEffortThanWithNone) {
+TEST(Png, IsSmallerWithEffortThanWithout) {
   std::mt19937 random(3);
   Image image{256, 64, 3, {}};
   for (std::uint32_t i = 0; i < 256 * 64 * 3; ++i)
@@ -144,14 +144,14 @@ TEST(Png, IsNotLargerWithMoreEffortThanWithNone) {
   EXPECT_LT(encodePng(image, 5).size(), encodePng(image, 0).size());
 }
 
-TEST(Png, IsRefusedWhenAnyOfItsEndIsMissing) {
+TEST(Png, IsRefusedIfItIsCutAnywhere) {
   std::mt19937 random(4);
   const Bytes png = encodePng(randomImage(random, 4), 5);
   for (std::size_t length = 0; length < png.size(); ++length)
     EXPECT_THROW(decodePng(ByteSpan(png).first(length), "x.png"), Error) << length << " of " << png.size() << " bytes";
 }
 
-TEST(Png, IsRefusedWhenAnyByteIsAltered) {
+TEST(Png, IsRefusedIfAByteIsAltered) {
   std::mt19937 random(5);
   const Image image = randomImage(random, 3);
   const Bytes png = encodePng(image, 5);
@@ -162,26 +162,26 @@ TEST(Png, IsRefusedWhenAnyByteIsAltered) {
   }
 }
 
-TEST(Png, IsRefusedWhenBytesFollowIt) {
+TEST(Png, IsRefusedIfBytesFollowIt) {
   Bytes png = encodePng({1, 1, 1, {7}}, 5);
   png.push_back(0);
   EXPECT_THROW(decodePng(png, "x.png"), Error);
 }
 
-TEST(Png, OfOtherPixelsThanEightBitGrayRgbRgbaAndPaletteIsUnsupported) {
-  EXPECT_EQ(decodePng(headerOnly(1, 1, 8, 0), "x.png").pixels, Bytes{7}); // the helper itself
+TEST(Png, WithPixelsOtherThanEightBitGrayRgbRgbaOrPaletteIsUnsupported) {
+  EXPECT_EQ(decodePng(headerOnly(1, 1, 8, 0), "x.png").pixels, Bytes{7}); // checks headerOnly
   EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 16, 0)), ErrorKind::unsupported);
   EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 8, 4)), ErrorKind::unsupported);
   EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 1, 0)), ErrorKind::unsupported);
 }
 
-TEST(Png, ThatPromisesMoreThanItsBytesCanHoldIsRefusedBeforeMemoryIsTaken) {
+TEST(Png, WithASizeBeyondItsBytesIsRefusedBeforeAllocation) {
   EXPECT_EQ(kindOfDecoding(headerOnly(4096, 4096, 8, 6)), ErrorKind::truncated);
   EXPECT_EQ(kindOfDecoding(headerOnly(4097, 1, 8, 0)), ErrorKind::limit);
   EXPECT_EQ(kindOfDecoding(headerOnly(0x7fffffff, 0x7fffffff, 8, 0)), ErrorKind::limit);
 }
 
-TEST(Filters, ThatAdaptKeepTheSmallestDifferences) {
+TEST(AdaptiveFilters, KeepTheSmallestDifferences) {
   const Image ramp{4, 2, 1, {10, 20, 30, 40, 10, 20, 30, 40}};
   const Bytes rows = filterRows(ramp, RowFilter::adaptive);
   EXPECT_EQ(rows, (Bytes{1, 10, 10, 10, 10, 2, 0, 0, 0, 0}));

@@ -1,5 +1,6 @@
-// The files of vectors/png, which web/src/decode/pngVectors.test.ts reads as well: both decoders give the same pixels,
-// and refuse the same files for the same kind of reason. In verdicts.json `crc32` is that of the pixels.
+// Checks the files of vectors/png, which web/src/decode/pngVectors.test.ts checks as well: both decoders return the
+// same pixels and refuse the same files with the same kind of error. In verdicts.json `crc32` is the checksum of the
+// pixels.
 #include "base/error.h"
 #include "base/file.h"
 #include "containers/png/png.h"
@@ -29,7 +30,7 @@ const char* nameOf(ErrorKind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
-TEST(PngVectors, AreReadToTheirPixels) {
+TEST(PngVectors, DecodeToTheirPixels) {
   for (const Json& expected : verdicts().at("read")) {
     const auto name = expected.at("name").get<std::string>();
     SCOPED_TRACE(name);
@@ -42,7 +43,7 @@ TEST(PngVectors, AreReadToTheirPixels) {
   }
 }
 
-TEST(PngVectors, AreRefusedForTheirReason) {
+TEST(PngVectors, AreRefusedWithTheStatedError) {
   for (const Json& expected : verdicts().at("refused")) {
     const auto name = expected.at("name").get<std::string>();
     SCOPED_TRACE(name);
