@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <brotli/encode.h>
+#include <cassert>
 #include <cctype>
 #include <libdeflate.h>
 #include <memory>
@@ -88,7 +89,7 @@ std::string_view codingName(ContentCoding coding) {
 }
 
 ContentCoding chooseCoding(std::string_view acceptEncoding) {
-  std::optional<int> brotliQ, gzipQ, identityQ, anyQ;
+  std::optional<int> statedBrotli, statedGzip, statedIdentity, statedAny;
   while (!acceptEncoding.empty()) {
     std::string_view item = takeUntil(acceptEncoding, ',');
     const std::string_view name = takeUntil(item, ';');
@@ -96,18 +97,18 @@ ContentCoding chooseCoding(std::string_view acceptEncoding) {
     if (!quality)
       continue;
     if (equalsIgnoringCase(name, "br"))
-      brotliQ = quality;
+      statedBrotli = quality;
     else if (equalsIgnoringCase(name, "gzip") || equalsIgnoringCase(name, "x-gzip"))
-      gzipQ = quality;
+      statedGzip = quality;
     else if (equalsIgnoringCase(name, "identity"))
-      identityQ = quality;
+      statedIdentity = quality;
     else if (name == "*")
-      anyQ = quality;
+      statedAny = quality;
   }
-  const int defaultQ = anyQ.value_or(0);
-  const int brotliQuality = brotliQ.value_or(defaultQ), gzipQuality = gzipQ.value_or(defaultQ);
-  // Identity is allowed by default, but any coding that the client names precedes it.
-  const int identityQuality = identityQ.value_or(1);
+  const int otherQuality = statedAny.value_or(0);
+  const int brotliQuality = statedBrotli.value_or(otherQuality), gzipQuality = statedGzip.value_or(otherQuality);
+  // Identity is allowed if the client does not name it; any coding that the client names comes before it.
+  const int identityQuality = statedIdentity.value_or(1);
   if (brotliQuality > 0 && brotliQuality >= gzipQuality && brotliQuality >= identityQuality)
     return ContentCoding::brotli;
   if (gzipQuality > 0 && gzipQuality >= identityQuality)

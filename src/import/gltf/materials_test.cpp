@@ -127,9 +127,9 @@ TEST(GltfTexture, HasTheSameTransformInX3d) {
   for (int i = 0; i < 200; ++i) {
     const float rotation = random.between(-3, 3), size = random.between(0.1f, 4), x = random.between(-2, 2),
                 y = random.between(-2, 2);
-    const bool turned = random.once(2);
-    const Vec2f scale = turned ? Vec2f{size, size} : Vec2f{size, random.between(-3, -1)};
-    const float angle = turned ? rotation : 0;
+    const bool isRotated = random.once(2);
+    const Vec2f scale = isRotated ? Vec2f{size, size} : Vec2f{size, random.between(-3, -1)};
+    const float angle = isRotated ? rotation : 0;
     GltfText gltf =
         withMaterial({{"pbrMetallicRoughness",
                        {{"baseColorTexture",
@@ -141,13 +141,13 @@ TEST(GltfTexture, HasTheSameTransformInX3d) {
     gltf.json["textures"] = {{{"source", 0}}};
     const TextureTransform transform = readAppearance(gltf).textures.at(0).transform;
 
-    const double u = random.between(0, 1), v = random.between(0, 1); // v down
+    const double u = random.between(0, 1), v = random.between(0, 1); // v points down
     const double gltfU = std::cos(angle) * scale.x * u + std::sin(angle) * scale.y * v + x,
                  gltfV = -std::sin(angle) * scale.x * u + std::cos(angle) * scale.y * v + y;
     const double s = u + transform.translation.x, t = 1 - v + transform.translation.y;
-    const double c = std::cos(transform.rotation), n = std::sin(transform.rotation);
-    EXPECT_TRUE(near((c * s - n * t) * transform.scale.x, gltfU)) << i;
-    EXPECT_TRUE(near((n * s + c * t) * transform.scale.y, 1 - gltfV)) << i;
+    const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
+    EXPECT_TRUE(near((cosine * s - sine * t) * transform.scale.x, gltfU)) << i;
+    EXPECT_TRUE(near((sine * s + cosine * t) * transform.scale.y, 1 - gltfV)) << i;
   }
 }
 

@@ -1,6 +1,6 @@
 // Ear clipping after Meisters, "Polygons have ears" (1975): an ear is a convex
-// corner whose triangle holds no other corner. Only reflex corners can lie in it
-// (Eberly, "Triangulation by ear clipping", 2002).
+// corner whose triangle holds no other corner. Only reflex corners can lie in such a
+// triangle (Eberly, "Triangulation by ear clipping", 2002).
 #include "import/mesh/triangulate.h"
 
 #include <cassert>
@@ -15,7 +15,7 @@ namespace {
 
 using Vec2d = Vec2<double>;
 
-/// Twice the signed area of a triangle.
+/// Twice the signed area of a triangle; positive if it is counter-clockwise.
 double area(Vec2d a, Vec2d b, Vec2d c) {
   return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
 }
@@ -56,6 +56,7 @@ bool isConvex(std::span<const Vec2d> flat) {
   return true;
 }
 
+/// Whether p lies in a counter-clockwise triangle or on its border.
 bool inside(Vec2d p, Vec2d a, Vec2d b, Vec2d c) {
   return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
 }
@@ -64,35 +65,35 @@ class EarClipper {
 public:
   explicit EarClipper(std::span<const Vec2d> flat) : flat_(flat) {
     for (std::size_t i = 0; i < flat.size(); ++i)
-      left_.push_back(static_cast<std::uint32_t>(i));
+      remaining_.push_back(static_cast<std::uint32_t>(i));
   }
 
   void clipInto(std::vector<std::uint32_t>& triangles) {
     std::size_t at = 0, tried = 0;
-    while (left_.size() > 2) {
-      const std::size_t n = left_.size();
-      // A simple polygon always has an ear. One that crosses itself may not: then
-      // any corner is cut off, so that the count of triangles stays.
+    while (remaining_.size() > 2) {
+      const std::size_t n = remaining_.size();
+      // A simple polygon always has an ear. A polygon that intersects itself may have none: then any corner is
+      // clipped, so that the number of triangles is always the number of corners - 2.
       if (tried < n && !isEar(at)) {
         at = (at + 1) % n;
         ++tried;
         continue;
       }
       triangles.insert(triangles.end(), {corner(at + n - 1), corner(at), corner(at + 1)});
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
+      remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(at));
       // Skips a corner: clipping neighbouring ears in turn would make thin triangles.
-      at = (at + 1) % left_.size();
+      at = (at + 1) % remaining_.size();
       tried = 0;
     }
   }
 
 private:
-  std::uint32_t corner(std::size_t at) const { return left_[at % left_.size()]; }
+  std::uint32_t corner(std::size_t at) const { return remaining_[at % remaining_.size()]; }
   double turn(std::size_t at) const {
-    return area(flat_[corner(at + left_.size() - 1)], flat_[corner(at)], flat_[corner(at + 1)]);
+    return area(flat_[corner(at + remaining_.size() - 1)], flat_[corner(at)], flat_[corner(at + 1)]);
   }
   bool isEar(std::size_t at) const {
-    const std::size_t n = left_.size();
+    const std::size_t n = remaining_.size();
     if (turn(at) <= 0)
       return false;
     const Vec2d a = flat_[corner(at + n - 1)], b = flat_[corner(at)], c = flat_[corner(at + 1)];
@@ -108,7 +109,7 @@ private:
   }
 
   std::span<const Vec2d> flat_;
-  std::vector<std::uint32_t> left_;
+  std::vector<std::uint32_t> remaining_; ///< corners that are not clipped yet, in ring order
 };
 
 } // namespace
@@ -116,13 +117,13 @@ private:
 bool triangulate(std::span<const Vec3f> ring, std::vector<std::uint32_t>& triangles) {
   assert(ring.size() >= 3);
   const Vec3d normal = newellNormal(ring);
-  const bool isFlat = ring.size() == 3 || dot(normal, normal) == 0;
-  const std::vector<Vec2d> flat = isFlat ? std::vector<Vec2d>{} : project(ring, normal);
-  const bool wantsFan = isFlat || isConvex(flat);
-  if (wantsFan || ring.size() > maxEarClippedCorners) {
+  const bool isTrivial = ring.size() == 3 || dot(normal, normal) == 0;
+  const std::vector<Vec2d> flat = isTrivial ? std::vector<Vec2d>{} : project(ring, normal);
+  const bool isFanCorrect = isTrivial || isConvex(flat);
+  if (isFanCorrect || ring.size() > maxEarClippedCorners) {
     for (std::uint32_t i = 1; i + 1 < ring.size(); ++i)
       triangles.insert(triangles.end(), {0, i, i + 1});
-    return wantsFan;
+    return isFanCorrect;
   }
   EarClipper(flat).clipInto(triangles);
   return true;

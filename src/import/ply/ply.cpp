@@ -20,7 +20,7 @@ namespace imgeo {
 namespace {
 
 struct Triangles {
-  std::vector<std::uint32_t> indices; ///< three a triangle, into PlyContent::indices
+  std::vector<std::uint32_t> indices; ///< three per triangle, each an offset in PlyContent::indices
   std::size_t fans = 0;               ///< concave polygons too large to clip
 };
 
@@ -66,8 +66,8 @@ Mesh edgesOf(const PlyContent& content) {
   return mesh;
 }
 
-/// A mesh of the polygons or points. One wedge a vertex; with texture coordinates per corner, one wedge a corner. Moves
-/// the vertices out of `content`.
+/// A mesh of the polygons or points, with one wedge per vertex or, if texture coordinates are stored per corner, one
+/// wedge per corner. Moves the vertices out of `content`.
 Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   Mesh mesh;
   const bool isCloud = !hasFaces(content);

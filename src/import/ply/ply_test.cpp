@@ -120,7 +120,7 @@ TEST(Ply, ReadsEveryTypeUnderBothNames) {
   }
 }
 
-TEST(Ply, EveryProperPrefixIsRefused) {
+TEST(Ply, RefusesEveryTruncation) {
   const Mesh mesh = withVertexPerWedge(torus(3, 4));
   for (const char* encoding : allEncodings) {
     const Bytes whole = plyBytes(mesh, {.encoding = encoding});
@@ -154,7 +154,7 @@ TEST(Ply, CutsPolygonsIntoTriangles) {
                                     "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n3 0 1 3\n5 0 1 2 3 4\n4 0 1 2 4\n");
   const Mesh mesh = onlyMesh(text, "m.ply");
   ASSERT_EQ(mesh.elementCount(), 1u + 3 + 2);
-  double area = 0; // all face +z: the concave pentagon has not been cut as a fan
+  double area = 0; // all triangles face +z, so the concave pentagon is not cut as a fan
   for (std::size_t at = 0; at < mesh.corners.size(); at += 3) {
     const Vec3d a(mesh.cornerPosition(at)), b(mesh.cornerPosition(at + 1)), c(mesh.cornerPosition(at + 2));
     EXPECT_GT(cross(b - a, c - a).z, 0);

@@ -4,7 +4,7 @@ namespace imgeo {
 
 namespace {
 
-bool isChoice(const NodeContent& content) {
+bool isSwitchOrLod(const NodeContent& content) {
   const GenericNode* other = std::get_if<GenericNode>(&content);
   return other && (other->element == "Switch" || other->element == "LOD");
 }
@@ -20,7 +20,7 @@ std::vector<std::size_t> loadGroups(const SceneGraph& graph) {
       if (isKnown[child])
         continue; // a USEd node: its first instance counts
       isKnown[child] = true;
-      groups[child] = isChoice(graph.nodes[node].content) ? next++ : groups[node];
+      groups[child] = isSwitchOrLod(graph.nodes[node].content) ? next++ : groups[node];
     }
   return groups;
 }

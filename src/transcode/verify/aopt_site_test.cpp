@@ -1,5 +1,5 @@
-// Sites as aopt and others wrote them for X3DOM 1.7: made here byte by byte from
-// what X3DOM reads, without our writers, and read back through our readers.
+// Reads sites in the layouts that aopt and other tools wrote for X3DOM 1.7. The tests write the bytes themselves,
+// without imgeo's writers, and read them with imgeo's readers.
 
 #include "base/file.h"
 #include "base/testing.h"
@@ -44,8 +44,8 @@ protected:
   }
 
   Vec3d position(std::size_t wedge) const { return Vec3d(mesh.positions[mesh.wedgePositions[wedge]]); }
-  /// Where a wedge is in the box: -0.5 .. +0.5 an axis.
-  Vec3d share(std::size_t wedge) const {
+  /// The position of a wedge relative to the box: -0.5 .. +0.5 on each axis.
+  Vec3d relativePosition(std::size_t wedge) const {
     const Vec3d p = position(wedge) - box.center();
     return {p.x / box.size().x, p.y / box.size().y, p.z / box.size().z};
   }
@@ -58,7 +58,7 @@ protected:
     return fmt::format("position='{} {} {}' size='{} {} {}'", center.x, center.y, center.z, size.x, size.y, size.z);
   }
 
-  /// What our readers find in a page with this geometry node.
+  /// The mesh that the readers return for a page with this geometry node.
   Mesh readBack(const std::string& node) {
     const std::string page = "<!DOCTYPE html><html><body><X3D><Scene><Shape DEF='torus'><Appearance>"
                              "<Material diffuseColor='1 0 0'></Material></Appearance>" +
@@ -70,7 +70,8 @@ protected:
     return scene.meshes.at(0);
   }
 
-  /// The same triangles in the same order; bounds as absolute errors.
+  /// Expects the same triangles in the same order. `positionShare` is relative to the box; 0 for normals or texture
+  /// coordinates means that the site has none.
   void expectEqual(const Mesh& read, double positionShare, double normalDegrees, double texCoord) {
     ASSERT_EQ(read.corners.size(), mesh.corners.size());
     EXPECT_EQ(read.positions.size(), mesh.positions.size());
@@ -97,7 +98,7 @@ protected:
     }
   }
 
-  /// What `verify` says of the site against the mesh as a PLY file, without what the site lacks.
+  /// Verifies the site against the mesh as a PLY file, which has only the given attributes.
   VerifyReport verified(bool normals, bool texCoords, bool colors) const {
     Mesh input = mesh;
     if (!normals)
@@ -118,12 +119,12 @@ protected:
     EXPECT_LE(report.positionError, report.positionBound);
   }
 
-  /// Writes a site of Int16 around the centre; `round` makes integers of v.
+  /// Writes a site with Int16 coordinates relative to the center; `round` converts them to integers.
   void writeSigned(const std::function<std::int16_t(double)>& round) {
     Bytes coords, normals;
     for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
       for (int axis = 0; axis < 3; ++axis) {
-        appendLittle(coords, round(32767 * share(w)[axis]));
+        appendLittle(coords, round(32767 * relativePosition(w)[axis]));
         normals.push_back(static_cast<std::uint8_t>(std::lround(127 * mesh.normals[w][axis])));
       }
       appendLittle(coords, std::int16_t{0});
@@ -140,11 +141,11 @@ protected:
   std::string draws() const { return fmt::format("primType='\"TRIANGLES\"' vertexCount='{}'", mesh.corners.size()); }
 };
 
-TEST_F(AoptSite, WithSeparateFilesNamedByTheirStride) {
+TEST_F(AoptSite, IsReadWithSeparateFilesNamedByTheirStride) {
   Bytes coords, normals, texCoords, colors;
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
     for (int axis = 0; axis < 3; ++axis) {
-      appendLittle(coords, int16(share(w)[axis]));
+      appendLittle(coords, int16(relativePosition(w)[axis]));
       normals.push_back(static_cast<std::uint8_t>(std::lround(127 * mesh.normals[w][axis])));
     }
     appendLittle(coords, std::int16_t{0});
@@ -167,11 +168,11 @@ TEST_F(AoptSite, WithSeparateFilesNamedByTheirStride) {
   expectVerified(true, true, true);
 }
 
-TEST_F(AoptSite, WithInterleavedRecords) {
+TEST_F(AoptSite, IsReadWithInterleavedRecords) {
   Bytes records;
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
     for (int axis = 0; axis < 3; ++axis)
-      appendLittle(records, int16(share(w)[axis]));
+      appendLittle(records, int16(relativePosition(w)[axis]));
     appendLittle(records, std::int16_t{0});
     for (int axis = 0; axis < 3; ++axis)
       appendLittle(records, int16(mesh.normals[w][axis]));
@@ -189,11 +190,11 @@ TEST_F(AoptSite, WithInterleavedRecords) {
   expectVerified(true, true, false);
 }
 
-TEST_F(AoptSite, WithNormalsAsSphericalCoordinates) {
+TEST_F(AoptSite, IsReadWithNormalsAsSphericalCoordinates) {
   Bytes records;
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
     for (int axis = 0; axis < 3; ++axis)
-      appendLittle(records, static_cast<std::uint16_t>(std::lround(65535 * (share(w)[axis] + 0.5))));
+      appendLittle(records, static_cast<std::uint16_t>(std::lround(65535 * (relativePosition(w)[axis] + 0.5))));
     const Vec3f n = mesh.normals[w];
     const double theta = std::acos(n.z) / std::numbers::pi * 255;
     const double phi = (std::atan2(n.y, n.x) / (2 * std::numbers::pi) + 0.5) * 255;
@@ -208,14 +209,14 @@ TEST_F(AoptSite, WithNormalsAsSphericalCoordinates) {
   expectVerified(true, false, false);
 }
 
-TEST_F(AoptSite, WithPlainFloats) {
+TEST_F(AoptSite, IsReadWithPlainFloats) {
   Bytes coords, normals, texCoords;
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
     for (int axis = 0; axis < 3; ++axis) {
       appendLittle(coords, static_cast<float>(position(w)[axis]));
       appendLittle(normals, mesh.normals[w][axis]);
     }
-    appendLittle(texCoords, mesh.texCoords[w].x + 7); // no type but this holds more than 0..1
+    appendLittle(texCoords, mesh.texCoords[w].x + 7); // only Float32 holds values outside 0..1
     appendLittle(texCoords, mesh.texCoords[w].y);
   }
   write("i.bin", index);
@@ -230,8 +231,8 @@ TEST_F(AoptSite, WithPlainFloats) {
   expectVerified(true, true, false);
 }
 
-TEST_F(AoptSite, WithImagesAsImageTextures) {
-  constexpr std::uint32_t width = 128, height = 4; // X3DOM counts indices in 1/256 of them
+TEST_F(AoptSite, IsReadWithImagesAsImageTextures) {
+  constexpr std::uint32_t width = 128, height = 4; // X3DOM scales the bytes of an index to these edges
   ASSERT_LE(mesh.wedgeCount(), width * height);
   const auto imageOf = [&](std::uint32_t columns, std::uint32_t rows, std::uint32_t channels) {
     return Image{columns, rows, channels, Bytes(std::size_t{columns} * rows * channels)};
@@ -239,7 +240,7 @@ TEST_F(AoptSite, WithImagesAsImageTextures) {
   Image high = imageOf(width, height, 3), low = high, normals = high, texCoords = imageOf(width, height, 4);
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const long stored = std::lround(65535 * (share(w)[static_cast<int>(axis)] + 0.5));
+      const long stored = std::lround(65535 * (relativePosition(w)[static_cast<int>(axis)] + 0.5));
       high.pixels[3 * w + axis] = static_cast<std::uint8_t>(stored >> 8);
       low.pixels[3 * w + axis] = static_cast<std::uint8_t>(stored);
       normals.pixels[3 * w + axis] =
@@ -251,7 +252,7 @@ TEST_F(AoptSite, WithImagesAsImageTextures) {
       texCoords.pixels[4 * w + c] = static_cast<std::uint8_t>(channels[c]);
   }
   Image indices = imageOf(64, 64, 3);
-  const std::uint32_t columns = 60; // of the implicit mesh: fewer than the image has
+  const std::uint32_t columns = 60; // of the implicit mesh; the image is wider
   for (std::uint32_t n = 0; n < mesh.corners.size(); ++n) {
     const std::uint32_t record = mesh.corners[n], texel = n / columns * 64 + n % columns;
     indices.pixels[3 * texel] = static_cast<std::uint8_t>(record % width * 256 / width);
@@ -306,7 +307,7 @@ TEST_F(AoptSite, CanBeInspectedAndExported) {
   EXPECT_EQ(info.containerBytes, index.size() + coords.size());
   const ExportReport report = exportSite(directory.path(), directory.path() / "out.ply");
   EXPECT_EQ(report.elements.triangles, mesh.elementCount());
-  EXPECT_EQ(report.vertices, mesh.positions.size()); // without attributes seams close
+  EXPECT_EQ(report.vertices, mesh.positions.size()); // without attributes, seams are welded
   EXPECT_EQ(report.bytes, std::filesystem::file_size(directory.path() / "out.ply"));
 }
 
