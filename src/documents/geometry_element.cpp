@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// A location as the fragment of a url; nothing for the beginning of a file.
+/// A location as the fragment of a url; empty for the beginning of a file.
 std::string fragmentOf(const TexelLocation& location) {
   return location.firstTexel == 0 ? "" : "#" + std::to_string(location.firstTexel);
 }
@@ -29,10 +29,10 @@ std::string urlOf(const Reference& reference) {
   return reference.url + std::visit([](const auto& location) { return fragmentOf(location); }, reference.location);
 }
 
-/// The shortest decimal numbers whose error is at most `share` of the lattice's step.
-std::string shortNumbers(Vec3d vector, const Lattice& lattice, double share) {
+/// The shortest decimal numbers whose error is at most `fraction` of the lattice's step.
+std::string shortNumbers(Vec3d vector, const Lattice& lattice, double fraction) {
   for (int axis = 0; axis < 3; ++axis)
-    vector[axis] = shortestWithin(vector[axis], share * lattice.step);
+    vector[axis] = shortestWithin(vector[axis], fraction * lattice.step);
   return numbers(vector);
 }
 
@@ -117,10 +117,10 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
 }
 
 Attributes decodeAttributes(const GeometryDescription& geometry) {
-  constexpr double noise = 1e-7; // removes rounding errors behind the lattice's own digits
+  constexpr double tolerance = 1e-7; // in lattice steps; removes digits that are rounding errors
   const DecodeFields decode = decodeFields(geometry);
-  return {{"position", shortNumbers(decode.position, geometry.lattice, noise)},
-          {"size", shortNumbers(decode.size, geometry.lattice, noise)}};
+  return {{"position", shortNumbers(decode.position, geometry.lattice, tolerance)},
+          {"size", shortNumbers(decode.size, geometry.lattice, tolerance)}};
 }
 
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
@@ -132,36 +132,36 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
       (!hasElementTypes || geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   addUnless(box, "solid", solid, true, "false");
-  Attributes stored;
+  Attributes fields;
   if (!row.node.isDefaultProfile)
-    stored = {{"profile", row.node.profile}};
+    fields = {{"profile", row.node.profile}};
   if (hasElementTypes)
-    stored = {{"indexType", nameOf(geometry.indexType)},
+    fields = {{"indexType", nameOf(geometry.indexType)},
               {"coordType", nameOf(geometry.coordType)},
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
   else if (row.storage == PatchStorage::bytePlanes && geometry.indexType != ElementType::uint16)
-    stored.push_back({"indexType", nameOf(geometry.indexType)});
+    fields.push_back({"indexType", nameOf(geometry.indexType)});
   if (geometry.base)
-    stored.push_back({"base", urlOf(*geometry.base)});
+    fields.push_back({"base", urlOf(*geometry.base)});
   if (hasNormalsInCoords(geometry))
-    stored.push_back({"normalAsSphericalCoordinates", "true"});
+    fields.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)
-    stored.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
-  addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
-  addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
+    fields.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
+  addUnless(fields, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
+  addUnless(fields, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)
-    stored.push_back(hasElementTypes ? Attribute{"rgbaColors", "true"} : Attribute{"numColorComponents", "4"});
-  Element element{row.node.name, {names, box, stored}};
+    fields.push_back(hasElementTypes ? Attribute{"rgbaColors", "true"} : Attribute{"numColorComponents", "4"});
+  Element element{row.node.name, {names, box, fields}};
   if (!isSinglePatch(geometry))
     return element;
   // On one line: indentation would be a tenth of the text of a small shape.
-  Attributes all;
+  Attributes oneLine;
   for (Attributes& group : element.groups)
-    std::ranges::move(group, std::back_inserter(all));
-  std::ranges::move(compactFields(geometry.patches[0]), std::back_inserter(all));
-  return {element.name, {std::move(all)}};
+    std::ranges::move(group, std::back_inserter(oneLine));
+  std::ranges::move(compactFields(geometry.patches[0]), std::back_inserter(oneLine));
+  return {element.name, {std::move(oneLine)}};
 }
 
 Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding) {

@@ -19,19 +19,19 @@ PatchDescription patchOf(const std::string& name, std::uint32_t rows, Primitive 
 }
 
 /// A shape of two patches, one of a single patch, and points without normals.
-SceneDocument images() {
-  GeometryDescription two, one, points;
-  for (GeometryDescription* geometry : {&two, &one, &points}) {
+SceneDocument imageDocument() {
+  GeometryDescription twoPatches, onePatch, points;
+  for (GeometryDescription* geometry : {&twoPatches, &onePatch, &points}) {
     geometry->lattice = {{1, 2, 3}, 0.25, 12};
     geometry->colorComponents = 4;
     geometry->box = {{0, 0, 0}, {1, 2, 3}};
   }
-  two.patches = {patchOf("a", 7), patchOf("b", 20)};
-  one.patches = {patchOf("c", 1)};
+  twoPatches.patches = {patchOf("a", 7), patchOf("b", 20)};
+  onePatch.patches = {patchOf("c", 1)};
   points.patches = {patchOf("d", 2, Primitive::points)};
   points.patches[0].normal.reset();
   SceneDocument document;
-  document.geometries = {two, one, points};
+  document.geometries = {twoPatches, onePatch, points};
   document.graph.appearances.resize(3);
   const char* names[] = {"statue", "base", ""};
   for (std::size_t i = 0; i < 3; ++i)
@@ -39,8 +39,9 @@ SceneDocument images() {
   return document;
 }
 
-SceneDocument arrays() {
-  SceneDocument document = images();
+/// The same scene in BinaryGeometry nodes.
+SceneDocument arrayDocument() {
+  SceneDocument document = imageDocument();
   for (GeometryDescription& geometry : document.geometries) {
     geometry.encoding = Encoding::bg;
     geometry.colorComponents = 3;
@@ -74,7 +75,7 @@ void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
     EXPECT_NEAR(geometry.lattice.step, expected.lattice.step, 1e-10 * expected.lattice.step);
     EXPECT_EQ(geometry.lattice.bits, expected.lattice.bits);
     geometry.lattice = expected.lattice;
-    geometry.normalType = expected.normalType; // not stated where there are no normals
+    geometry.normalType = expected.normalType; // not written if there are no normals
     geometry.texCoordType = expected.texCoordType;
     geometry.colorType = expected.colorType;
     for (PatchDescription& patch : geometry.patches)
@@ -85,19 +86,20 @@ void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
 }
 
 TEST(X3domWriter, WritesTheSameScene) {
-  expectReadsBackAs(images(), writeX3domX3d(images()));
-  expectReadsBackAs(arrays(), writeX3domX3d(arrays()));
-  expectReadsBackAs(images(), writeX3domHtml(images(), {"x3dom/x3dom.js", "", "x3dom/x3dom.css", ""}, "imgeo.css"));
+  expectReadsBackAs(imageDocument(), writeX3domX3d(imageDocument()));
+  expectReadsBackAs(arrayDocument(), writeX3domX3d(arrayDocument()));
+  expectReadsBackAs(imageDocument(),
+                    writeX3domHtml(imageDocument(), {"x3dom/x3dom.js", "", "x3dom/x3dom.css", ""}, "imgeo.css"));
 }
 
 TEST(X3domWriter, WritesOneImplicitMeshSizeForThePage) {
-  const std::string text = x3domElement(images(), 0, DocumentKind::file);
+  const std::string text = x3domElement(imageDocument(), 0, DocumentKind::file);
   EXPECT_EQ(countOf(text, "implicitMeshSize=\"256 20\""), 4u);
   EXPECT_EQ(countOf(text, "implicitMeshSize"), 4u);
 }
 
 TEST(X3domWriter, DisablesFilteringAndScalingOfTexels) {
-  const std::string text = x3domElement(images(), 0, DocumentKind::file);
+  const std::string text = x3domElement(imageDocument(), 0, DocumentKind::file);
   const std::size_t textures = countOf(text, "<ImageTexture ");
   EXPECT_EQ(textures, 4u + 4 + 4 + 3);
   EXPECT_EQ(countOf(text, "containerField=\"(index|coord|normal)\" url='\"[a-d][a-z0-9]+.png\"' scale=\"false\">"),
@@ -107,7 +109,7 @@ TEST(X3domWriter, DisablesFilteringAndScalingOfTexels) {
 }
 
 TEST(X3domWriter, GivesTheGroupTheNameAndItsShapesOneAppearance) {
-  for (const SceneDocument& document : {images(), arrays()}) {
+  for (const SceneDocument& document : {imageDocument(), arrayDocument()}) {
     const std::string text = x3domElement(document, 0, DocumentKind::file);
     EXPECT_EQ(countOf(text, "<Group DEF=\"statue\""), 1u);
     EXPECT_EQ(countOf(text, "<Appearance DEF=\"statue-look\">"), 1u);
@@ -117,8 +119,8 @@ TEST(X3domWriter, GivesTheGroupTheNameAndItsShapesOneAppearance) {
   }
 }
 
-TEST(X3domWriter, UsesNoNameOfAShape) {
-  SceneDocument document = images();
+TEST(X3domWriter, AvoidsNamesOfShapes) {
+  SceneDocument document = imageDocument();
   document.graph.nodes[1].name = "statue-look";
   document.graph.nodes[2].name = "exactTexels";
   const std::string text = x3domElement(document, 0, DocumentKind::file);
@@ -127,20 +129,20 @@ TEST(X3domWriter, UsesNoNameOfAShape) {
   EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels_2\""), 1u);
 }
 
-TEST(X3domWriter, IsLitOnlyWithNormals) {
-  EXPECT_EQ(countOf(x3domElement(images(), 0, DocumentKind::file), "lit=\"false\""), 1u);
-  EXPECT_EQ(countOf(x3domElement(images(), 0, DocumentKind::file), "emissiveColor"), 1u);
+TEST(X3domWriter, LightsOnlyTrianglesWithNormals) {
+  EXPECT_EQ(countOf(x3domElement(imageDocument(), 0, DocumentKind::file), "lit=\"false\""), 1u);
+  EXPECT_EQ(countOf(x3domElement(imageDocument(), 0, DocumentKind::file), "emissiveColor"), 1u);
 }
 
 TEST(X3domWriter, WritesAStrideAsAQuery) {
-  const std::string text = x3domElement(arrays(), 0, DocumentKind::file);
+  const std::string text = x3domElement(arrayDocument(), 0, DocumentKind::file);
   EXPECT_EQ(countOf(text, "coord=\"[a-d]c0.png\\?\\+8\""), 4u);
   EXPECT_EQ(countOf(text, "normal=\"[a-d]n.png\\?\\+4\""), 3u);
   EXPECT_EQ(countOf(text, "index=\"[a-d]i.png\""), 4u);
 }
 
 TEST(X3domWriter, WritesTheLatticeWithTheMinimumNumberOfDigits) {
-  SceneDocument document = arrays();
+  SceneDocument document = arrayDocument();
   for (GeometryDescription& geometry : document.geometries)
     geometry.lattice = {{0.1, 0.2, 0.3}, 0.15 / 65535, 16};
   const std::string text = x3domElement(document, 0, DocumentKind::file);

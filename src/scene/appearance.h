@@ -69,6 +69,7 @@ struct TextureTransform {
 };
 
 enum class Boundary : std::uint8_t { repeat, clamp, mirroredRepeat };
+/// `standard`: the source does not state a filter.
 enum class Filter : std::uint8_t { standard, nearest, linear };
 
 /// X3D ImageTexture with its TextureProperties.
@@ -86,10 +87,11 @@ struct Texture {
 struct ImageFile {
   std::string url;       ///< in a document: relative to it; in a source: the source's name for the image
   Bytes bytes{};         ///< the file's content; empty in a document that was read
-  std::string preview{}; ///< url of the same image in few pixels, shown until the image has arrived; may be empty
+  std::string preview{}; ///< url of a small version of the image, displayed until the image has loaded; may be empty
   friend bool operator==(const ImageFile&, const ImageFile&) = default;
 };
 
+/// A texture in a role of an appearance.
 struct TextureUse {
   TextureRole role = TextureRole::color;
   std::size_t texture = 0; ///< index into SceneGraph::textures

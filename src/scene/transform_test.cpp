@@ -10,11 +10,11 @@ namespace {
 
 using testing::Random;
 
-void expectNear(const Affine3d& a, const Affine3d& b, double slack) {
-  EXPECT_LE(length(a.x - b.x), slack);
-  EXPECT_LE(length(a.y - b.y), slack);
-  EXPECT_LE(length(a.z - b.z), slack);
-  EXPECT_LE(length(a.translation - b.translation), slack);
+void expectNear(const Affine3d& a, const Affine3d& b, double tolerance) {
+  EXPECT_LE(length(a.x - b.x), tolerance);
+  EXPECT_LE(length(a.y - b.y), tolerance);
+  EXPECT_LE(length(a.z - b.z), tolerance);
+  EXPECT_LE(length(a.translation - b.translation), tolerance);
 }
 
 Vec3d randomVector(Random& random) {
@@ -35,7 +35,7 @@ TEST(Transform, IsAppliedInTheOrderOfX3d) {
   EXPECT_LE(length(affineOf(transform).point({3, 0, 0}) - Vec3d{1, 4, 5}), 1e-12);
 }
 
-TEST(Transform, OfAnyAffineMapIsThatMap) {
+TEST(Transform, RepresentsAnyAffineMap) {
   Random random(5);
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);
@@ -44,7 +44,7 @@ TEST(Transform, OfAnyAffineMapIsThatMap) {
   }
 }
 
-TEST(Transform, OfARotationAndAScaleNeedsNoScaleOrientation) {
+TEST(Transform, HasNoScaleOrientationForARotationAndAScale) {
   Random random(6);
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
@@ -59,7 +59,7 @@ TEST(Transform, OfARotationAndAScaleNeedsNoScaleOrientation) {
   }
 }
 
-TEST(Transform, OfTheIdentityIsTheDefault) {
+TEST(Transform, IsTheDefaultForTheIdentity) {
   EXPECT_EQ(transformOf({}), Transform{});
 }
 
@@ -83,7 +83,7 @@ TEST(Transform, MayBeSingular) {
   }
 }
 
-TEST(NormalMap, KeepsNormalsAtRightAnglesToTheirSurface) {
+TEST(NormalMap, KeepsNormalsPerpendicularToTheirSurface) {
   Random random(8);
   for (int i = 0; i < 200; ++i) {
     const Affine3d map = randomMap(random);
@@ -91,7 +91,7 @@ TEST(NormalMap, KeepsNormalsAtRightAnglesToTheirSurface) {
     const Vec3d normal = normalMapOf(map).direction(cross(a, b));
     EXPECT_NEAR(dot(normal, map.direction(a)), 0, 1e-9);
     EXPECT_NEAR(dot(normal, map.direction(b)), 0, 1e-9);
-    // It stays on the same side of the surface, also for reflections.
+    // The normal stays on the same side of the surface, even under reflections.
     const Vec3d side = randomVector(random);
     EXPECT_GT(dot(normal, map.direction(side)) * dot(cross(a, b), side), 0);
   }

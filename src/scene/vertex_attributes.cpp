@@ -7,16 +7,16 @@ namespace imgeo {
 
 namespace {
 
-NamedAttribute gather(const NamedAttribute& attribute, std::span<const std::uint32_t> from) {
+NamedAttribute gather(const NamedAttribute& attribute, std::span<const std::uint32_t> indices) {
   NamedAttribute result{attribute.name, attribute.components, {}};
-  result.values.reserve(from.size() * attribute.components);
-  for (const std::uint32_t i : from)
+  result.values.reserve(indices.size() * attribute.components);
+  for (const std::uint32_t i : indices)
     for (std::uint32_t c = 0; c < attribute.components; ++c)
       result.values.push_back(attribute.values[std::size_t{i} * attribute.components + c]);
   return result;
 }
 
-/// `count` and `moreCount` are in elements of the vectors.
+/// Appends `moreCount` elements to `count` elements; `missing` replaces those of an empty vector.
 template <typename T>
 void append(std::vector<T>& values, std::size_t count, const std::vector<T>& more, std::size_t moreCount, T missing) {
   if (values.empty() && more.empty())
@@ -46,13 +46,13 @@ bool hasAnyAttribute(const VertexAttributes& attributes) {
          std::ranges::any_of(vertexRoles, [&](VertexRole role) { return hasAttribute(attributes, role); });
 }
 
-VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> from) {
+VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> indices) {
   VertexAttributes result;
   visitAttributes(attributes, result,
-                  [&](const auto&, const auto& values, auto& gathered) { gathered = gather(values, from); });
+                  [&](const auto&, const auto& values, auto& gathered) { gathered = gather(values, indices); });
   result.colorComponents = attributes.colorComponents;
   for (const NamedAttribute& attribute : attributes.namedAttributes)
-    result.namedAttributes.push_back(gather(attribute, from));
+    result.namedAttributes.push_back(gather(attribute, indices));
   return result;
 }
 
@@ -67,9 +67,10 @@ void append(VertexAttributes& attributes, std::size_t count, const VertexAttribu
       named.push_back({attribute.name, attribute.components, {}});
   for (NamedAttribute& attribute : named) {
     const auto other = std::ranges::find(more.namedAttributes, attribute.name, &NamedAttribute::name);
-    const std::size_t each = attribute.components;
-    const bool isThere = other != more.namedAttributes.end() && other->components == each;
-    append(attribute.values, count * each, isThere ? other->values : std::vector<float>{}, moreCount * each, 0.0f);
+    const std::size_t components = attribute.components;
+    const bool isPresent = other != more.namedAttributes.end() && other->components == components;
+    append(attribute.values, count * components, isPresent ? other->values : std::vector<float>{},
+           moreCount * components, 0.0f);
   }
 }
 

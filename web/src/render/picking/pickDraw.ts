@@ -10,7 +10,7 @@ import type { DrawnObject } from "../primitives/drawnObject.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { PickMaterial, PickMaterialRequest } from "./pickMaterial.ts";
 import { makePickMaterial } from "./pickMaterial.ts";
-import { trianglesOf } from "../primitives/primitives.ts";
+import { triangleCountOf } from "../primitives/primitives.ts";
 
 export interface BufferContents {
   /** The index of this draw only. */
@@ -62,7 +62,7 @@ export class PickDraw {
     this.#options = options;
     this.#stage = stage.kind === "buffers" ? stage : undefined;
     const before = stage.draws.slice(0, stage.draws.indexOf(range));
-    this.trianglesBefore = before.reduce((sum, draw) => sum + trianglesOf(draw), 0);
+    this.trianglesBefore = before.reduce((sum, draw) => sum + triangleCountOf(draw), 0);
   }
 
   /** Whether the vertices come from buffers, so that the primitive must be looked up in `contents`. */

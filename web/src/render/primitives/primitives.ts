@@ -1,13 +1,14 @@
-// Properties of the kinds of primitives.
+// Properties of primitive types.
 
 import type { DrawRange } from "../../stage/stage.ts";
 
-/** Vertices per primitive. */
+/** Number of vertices per primitive. */
 export function cornersOf({ primitive }: DrawRange): 1 | 2 | 3 {
   return primitive === "points" ? 1 : primitive === "lines" || primitive === "lineStrip" ? 2 : 3;
 }
 
-export function trianglesOf({ primitive, count }: DrawRange): number {
+/** Number of triangles of a draw; 0 for points and lines. */
+export function triangleCountOf({ primitive, count }: DrawRange): number {
   return primitive === "triangles" ? Math.floor(count / 3) : primitive === "triangleStrip" ? Math.max(0, count - 2) : 0;
 }
 

@@ -1,6 +1,6 @@
-// Editing three.js' shader text.
+// Edits the text of three.js' shaders.
 
-/** Replaces each chunk where it occurs (its first occurrence only); shaders without a chunk stay as they are. */
+/** Replaces the first occurrence of each chunk. Chunks that the shader does not contain are skipped. */
 export function replaceChunks(source: string, replacements: readonly (readonly [string, string])[]): string {
   return replacements.reduce((text, [chunk, replacement]) => text.replace(chunk, () => replacement), source);
 }
