@@ -56,19 +56,19 @@ std::vector<std::vector<Reference>> referencesByAttribute(const FieldReader& fie
                                                           const std::vector<Reference>& references,
                                                           const std::vector<AttributeDescription>& attributes,
                                                           Encoding encoding) {
-  std::vector<std::vector<Reference>> sorted;
-  std::size_t used = 0;
+  std::vector<std::vector<Reference>> grouped;
+  std::size_t usedCount = 0;
   for (const AttributeDescription& attribute : attributes) {
-    const std::size_t count = std::min(filesOf(encoding, attribute), references.size() - used);
-    const auto first = references.begin() + static_cast<std::ptrdiff_t>(used);
-    sorted.emplace_back(first, first + static_cast<std::ptrdiff_t>(count));
-    used += count;
+    const std::size_t count = std::min(filesOf(encoding, attribute), references.size() - usedCount);
+    const auto first = references.begin() + static_cast<std::ptrdiff_t>(usedCount);
+    grouped.emplace_back(first, first + static_cast<std::ptrdiff_t>(count));
+    usedCount += count;
     if (count != filesOf(encoding, attribute))
       fields.fail(ErrorKind::malformed, "attrib names fewer files than the attributes need");
   }
-  if (used != references.size())
+  if (usedCount != references.size())
     fields.fail(ErrorKind::malformed, "attrib names more files than the attributes need");
-  return sorted;
+  return grouped;
 }
 
 } // namespace imgeo

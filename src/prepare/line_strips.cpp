@@ -26,7 +26,7 @@ public:
     incidence_ = incidenceOf(vertices_.size(), vertexCount, [&](std::size_t corner) { return vertices_[corner]; });
     // Lines are taken from the back of each vertex's list: first its additional line, then the others from last to
     // first. The circuit is output in reverse, so that an open line keeps its direction.
-    left_.assign(incidence_.offsets.begin() + 1, incidence_.offsets.end());
+    unvisitedEnd_.assign(incidence_.offsets.begin() + 1, incidence_.offsets.end());
     isUsed_.resize(vertices_.size() / 2);
     strips_.corners.reserve(inputCornerCount_ / 2);
   }
@@ -66,8 +66,8 @@ private:
 
   /// Takes an unused line at `vertex` and returns its corner there, or none.
   std::uint32_t takeLine(std::uint32_t vertex) {
-    while (left_[vertex] > incidence_.offsets[vertex]) {
-      const std::uint32_t corner = incidence_.corners[--left_[vertex]];
+    while (unvisitedEnd_[vertex] > incidence_.offsets[vertex]) {
+      const std::uint32_t corner = incidence_.corners[--unvisitedEnd_[vertex]];
       if (isUsed_[corner / 2])
         continue;
       isUsed_[corner / 2] = true;
@@ -85,8 +85,8 @@ private:
   std::vector<std::uint32_t> vertices_; ///< by corner; those of the additional lines last
   std::size_t inputCornerCount_;
   Incidence incidence_;
-  std::vector<std::uint32_t> left_; ///< by vertex: end of its corners that have not been visited
-  std::vector<bool> isUsed_;        ///< by line
+  std::vector<std::uint32_t> unvisitedEnd_; ///< by vertex: end of the corners in its list that have not been visited
+  std::vector<bool> isUsed_;                ///< by line
   std::vector<Step> path_;
   LineStrips strips_;
 };

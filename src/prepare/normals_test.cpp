@@ -33,7 +33,7 @@ std::vector<Vec3d> scatteredNormals(const Mesh& mesh, NormalWeighting weighting)
   return sums;
 }
 
-TEST(Normals, OfASphereAreItsRadii) {
+TEST(Normals, PointAlongTheRadiiOfASphere) {
   const Mesh sphere = testing::sphere(60, 120);
   for (const NormalWeighting weighting : everyWeighting) {
     Mesh mesh = sphere;
@@ -55,17 +55,17 @@ TEST(Normals, AgreeWithTheReference) {
       for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
         ASSERT_NEAR(length(Vec3d(mesh.normals[wedge])), 1, 1e-6);
         const Vec3d sum = expected[mesh.wedgePositions[wedge]];
-        double largest = 0;
+        double maxLength = 0;
         for (const Vec3d& s : expected)
-          largest = std::max(largest, length(s));
-        if (length(sum) < 1e-6 * largest)
+          maxLength = std::max(maxLength, length(s));
+        if (length(sum) < 1e-6 * maxLength)
           continue; // a sum near zero has no direction to compare
         ASSERT_LT(degreesBetween(mesh.normals[wedge], Vec3f(sum * (1 / length(sum)))), 1e-3) << seed;
       }
     }
 }
 
-TEST(Normals, AreUnitVectorsWhereThereIsNoArea) {
+TEST(Normals, AreUnitVectorsForTrianglesWithoutArea) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 9, 9}};
   testing::addPlainWedges(mesh);
@@ -76,7 +76,7 @@ TEST(Normals, AreUnitVectorsWhereThereIsNoArea) {
   }
 }
 
-TEST(Normals, SurviveTheSmallestAndTheLargestTriangles) {
+TEST(Normals, AreExactForTheSmallestAndTheLargestTriangles) {
   for (const float scale : {std::numeric_limits<float>::denorm_min(), 1e-38f, 1e38f}) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {0, scale, 0}, {0, 0, scale}};

@@ -24,10 +24,10 @@ std::uint32_t keyOf(Rgba8 c) {
   return std::bit_cast<std::uint32_t>(c);
 }
 
-bool same(const Vec3f& a, const Vec3f& b) {
+bool haveSameBits(const Vec3f& a, const Vec3f& b) {
   return keyOf(a.x) == keyOf(b.x) && keyOf(a.y) == keyOf(b.y) && keyOf(a.z) == keyOf(b.z);
 }
-template <typename Value> bool same(const Value& a, const Value& b) {
+template <typename Value> bool haveSameBits(const Value& a, const Value& b) {
   return keyOf(a) == keyOf(b);
 }
 std::uint64_t hashOf(std::uint64_t seed, const Vec3f& v) {
@@ -39,14 +39,14 @@ template <typename Value> std::uint64_t hashOf(std::uint64_t seed, const Value& 
 
 /// New indices for positions or wedges, in the order of first use.
 struct Renumbering {
-  std::vector<std::uint32_t> newOf; ///< old -> new; IndexHashTable::none where unused
-  std::vector<std::uint32_t> kept;  ///< new -> the first old one
+  std::vector<std::uint32_t> newOf; ///< old -> new; IndexHashTable::none if unused
+  std::vector<std::uint32_t> kept;  ///< new -> the first old index
   std::size_t merged = 0;
 
   explicit Renumbering(std::size_t oldCount) : newOf(oldCount, IndexHashTable::none) {}
 
   template <typename Equals>
-  std::uint32_t number(std::uint32_t old, IndexHashTable& table, std::uint64_t hash, Equals equals) {
+  std::uint32_t findOrAdd(std::uint32_t old, IndexHashTable& table, std::uint64_t hash, Equals equals) {
     const auto next = static_cast<std::uint32_t>(kept.size());
     const std::uint32_t found = table.findOrInsert(hash, next, [&](std::uint32_t i) { return equals(kept[i]); });
     if (found == next)
@@ -64,7 +64,7 @@ std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t v
 
 /// For each position the first equal position. Works in memory order, so that hash slots can be prefetched: with a
 /// large table most of the time is memory latency.
-std::vector<std::uint32_t> firstAlike(const std::vector<Vec3f>& positions) {
+std::vector<std::uint32_t> firstEqualPositions(const std::vector<Vec3f>& positions) {
   constexpr std::size_t ahead = 16;
   IndexHashTable table(positions.size());
   std::vector<std::uint32_t> first(positions.size());
@@ -72,53 +72,53 @@ std::vector<std::uint32_t> firstAlike(const std::vector<Vec3f>& positions) {
     if (i + ahead < positions.size())
       table.prefetch(hashOf(0, positions[i + ahead]));
     first[i] = table.findOrInsert(hashOf(0, positions[i]), i,
-                                  [&](std::uint32_t other) { return same(positions[other], positions[i]); });
+                                  [&](std::uint32_t other) { return haveSameBits(positions[other], positions[i]); });
   }
   return first;
 }
 
 Renumbering weldPositions(const Mesh& mesh) {
-  const std::vector<std::uint32_t> first = firstAlike(mesh.positions);
-  std::vector<std::uint32_t> numberOfFirst(mesh.positions.size(), IndexHashTable::none);
-  Renumbering numbers(mesh.positions.size());
+  const std::vector<std::uint32_t> first = firstEqualPositions(mesh.positions);
+  std::vector<std::uint32_t> newOfFirst(mesh.positions.size(), IndexHashTable::none);
+  Renumbering renumbering(mesh.positions.size());
   for (const std::uint32_t wedge : mesh.corners) {
     const std::uint32_t old = mesh.wedgePositions[wedge];
-    if (numbers.newOf[old] != IndexHashTable::none)
+    if (renumbering.newOf[old] != IndexHashTable::none)
       continue;
-    std::uint32_t& number = numberOfFirst[first[old]];
-    if (number == IndexHashTable::none) {
-      number = static_cast<std::uint32_t>(numbers.kept.size());
-      numbers.kept.push_back(old);
+    std::uint32_t& newIndex = newOfFirst[first[old]];
+    if (newIndex == IndexHashTable::none) {
+      newIndex = static_cast<std::uint32_t>(renumbering.kept.size());
+      renumbering.kept.push_back(old);
     } else {
-      ++numbers.merged;
+      ++renumbering.merged;
     }
-    numbers.newOf[old] = number;
+    renumbering.newOf[old] = newIndex;
   }
-  return numbers;
+  return renumbering;
 }
 
-/// Welds wedges that are equal exactly where their positions are, as in most scans. Positions have been welded and
-/// numbered in the order of first use.
+/// Welds wedges of a mesh in which wedges are equal if and only if their positions are, as in most scans. Positions
+/// have been welded and are in the order of first use.
 Renumbering weldPlainWedges(const Mesh& mesh) {
-  Renumbering numbers(mesh.wedgeCount());
+  Renumbering renumbering(mesh.wedgeCount());
   for (const std::uint32_t old : mesh.corners) {
-    if (numbers.newOf[old] != IndexHashTable::none)
+    if (renumbering.newOf[old] != IndexHashTable::none)
       continue;
     const std::uint32_t position = mesh.wedgePositions[old];
-    numbers.newOf[old] = position;
-    if (position == numbers.kept.size())
-      numbers.kept.push_back(old);
+    renumbering.newOf[old] = position;
+    if (position == renumbering.kept.size())
+      renumbering.kept.push_back(old);
     else
-      ++numbers.merged;
+      ++renumbering.merged;
   }
-  return numbers;
+  return renumbering;
 }
 
 /// `mesh.wedgePositions` must refer to welded positions, of which there are `positionCount`, for all wedges in use.
 Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
   if (!hasAnyAttribute(mesh) || mesh.wedgeCount() == positionCount) // each wedge has a position of its own
     return weldPlainWedges(mesh);
-  Renumbering numbers(mesh.wedgeCount());
+  Renumbering renumbering(mesh.wedgeCount());
   IndexHashTable table(mesh.wedgeCount());
   const auto hash = [&](std::uint32_t w) {
     std::uint64_t result = mixHash(0, mesh.wedgePositions[w]);
@@ -136,7 +136,7 @@ Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
       return false;
     bool isSame = true;
     visitAttributes(mesh, [&](const auto&, const auto& values) {
-      isSame = isSame && (values.empty() || same(values[a], values[b]));
+      isSame = isSame && (values.empty() || haveSameBits(values[a], values[b]));
     });
     return isSame && std::ranges::all_of(mesh.namedAttributes, [&](const NamedAttribute& attribute) {
              return std::ranges::equal(
@@ -145,9 +145,9 @@ Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
            });
   };
   for (const std::uint32_t old : mesh.corners)
-    if (numbers.newOf[old] == IndexHashTable::none)
-      numbers.number(old, table, hash(old), [&](std::uint32_t other) { return equal(old, other); });
-  return numbers;
+    if (renumbering.newOf[old] == IndexHashTable::none)
+      renumbering.findOrAdd(old, table, hash(old), [&](std::uint32_t other) { return equal(old, other); });
+  return renumbering;
 }
 
 /// An element's corners, rotated to the lexicographically smallest sequence; lines are sorted.
@@ -157,7 +157,7 @@ Vec3u canonicalCorners(const std::uint32_t* corners, std::uint32_t count) {
   if (count == 2)
     return {std::min(corners[0], corners[1]), std::max(corners[0], corners[1]), 0};
   const auto [a, b, c] = std::array{corners[0], corners[1], corners[2]};
-  // Where the minimum occurs twice, the sequence begins with both.
+  // If the minimum occurs twice, the sequence begins with both.
   if (a <= b && a < c)
     return {a, b, c};
   if (b <= c && b < a)
@@ -173,20 +173,20 @@ struct OtherCorners {
   auto operator<=>(const OtherCorners&) const = default;
 };
 
-/// Marks the elements that repeat an earlier one, among elements with the same first canonical corner, which are given
-/// in ascending order.
+/// Marks the elements that repeat an earlier one, among elements with the haveSameBits first canonical corner, which
+/// are given in ascending order.
 void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& repeated) {
-  constexpr std::size_t few = 8; // up to this number comparing all pairs is faster than sorting
-  if (others.size() > few)
+  constexpr std::size_t maxPairwiseCount = 8; // up to this number comparing all pairs is faster than sorting
+  if (others.size() > maxPairwiseCount)
     std::sort(others.begin(), others.end());
   for (std::size_t i = 1; i < others.size(); ++i)
-    for (std::size_t j = others.size() > few ? i - 1 : 0; j < i; ++j)
+    for (std::size_t j = others.size() > maxPairwiseCount ? i - 1 : 0; j < i; ++j)
       if (others[j].corners == others[i].corners)
         repeated[others[i].element] = 1;
 }
 
-/// By element: 1 if it repeats an earlier one, else 0. Elements are compared with those of the same first canonical
-/// corner, which are few.
+/// By element: 1 if it repeats an earlier one, else 0. Elements are compared with those of the haveSameBits first
+/// canonical corner, which are maxPairwiseCount.
 std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   const auto cornersOf = [&](std::size_t element) {
@@ -214,14 +214,15 @@ std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   return repeated;
 }
 
-/// By element: 1 if two of its corners have the same position, else 0.
+/// By element: 1 if two of its corners have the haveSameBits position, else 0.
 std::vector<std::uint8_t> findDegenerate(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   std::vector<std::uint8_t> degenerate(mesh.elementCount());
   parallelForBlocks(count > 1 ? mesh.elementCount() : 0, [&](std::size_t begin, std::size_t end) {
     for (std::size_t element = begin; element < end; ++element) {
-      const auto at = [&](std::size_t i) { return mesh.wedgePositions[mesh.corners[element * count + i]]; };
-      degenerate[element] = at(0) == at(1) || (count > 2 && (at(1) == at(2) || at(2) == at(0)));
+      const auto positionOf = [&](std::size_t i) { return mesh.wedgePositions[mesh.corners[element * count + i]]; };
+      degenerate[element] = positionOf(0) == positionOf(1) ||
+                            (count > 2 && (positionOf(1) == positionOf(2) || positionOf(2) == positionOf(0)));
     }
   });
   return degenerate;
@@ -232,7 +233,7 @@ std::size_t countOf(const std::vector<std::uint8_t>& marks) {
 }
 
 /// Removes the marked elements. Returns whether there were any.
-bool dropElements(Mesh& mesh, const std::vector<std::uint8_t>& marks) {
+bool removeMarkedElements(Mesh& mesh, const std::vector<std::uint8_t>& marks) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   auto end = mesh.corners.begin();
   for (std::size_t element = 0; element < marks.size(); ++element)
@@ -251,7 +252,7 @@ void removeElements(Mesh& mesh, const DroppedElements& dropped, WeldReport& repo
   std::vector<std::uint8_t> marks(mesh.elementCount());
   for (std::size_t element = 0; element < marks.size(); ++element)
     marks[element] = (dropped.degenerate && degenerate[element]) || (dropped.repeated && repeated[element]);
-  if (dropElements(mesh, marks))
+  if (removeMarkedElements(mesh, marks))
     report.unreferencedPositions += weld(mesh).unreferencedPositions;
 }
 

@@ -9,16 +9,16 @@ namespace imgeo {
 namespace {
 
 /// Depth-first traversal that visits each node once.
-struct Visit {
+struct Traversal {
   const SceneGraph& graph;
   bool entersInlines = true;
-  std::vector<bool> seen = std::vector<bool>(graph.nodes.size());
+  std::vector<bool> isVisited = std::vector<bool>(graph.nodes.size());
   std::vector<std::size_t> order = {};
 
   void visit(std::size_t node) {
-    if (seen[node])
+    if (isVisited[node])
       return;
-    seen[node] = true;
+    isVisited[node] = true;
     order.push_back(node);
     if (entersInlines || !inlinesDocument(graph.nodes[node]))
       for (const std::size_t child : graph.nodes[node].children)
@@ -39,8 +39,8 @@ std::size_t addRoot(SceneGraph& graph, Node node) {
 }
 
 bool inlinesDocument(const Node& node) {
-  const GenericNode* other = std::get_if<GenericNode>(&node.content);
-  return other && other->document;
+  const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+  return generic && generic->document;
 }
 
 const InlinedDocument& inlinedDocumentOf(const SceneGraph& graph, std::size_t node) {
@@ -49,22 +49,23 @@ const InlinedDocument& inlinedDocumentOf(const SceneGraph& graph, std::size_t no
 }
 
 std::vector<std::size_t> nodesInOrder(const SceneGraph& graph) {
-  Visit visit{graph};
+  Traversal traversal{graph};
   for (const std::size_t root : graph.roots)
-    visit.visit(root);
-  return std::move(visit.order);
+    traversal.visit(root);
+  return std::move(traversal.order);
 }
 
 std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vector<std::size_t>& roots) {
-  Visit visit{graph, false};
+  Traversal traversal{graph, false};
   for (const std::size_t root : roots)
-    visit.visit(root);
-  return std::move(visit.order);
+    traversal.visit(root);
+  return std::move(traversal.order);
 }
 
 std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh) {
-  const std::size_t nodes = graph.nodes.size(), appearances = graph.appearances.size(),
-                    textures = graph.textures.size(), images = graph.images.size(), inlined = graph.inlined.size();
+  const std::size_t firstNode = graph.nodes.size(), firstAppearance = graph.appearances.size(),
+                    firstTexture = graph.textures.size(), firstImage = graph.images.size(),
+                    firstInlined = graph.inlined.size();
   const auto shift = [](auto& index, std::size_t by) {
     if (index)
       *index += by;
@@ -74,32 +75,32 @@ std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_
       index += by;
   };
   for (Node& node : more.nodes) {
-    shiftAll(node.children, nodes);
+    shiftAll(node.children, firstNode);
     if (Shape* shape = std::get_if<Shape>(&node.content)) {
       shape->mesh += firstMesh;
-      shift(shape->appearance, appearances);
-    } else if (GenericNode* other = std::get_if<GenericNode>(&node.content)) {
-      shift(other->image, images);
-      shift(other->document, inlined);
+      shift(shape->appearance, firstAppearance);
+    } else if (GenericNode* generic = std::get_if<GenericNode>(&node.content)) {
+      shift(generic->image, firstImage);
+      shift(generic->document, firstInlined);
     }
     graph.nodes.push_back(std::move(node));
   }
   for (Appearance& appearance : more.appearances) {
     for (TextureUse& use : appearance.textures)
-      use.texture += textures;
+      use.texture += firstTexture;
     graph.appearances.push_back(std::move(appearance));
   }
   for (Texture& texture : more.textures) {
-    texture.image += images;
+    texture.image += firstImage;
     graph.textures.push_back(std::move(texture));
   }
   std::ranges::move(more.images, std::back_inserter(graph.images));
   for (InlinedDocument& document : more.inlined) {
-    shiftAll(document.head.header, nodes);
+    shiftAll(document.head.header, firstNode);
     graph.inlined.push_back(std::move(document));
   }
-  shiftAll(more.roots, nodes);
-  shiftAll(more.head.header, nodes);
+  shiftAll(more.roots, firstNode);
+  shiftAll(more.head.header, firstNode);
   return std::move(more.roots);
 }
 
@@ -115,13 +116,13 @@ const Shape& shapeOf(const SceneGraph& graph, std::size_t node) {
 }
 
 void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut) {
-  const auto leavesOut = [&](std::size_t node) {
+  const auto isRemoved = [&](std::size_t node) {
     const Shape* shape = std::get_if<Shape>(&graph.nodes[node].content);
     return shape && isLeftOut.at(shape->mesh);
   };
-  std::erase_if(graph.roots, leavesOut);
+  std::erase_if(graph.roots, isRemoved);
   for (Node& node : graph.nodes)
-    std::erase_if(node.children, leavesOut);
+    std::erase_if(node.children, isRemoved);
 }
 
 } // namespace imgeo

@@ -33,26 +33,26 @@ struct Eigen {
   Vec3d values;
 };
 
-/// Eigenvalues of a symmetric matrix by Jacobi's method: rotates pairs of axes until all off-diagonal elements are
-/// zero.
+/// Eigenvectors and eigenvalues of a symmetric matrix by Jacobi's method: rotates pairs of axes until all off-diagonal
+/// elements are zero.
 Eigen eigenOf(Affine3d m) {
   Affine3d axes;
   const auto column = [](Affine3d& of, int i) -> Vec3d& { return i == 0 ? of.x : i == 1 ? of.y : of.z; };
   for (int sweep = 0; sweep < 32; ++sweep)
     for (const auto& [p, q] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
-      const double beside = column(m, p)[q];
-      if (beside == 0)
+      const double offDiagonal = column(m, p)[q];
+      if (offDiagonal == 0)
         continue;
-      const double theta = (column(m, q)[q] - column(m, p)[p]) / (2 * beside);
+      const double theta = (column(m, q)[q] - column(m, p)[p]) / (2 * offDiagonal);
       const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
       const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-      Affine3d turn;
-      column(turn, p)[p] = column(turn, q)[q] = c;
-      column(turn, p)[q] = -s;
-      column(turn, q)[p] = s;
-      m = transposed(turn) * m * turn;
+      Affine3d pairRotation;
+      column(pairRotation, p)[p] = column(pairRotation, q)[q] = c;
+      column(pairRotation, p)[q] = -s;
+      column(pairRotation, q)[p] = s;
+      m = transposed(pairRotation) * m * pairRotation;
       column(m, p)[q] = column(m, q)[p] = 0;
-      axes = axes * turn;
+      axes = axes * pairRotation;
     }
   return {axes, {m.x.x, m.y.y, m.z.z}};
 }
@@ -63,10 +63,10 @@ Vec3d lengthsOf(const Affine3d& m) {
 
 /// Whether the columns are orthogonal, apart from rounding errors.
 bool isOrthogonal(const Affine3d& m, Vec3d lengths) {
-  constexpr double slack = 1e-12;
-  return std::abs(dot(m.x, m.y)) <= slack * lengths.x * lengths.y &&
-         std::abs(dot(m.x, m.z)) <= slack * lengths.x * lengths.z &&
-         std::abs(dot(m.y, m.z)) <= slack * lengths.y * lengths.z;
+  constexpr double tolerance = 1e-12;
+  return std::abs(dot(m.x, m.y)) <= tolerance * lengths.x * lengths.y &&
+         std::abs(dot(m.x, m.z)) <= tolerance * lengths.x * lengths.z &&
+         std::abs(dot(m.y, m.z)) <= tolerance * lengths.y * lengths.z;
 }
 
 /// Normalises orthogonal columns and stores their lengths in `scale`. A column of zero length gets a direction that
@@ -77,24 +77,24 @@ Affine3d frameOf(const Affine3d& columns, Vec3d& scale) {
   const double longest = std::max({scale.x, scale.y, scale.z});
   if (!(longest > 0))
     return {};
-  int known = 0; // a column of nonzero length
+  int knownAxis = 0; // index of a column of nonzero length
   for (int axis = 0; axis < 3; ++axis) {
     if (scale[axis] <= 1e-9 * longest) {
       scale[axis] = 0;
       continue;
     }
     to[axis] = to[axis] * (1 / scale[axis]);
-    known = axis;
+    knownAxis = axis;
   }
-  const int next = (known + 1) % 3, last = (known + 2) % 3;
+  const int next = (knownAxis + 1) % 3, last = (knownAxis + 2) % 3;
   if (scale[next] == 0 && scale[last] == 0) {
-    const Vec3d across = cross(to[known], std::abs(to[known].x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
+    const Vec3d across = cross(to[knownAxis], std::abs(to[knownAxis].x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
     to[next] = across * (1 / length(across));
   } else if (scale[next] == 0) {
-    to[next] = cross(to[last], to[known]);
+    to[next] = cross(to[last], to[knownAxis]);
   }
   if (scale[last] == 0)
-    to[last] = cross(to[known], to[next]);
+    to[last] = cross(to[knownAxis], to[next]);
   return {to[0], to[1], to[2], {}};
 }
 
@@ -111,11 +111,11 @@ Transform polarDecomposition(const Affine3d& linear) {
 } // namespace
 
 Rotation rotationOfQuaternion(double x, double y, double z, double w) {
-  const double aside = length(Vec3d{x, y, z});
-  if (!(aside > 0))
+  const double imaginaryLength = length(Vec3d{x, y, z});
+  if (!(imaginaryLength > 0))
     return {};
   const double sign = w < 0 ? -1 : 1; // the rotation by at most pi
-  return {Vec3d{x, y, z} * (sign / aside), 2 * std::atan2(aside, std::abs(w))};
+  return {Vec3d{x, y, z} * (sign / imaginaryLength), 2 * std::atan2(imaginaryLength, std::abs(w))};
 }
 
 Affine3d affineOf(const Rotation& rotation) {

@@ -1,4 +1,4 @@
-// One occurrence of a node in the scene, and the summary of the subtree below it.
+// A node instance, which is one occurrence of a node in the scene, and the summary of its subtree.
 
 import type { Box3 } from "three";
 import { Matrix4 } from "three";
@@ -42,7 +42,7 @@ export const emptySummary: SubtreeSummary = {
 export interface InheritedState {
   readonly sceneFromNode: Matrix4;
   readonly isVisible: boolean;
-  /** No group around it has a box, so that its own bounds count. */
+  /** Whether no group around the node has a box, so that the node's own bounds count. */
   readonly isUnbounded: boolean;
   /** The innermost scope around the node. */
   readonly lightScope: LightScope;
@@ -53,10 +53,13 @@ export class NodeInstance {
   readonly parent: NodeInstance | undefined;
   /** The latest description of the node. */
   description: NodeDescription;
-  /** For a group: its children's frame. Replaced, never changed in place. */
+  /**
+   * Transforms the node's coordinates, for a group those of its children, to the scene's. Replaced, never changed in
+   * place.
+   */
   sceneFromNode = new Matrix4();
   children: readonly NodeInstance[] = [];
-  /** In scene coordinates; only for a visible group whose description has a box. */
+  /** Bounds in scene coordinates, for visible groups whose description has a box. */
   box: Box3 | undefined;
   /** The innermost scope around the node; for a group: around its children. */
   lightScope = sceneScope;

@@ -131,8 +131,7 @@ class Scene {
     return (this.batches.root.children as DrawnObject[]).filter(({ visible }) => visible);
   }
 
-  /** Moves the camera to the other side. */
-  turnCamera(): void {
+  moveCameraToOtherSide(): void {
     this.#camera.position.z *= -1;
     this.#camera.lookAt(0, 0, 0);
     this.#camera.updateMatrixWorld();
@@ -211,9 +210,9 @@ describe("a stage with many instances", () => {
     assert.deepEqual(scene.frame(), []);
     assert.equal(scene.batches.root.children.length, 2);
     scene.frame();
-    assert.equal(scene.batches.root.children.length, 1, "an empty batch stays for a frame, not longer");
+    assert.equal(scene.batches.root.children.length, 1, "an empty batch stays for one frame");
     scene.batches.remove(other);
-    assert.equal(scene.batches.root.children.length, 0, "the last one not even so long");
+    assert.equal(scene.batches.root.children.length, 0, "the last batch is removed at once");
   });
 
   test("draws mirrored instances separately, under a mirrored object, with records that do not mirror", () => {
@@ -500,9 +499,9 @@ describe("blended draws", () => {
       const draw = drawOf(stageOf(0), isMerged, 3, true);
       const members = depths.map((z) => scene.add(draw, 0, 1, z));
       assert.deepEqual(drawnMembers(scene, members), [[4, 1, 3, 0, 2]]);
-      scene.turnCamera();
+      scene.moveCameraToOtherSide();
       assert.deepEqual(drawnMembers(scene, members), [[2, 0, 3, 1, 4]]);
-      scene.turnCamera();
+      scene.moveCameraToOtherSide();
       const [first, second] = members;
       assert.ok(first && second);
       scene.hide(first);

@@ -5,7 +5,11 @@
 import type { GeometryDescription } from "../../document/description.ts";
 import { formatOf } from "../../document/encodings.ts";
 
-/** A call of its own per instance; one call for all instances; or merged into one mesh with other shapes. */
+/**
+ * `alone`: one draw call per instance. `instanced`: one call for all instances. `merged`: one call for a mesh into
+ * which
+ * several shapes are merged.
+ */
 export type DrawMode = "alone" | "instanced" | "merged";
 
 /** The draw modes of a geometry's opaque and blended stages. */
@@ -17,7 +21,7 @@ export interface DrawModes {
 export const alone: DrawModes = { opaque: "alone", blended: "alone" };
 const instanced: DrawModes = { opaque: "instanced", blended: "instanced" };
 const merged: DrawModes = { opaque: "merged", blended: "merged" };
-/** Blended draws must be sorted with all others, which only batches are. */
+/** Blended draws must be in batches, since only batches are sorted with one another. */
 const opaqueAlone: DrawModes = { opaque: "alone", blended: "instanced" };
 
 /** Scenes with fewer instances are drawn one by one, with double-precision matrices. */
@@ -30,16 +34,19 @@ export const maxMergedVertices = 16384;
  * mode, so that vertices that they share go through the same arithmetic.
  */
 export class BatchingPlan {
+  /** Number of instances by geometry. */
   readonly #counts = new Map<GeometryDescription, number>();
+  /** The draw modes at the last call of takeChanged. */
   readonly #reported = new Map<GeometryDescription, DrawModes>();
-  #touched = new Set<GeometryDescription>();
+  /** Geometries whose number of instances has changed since the last call of takeChanged. */
+  #changedCounts = new Set<GeometryDescription>();
   #instanceCount = 0;
   #hadManyInstances = false;
 
   add(geometry: GeometryDescription): void {
     this.#counts.set(geometry, this.#countOf(geometry) + 1);
     this.#instanceCount += 1;
-    this.#touched.add(geometry);
+    this.#changedCounts.add(geometry);
   }
 
   remove(geometry: GeometryDescription): void {
@@ -47,13 +54,14 @@ export class BatchingPlan {
     if (count > 0) this.#counts.set(geometry, count);
     else this.#counts.delete(geometry);
     this.#instanceCount -= 1;
-    this.#touched.add(geometry);
+    this.#changedCounts.add(geometry);
   }
 
   drawModesOf(geometry: GeometryDescription): DrawModes {
     if (!this.#hasManyInstances) return alone;
     const count = this.#countOf(geometry);
-    if (formatOf(geometry).storage !== "bytePlanes" && verticesOf(geometry) * count <= maxMergedVertices) return merged;
+    if (formatOf(geometry).storage !== "bytePlanes" && vertexCountOf(geometry) * count <= maxMergedVertices)
+      return merged;
     return count > 1 ? instanced : opaqueAlone;
   }
 
@@ -61,18 +69,18 @@ export class BatchingPlan {
   takeChanged(): ReadonlySet<GeometryDescription> {
     const candidates =
       this.#hasManyInstances === this.#hadManyInstances
-        ? this.#touched
-        : new Set([...this.#touched, ...this.#counts.keys()]);
+        ? this.#changedCounts
+        : new Set([...this.#changedCounts, ...this.#counts.keys()]);
     const changed = new Set<GeometryDescription>();
     for (const geometry of candidates) {
-      const drawing = this.#counts.has(geometry) ? this.drawModesOf(geometry) : undefined;
-      if (drawing === this.#reported.get(geometry)) continue;
-      if (drawing === undefined) this.#reported.delete(geometry);
-      else this.#reported.set(geometry, drawing);
+      const modes = this.#counts.has(geometry) ? this.drawModesOf(geometry) : undefined;
+      if (modes === this.#reported.get(geometry)) continue;
+      if (modes === undefined) this.#reported.delete(geometry);
+      else this.#reported.set(geometry, modes);
       changed.add(geometry);
     }
     this.#hadManyInstances = this.#hasManyInstances;
-    this.#touched = new Set();
+    this.#changedCounts = new Set();
     return changed;
   }
 
@@ -85,7 +93,7 @@ export class BatchingPlan {
   }
 }
 
-/** Infinity where the document does not give the counts. */
-function verticesOf({ patches }: GeometryDescription): number {
+/** The number of vertices of a geometry; Infinity if the document does not state it. */
+function vertexCountOf({ patches }: GeometryDescription): number {
   return patches.reduce((sum, { vertexCount }) => sum + (vertexCount || Infinity), 0);
 }
