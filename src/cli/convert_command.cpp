@@ -24,7 +24,7 @@ void printFiles(const std::filesystem::path& site) {
 
 int runConvert(const Arguments& arguments) {
   limitThreads(static_cast<std::size_t>(arguments.integer("threads")));
-  noteInterruptions();
+  installSignalHandlers();
   const std::string& output = arguments.text("output");
   ConvertReport report;
   {

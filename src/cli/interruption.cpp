@@ -17,7 +17,7 @@ void note(int signal) {
 
 } // namespace
 
-void noteInterruptions() {
+void installSignalHandlers() {
   struct sigaction action {};
   action.sa_handler = note;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
@@ -34,7 +34,7 @@ void throwIfInterrupted() {
     throw Interrupted{signal};
 }
 
-void endBy(Interrupted interrupted) {
+void endProcessBySignal(Interrupted interrupted) {
   std::signal(interrupted.signal, SIG_DFL);
   std::raise(interrupted.signal);
   std::abort();

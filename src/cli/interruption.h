@@ -1,5 +1,5 @@
 #pragma once
-// Ctrl-C (SIGINT), SIGTERM and SIGHUP as an exception, so that destructors clean up.
+// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into an exception, so that destructors remove unfinished files.
 
 namespace imgeo::cli {
 
@@ -9,12 +9,12 @@ struct Interrupted {
 };
 
 /// Makes SIGINT, SIGTERM and SIGHUP set a flag instead of ending the process. A second signal of the same kind ends it.
-void noteInterruptions();
+void installSignalHandlers();
 
 /// Throws Interrupted if a signal has arrived. Safe from any thread.
 void throwIfInterrupted();
 
-/// Ends the process by the signal, so that its parent sees the cause.
-[[noreturn]] void endBy(Interrupted interrupted);
+/// Ends the process by the signal, so that its parent process sees that a signal ended it.
+[[noreturn]] void endProcessBySignal(Interrupted interrupted);
 
 } // namespace imgeo::cli

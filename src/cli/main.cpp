@@ -56,7 +56,7 @@ int runAndReport(int count, char** words) {
     return code;
   } catch (const Interrupted& interrupted) {
     report(0, "interrupted; nothing has changed");
-    endBy(interrupted);
+    endProcessBySignal(interrupted);
   } catch (const Error& error) {
     return report(exitCode(error.kind()), error.what());
   } catch (const std::bad_alloc&) {

@@ -14,7 +14,7 @@ Vec3d originOf(const ShapeInstance& instance) {
   return instance.worldFromShape.point({0, 0, 0});
 }
 
-bool warnsOf(const Imported& imported, const std::string& words) {
+bool hasWarning(const Imported& imported, const std::string& words) {
   return std::ranges::any_of(imported.warnings, [&](const std::string& w) { return w.find(words) != w.npos; });
 }
 
@@ -37,7 +37,7 @@ TEST(GltfNodes, KeepNamesTransformsAndHierarchy) {
   EXPECT_LE(length(instances[0].worldFromShape.point({1, 0, 0}) - Vec3d{1, 1, 0}), 1e-7);
 }
 
-TEST(GltfNodes, ShareTheMeshThatTheyShow) {
+TEST(GltfNodes, ShareTheirMesh) {
   GltfText gltf;
   const std::size_t mesh = gltf.addTriangle();
   for (int i = 0; i < 100; ++i)
@@ -50,7 +50,7 @@ TEST(GltfNodes, ShareTheMeshThatTheyShow) {
   EXPECT_EQ(originOf(instances[7]), (Vec3d{7, 0, 0}));
 }
 
-TEST(GltfNodes, ShareAMeshWhereOnlyTheMaterialsDiffer) {
+TEST(GltfNodes, ShareAMeshIfOnlyTheirMaterialsDiffer) {
   GltfText gltf;
   gltf.addTriangle();
   gltf.json["materials"] = {{{"name", "red"}}, {{"name", "blue"}, {"doubleSided", true}}};
@@ -179,7 +179,7 @@ TEST(GltfNodes, WarnAboutContentThatIsNotCarriedOver) {
   const Imported imported = read(gltf);
   for (const char* words :
        {"2 animations are", "1 skin is", "morph targets", "JOINTS_0", "KHR_materials_clearcoat (1 material)"})
-    EXPECT_TRUE(warnsOf(imported, words)) << words;
+    EXPECT_TRUE(hasWarning(imported, words)) << words;
   EXPECT_EQ(imported.warnings.size(), 5u);
 }
 
@@ -191,7 +191,7 @@ TEST(GltfNodes, ThatFormACycleAreLeftOutOrRefusedIfStrict) {
   gltf.json["scenes"] = {{{"nodes", {0}}}};
   const Imported imported = read(gltf);
   EXPECT_EQ(shapeInstances(imported.scene.graph).size(), 1u);
-  EXPECT_TRUE(warnsOf(imported, "nodes[0]: is the child of two nodes"));
+  EXPECT_TRUE(hasWarning(imported, "nodes[0]: is the child of two nodes"));
   EXPECT_THROW(read(gltf, {.attributes = {}, .folder = {}, .outside = false, .strict = true}), Error);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+// Adds a mesh with its shape to a scene.
 
 #include "scene/scene.h"
 
@@ -7,7 +8,7 @@
 
 namespace imgeo {
 
-/// Adds a mesh and a root node, called `shapeName`, whose shape draws it.
+/// Adds a mesh and a root node named `shapeName`, whose shape draws the mesh.
 inline void addShape(Scene& scene, Mesh mesh, std::string shapeName) {
   Shape shape;
   shape.mesh = scene.meshes.size();

@@ -98,7 +98,7 @@ void warnOfCollapsed(ConvertReport& report) {
 }
 
 /// Warns of elements that are in scene.x3d but may not be in an HTML page.
-void warnOfPage(const SceneGraph& graph, ConvertReport& report) {
+void warnOfPageOmissions(const SceneGraph& graph, ConvertReport& report) {
   std::vector<std::string> elements;
   for (const auto& [element, count] : elementsLeftOutOfPage(graph))
     elements.push_back(fmt::format("{} ({})", element, count));
@@ -127,7 +127,7 @@ public:
       : input_(input), options_(options), progress_(progress), site_(directory, options.force) {}
 
   void readSource() {
-    tell(0, "reading");
+    reportProgress(0, "reading");
     Imported imported = importInput(input_,
                                     {.attributes = options_.keepAttributes,
                                      .folder = {},
@@ -155,7 +155,7 @@ public:
 
   /// Welds meshes, drops elements and computes missing normals.
   void prepareMeshes() {
-    tell(0.2, "preparing");
+    reportProgress(0.2, "preparing");
     const PreparationReport prepared =
         prepareScene(scene_, options_.dropped, options_.normalWeighting, locationOf(input_));
     report_.weld = prepared.weld;
@@ -165,7 +165,7 @@ public:
   }
 
   void encodeMeshes() {
-    tell(0.3, "writing");
+    reportProgress(0.3, "writing");
     std::size_t elementCount = 0, elementsDone = 0;
     for (const Mesh& mesh : scene_.meshes)
       elementCount += mesh.elementCount();
@@ -174,7 +174,7 @@ public:
     document_ = encodeScene(std::move(scene_), options_, files, report_, [&](std::size_t count) {
       const std::lock_guard lock(doneMutex);
       elementsDone += count;
-      tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
+      reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
     });
   }
 
@@ -191,7 +191,7 @@ public:
   void writeDocuments() {
     writeInlinedDocuments(document_, options_.target, site_.path());
     warnOfCollapsed(report_);
-    warnOfPage(document_.graph, report_);
+    warnOfPageOmissions(document_.graph, report_);
     writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest())));
     if (options_.target == Target::x3dom) {
       const X3domRelease release = x3domReleaseFor(*options_.encoding, options_.x3domUrl);
@@ -215,7 +215,7 @@ public:
   }
 
   void publish() {
-    tell(1, "publishing");
+    reportProgress(1, "publishing");
     site_.publish();
     report_.totalSeconds = total_.lapSeconds();
     report_.peakMemoryBytes = peakMemoryBytes();
@@ -224,9 +224,9 @@ public:
   ConvertReport takeReport() { return std::move(report_); }
 
 private:
-  void tell(double share, const std::string& doing) const {
+  void reportProgress(double fraction, const std::string& step) const {
     if (progress_)
-      progress_(share, doing);
+      progress_(fraction, step);
   }
 
   SiteManifest manifest() const {

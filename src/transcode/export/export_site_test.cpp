@@ -14,8 +14,8 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-/// Converts `mesh` and exports it again as `name`; what is written equals the site.
-void expectComesBack(const Mesh& mesh, const ConvertOptions& options, const std::string& name) {
+/// Converts `mesh`, exports the site as `name` and expects that the exported file equals the site.
+void expectExportEqualsSite(const Mesh& mesh, const ConvertOptions& options, const std::string& name) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& file) { return directory.path() / file; };
   writeFile(path("in.ply"), exportScene(testing::sceneOf({mesh}), MeshFormat::ply));
@@ -37,7 +37,7 @@ TEST(ExportSite, WritesEveryMeshOfEveryEncoding) {
     options.primitives = seed % 3 == 0 ? Primitives::strips : Primitives::triangles;
     options.positionBits = 8 + seed % 13;
     options.effort = 0;
-    expectComesBack(testing::randomMesh(seed), options, "out.ply");
+    expectExportEqualsSite(testing::randomMesh(seed), options, "out.ply");
   }
 }
 
@@ -46,7 +46,7 @@ TEST(ExportSite, JoinsPatchesAtTheirBorders) {
   options.patchVertices = 256;
   options.effort = 0;
   const Mesh mesh = testing::torus(40, 40);
-  expectComesBack(mesh, options, "out.obj");
+  expectExportEqualsSite(mesh, options, "out.obj");
 
   const TemporaryDirectory directory;
   writeFile(directory.path() / "in.ply", exportScene(testing::sceneOf({mesh}), MeshFormat::ply));
@@ -61,7 +61,7 @@ TEST(ExportSite, JoinsPatchesAtTheirBorders) {
 TEST(ExportSite, WritesNavigationTypesIntoAGlb) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& file) { return directory.path() / file; };
-  std::string points; // more than stays in the document
+  std::string points; // too many to stay in the document
   for (int i = 0; i < 100; ++i)
     points += std::to_string(i) + " 0 0, 1000 0 0, 0 " + std::to_string(i + 1) + " 0, ";
   writeFile(path("hall.x3d"),

@@ -26,44 +26,44 @@ namespace {
 // Flags of renameat2(2). linux/fs.h defines them, but also macros that break other headers.
 constexpr unsigned renameNoReplace = 1, renameExchange = 2;
 
-[[noreturn]] void fail(const fs::path& file, const char* doing, int reason) {
-  throw Error(ErrorKind::io, file.string(), fmt::format("cannot {}: {}", doing, std::strerror(reason)));
+[[noreturn]] void fail(const fs::path& file, const char* action, int reason) {
+  throw Error(ErrorKind::io, file.string(), fmt::format("cannot {}: {}", action, std::strerror(reason)));
 }
 
 bool isSite(const fs::path& directory) {
-  std::error_code none;
-  return fs::is_regular_file(directory / manifestName, none);
+  std::error_code ignored;
+  return fs::is_regular_file(directory / manifestName, ignored);
 }
 
 /// Refuses to replace a directory that is neither empty nor a site, unless forced.
 void requireReplaceable(const fs::path& target, bool force) {
-  std::error_code none;
-  const fs::file_status status = fs::status(target, none);
+  std::error_code reason;
+  const fs::file_status status = fs::status(target, reason);
   if (!fs::exists(status))
     return;
   if (!fs::is_directory(status))
     throw Error(ErrorKind::io, target.string(), "exists and is not a directory");
   if (force || isSite(target))
     return;
-  const bool empty = fs::is_empty(target, none);
-  if (none)
-    fail(target, "read", none.value());
+  const bool empty = fs::is_empty(target, reason);
+  if (reason)
+    fail(target, "read", reason.value());
   if (!empty)
     throw Error(ErrorKind::usage, target.string(),
                 "is not empty and not a site of ours; --force replaces it with everything in it");
 }
 
 bool holdsWorkingDirectory(const fs::path& target) {
-  std::error_code none;
-  const fs::path here = fs::current_path(none);
+  std::error_code ignored;
+  const fs::path here = fs::current_path(ignored);
   return std::mismatch(target.begin(), target.end(), here.begin(), here.end()).first == target.end();
 }
 
 bool isMountPoint(const fs::path& directory) {
   struct stat own {
-  }, above{};
-  return stat(directory.c_str(), &own) == 0 && stat((directory / "..").c_str(), &above) == 0 &&
-         (own.st_dev != above.st_dev || own.st_ino == above.st_ino);
+  }, parent{};
+  return stat(directory.c_str(), &own) == 0 && stat((directory / "..").c_str(), &parent) == 0 &&
+         (own.st_dev != parent.st_dev || own.st_ino == parent.st_ino);
 }
 
 /// Locks a directory until the returned descriptor is closed; -1 if another run holds the lock or the directory has
@@ -82,15 +82,15 @@ int lockDirectory(const fs::path& directory, int operation) {
 }
 
 void removeAbandoned(const fs::path& folder, const std::string& prefix) {
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename();
     if (!name.starts_with(prefix) || name.size() != prefix.size() + 6)
       continue;
     const int lock = lockDirectory(entry.path(), LOCK_EX | LOCK_NB);
     if (lock < 0)
       continue;
-    fs::remove_all(entry.path(), none);
+    fs::remove_all(entry.path(), ignored);
     close(lock);
   }
 }
@@ -126,24 +126,24 @@ int renameBySystem(const fs::path& from, const fs::path& to, unsigned flags) {
 }
 
 StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
-  std::error_code unknown;
-  target_ = fs::weakly_canonical(fs::absolute(target), unknown);
-  if (unknown)
-    fail(target, "write", unknown.value());
+  std::error_code reason;
+  target_ = fs::weakly_canonical(fs::absolute(target), reason);
+  if (reason)
+    fail(target, "write", reason.value());
   if (!target_.has_filename())
     target_ = target_.parent_path();
   requireReplaceable(target_, force);
-  const bool exists = fs::is_directory(target_, unknown);
-  const fs::path above = target_.parent_path();
+  const bool exists = fs::is_directory(target_, reason);
+  const fs::path parent = target_.parent_path();
   keepsTarget_ =
-      exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
+      exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(parent.c_str(), W_OK) != 0);
   try {
     if (!exists)
-      makeFoldersAbove();
+      makeParentFolders();
     if (keepsTarget_)
       create(target_, ".imgeo-");
     else
-      create(above, fmt::format(".{}.imgeo-", target_.filename().string()));
+      create(parent, fmt::format(".{}.imgeo-", target_.filename().string()));
   } catch (...) {
     discard();
     throw;
@@ -154,10 +154,10 @@ StagedSite::~StagedSite() {
   discard();
 }
 
-void StagedSite::makeFoldersAbove() {
+void StagedSite::makeParentFolders() {
   std::vector<fs::path> missing;
-  std::error_code none;
-  for (fs::path folder = target_.parent_path(); !fs::exists(folder, none); folder = folder.parent_path())
+  std::error_code ignored;
+  for (fs::path folder = target_.parent_path(); !fs::exists(folder, ignored); folder = folder.parent_path())
     missing.push_back(folder);
   for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
     if (mkdir(folder->c_str(), 0777) != 0 && errno != EEXIST)
@@ -177,26 +177,27 @@ void StagedSite::create(const fs::path& folder, const std::string& prefix) {
       staging_.clear();
       fail(target_, "write", reason);
     }
-    // Another run may take it for abandoned before it is locked; then it is
-    // gone once we hold the lock, and we make another.
+    // Another run may remove the directory as abandoned before this run locks it. Then lockDirectory fails, and the
+    // loop makes another directory.
     lock_ = lockDirectory(staging_, LOCK_EX);
-    std::error_code none;
-    if (lock_ < 0 && fs::exists(staging_, none))
+    std::error_code ignored;
+    if (lock_ < 0 && fs::exists(staging_, ignored))
       break; // a file system without locks
   }
 }
 
 void StagedSite::publish(const Rename& rename) {
-  std::error_code none;
+  std::error_code ignored;
   struct stat old {};
   if (stat(target_.c_str(), &old) == 0)
-    fs::permissions(staging_, fs::perms(old.st_mode & 07777), none);
+    fs::permissions(staging_, fs::perms(old.st_mode & 07777), ignored);
   if (keepsTarget_ || !exchange(rename))
     publishFileByFile(rename);
   published_ = true;
 }
 
-/// False where the file system knows no renameat2.
+/// Renames the staged directory to the target and an old target to the staging path. Returns false, without a change,
+/// if a target exists and the file system does not support the flags of renameat2.
 bool StagedSite::exchange(const Rename& rename) {
   // Another run may add or remove the target between our two attempts.
   for (int attempt = 0; attempt < 100; ++attempt) {
@@ -214,8 +215,8 @@ bool StagedSite::exchange(const Rename& rename) {
     if (reason != EEXIST && reason != ENOENT)
       fail(target_, "put the new site in place", reason);
   }
-  std::error_code none;
-  if (fs::exists(target_, none))
+  std::error_code ignored;
+  if (fs::exists(target_, ignored))
     return false;
   const int reason = rename(staging_, target_, 0);
   if (reason != 0)
@@ -236,22 +237,22 @@ void StagedSite::publishFileByFile(const Rename& rename) {
       fail(target_ / file, "put the new file in place", failure);
     kept.insert(file);
   }
-  std::error_code none;
+  std::error_code ignored;
   for (const char* folder : {geometryFolder, textureFolder, runtimeFolder}) {
     std::vector<fs::path> stale;
-    for (const fs::directory_entry& entry : fs::directory_iterator(target_ / folder, none))
-      if (!entry.is_directory(none) && !kept.contains(fs::path(folder) / entry.path().filename()))
+    for (const fs::directory_entry& entry : fs::directory_iterator(target_ / folder, ignored))
+      if (!entry.is_directory(ignored) && !kept.contains(fs::path(folder) / entry.path().filename()))
         stale.push_back(entry.path());
     for (const fs::path& file : stale)
-      fs::remove(file, none);
+      fs::remove(file, ignored);
   }
 }
 
 /// Removes the directory at the staging path: an unfinished site or, after an exchange, the old site.
 void StagedSite::discard() noexcept {
-  std::error_code none;
+  std::error_code ignored;
   if (!staging_.empty())
-    fs::remove_all(staging_, none);
+    fs::remove_all(staging_, ignored);
   if (lock_ >= 0)
     close(lock_);
   lock_ = -1;

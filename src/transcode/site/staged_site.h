@@ -43,7 +43,7 @@ public:
   void publish(const Rename& rename = renameBySystem);
 
 private:
-  void makeFoldersAbove();
+  void makeParentFolders();
   void create(const std::filesystem::path& folder, const std::string& prefix);
   bool exchange(const Rename& rename);
   void publishFileByFile(const Rename& rename);

@@ -1,4 +1,4 @@
-// An X3D document -> a site: what stays as it was, and that it reads back.
+// Converts an X3D document and checks that the site keeps its content and equals its source.
 
 #include "base/file.h"
 #include "base/testing.h"
@@ -11,8 +11,8 @@
 namespace imgeo {
 namespace {
 
-/// Coordinates beyond those that any face names, so that it is worth a file.
-const std::string more = [] {
+/// Coordinates that no face uses. They make the geometry large enough to be stored in a file of its own.
+const std::string unusedPoints = [] {
   std::string points;
   for (int i = 0; i < 200; ++i)
     points += " 9 9 " + std::to_string(i);
@@ -33,7 +33,7 @@ const std::string source = R"(<?xml version="1.0" encoding="UTF-8"?>
       <Transform DEF="Seat" translation="1 0 0" id="first">
         <Shape class="seat"><Appearance DEF="Red"><Material diffuseColor="1 0 0"/></Appearance>
           <IndexedFaceSet DEF="Plate" coordIndex="0 1 2 3 -1"><Coordinate point="0 0 0 1 0 0 1 1 0 0 1 0)" +
-                           more + R"("/></IndexedFaceSet>
+                           unusedPoints + R"("/></IndexedFaceSet>
         </Shape>
       </Transform>
     </Switch>
@@ -49,8 +49,8 @@ bool isGeometry(std::string_view element) {
   return element == "IndexedFaceSet" || element == "ImageGeometry";
 }
 
-/// One line for each element, its depth, its name and its fields, but for geometry nodes
-/// and the box that each Shape has of its own; one for each comment.
+/// Appends one line for each element, indented by its depth, with its name and fields, and one for each comment. Leaves
+/// out geometry nodes and the bounding box fields that convert adds.
 void outline(pugi::xml_node parent, std::size_t depth, std::vector<std::string>& lines) {
   for (const pugi::xml_node& node : parent.children()) {
     if (isGeometry(node.name()) || node.type() == pugi::node_doctype)
@@ -105,7 +105,7 @@ TEST_F(X3dSite, KeepsAllContentButGeometry) {
 
 TEST_F(X3dSite, ChangesNothingButGeometryNodes) {
   std::vector<std::string> before = outlineOf(source), after = outlineOf(file);
-  // What stands before <X3D> stands first in the Scene.
+  // A comment before <X3D> becomes the first child of the Scene.
   ASSERT_EQ(before.at(0), " Drawn by somebody & others ");
   const auto moved = std::ranges::find(after, "   Drawn by somebody & others ");
   ASSERT_NE(moved, after.end());
@@ -122,7 +122,7 @@ TEST_F(X3dSite, PreloadsNothingThatMayStayInvisible) {
   convert(directory_ / "lod.x3d", directory_ / "lod", {});
   const Bytes lod = readFile(directory_ / "lod/index.html");
   EXPECT_EQ(asText(lod).find("rel=\"preload\""), std::string::npos);
-  EXPECT_NE(page.find("rel=\"preload\""), std::string::npos) << "the plate stands outside of its Switch, too";
+  EXPECT_NE(page.find("rel=\"preload\""), std::string::npos) << "the plate also has an instance outside of the Switch";
 }
 
 TEST_F(X3dSite, StoresAGeometryThatIsUsedOnce) {

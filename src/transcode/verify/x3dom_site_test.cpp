@@ -24,7 +24,7 @@ ConvertOptions optionsFor(Encoding encoding) {
   return options;
 }
 
-TEST(X3domSite, HoldsEveryMesh) {
+TEST(X3domSite, EqualsItsSourceForEveryMesh) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const TemporaryDirectory directory;
@@ -47,7 +47,7 @@ TEST(X3domSite, HoldsEveryMesh) {
   }
 }
 
-TEST(X3domSite, HoldsEveryMeshInEveryArray) {
+TEST(X3domSite, EqualsItsSourceForEveryArrayType) {
   struct Case {
     ElementType type;
     Layout layout;
@@ -59,19 +59,19 @@ TEST(X3domSite, HoldsEveryMeshInEveryArray) {
       {ElementType::int16, Layout::separate, rgb},           {ElementType::float32, Layout::separate, rgb},
       {ElementType::uint16, Layout::interleaved, spherical}, {ElementType::int16, Layout::interleaved, rgb},
       {ElementType::float32, Layout::interleaved, rgb}};
-  for (const Case& one : cases)
+  for (const Case& arrayCase : cases)
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
-      SCOPED_TRACE(std::string(nameOf(one.type)) + ", layout " + std::to_string(int(one.layout)) + ", mesh " +
-                   std::to_string(seed));
+      SCOPED_TRACE(std::string(nameOf(arrayCase.type)) + ", layout " + std::to_string(int(arrayCase.layout)) +
+                   ", mesh " + std::to_string(seed));
       const TemporaryDirectory directory;
       Mesh mesh = testing::randomMesh(seed);
-      if (one.type != ElementType::float32)
+      if (arrayCase.type != ElementType::float32)
         for (Vec2f& texCoord : mesh.texCoords)
           texCoord.x = std::clamp(texCoord.x, 0.0f, 1.0f);
       ConvertOptions options = optionsFor(Encoding::bg);
-      options.coordType = one.type;
-      options.layout = one.layout;
-      options.normals = one.normals;
+      options.coordType = arrayCase.type;
+      options.layout = arrayCase.layout;
+      options.normals = arrayCase.normals;
       options.patchVertices = 256;
       writeMesh(mesh, directory.path() / "in.ply");
       convert(directory.path() / "in.ply", directory.path() / "site", options);
@@ -80,7 +80,7 @@ TEST(X3domSite, HoldsEveryMeshInEveryArray) {
     }
 }
 
-TEST(X3domSite, DoesNotContainOurRuntime) {
+TEST(X3domSite, HasNoRuntimeOfImgeo) {
   const TemporaryDirectory directory;
   writeMesh(testing::torus(9, 9), directory.path() / "in.ply");
   ConvertOptions options = optionsFor(Encoding::classic);
@@ -105,7 +105,7 @@ ErrorKind kindOfConverting(const Mesh& mesh, const ConvertOptions& options) {
   return ErrorKind::io;
 }
 
-TEST(X3domSite, RefusesWhatX3domCannotHold) {
+TEST(X3domSite, RefusesOptionsAndContentThatX3domCannotRead) {
   ConvertOptions options = optionsFor(Encoding::bg);
   options.positionBits = 17;
   EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
