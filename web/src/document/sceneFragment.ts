@@ -68,7 +68,7 @@ export function joinDeclarations(all: readonly SceneDeclarations[]): SceneDeclar
   };
 }
 
-/** Of two NavigationInfos in document order, the first is bound unless the second asks to be. */
+/** The first of two NavigationInfos in document order is bound, unless the second asks to be. */
 function boundOf(
   first: NavigationDescription | undefined,
   second: NavigationDescription | undefined,

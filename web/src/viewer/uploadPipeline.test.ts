@@ -67,7 +67,7 @@ describe("the upload pipeline", () => {
   test("uploads a few megabytes before each frame, and everything in the end", async () => {
     const renderer = new FakeRenderer();
     const stored = store(renderer, 11);
-    const most = 4 * megabyte;
+    const maxBytes = 4 * megabyte;
     assert.equal(renderer.moved, 0, "nothing goes at once");
     const moves: number[] = [];
     const sum = (): number => moves.reduce((all, bytes) => all + bytes, 0);
@@ -77,7 +77,7 @@ describe("the upload pipeline", () => {
     }
     await nextFrame(); // which finds that there is no more
     assert.ok(
-      moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= most),
+      moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= maxBytes),
       `${moves.join(", ")} bytes before a frame`,
     );
     assert.equal((await stored).byteLength, 11 * megabyte);

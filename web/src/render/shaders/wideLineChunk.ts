@@ -59,7 +59,7 @@ vec2 visibleRange(vec4 begin, vec4 end) {
   return vec2(ahead.x < 0.0 && ahead.y > 0.0 ? cut : 0.0, ahead.y < 0.0 && ahead.x > 0.0 ? cut : 1.0);
 }
 
-void placeOutline(vec3 from, vec3 to) {
+void computeOutline(vec3 from, vec3 to) {
   mat4 clipFromObject = projectionMatrix * modelViewMatrix;
   vec4 begin = clipFromObject * vec4(instancePosition(from), 1.0);
   vec4 end = clipFromObject * vec4(instancePosition(to), 1.0);
@@ -85,7 +85,7 @@ void widenLine() {
 
 Vertex readVertex() {
   Vertex begin = vertexAt(0), end = vertexAt(1);
-  placeOutline(begin.position, end.position);
+  computeOutline(begin.position, end.position);
   Vertex vertex;
   ${["position", ...vertexRoles].map((name) => `vertex.${name} = mix(begin.${name}, end.${name}, linePosition);`).join("\n  ")}
   return vertex;
