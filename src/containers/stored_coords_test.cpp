@@ -10,20 +10,20 @@ namespace {
 
 constexpr ElementType everyType[] = {ElementType::int8,  ElementType::uint8,  ElementType::int16,  ElementType::uint16,
                                      ElementType::int32, ElementType::uint32, ElementType::float32};
-const Lattice somewhere{{-3, 1, 700}, 0.37, 8};
+const Lattice testLattice{{-3, 1, 700}, 0.37, 8};
 
 GeometryDescription arrays(ElementType type, std::uint32_t bits) {
   GeometryDescription geometry;
   geometry.encoding = Encoding::bg;
   geometry.coordType = type;
-  geometry.lattice = somewhere;
+  geometry.lattice = testLattice;
   geometry.lattice.bits = bits;
   return geometry;
 }
 
 GeometryDescription images(std::uint32_t bits) {
   GeometryDescription geometry;
-  geometry.lattice = somewhere;
+  geometry.lattice = testLattice;
   geometry.lattice.bits = bits;
   return geometry;
 }
@@ -59,8 +59,8 @@ TEST(StoredCoords, AreDecodedByX3domToLatticePoints) {
     const std::uint32_t maximum = geometry.lattice.maximum();
     for (const std::uint32_t q : {0u, 1u, maximum / 3, maximum - 1, maximum}) {
       // The formula of X3DOM: docs/formats/nodes.md.
-      const double share = static_cast<double>(storeCoord(q, stored)) / stored.maximum;
-      const double x = fields.position.x + fields.size.x * (isSigned ? share : share - 0.5);
+      const double fraction = static_cast<double>(storeCoord(q, stored)) / stored.maximum;
+      const double x = fields.position.x + fields.size.x * (isSigned ? fraction : fraction - 0.5);
       EXPECT_NEAR(x, geometry.lattice.point({q, 0, 0}).x, 1e-13 * fields.size.x) << q;
     }
   }
@@ -120,12 +120,12 @@ TEST(DecodeFields, DetermineTheLattice) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     SCOPED_TRACE(nameOf(geometry));
     const Lattice &lattice = geometry.lattice,
-                  back = latticeOf(decodeFields(geometry), geometry.encoding, geometry.coordType, lattice.bits);
+                  decoded = latticeOf(decodeFields(geometry), geometry.encoding, geometry.coordType, lattice.bits);
     const double edge = lattice.step * lattice.maximum();
-    EXPECT_EQ(back.bits, lattice.bits);
-    EXPECT_NEAR(back.step, lattice.step, 1e-13 * lattice.step);
+    EXPECT_EQ(decoded.bits, lattice.bits);
+    EXPECT_NEAR(decoded.step, lattice.step, 1e-13 * lattice.step);
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(back.origin[axis], lattice.origin[axis], 1e-13 * edge + 1e-11);
+      EXPECT_NEAR(decoded.origin[axis], lattice.origin[axis], 1e-13 * edge + 1e-11);
   }
 }
 

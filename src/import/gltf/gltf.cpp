@@ -18,8 +18,8 @@ using namespace gltf;
 
 constexpr std::uint32_t glbMagic = 0x46546c67, jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
 
-/// Extensions that a document may require.
-const std::set<std::string> readExtensions{
+/// Extensions that a document may require, besides KHR_materials_*.
+const std::set<std::string> supportedExtensions{
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",  "KHR_lights_punctual",
     "KHR_texture_transform",      "EXT_texture_webp",        "EXT_mesh_gpu_instancing"};
 
@@ -27,6 +27,7 @@ bool isGlb(ByteSpan bytes) {
   return bytes.size() >= 12 && loadLittle<std::uint32_t>(bytes.data()) == glbMagic;
 }
 
+/// The contents of a GLB file; `binary` is empty if there is none.
 struct Chunks {
   std::string_view json;
   ByteSpan binary;
@@ -68,7 +69,7 @@ void checkVersion(const Value& root) {
   const Value required = root["extensionsRequired"];
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string extension = required[i].text();
-    if (!readExtensions.contains(extension) && !extension.starts_with("KHR_materials_"))
+    if (!supportedExtensions.contains(extension) && !extension.starts_with("KHR_materials_"))
       required[i].fail(ErrorKind::unsupported, "is " + extension + ", which imgeo does not read");
   }
 }

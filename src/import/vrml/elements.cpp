@@ -26,9 +26,9 @@ void VrmlElements::requireName(const Token& where, std::string_view name) const 
 std::string VrmlElements::define(const std::string& name, const std::string& element) {
   Scope& scope = scopes_.back();
   const std::size_t times = ++scope.timesGiven[name];
-  std::string own = times == 1 ? name : fmt::format("{}-{}", name, times);
-  scope.names[name] = {own, element};
-  return own;
+  std::string uniqueName = times == 1 ? name : fmt::format("{}-{}", name, times);
+  scope.names[name] = {uniqueName, element};
+  return uniqueName;
 }
 
 const VrmlElements::Named* VrmlElements::named(const std::string& name) const {
@@ -58,10 +58,10 @@ void VrmlElements::openScope() {
 
 void set(pugi::xml_node element, std::string_view attribute, std::string_view value) {
   const std::string name(attribute);
-  pugi::xml_attribute at = element.attribute(name.c_str());
-  if (!at)
-    at = element.append_attribute(name.c_str());
-  at.set_value(std::string(value).c_str());
+  pugi::xml_attribute target = element.attribute(name.c_str());
+  if (!target)
+    target = element.append_attribute(name.c_str());
+  target.set_value(std::string(value).c_str());
 }
 
 void setContainerField(pugi::xml_node element, std::string_view field) {

@@ -1,5 +1,5 @@
 #pragma once
-// VRML text -> the elements that X3D's XML encoding of the same document has.
+// Parses VRML into the elements of the same document in X3D's XML encoding.
 
 #include "import/x3d/elements.h"
 
@@ -8,9 +8,9 @@
 
 namespace imgeo::x3d {
 
-/// Safe for untrusted text. Prototypes become ProtoDeclare, ProtoInstance and ExternProtoDeclare, routes become ROUTE,
-/// and a DEF that repeats an earlier name gets a number. Throws Error{malformed, unsupported, limit} naming `name`,
-/// line and column.
+/// Parses a document. Safe for untrusted text. Prototypes become ProtoDeclare, ProtoInstance and ExternProtoDeclare,
+/// routes become ROUTE, and a DEF whose name is already in use gets a number as suffix. Throws Error{malformed,
+/// unsupported, limit} naming `name`, line and column.
 Elements parseVrml(std::string_view text, const std::string& name);
 
 } // namespace imgeo::x3d

@@ -17,7 +17,7 @@ Affine3d inverseOf(const Affine3d& map) {
   return inverse;
 }
 
-/// Visits each node at its first instance.
+/// Sets the center of rotation of all viewpoints, in the coordinate system of the first instance of each.
 class RotationCenters {
 public:
   RotationCenters(SceneGraph& graph, Vec3d center) : graph_(graph), center_(center), isVisited_(graph.nodes.size()) {}

@@ -1,5 +1,5 @@
 #pragma once
-// A prepared scene -> its document, with the geometry files written.
+// Turns a prepared scene into its document and writes the geometry files.
 
 #include "documents/documents.h"
 #include "transcode/encode/encode_mesh.h"

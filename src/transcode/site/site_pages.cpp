@@ -22,12 +22,12 @@ std::size_t documentOf(const SceneGraph& graph, std::size_t inlineNode) {
 } // namespace
 
 void writeInlinedDocuments(SceneDocument& document, Target target, const fs::path& site) {
-  // The first Inline of each document; the Inlines inside that document follow it. Files are written in reverse
-  // order: an inner document's name is its content's, and part of the outer document's content.
+  // Lists the first Inline node of each document, outer documents before the documents that they inline. Files are
+  // written in reverse order, since a file name is a hash of the content, which includes the names of inlined files.
   std::vector<std::size_t> firstInlines;
-  std::set<std::size_t> seen;
+  std::set<std::size_t> listedDocuments;
   for (const std::size_t node : nodesInOrder(document.graph))
-    if (inlinesDocument(document.graph.nodes[node]) && seen.insert(documentOf(document.graph, node)).second)
+    if (inlinesDocument(document.graph.nodes[node]) && listedDocuments.insert(documentOf(document.graph, node)).second)
       firstInlines.push_back(node);
   for (const std::size_t node : firstInlines | std::views::reverse) {
     const std::string text =
