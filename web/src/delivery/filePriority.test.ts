@@ -164,7 +164,7 @@ describe("a delivery", () => {
     assert.deepEqual([delivery.isSettled, delivery.isExhausted], [true, true]);
   });
 
-  test("aborts files that are no longer required, keeps those that have arrived, and can request them again", async () => {
+  test("aborts files that are no longer required, keeps arrived ones, and can request them again", async () => {
     const late = deferredFile(records);
     const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
     const { delivery, errors, stages } = record(sigGeometry(1), site.pool);

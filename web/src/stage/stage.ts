@@ -111,8 +111,8 @@ export interface GpuVertices extends Omit<VertexArray, "array"> {
 /** Values of the attribute that colors a geometry. */
 export interface GpuValues extends GpuVertices {
   /**
-   * The stored integer of the upper end of the attribute's range, whose lower end is 0; undefined: numbers are stored as
-   * they are.
+   * The stored integer of the upper end of the attribute's range, whose lower end is 0; undefined: numbers are stored
+   * as they are.
    */
   readonly maxStored: number | undefined;
 }

@@ -93,7 +93,7 @@ describe("jobs", () => {
     pool.dispose();
   });
 
-  test("that are aborted do not begin; the result of a running one is dropped, and its worker is then free", async () => {
+  test("that are aborted do not begin; the result of a running one is dropped", async () => {
     const { pool, workers } = poolWithFakes({ size: 1 });
     const aborter = new AbortController();
     const running = pool.run("classicNormals", input(1), aborter.signal);

@@ -139,7 +139,7 @@ describe("an index on the CPU", () => {
   });
 });
 
-test("normals on the CPU are the bytes of vectors, or pairs whose second numbers are in the lower half of the image", async () => {
+test("normals on the CPU are the bytes of vectors, or pairs from both halves of the image", async () => {
   const vectors = await classicNormals({ ...layout, file: file(plane(3)), format: { kind: "byteVector" } });
   assert.deepEqual([vectors.components, Array.from(vectors.array.subarray(4, 7))], [3, [13, 14, 15]]);
   const pairs = await classicNormals({

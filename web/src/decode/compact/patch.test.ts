@@ -104,7 +104,7 @@ describe("a file of compact", () => {
     });
   }
 
-  test("has vectors of every topology, of several patches, with and without a grid, with seams and every attribute", () => {
+  test("has vectors of every topology, of several patches, with a grid, with seams and every attribute", () => {
     assert.ok(names.length > 15);
     const files = names.map((name) => headersOf(readPayload(name)));
     assert.ok(files.some((headers) => headers.length > 1));

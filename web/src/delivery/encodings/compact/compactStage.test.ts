@@ -138,7 +138,7 @@ describe("a geometry of compact", () => {
     assert.deepEqual(site.requested, ["alike.png"]);
   });
 
-  test("requests a shared file at the largest priority of its geometries, and aborts it with the last one", async () => {
+  test("requests a shared file at the largest priority of its users, and aborts it with the last one", async () => {
     const { promise, release } = deferredFile(readVectorFile("sphere"));
     const site = siteOf({ ...filesOf("alike", "torus"), "sphere.png": promise }, 1);
     const withPriority = (priority: number) => () => priority;
