@@ -125,7 +125,7 @@ describe("a scene", () => {
     );
   });
 
-  test("follows USE for shapes, materials and geometries, and tells shapes apart by the elements that USE them", () => {
+  test("follows USE for shapes, materials and geometries, and gives each shape the identity of the element that USEs it", () => {
     const scene = sceneOf(`
       <Shape DEF="s"><Appearance DEF="a"><Material diffuseColor="1 0 0"/></Appearance>${patches}</Shape>
       <Shape USE="s"/><Shape><Appearance USE="a"/></Shape>`);

@@ -91,7 +91,7 @@ export class ElementInstance {
     return false;
   }
 
-  /** Sets the root element of the document that this Inline shows. */
+  /** Sets the root element of the document that replaces this Inline. */
   setInlined(x3d: SceneElement, context: DocumentContext): void {
     this.#inlined = { x3d, context };
   }

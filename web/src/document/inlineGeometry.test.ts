@@ -180,7 +180,7 @@ describe("geometry in the document", () => {
     assert.equal(distinct(roof(2)), 3); // the third one, at the shared edge, is the mean of both
   });
 
-  test("draws lines and points, in colours of vertices or of lines", () => {
+  test("draws lines and points, in the colors of vertices or of lines", () => {
     const draws = (markup: string) => read(markup).geometry?.patches[0]?.draws;
     assert.deepEqual(draws(`<IndexedLineSet coordIndex="0 1 2 -1 3 0">${square}</IndexedLineSet>`), [
       { primitive: "lines", count: 6 },

@@ -26,7 +26,7 @@ export interface NodeReadingContext extends ShapeReadingContext {
   readonly host: SceneElement;
   readonly childrenOf: (element: SceneElement) => readonly SceneElement[];
   readonly levelOf: (lod: SceneElement) => number | undefined;
-  /** The root element of an Inline's document; undefined where it is not loaded or must not be shown. */
+  /** The root element of an Inline's document; undefined where it is not loaded or must not be inlined. */
   readonly inlined: (inline: SceneElement) => SceneElement | undefined;
 }
 
@@ -127,7 +127,7 @@ function shapeReader(element: SceneElement, node: SceneElement, context: NodeRea
 
 function readBackground(node: SceneElement, warnings: Warning[]): BackgroundDescription {
   const { skyColor, skyAngle, groundColor, groundAngle } = readFields(node, nodeFields.Background, warnings);
-  // The first colour is at the pole, each further one at its angle.
+  // The first color is at the pole, each further one at its angle.
   const rings = (colors: readonly Vec3[], angles: readonly number[]) =>
     colors.slice(0, angles.length + 1).map((color, i) => ({ color, angle: i === 0 ? 0 : (angles[i - 1] ?? 0) }));
   return {

@@ -21,7 +21,7 @@ import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
 import { WalkController } from "./walkController.ts";
 
-/** The parts of a scene that the camera depends on. */
+/** The data of a scene that the camera depends on. */
 export interface NavigatedScene {
   /** Bounds everything visible. */
   readonly sphere: Sphere;

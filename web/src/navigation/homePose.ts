@@ -12,7 +12,7 @@ import type { NavigationType } from "./navigationType.ts";
 import type { CameraSetting } from "./orbit.ts";
 import { poseWith } from "./orbit.ts";
 
-/** Sets the stack's viewpoints and binds new ones that ask for it (set_bind or bind). */
+/** Sets the stack's viewpoints and binds new ones whose `set_bind` or `bind` is true. */
 export function bindViewpoints(stack: BindingStack<SceneElement>, viewpoints: readonly ViewpointInstance[]): void {
   const bindRequests = new Set(
     viewpoints.filter(({ viewpoint }) => viewpoint.set_bind || viewpoint.bind).map(({ element }) => element),

@@ -42,7 +42,7 @@ function walk(start: Pose, direction: Vector3, seconds: number, boxes: readonly 
   const eyes: Vector3[] = [];
   let pose = start;
   for (let elapsed = 0; elapsed < seconds || controller.isMoving; elapsed += frame) {
-    assert.ok(elapsed < seconds + 20, "it never comes to rest");
+    assert.ok(elapsed < seconds + 20, "the avatar does not stop");
     pose = step(controller, pose, boxes, elapsed < seconds ? direction : undefined);
     eyes.push(pose.position);
   }
@@ -51,7 +51,7 @@ function walk(start: Pose, direction: Vector3, seconds: number, boxes: readonly 
 
 const last = (eyes: readonly Vector3[]): Vector3 => eyes.at(-1) ?? new Vector3();
 
-function near(actual: number, expected: number, tolerance = 0.02): void {
+function assertNear(actual: number, expected: number, tolerance = 0.02): void {
   assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
 }
 
@@ -60,13 +60,13 @@ const [ahead, right] = [new Vector3(0, 0, -1), new Vector3(1, 0, 0)];
 describe("a walking avatar", () => {
   test("covers its distance at its height above the floor", () => {
     const { x, y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [ground]));
-    near(x, 0);
-    near(y, 1.6);
-    near(z, -6, 0.06);
+    assertNear(x, 0);
+    assertNear(y, 1.6);
+    assertNear(z, -6, 0.06);
   });
 
   test("comes down to the floor from a viewpoint above it, and up from one too low", () => {
-    for (const height of [0.4, 3]) near(last(walk(standing(0, height, 0), ahead, 0.1, [ground])).y, 1.6);
+    for (const height of [0.4, 3]) assertNear(last(walk(standing(0, height, 0), ahead, 0.1, [ground])).y, 1.6);
   });
 
   test("climbs stairs, smoothly, and stands on the landing", () => {
@@ -74,7 +74,7 @@ describe("a walking avatar", () => {
       box([-1, 0, -1.3 - 0.3 * i], [1, 0.17 * (i + 1), -1 - 0.3 * i]),
     );
     const eyes = walk(standing(0, 1.6, 0), ahead, 4, [ground, ...stairs, box([-1, 0, -9], [1, 0.17 * 12, -4.6])]);
-    near(last(eyes).y, 1.6 + 0.17 * 12);
+    assertNear(last(eyes).y, 1.6 + 0.17 * 12);
     eyes.slice(1).forEach((eye, i) => {
       assert.ok(Math.abs(eye.y - (eyes[i]?.y ?? 0)) < 0.06, `jumps at ${eye.z}`);
     });
@@ -82,15 +82,15 @@ describe("a walking avatar", () => {
 
   test("does not climb what is higher than a step", () => {
     const { y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [ground, box([-5, 0, -9], [5, 0.5, -2])]));
-    near(y, 1.6);
-    near(z, -2 + avatar.radius, 0.1);
+    assertNear(y, 1.6);
+    assertNear(z, -2 + avatar.radius, 0.1);
   });
 
   test("is stopped by a wall, and slides along it when it comes at an angle", () => {
     const wall = box([-15, 0, -9], [15, 4, -2]);
-    near(last(walk(standing(0, 1.6, 0), ahead, 3, [ground, wall])).z, -2 + avatar.radius);
+    assertNear(last(walk(standing(0, 1.6, 0), ahead, 3, [ground, wall])).z, -2 + avatar.radius);
     const aside = last(walk(standing(0, 1.6, 0), new Vector3(1, 0, -1).normalize(), 4, [ground, wall]));
-    near(aside.z, -2 + avatar.radius, 0.05);
+    assertNear(aside.z, -2 + avatar.radius, 0.05);
     assert.ok(aside.x > 4, `slid only to ${aside.x}`);
   });
 
@@ -101,13 +101,13 @@ describe("a walking avatar", () => {
       box([0.45, 0, -2.2], [9, 4, -2]),
       box([-0.45, lintel, -2.2], [0.45, 4, -2]),
     ];
-    near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(2))).z, -4, 0.1);
-    near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(1.5))).z, -2 + avatar.radius);
+    assertNear(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(2))).z, -4, 0.1);
+    assertNear(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(1.5))).z, -2 + avatar.radius);
   });
 
   test("falls from a ledge, with acceleration, onto what is below", () => {
     const eyes = walk(standing(0, 4.6, 0), ahead, 2, [ground, box([-5, 0, -1], [5, 3, 5])]);
-    near(last(eyes).y, 1.6);
+    assertNear(last(eyes).y, 1.6);
     const falls = eyes
       .slice(1)
       .map((eye, i) => (eyes[i]?.y ?? 0) - eye.y)
@@ -121,8 +121,8 @@ describe("a walking avatar", () => {
 
   test("does not leave the floor", () => {
     const { y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [box([-5, -1, -2], [5, 0, 5])]));
-    near(y, 1.6);
-    near(z, -2 - avatar.radius, 0.15);
+    assertNear(y, 1.6);
+    assertNear(z, -2 - avatar.radius, 0.15);
   });
 
   test("hovers where there has never been a floor, and comes down when it reaches one", () => {
@@ -132,13 +132,13 @@ describe("a walking avatar", () => {
       eyes.every(({ y, z }) => z < -1.7 || y === 2),
       "sinks where there is no floor",
     );
-    near(last(eyes).y, 1.6);
-    near(last(eyes).z, -4, 0.1);
+    assertNear(last(eyes).y, 1.6);
+    assertNear(last(eyes).z, -4, 0.1);
   });
 
   test("can leave an obstacle that it starts in", () => {
     const pillar = box([-0.2, 0, -0.2], [0.1, 4, 0.2]);
-    near(last(walk(standing(0.2, 1.6, 0), right, 1, [ground, pillar])).x, 2.2, 0.1);
+    assertNear(last(walk(standing(0.2, 1.6, 0), right, 1, [ground, pillar])).x, 2.2, 0.1);
   });
 
   test("walks with any up direction", () => {
@@ -162,9 +162,9 @@ describe("a walking avatar", () => {
       controller.addGroundSamples(camera, sampleGround({ ...camera, eye, orientation: new Quaternion() }, [ground]));
     }
     const { x, y, z } = pose.position.clone().applyQuaternion(back);
-    near(x, 0);
-    near(y, 1.6);
-    near(z, -4, 0.1);
+    assertNear(x, 0);
+    assertNear(y, 1.6);
+    assertNear(z, -4, 0.1);
   });
 });
 
@@ -191,9 +191,9 @@ describe("ground samples", () => {
       controller.push(ahead.clone().multiplyScalar(speed * frame), speed);
       pose = controller.walk(pose, frame);
     }
-    near(pose.position.z, 0, 0);
+    assertNear(pose.position.z, 0, 0);
     while (controller.isMoving) pose = step(controller, pose, [ground]);
-    near(pose.position.z, -6 * speed * frame, 1e-6);
+    assertNear(pose.position.z, -6 * speed * frame, 1e-6);
   });
 
   test("bound the movement, however late the next samples come", () => {

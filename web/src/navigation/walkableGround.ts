@@ -46,7 +46,7 @@ export class WalkableGround {
     this.#obstacles = Float32Array.from([...walls, ...this.#cliffs()]);
   }
 
-  /** The height of the floor below the avatar: the highest cell that it stands over; undefined where there is none. */
+  /** The height of the highest reachable cell below the avatar; undefined where there is none. */
   floorAt(point: GroundPoint): number | undefined {
     let highest = -Infinity;
     for (const cell of this.#cellsBelow(point)) {
@@ -81,7 +81,7 @@ export class WalkableGround {
     return Math.max(Math.abs(x), Math.abs(z)) <= this.#range - this.#radius;
   }
 
-  /** The cells below the avatar, at least the one below its center. */
+  /** The cells within the avatar's radius, which include the one below its center. */
   *#cellsBelow({ x: centerX, z: centerZ }: GroundPoint): Generator<number> {
     const { cellsPerSide } = this.#map;
     const size = (2 * this.#range) / cellsPerSide;

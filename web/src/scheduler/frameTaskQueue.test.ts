@@ -86,14 +86,14 @@ describe("work before frames", () => {
   test("runs no further step after an abort, and other work continues", async () => {
     const { work, steps, frame } = framesOf(4, 10);
     const aborter = new AbortController();
-    const gone = work.run(steps("a", [4, 4, 4]), aborter.signal);
-    const stays = work.run(steps("b", [4]), signal);
+    const aborted = work.run(steps("a", [4, 4, 4]), aborter.signal);
+    const other = work.run(steps("b", [4]), signal);
     assert.deepEqual(frame(), ["a1"]);
     aborter.abort(new Error("removed"));
     assert.deepEqual(frame(), ["b1"]);
     frame();
-    await assert.rejects(gone, { message: "removed" });
-    await stays;
+    await assert.rejects(aborted, { message: "removed" });
+    await other;
   });
 
   test("rejects with the error of a step, and other work continues", async () => {
@@ -104,9 +104,9 @@ describe("work before frames", () => {
       })(),
       signal,
     );
-    const stays = work.run(steps("b", [4]), signal);
+    const other = work.run(steps("b", [4]), signal);
     assert.deepEqual(frame(), ["b1"]);
     await assert.rejects(failing, { message: "no room" });
-    await stays;
+    await other;
   });
 });

@@ -19,7 +19,7 @@ function sorted(items: readonly Numbered[]): Numbered[] {
   return items.toSorted((a, b) => b.priority - a.priority || a.turn - b.turn);
 }
 
-function drained<Item extends Numbered>(queue: PriorityQueue<Item>): Item[] {
+function popAll<Item extends Numbered>(queue: PriorityQueue<Item>): Item[] {
   const items: Item[] = [];
   for (let item = queue.pop(); item !== undefined; item = queue.pop()) items.push(item);
   return items;
@@ -56,7 +56,7 @@ describe("a queue", () => {
         }
         assert.equal(queue.size, entries.length);
       }
-      assert.deepEqual(drained(queue), sorted(entries.map(({ item }) => item)));
+      assert.deepEqual(popAll(queue), sorted(entries.map(({ item }) => item)));
     }
   });
 
@@ -65,7 +65,7 @@ describe("a queue", () => {
     const entries = [1, 2, 3].map((priority, turn) => queue.push({ priority, turn }));
     for (const entry of entries.slice(1).flatMap((each) => [each, each])) queue.remove(entry);
     assert.deepEqual(
-      drained(queue).map(({ priority }) => priority),
+      popAll(queue).map(({ priority }) => priority),
       [1],
     );
     for (const entry of entries) queue.remove(entry);
@@ -123,10 +123,10 @@ describe("a byte semaphore", () => {
     const semaphore = new ByteSemaphore(10);
     const release = await semaphore.acquire(8, signal);
     const aborter = new AbortController();
-    const gone = semaphore.acquire(9, aborter.signal);
+    const aborted = semaphore.acquire(9, aborter.signal);
     const behind = semaphore.acquire(2, signal);
     aborter.abort(new Error("removed"));
-    await assert.rejects(gone, { message: "removed" });
+    await assert.rejects(aborted, { message: "removed" });
     (await behind)();
     release();
     assert.equal(semaphore.bytes, 0);

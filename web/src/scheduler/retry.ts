@@ -8,7 +8,7 @@ export interface Failure {
   readonly retryAfter: string | undefined;
 }
 
-/** Where a server asks to wait longer than this, the file has failed. */
+/** The longest Retry-After that is respected; a longer one is a permanent failure. */
 export const maxRetryAfterMs = 60_000;
 
 /**

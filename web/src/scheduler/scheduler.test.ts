@@ -241,10 +241,10 @@ describe("jobs", () => {
     const ran: string[] = [];
     const job = (name: string) => () => Promise.resolve(ran.push(name));
     const first = scheduler.run(subject, signal, job("first"));
-    const gone = scheduler.run(subject, aborter.signal, job("gone"));
+    const aborted = scheduler.run(subject, aborter.signal, job("aborted"));
     const last = scheduler.run(subject, signal, job("last"));
     aborter.abort(new Error("removed"));
-    await assert.rejects(gone, { message: "removed" });
+    await assert.rejects(aborted, { message: "removed" });
     await Promise.all([first, last]);
     assert.deepEqual(ran, ["first", "last"]);
   });
