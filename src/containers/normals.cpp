@@ -11,7 +11,7 @@ bool isPair(NormalEncoding encoding) {
   return encoding == NormalEncoding::octahedral || encoding == NormalEncoding::spherical;
 }
 
-// Spherical: X3DOM's 16-bit word 256 * theta + phi, little-endian.
+// X3DOM reads spherical coordinates as a little-endian word 256 * theta + phi, so phi is stored first.
 Vec2<std::uint32_t> storeNormal(Vec3f unit, NormalEncoding encoding, std::uint32_t bits) {
   assert(isPair(encoding));
   if (encoding == NormalEncoding::octahedral)

@@ -59,8 +59,8 @@ Response refusalOf(beast::error_code failure) {
   return refuse(400, "The request is malformed.");
 }
 
-/// Whether a failure is one of the parser, which is answered, and not one of the network.
-bool isMalformed(beast::error_code failure) {
+/// Whether the request is malformed, which the session answers, as opposed to a failure of the network.
+bool isParseError(beast::error_code failure) {
   return failure.category() == make_error_code(http::error::bad_method).category() &&
          failure != http::error::end_of_stream && failure != http::error::partial_message;
 }
@@ -93,9 +93,9 @@ asio::awaitable<void> Session::serveRequests() {
     const auto& request = parser.get();
     // Request bodies are not read, so the connection closes: its next bytes could be mistaken for a request.
     const bool hasBody = parser.chunked() || parser.content_length().value_or(0) > 0;
-    const bool isModern = request.version() >= 11;
-    keepAlive = isModern && request.keep_alive() && !hasBody && !isFinishing_;
-    const bool lacksHost = isModern && request.find(http::field::host) == request.end();
+    const bool isHttp11 = request.version() >= 11;
+    keepAlive = isHttp11 && request.keep_alive() && !hasBody && !isFinishing_;
+    const bool lacksHost = isHttp11 && request.find(http::field::host) == request.end();
     const Response response = lacksHost ? refuse(400, "The request names no host.") : respond(site_, headOf(request));
     co_await write(response, keepAlive);
     isAnswering_ = false;
@@ -110,7 +110,7 @@ asio::awaitable<bool> Session::readHead(Parser& parser) {
   stream_.expires_after(std::chrono::milliseconds(limits_.headTimeoutMs));
   beast::error_code failure;
   co_await http::async_read_header(stream_, received_, parser, asio::redirect_error(asio::use_awaitable, failure));
-  if (failure && !isMalformed(failure))
+  if (failure && !isParseError(failure))
     co_return false;
   isAnswering_ = true;
   if (!failure)

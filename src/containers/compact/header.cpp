@@ -11,7 +11,7 @@ namespace imgeo::compact {
 namespace {
 
 constexpr std::uint8_t signature[] = {'I', 'G', 'C', 1};
-constexpr std::uint8_t baseFlag = 1;
+constexpr std::uint8_t baseFlag = 1; // in the flags of a patch type
 
 /// Reads the fields of a header.
 class FieldReader {
@@ -19,16 +19,16 @@ public:
   FieldReader(ByteSpan bytes, const std::string& location) : bytes_(bytes), location_(location) {}
 
   std::uint8_t takeByte() {
-    if (at_ == bytes_.size())
+    if (byteOffset_ == bytes_.size())
       throw Error(ErrorKind::truncated, location_, "the image ends before its header does");
-    return bytes_[at_++];
+    return bytes_[byteOffset_++];
   }
   std::uint8_t takeByte(std::uint32_t min, std::uint32_t max, const char* what) {
     const std::uint8_t value = takeByte();
     require(value >= min && value <= max, what);
     return value;
   }
-  /// Seven bits in each byte, the least significant first; below 2^28.
+  /// Reads a number below 2^28, stored as seven bits per byte, the least significant bits first.
   std::uint32_t takeNumber() {
     std::uint32_t value = 0;
     for (std::uint32_t shift = 0; shift < 28; shift += 7) {
@@ -39,7 +39,7 @@ public:
     }
     throw Error(ErrorKind::malformed, location_, "the header states a number that is too long");
   }
-  /// A number of at most `max`.
+  /// Reads a number of things. Throws Error{limit} if it is above `max`; `what` names the things.
   std::uint32_t takeCount(std::uint32_t max, const char* what) {
     const std::uint32_t value = takeNumber();
     if (value > max)
@@ -50,11 +50,11 @@ public:
     if (!condition)
       throw Error(ErrorKind::malformed, location_, std::string("the header states impossible ") + what);
   }
-  std::size_t at() const { return at_; }
+  std::size_t byteOffset() const { return byteOffset_; }
 
 private:
   ByteSpan bytes_;
-  std::size_t at_ = 0;
+  std::size_t byteOffset_ = 0;
   const std::string& location_;
 };
 
@@ -69,6 +69,7 @@ AttributeType takeAttribute(FieldReader& reader) {
   struct Range {
     std::uint32_t minComponents, maxComponents, minBits, maxBits, maxMode;
   };
+  // By AttributeKind.
   static constexpr Range ranges[] = {{3, 3, 4, 16, 3}, {2, 2, 1, 16, 0}, {3, 4, 1, 16, 0}, {1, 4, 1, 24, 0}};
   AttributeType type;
   const std::uint8_t kind = reader.takeByte(0, 3, "attributes");
@@ -145,9 +146,9 @@ ParsedHeader readHeader(ByteSpan payload, const std::string& location) {
     header.streamLengths.push_back(reader.takeNumber());
     total += header.streamLengths.back();
   }
-  if (total > payload.size() - reader.at())
+  if (total > payload.size() - reader.byteOffset())
     throw Error(ErrorKind::truncated, location, "the image ends before its streams do");
-  return {std::move(header), reader.at()};
+  return {std::move(header), reader.byteOffset()};
 }
 
 } // namespace imgeo::compact

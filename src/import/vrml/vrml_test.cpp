@@ -31,11 +31,11 @@ void expectSame(const std::string& vrml, const std::string& xml) {
   }
 }
 
-Error refusalOf(const std::string& text) {
+Error errorOfText(const std::string& text) {
   return errorOf(text, "a.wrl");
 }
 
-TEST(Vrml, IsTheSameSceneAsInXml) {
+TEST(Vrml, EqualsTheSameSceneInXmlEncoding) {
   expectSame("DEF Seat Transform { translation 1 2 3 rotation 0 1 0 +1.5 children [\n"
              "  Shape { appearance Appearance { material DEF Red Material { diffuseColor 1 0 0 } }\n"
              "          geometry IndexedFaceSet { solid FALSE coordIndex [0, 1, 2, -1] # one face\n"
@@ -137,9 +137,9 @@ TEST(Vrml, RefusesPrototypesThatExpandTooFar) {
   for (int i = 1; i < 40; ++i)
     bomb += "PROTO P" + std::to_string(i) + " [] { Group { children [ P" + std::to_string(i - 1) + " {} P" +
             std::to_string(i - 1) + " {} ] } }\n";
-  EXPECT_EQ(refusalOf("#VRML V2.0 utf8\n" + bomb + "P39 { }").kind(), ErrorKind::limit);
-  const Imported circle = readVrml("PROTO P [] { Group { children P { } } } P { }");
-  EXPECT_LE(circle.scene.graph.nodes.size(), 3u);
+  EXPECT_EQ(errorOfText("#VRML V2.0 utf8\n" + bomb + "P39 { }").kind(), ErrorKind::limit);
+  const Imported recursive = readVrml("PROTO P [] { Group { children P { } } } P { }");
+  EXPECT_LE(recursive.scene.graph.nodes.size(), 3u);
 }
 
 TEST(Vrml, ReadsTheClassicEncodingOfX3d) {
@@ -157,7 +157,7 @@ TEST(Vrml, ReadsTheClassicEncodingOfX3d) {
 
 TEST(Vrml, NamesTheLocationOfAnError) {
   const auto expect = [](const std::string& text, ErrorKind kind, const std::string& location) {
-    const Error error = refusalOf("#VRML V2.0 utf8\n" + text);
+    const Error error = errorOfText("#VRML V2.0 utf8\n" + text);
     EXPECT_EQ(error.kind(), kind) << text;
     EXPECT_EQ(error.location(), "a.wrl:" + location) << text << error.what();
   };
@@ -171,9 +171,9 @@ TEST(Vrml, NamesTheLocationOfAnError) {
   std::string deep;
   for (int i = 0; i < 100000; ++i)
     deep += "Group { children ";
-  EXPECT_EQ(refusalOf("#VRML V2.0 utf8\n" + deep).kind(), ErrorKind::limit);
-  EXPECT_NE(refusalOf("#VRML V1.0 ascii\nSeparator { }").message().find("VRML 1.0"), std::string::npos);
-  EXPECT_EQ(refusalOf("Group { }").kind(), ErrorKind::malformed);
+  EXPECT_EQ(errorOfText("#VRML V2.0 utf8\n" + deep).kind(), ErrorKind::limit);
+  EXPECT_NE(errorOfText("#VRML V1.0 ascii\nSeparator { }").message().find("VRML 1.0"), std::string::npos);
+  EXPECT_EQ(errorOfText("Group { }").kind(), ErrorKind::malformed);
 }
 
 TEST(Vrml, LeavesDamagedContentOutAndNamesItsLocation) {

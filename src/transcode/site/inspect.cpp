@@ -110,10 +110,10 @@ SiteInfo inspect(const fs::path& site) {
     for (const PatchDescription& patch : geometry.patches)
       addCounts(patch, info);
   }
-  std::error_code none;
-  if (document.name == pageName && fs::exists(document.root / sceneName, none))
+  std::error_code ignored;
+  if (document.name == pageName && fs::exists(document.root / sceneName, ignored))
     add(sceneName, "scene");
-  if (fs::exists(document.root / manifestName, none)) {
+  if (fs::exists(document.root / manifestName, ignored)) {
     add(manifestName, "marker");
     const SiteManifest manifest =
         readManifest(asText(readFile(document.root / manifestName)), (document.root / manifestName).string());
