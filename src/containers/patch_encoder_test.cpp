@@ -196,9 +196,9 @@ TEST(Containers, DecodeFloatsWithinSinglePrecision) {
         ASSERT_EQ(decoded.vertexCount(), source.vertexCount());
         for (std::size_t i = 0; i < source.vertexCount(); ++i) {
           EXPECT_EQ(decoded.positions[i], pointReadBack(source.positions[i], lattice, geometry));
-          const Vec3d off = lattice.point(decoded.positions[i]) - lattice.point(source.positions[i]);
+          const Vec3d error = lattice.point(decoded.positions[i]) - lattice.point(source.positions[i]);
           for (int axis = 0; axis < 3; ++axis)
-            EXPECT_LE(std::abs(off[axis]), positionErrorBound(geometry));
+            EXPECT_LE(std::abs(error[axis]), positionErrorBound(geometry));
         }
       }
 }
@@ -245,7 +245,7 @@ TEST(Containers, DecodeIndicesOf32Bits) {
       mesh.normals.clear();
       mesh.texCoords.clear();
       if (side > 1000)
-        mesh.corners.resize(100'002); // all vertices, but not all triangles of them
+        mesh.corners.resize(100'002); // fewer triangles over the same vertices
       mesh.corners.back() = static_cast<std::uint32_t>(mesh.wedgeCount() - 1);
       const Encoded encoded = encode(mesh, Primitive::triangles, true, 12, {encoding, 8, 0});
       EXPECT_EQ(encoded.geometry.indexType, ElementType::uint32);
@@ -320,7 +320,7 @@ TEST(Containers, EncodeTheSameBytesEveryTime) {
   }
 }
 
-TEST(Containers, RefuseAFileWhoseEndIsMissing) {
+TEST(Containers, RefuseAFileThatIsCutAnywhere) {
   Mesh mesh = testing::torus(4, 4);
   mesh.colors.resize(mesh.wedgeCount());
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
@@ -437,7 +437,7 @@ TEST_P(HostilePatch, OutsideItsStatedBoxIsMalformed) {
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Encoding::classic, Encoding::bg),
+INSTANTIATE_TEST_SUITE_P(EveryEncoding, HostilePatch, ::testing::Values(Encoding::classic, Encoding::bg),
                          [](const auto& parameter) { return parameter.param == Encoding::classic ? "Sig" : "Bg"; });
 
 } // namespace

@@ -23,7 +23,7 @@ public:
     return patches;
   }
 
-  /// Afterwards every count is within its limit.
+  /// Decodes the sizes of all patches and checks them. Throws Error{limit} for more than a file may have.
   std::vector<PatchSizes> decodeSizes() {
     std::vector<PatchSizes> all;
     SizeSums sums;

@@ -9,7 +9,7 @@
 namespace imgeo::testing {
 namespace {
 
-/// Collada: a textured square that two nodes show; a camera and a light.
+/// A Collada document with two instances of a textured square, a camera and a light.
 const std::string collada = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
   <asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
@@ -98,7 +98,7 @@ TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {
   }
 }
 
-TEST(Assimp, MultipliesEmissionByTheTextureInFormatsWhoseViewersDo) {
+TEST(Assimp, MultipliesEmissionByTheTextureInAc3dFiles) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
   const auto rolesOf = [&](const std::string& emissive, const std::string& texture) {

@@ -1,5 +1,5 @@
 #pragma once
-// glTF's materials, textures and images -> appearances.
+// Turns glTF's materials, textures and images into appearances.
 
 #include "import/gltf/document.h"
 #include "scene/scene.h"
@@ -45,8 +45,8 @@ private:
   std::map<std::size_t, std::optional<std::size_t>> textures_, images_;
 };
 
-/// X3D's form of an affine map of texture coordinates with v upwards: matrix (a c; b d) and translation (x, y). Empty
-/// for a map that shears.
+/// The X3D texture transform of an affine map of texture coordinates, with v upwards: matrix (a c; b d) and translation
+/// (x, y). Empty for a map that shears.
 std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x, double y);
 
 } // namespace imgeo::gltf

@@ -6,7 +6,7 @@
 
 namespace imgeo {
 
-/// True where the size equals that of the facets that a binary header counts, or the text begins with "solid".
+/// Whether the text begins with "solid", or the size of the file fits the number of facets in a binary header.
 bool isStl(ByteSpan bytes);
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 

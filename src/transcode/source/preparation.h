@@ -1,5 +1,5 @@
 #pragma once
-// Import and preparation of the input: the steps that verify repeats exactly as convert took them.
+// Imports and prepares the input of convert and verify, which share these steps so that both get the same meshes.
 
 #include "import/import.h"
 #include "prepare/normals.h"
