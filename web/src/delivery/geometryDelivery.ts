@@ -1,5 +1,6 @@
 // Delivers the stages of one geometry: requests the files of its patches in the order that the scene sets, turns them
-// into stages, and reports files that fail. A missing file costs only what it holds. Files that the GPU budget has no
+// into stages, and reports files that fail. A patch whose file fails has the stages that its
+// other files allow. Files that the GPU budget has no
 // room for are evicted, and can be requested again.
 
 import type { Stage } from "../stage/stage.ts";
@@ -20,7 +21,7 @@ export interface DeliveryListener {
   /** Called once for each URL that fails. */
   onError(error: DeliveryError): void;
   /**
-   * Every requested file is ready or has failed. Called again when a later `request` that asked for more has settled.
+   * Every requested file has loaded or failed. Called again after each later `request` that requires more files.
    */
   onSettled(): void;
 }
@@ -31,20 +32,20 @@ export type FilePriority = (patchIndex: number, file: PatchFile) => number | und
 export interface Delivery {
   /** The transfers of the requested files. */
   readonly transfers: readonly Readonly<Transfer>[];
-  /** Every requested file is ready or has failed. */
+  /** Whether every requested file has loaded or failed. */
   readonly isSettled: boolean;
-  /** Every file of the geometry is ready or has failed. */
+  /** Whether every file of the geometry has loaded or failed. */
   readonly isExhausted: boolean;
-  /** Bytes of all its files on the GPU; an estimate for those that have not arrived. */
+  /** Bytes of all files on the GPU; an estimate for those that have not been decoded. */
   readonly storedBytes: number;
-  /** What it needs and has of the GPU: a chain for each patch, in the order in which files become useful. */
+  /** The GPU memory that files require or hold: a list for each patch, in the order in which files become useful. */
   budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[];
   /**
-   * Requests the files that have a priority, updates the priorities of those on their way, and aborts those without.
-   * Ready files stay; but where `granted` is given, files of a budget request that is not in it are evicted.
+   * Requests the files that have a priority, updates the priorities of those that are being loaded, and aborts those without.
+   * Ready files stay; but if `granted` is given, files of a budget request that is not in it are evicted.
    */
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
-  /** No call to the listener follows. Its stages must no longer be drawn. */
+  /** Aborts and frees everything. The listener is not called again; its stages must no longer be drawn. */
   cancel(): void;
 }
 
@@ -57,22 +58,22 @@ interface TrackedFile {
   /** Stops decoding and uploading the content. */
   aborter: AbortController;
   state: "absent" | "requested" | "ready" | "failed";
-  /** Bytes on the GPU: an estimate until the file has been there once. */
+  /** Bytes on the GPU: an estimate until the file has been decoded once. */
   storedBytes: number;
 }
 
-interface Patch {
+interface PatchState {
   readonly index: number;
   /** The stage that the listener was given last. */
   stage: Stage | undefined;
   readonly builder: StageBuilder;
   /** In the order in which they become useful. */
   readonly files: readonly TrackedFile[];
-  /** Those of the last call to `budgetRequests`. */
+  /** The requests of the last call to `budgetRequests`. */
   budgetRequests: readonly PatchBudgetRequest[];
 }
 
-/** The files are granted together. */
+/** Files of a patch that are granted or denied together. */
 interface PatchBudgetRequest extends BudgetRequest {
   readonly files: readonly TrackedFile[];
 }
@@ -89,9 +90,9 @@ export function deliverGeometry(
 class GeometryDelivery implements Delivery {
   readonly #pool: ResourcePool;
   readonly #listener: DeliveryListener;
-  readonly #patches: readonly Patch[];
+  readonly #patches: readonly PatchState[];
   readonly #files: readonly TrackedFile[];
-  readonly #reported = new Set<string>();
+  readonly #reportedUrls = new Set<string>();
   /** A cache, undefined when transfers were added or removed: a scene may have thousands of deliveries. */
   #transfers: readonly Readonly<Transfer>[] | undefined;
   #storedBytes: number | undefined;
@@ -165,7 +166,7 @@ class GeometryDelivery implements Delivery {
     }
   }
 
-  #startRequest(patch: Patch, tracked: TrackedFile, priority: number): void {
+  #startRequest(patch: PatchState, tracked: TrackedFile, priority: number): void {
     const { reference, target, expectedBytes } = tracked.file;
     const handle = this.#pool.acquire({ ...target, url: reference.url, priority, expectedBytes });
     tracked.handle = handle;
@@ -191,7 +192,7 @@ class GeometryDelivery implements Delivery {
   }
 
   /** The listener gets the stage without these files before their memory is freed. */
-  #evict(patch: Patch, evicted: readonly TrackedFile[]): void {
+  #evict(patch: PatchState, evicted: readonly TrackedFile[]): void {
     const { builder, files } = patch;
     if (evicted.length === 0) return;
     if (!builder.isDivisible || evicted.length === files.filter(({ state }) => state === "ready").length)
@@ -205,22 +206,22 @@ class GeometryDelivery implements Delivery {
     builder.sweep();
   }
 
-  async #receive(patch: Patch, tracked: TrackedFile, handle: ResourceHandle): Promise<void> {
+  async #receive(patch: PatchState, tracked: TrackedFile, handle: ResourceHandle): Promise<void> {
     const { signal } = tracked.aborter;
-    // Withdrawn meanwhile, or withdrawn and requested again.
-    const isOver = () => this.#isCancelled || tracked.handle !== handle;
+    // The file may have been withdrawn since, and requested again.
+    const isReplaced = () => this.#isCancelled || tracked.handle !== handle;
     const { builder } = patch;
     try {
       const content = await handle.content;
-      if (isOver()) return;
+      if (isReplaced()) return;
       await builder.accept(tracked.file, content, signal);
-      if (isOver()) return;
+      if (isReplaced()) return;
       tracked.state = "ready";
       this.#recordStoredBytes(patch, tracked, content);
       this.#updateStage(patch);
       builder.sweep();
     } catch (error) {
-      if (isOver()) return;
+      if (isReplaced()) return;
       tracked.state = "failed";
       handle.fail(error);
       this.#storedBytes = undefined;
@@ -232,7 +233,7 @@ class GeometryDelivery implements Delivery {
   }
 
   /** A base mesh that arrives after its patch does not change the stage. */
-  #updateStage(patch: Patch): void {
+  #updateStage(patch: PatchState): void {
     const stage = patch.builder.stage();
     if (stage === patch.stage) return;
     patch.stage = stage;
@@ -240,7 +241,7 @@ class GeometryDelivery implements Delivery {
   }
 
   /** The file's bytes on the GPU are known now, and stay known after an eviction. */
-  #recordStoredBytes({ builder, files }: Patch, tracked: TrackedFile, content: Content): void {
+  #recordStoredBytes({ builder, files }: PatchState, tracked: TrackedFile, content: Content): void {
     this.#storedBytes = undefined;
     if (content.kind === "image") {
       tracked.storedBytes = content.image.width * content.image.height * bytesPerTexel;
@@ -256,8 +257,8 @@ class GeometryDelivery implements Delivery {
   }
 
   #report(url: string, error: unknown): void {
-    if (this.#reported.has(url)) return;
-    this.#reported.add(url);
+    if (this.#reportedUrls.has(url)) return;
+    this.#reportedUrls.add(url);
     this.#listener.onError(asDeliveryError(error, url));
   }
 }
@@ -281,7 +282,7 @@ function usageRank({ role, plane }: PatchFile): number {
   return plane > 0 ? fileRoles.indexOf("value") + plane - 1 : fileRoles.indexOf(role);
 }
 
-function budgetRequestsOf({ index, builder, files }: Patch, priorityOf: FilePriority): PatchBudgetRequest[] {
+function budgetRequestsOf({ index, builder, files }: PatchState, priorityOf: FilePriority): PatchBudgetRequest[] {
   const requested = files.flatMap((tracked) => {
     if (tracked.state === "failed") return [];
     const priority = priorityOf(index, tracked.file);
@@ -317,7 +318,7 @@ function isImage({
   return kind === "texture" || kind === "either";
 }
 
-/** Whether the file is useful, and takes room on the GPU, independently of the patch's other files. */
+/** Whether the file is useful, and counts its GPU memory, independently of the patch's other files. */
 function isSeparate(tracked: TrackedFile): boolean {
   return isImage(tracked) || tracked.file.target.kind === "patches" || tracked.file.target.kind === "bases";
 }

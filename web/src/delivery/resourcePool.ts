@@ -23,7 +23,7 @@ export type Content =
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
- * What a file is to become: a texture, its own bytes, or either, as the GPU allows; a texture image; or all patches, or
+ * The form that a file is decoded to: a texture, its own bytes, or either, as the GPU allows; a texture image; or all patches, or
  * all base meshes, that it holds, which a job decodes.
  */
 export type ContentTarget =
@@ -57,7 +57,7 @@ export type MakeTextureImage = (
 export type ResourceRequest = ContentTarget & {
   /** The URL as the document writes it, without its fragment. */
   readonly url: string;
-  /** Larger comes first. The largest of all handles counts. */
+  /** Files of larger priority are requested first. Of several handles of a file the largest priority counts. */
   readonly priority: number;
   /** Estimated size of the file until the server states it; for patches and bases, of what this handle needs of it. */
   readonly expectedBytes: number;
@@ -70,7 +70,9 @@ export interface ResourceHandle {
   setPriority(priority: number): void;
   /** Marks the transfer as failed: the content is invalid. */
   fail(error: unknown): void;
-  /** The content is not read again. An image stays until `release`; a later handle downloads bytes again. */
+  /**
+   * The caller does not read the content again. An image stays until `release`; a later handle downloads bytes again.
+   */
   finish(): void;
   release(): void;
 }
@@ -84,14 +86,14 @@ export interface DeliveryOptions {
   /** The longest edge of a texture, in texels. */
   readonly maxTextureSize: number;
   readonly runJob: RunJob;
-  /** The same on the main thread, for small files that must not wait for a worker; default: `runJob`. */
+  /** Runs a job on the main thread, for small files that must not wait for a worker; default: `runJob`. */
   readonly runOnMainThread?: RunJob;
   /** Base meshes whose download began before the runtime; given to the first caller, undefined for all other URLs. */
   readonly prefetchedBases?: (url: string) => Promise<PrefetchedBases> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makeTextureImage: MakeTextureImage;
   readonly download: DownloadOptions;
-  /** The absolute URL of one that the document writes. */
+  /** Makes a URL of the document absolute. */
   readonly resolve: (url: string) => string;
   /** Called whenever a transfer has changed. */
   readonly onTransfer: () => void;
@@ -183,7 +185,7 @@ class Resource {
   readonly #handles = new Set<HandleState>();
   /** The handles that still read the content: the bytes stay until the last one has finished. */
   readonly #reading = new Set<HandleState>();
-  /** Handles need different patches of the file. */
+  /** Whether handles need different patches of the file. */
   readonly #isShared: boolean;
   #content: Promise<Content> | undefined;
   /** Frees the bytes' share of the semaphore. */
@@ -236,7 +238,7 @@ class Resource {
     this.invalidatePriority();
   }
 
-  /** False where the handle was released before. */
+  /** Returns false if the handle has been removed before. */
   remove(handle: HandleState): boolean {
     this.invalidatePriority();
     this.#reading.delete(handle);
@@ -254,7 +256,7 @@ class Resource {
     this.transfer.error = error instanceof Error ? error.message : String(error);
   }
 
-  /** Frees the bytes once no handle reads them; false where there are none to free. */
+  /** Frees the bytes once no handle reads them; returns false if there are none to free. */
   dropBytes(): boolean {
     if (!this.#hasBytes || this.#reading.size > 0) return false;
     this.#content = undefined;
@@ -297,7 +299,7 @@ class Resource {
   }
 
   /**
-   * Takes over a download that began before the runtime; undefined where it failed: the file is then requested again.
+   * Takes over a download that began before the runtime; undefined if it failed: the file is then requested again.
    */
   async #takeOver(file: Promise<PrefetchedBases>): Promise<Content | undefined> {
     const { transfer } = this;

@@ -16,17 +16,20 @@ async function start(): Promise<void> {
   const previews = startPreviewsIfPossible();
   if (previews.length > 0) await waitForPreviews(previews);
   const { registerViews } = await import("./register.ts");
-  // Previews whose bases have come meanwhile are drawn before the runtime starts, which takes longer.
+  // Previews whose bases have loaded meanwhile are drawn before the runtime starts, which takes longer.
   await Promise.all(previews.filter(({ isDue }) => isDue).map(({ settled }) => settled));
   registerViews();
   for (const preview of previews) if (!preview.canvas.isConnected) preview.end(); // the page has removed it
 }
 
-/** Leaves the network to the previews until their files are here, then preloads the runtime, and leaves the processor to them until they are drawn. */
+/**
+ * Leaves the network to the previews until their files are here, then preloads the runtime, and leaves the processor to
+ * them until they are drawn.
+ */
 async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
   const timeout = new Promise((resolve) => setTimeout(resolve, maxWaitMs));
   await Promise.race([
-    Promise.all(previews.map(({ downloaded: arrived, settled }) => Promise.race([arrived, settled]))),
+    Promise.all(previews.map(({ downloaded, settled }) => Promise.race([downloaded, settled]))),
     timeout,
   ]);
   const link = document.createElement("link");

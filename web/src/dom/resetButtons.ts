@@ -10,14 +10,14 @@ export class ResetButtons {
   constructor(controls: HTMLElement, navigator: CameraController, signal: AbortSignal) {
     this.#navigator = navigator;
     this.#buttons = [
-      buttonOf(
+      makeButton(
         "Show all",
         () => {
           navigator.showAll();
         },
         signal,
       ),
-      buttonOf(
+      makeButton(
         "Start",
         () => {
           navigator.reset();
@@ -28,6 +28,7 @@ export class ResetButtons {
     controls.append(...this.#buttons);
   }
 
+  /** Shows or hides the buttons. */
   update(): void {
     const { isAtHome, source, type } = this.#navigator;
     const isMovedAway = source === "user-interaction" && !isAtHome && type !== "none";
@@ -35,7 +36,7 @@ export class ResetButtons {
   }
 }
 
-function buttonOf(label: string, onClick: () => void, signal: AbortSignal): HTMLButtonElement {
+function makeButton(label: string, onClick: () => void, signal: AbortSignal): HTMLButtonElement {
   const button = document.createElement("button");
   button.textContent = label;
   button.setAttribute("part", "ways-back");

@@ -1,4 +1,5 @@
-// The pointer events that a <shape> gets: copies of the browser's events, with what was hit.
+// The pointer events that a <shape> gets: copies of the browser's events, with the hit as
+// additional properties.
 
 import type { Hit } from "../render/picking/picker.ts";
 
@@ -15,13 +16,13 @@ export interface ShapeEventProperties {
   readonly worldPosition: Vector3D;
   /** Unit vector; null on points and lines without normals. */
   readonly worldNormal: Vector3D | null;
-  /** Index of the geometry's patch, in which `vertexId` and `triangleId` count. */
+  /** Index of the geometry's patch. `vertexId` and `triangleId` are indices within the patch. */
   readonly patch: number;
   /** Index of the nearest vertex of the primitive that was hit. */
   readonly vertexId: number;
   /** Null on points and lines. */
   readonly triangleId: number | null;
-  /** The same under X3DOM's names. */
+  /** The following repeat the above under X3DOM's names. */
   readonly hitObject: Element;
   readonly hitPnt: readonly [number, number, number];
   readonly worldX: number;
@@ -45,12 +46,12 @@ export function shapePointerEventOf(
   hit: Hit | undefined,
   relatedTarget: EventTarget | null = native.relatedTarget,
 ): MouseEvent {
-  const isInward = type.endsWith("enter") || type.endsWith("leave");
+  const isEnterOrLeave = type.endsWith("enter") || type.endsWith("leave");
   const common = {
     ...initOf(native, mouseFields),
     relatedTarget,
-    bubbles: !isInward,
-    cancelable: !isInward,
+    bubbles: !isEnterOrLeave,
+    cancelable: !isEnterOrLeave,
     composed: true,
   };
   const event =

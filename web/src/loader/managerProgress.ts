@@ -3,10 +3,13 @@ import type { Transfer } from "../delivery/progress.ts";
 import { isSettled } from "../delivery/progress.ts";
 import type { ImgeoScene } from "./imgeoScene.ts";
 
-/** Makes each file of a scene an item of the manager, from its request until it has come, has failed or is given up. data: URLs are no items. */
+/**
+ * Makes each file of a scene an item of the manager, from its request until it has loaded, failed or been aborted.
+ * data: URLs are no items.
+ */
 export function reportToManager(scene: ImgeoScene, manager: LoadingManager, resolve: (url: string) => string): void {
   const open = new Set<Readonly<Transfer>>();
-  const known = new WeakSet<Readonly<Transfer>>();
+  const reported = new WeakSet<Readonly<Transfer>>();
   const close = (transfer: Readonly<Transfer>) => {
     const url = resolve(transfer.url);
     open.delete(transfer);
@@ -16,8 +19,8 @@ export function reportToManager(scene: ImgeoScene, manager: LoadingManager, reso
   const report = () => {
     const transfers = new Set(scene.transfers);
     for (const transfer of transfers) {
-      if (!known.has(transfer) && !transfer.url.startsWith("data:")) {
-        known.add(transfer);
+      if (!reported.has(transfer) && !transfer.url.startsWith("data:")) {
+        reported.add(transfer);
         open.add(transfer);
         manager.itemStart(resolve(transfer.url));
       }

@@ -27,7 +27,7 @@ export function lightKindsOf({ lights, headlight }: Pick<PreviewScene, "lights" 
   return [...lights.map(({ light }) => light.kind), ...(headlight ? ["directional" as const] : [])];
 }
 
-/** The lights for shapes in a light scope. Lights that do not shine there are black. */
+/** The lights for shapes in a light scope. Lights that do not reach the scope are black. */
 export function lightUniformsOf(
   { lights, headlight }: Pick<PreviewScene, "lights" | "headlight">,
   lightScope: LightScope,
@@ -38,9 +38,9 @@ export function lightUniformsOf(
     ...(!light.scope.contains(lightScope) && { color: [0, 0, 0] }),
   }));
   if (headlight) all.push({ ...directionalDefaults, color: [1, 1, 1], direction: [0, 0, -1] });
-  const shining = lights.filter(({ scope }) => scope.contains(lightScope));
+  const lightsInScope = lights.filter(({ scope }) => scope.contains(lightScope));
   const ambient = [0, 1, 2].map((channel) =>
-    shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
+    lightsInScope.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
   );
   return {
     lightColors: all.flatMap(({ color }) => color),
@@ -62,15 +62,16 @@ interface LightValues {
   readonly cone: readonly number[];
 }
 
-/** Values of a directional light that its kind does not use. */
+/** Values that a directional light does not use. */
 const directionalDefaults = { position: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [0, 0] };
 
 function lightValuesOf({ light, sceneFromLight }: LightInstance, viewFromScene: Matrix4): LightValues {
   const color = light.color.map((channel) => channel * light.intensity);
   const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
-  const directed = (direction: readonly [number, number, number]) =>
+  const viewDirectionOf = (direction: readonly [number, number, number]) =>
     new Vector3(...direction).transformDirection(viewFromLight).toArray();
-  if (light.kind === "directional") return { ...directionalDefaults, color, direction: directed(light.direction) };
+  if (light.kind === "directional")
+    return { ...directionalDefaults, color, direction: viewDirectionOf(light.direction) };
   const position = new Vector3(...light.location).applyMatrix4(viewFromLight).toArray();
   const { radius, attenuation } = scaledFalloff(light, lengthScaleOf(sceneFromLight));
   if (light.kind === "point")
@@ -79,7 +80,7 @@ function lightValuesOf({ light, sceneFromLight }: LightInstance, viewFromScene: 
   return {
     color,
     position,
-    direction: directed(light.direction),
+    direction: viewDirectionOf(light.direction),
     attenuation,
     radius,
     cone: [Math.cos(edge), Math.cos(beam)],

@@ -1,5 +1,5 @@
-// What the previews of a page hand over to the runtime. This file imports no code of
-// theirs, so that the runtime can be bundled without it.
+// What the previews of a page hand over to the runtime. This file imports only
+// types of theirs, so that the runtime can be bundled without their code.
 
 import type { PrefetchedBases } from "./prefetchedBases.ts";
 import type { Preview } from "./preview.ts";
@@ -24,7 +24,7 @@ export function registerPrefetchedBases(prefetched: Pick<PrefetchedBases, "take"
   bases = prefetched;
 }
 
-/** The bases in a file that a preview has requested; undefined where none has. From now on the caller owns them. */
+/** The bases in a file that a preview has requested; undefined if none has. From now on the caller owns them. */
 export function takePrefetchedBases(url: string): ReturnType<PrefetchedBases["take"]> {
   return bases?.take(url);
 }

@@ -6,7 +6,7 @@ import { UploadPipeline } from "./uploadPipeline.ts";
 
 const megabyte = 2 ** 20;
 
-/** Takes arrays by the megabyte. */
+/** Uploads arrays in steps of one megabyte. */
 class FakeRenderer {
   isEmpty = false;
   moved = 0;
@@ -64,18 +64,18 @@ describe("the upload pipeline", () => {
       signal,
     );
 
-  test("uploads a few megabytes before each frame, and everything in the end", async () => {
+  test("uploads at most 4 MiB before each frame until all is uploaded", async () => {
     const renderer = new FakeRenderer();
     const stored = store(renderer, 11);
     const maxBytes = 4 * megabyte;
-    assert.equal(renderer.moved, 0, "nothing goes at once");
+    assert.equal(renderer.moved, 0, "nothing is uploaded before a frame");
     const moves: number[] = [];
     const sum = (): number => moves.reduce((all, bytes) => all + bytes, 0);
     while (sum() < 11 * megabyte) {
       await nextFrame();
       moves.push(renderer.moved - sum());
     }
-    await nextFrame(); // which finds that there is no more
+    await nextFrame(); // finds that no step is left
     assert.ok(
       moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= maxBytes),
       `${moves.join(", ")} bytes before a frame`,
@@ -84,7 +84,7 @@ describe("the upload pipeline", () => {
     assert.equal(renderer.closed, 0);
   });
 
-  test("waits for no frame while there is no picture", async () => {
+  test("does not wait for frames while the scene is empty", async () => {
     const renderer = new FakeRenderer();
     renderer.isEmpty = true;
     const stored = store(renderer, 1);
@@ -93,7 +93,7 @@ describe("the upload pipeline", () => {
     await stored;
   });
 
-  test("leaves nothing behind of an aborted upload", async () => {
+  test("frees the memory of an aborted upload", async () => {
     const renderer = new FakeRenderer();
     const aborter = new AbortController();
     const stored = store(renderer, 11, aborter.signal);

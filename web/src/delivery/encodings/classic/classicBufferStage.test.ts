@@ -18,7 +18,7 @@ describe("images that are decoded on the CPU", () => {
     ["the document requests it", 'decode="cpu"', true],
     ["vertex shaders read textures wrongly", "", false],
   ] as const) {
-    test(`become stages of buffers where ${why}`, async () => {
+    test(`become stages of buffers if ${why}`, async () => {
       const site = siteOf(files(), 6, readsTextures);
       const { stages, errors, settled } = record(
         geometryOf(`<ImageGeometry ${attribute}>${sigPatch(0)}</ImageGeometry>`),
@@ -37,7 +37,7 @@ describe("images that are decoded on the CPU", () => {
     });
   }
 
-  test("become textures where the document requires the GPU", async () => {
+  test("become textures if the document requires the GPU", async () => {
     const site = siteOf(files(), 6, false);
     const { stages, settled } = record(
       geometryOf(`<ImageGeometry decode="gpu">${sigPatch(0)}</ImageGeometry>`),
@@ -47,7 +47,7 @@ describe("images that are decoded on the CPU", () => {
     assert.equal(stages.at(-1)?.stage.kind, "textures");
   });
 
-  test("may be larger than a texture", async () => {
+  test("become buffers if they are larger than a texture may be", async () => {
     const site = siteOf({ "c.png": pngWithTexels(16, 8, 3, (n, channel) => n + channel) });
     const patch = (width: number) =>
       `<ImageGeometry primType="POINTS" vertexCount="20" implicitMeshSize="${width} 2" coord="c.png"/>`;
@@ -63,7 +63,7 @@ describe("images that are decoded on the CPU", () => {
     }
   });
 
-  test("grow from points to a surface in whatever order their files come", async () => {
+  test("grow from points to a surface in any order of their files", async () => {
     for (const late of ["a0.png", "i0.png", "b0.png"] as const) {
       const all = files();
       const { promise, release } = deferredFile(all[late]);
@@ -81,7 +81,7 @@ describe("images that are decoded on the CPU", () => {
     }
   });
 
-  test("of a grid replace slopes and positions together, whichever job ends first", async () => {
+  test("replace slopes and positions of a grid together, whichever job ends first", async () => {
     const files = ["a.png", "b.png"].map((_, plane) =>
       pngWithTexels(8, 8, 3, (n, channel) => (plane ? 40 * n * n : 9 * n + 70 * channel) % 256),
     );
@@ -89,14 +89,16 @@ describe("images that are decoded on the CPU", () => {
       '<ImageGeometry implicitMeshMode="geometryImage" implicitMeshSize="8 8" coord=\'"a.png" "b.png"\' decode="cpu"/>',
     );
     const patch = geometry.patches[0] ?? assert.fail("no patch");
-    const bytesOf = async (order: readonly number[]): Promise<unknown> => {
+    const arraysAfter = async (order: readonly number[]): Promise<unknown> => {
       const site = siteOf({});
-      const gates = files.map(() => deferredFile(new Uint8Array(0)));
-      let begun = 0;
+      const jobStarts = files.map(() => deferredFile(new Uint8Array(0)));
+      let jobCount = 0;
       const builder = bufferStageBuilder(geometry, patch, {
         storeBytes: site.pool.storeBytes,
         runJob: (name, input, signal) =>
-          (gates[begun++] ?? assert.fail("a third job")).promise.then(() => site.pool.runJob(name, input, signal)),
+          (jobStarts[jobCount++] ?? assert.fail("a third job")).promise.then(() =>
+            site.pool.runJob(name, input, signal),
+          ),
       });
       const { signal } = new AbortController();
       const accepted = deliveryOf(geometry)
@@ -105,18 +107,18 @@ describe("images that are decoded on the CPU", () => {
           builder.accept(file, { kind: "bytes", bytes: files[file.plane] ?? assert.fail("no such plane") }, signal),
         );
       for (const job of order) {
-        gates[job]?.release();
+        jobStarts[job]?.release();
         await accepted[job];
       }
       const stage = builder.stage() ?? assert.fail("no stage");
       builder.sweep();
-      assert.equal(site.arrays.size, 3, "index, positions and slopes are left");
+      assert.equal(site.arrays.size, 3, "only index, positions and slopes are stored");
       return [
         stage.kind === "buffers" &&
           [stage.coord, stage.attributes.normal, stage.index].map((stored) => site.arrayOf(stored)),
       ];
     };
-    assert.deepEqual(await bytesOf([1, 0]), await bytesOf([0, 1]));
+    assert.deepEqual(await arraysAfter([1, 0]), await arraysAfter([0, 1]));
   });
 
   test("name the wrong file, whichever file triggered its decoding", async () => {

@@ -1,4 +1,4 @@
-// Classic's row: an image for each attribute of a patch, one for each byte of its coordinates.
+// Delivery of classic: an image for each attribute of a patch; of the coordinates, an image for each byte.
 
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
 import { attributeRows, byVertexRole } from "../../../stage/attributeRows.ts";
@@ -19,8 +19,8 @@ export const classicDelivery: EncodingDelivery = {
 };
 
 /**
- * Bytes in an image for a vertex (a corner, for the index), roughly: only for the progress bar before servers tell
- * sizes.
+ * Approximate bytes of an image file per vertex; of the index, per corner. Used by the progress bar until the server
+ * states the size.
  */
 const bytesPerElement: Readonly<Record<AttributeRole, number>> = {
   index: 0.7,
@@ -29,13 +29,13 @@ const bytesPerElement: Readonly<Record<AttributeRole, number>> = {
   value: 0.7,
 };
 
-/** Texels of an image as our writer lays it out: records in a power of two of rows of 256. */
+/** Texels of an image as `imgeo convert` writes it: records in a power of two of rows of 256. */
 function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, elementCount: number): number {
   if (role === "index") return Math.ceil(elementCount / implicitWidth) * implicitWidth;
   return 256 * 2 ** Math.ceil(Math.log2(Math.max(1, elementCount / 256)));
 }
 
-/** Images become textures where the GPU decodes vertices, and stay files where workers do. */
+/** Images become textures if the GPU decodes vertices, and stay files if workers do. */
 function targetOf({ decode }: GeometryDescription, patch: PatchDescription, maxTextureSize: number): ContentTarget {
   if (decode === "cpu") return { kind: "bytes" };
   if (decode === "gpu") return { kind: "texture" };
