@@ -1,5 +1,5 @@
 #pragma once
-// The arguments of a command line -> the values of the flags.
+// Parses the arguments of a command line into the values of the flags.
 
 #include "cli/flags.h"
 

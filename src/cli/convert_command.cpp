@@ -30,9 +30,9 @@ int runConvert(const Arguments& arguments) {
   {
     ProgressBar bar;
     report = convert(arguments.text("input"), output, convertOptionsFrom(arguments),
-                     [&](double share, const std::string& step) {
+                     [&](double fraction, const std::string& step) {
                        throwIfInterrupted();
-                       bar.show(share, step);
+                       bar.show(fraction, step);
                      });
   }
   for (const std::string& warning : report.warnings)

@@ -1,5 +1,5 @@
 #pragma once
-// The arguments of `imgeo convert` -> ConvertOptions.
+// Turns the arguments of `imgeo convert` into ConvertOptions.
 
 #include "cli/arguments.h"
 #include "imgeo/convert.h"

@@ -44,24 +44,25 @@ std::string byteSize(std::uint64_t bytes) {
 ProgressBar::ProgressBar() : isTerminal_(isTerminal(stderr)) {}
 
 ProgressBar::~ProgressBar() {
-  if (!shown_.empty())
+  if (!displayedLine_.empty())
     fmt::print(stderr, "\r\x1b[K");
 }
 
-void ProgressBar::show(double share, const std::string& step) {
+void ProgressBar::show(double fraction, const std::string& step) {
   if (!isTerminal_)
     return;
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::milliseconds(40))
     return;
   constexpr std::size_t width = 30;
-  const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * width);
-  const std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, step);
-  if (line == shown_)
+  const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * width);
+  const std::string line =
+      fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, fraction * 100, step);
+  if (line == displayedLine_)
     return;
   fmt::print(stderr, "\r{}\x1b[K", line);
   std::fflush(stderr);
-  shown_ = line;
+  displayedLine_ = line;
   last_ = now;
 }
 

@@ -24,11 +24,11 @@ public:
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// Draws the bar. May be called from any thread, one call at a time.
-  void show(double share, const std::string& step);
+  void show(double fraction, const std::string& step);
 
 private:
   bool isTerminal_;
-  std::string shown_;
+  std::string displayedLine_;
   std::chrono::steady_clock::time_point last_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Geometry files -> patches, in every encoding.
+// Decodes geometry files into patches, in every encoding.
 
 #include "containers/patch_encoder.h"
 #include "containers/patch_reader.h"

@@ -13,7 +13,8 @@ namespace imgeo {
 
 namespace {
 
-/// Texture coordinates are stored relative to the box of all of them. X3DOM knows no such box: there they keep 0..1.
+/// Sets the bounding box of all texture coordinates, relative to which they are stored. Sites for X3DOM, which has no
+/// field for the box, store 0..1 instead.
 void setTexCoordBox(GeometryDescription& geometry, const PatchedMesh& mesh) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   Vec2f min{infinite, infinite}, max{-infinite, -infinite};

@@ -1,5 +1,5 @@
 #pragma once
-// Patches -> geometry files, in every encoding.
+// Encodes patches into geometry files, in every encoding.
 
 #include "base/bytes.h"
 #include "containers/geometry_description.h"

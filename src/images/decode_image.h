@@ -1,5 +1,5 @@
 #pragma once
-// Image files -> pixels, by GraphicsMagick.
+// Decodes image files into pixels with GraphicsMagick.
 
 #include "images/raster.h"
 

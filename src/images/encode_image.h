@@ -1,6 +1,6 @@
 #pragma once
-// Pixels -> image files that browsers show. The same raster gives the same bytes. The raster must not be empty, and its
-// edges are at most `maxRasterEdge`.
+// Encodes pixels into image files that browsers can decode. The same raster gives the same bytes. The raster must not
+// be empty, and its edges are at most `maxRasterEdge`.
 
 #include "images/raster.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The bytes of a file -> Scene. One folder per input format, whose header NAME/NAME.h says what is read of it; format.h
-// is the table of the formats. Other folders include this header, the table and warnings.h.
+// Reads the bytes of a file into a Scene. One folder per input format, whose header NAME/NAME.h says what is read of
+// it; format.h is the table of the formats. Other folders include this header, the table and warnings.h.
 //
 // All formats: polygons are cut into triangles; normals are brought to unit length, and (0, 0, 1) replaces those
 // without a direction; everything that is not carried over is named in a warning. Limits: 2^32 - 1 vertices and

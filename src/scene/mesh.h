@@ -1,5 +1,5 @@
 #pragma once
-// A mesh in memory: corners -> wedges -> positions.
+// A mesh in memory: corners index wedges, which index positions.
 //
 // A corner is a corner of an element (triangle, line, point). It refers to a wedge, which is a combination of a
 // position and attributes (normal, colour ...). A wedge refers to its position. A position on a crease or a texture

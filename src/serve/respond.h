@@ -1,5 +1,5 @@
 #pragma once
-// Request head -> response, without sockets.
+// Makes the response to a request head, without sockets.
 // RFC 9110 (HTTP semantics), RFC 9111 (caching).
 
 #include "serve/coding_cache.h"

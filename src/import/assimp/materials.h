@@ -1,5 +1,5 @@
 #pragma once
-// Assimp's materials and textures -> appearances.
+// Turns Assimp's materials and textures into appearances.
 
 #include "import/references.h"
 #include "import/source_images.h"

@@ -1,5 +1,5 @@
 #pragma once
-// glTF's scenes, nodes, meshes, cameras and lights -> scene graph.
+// Turns glTF's scenes, nodes, meshes, cameras and lights into a scene graph.
 
 #include "import/gltf/materials.h"
 #include "import/gltf/primitive.h"

@@ -1,5 +1,5 @@
 #pragma once
-// A primitive of a glTF mesh -> a Mesh.
+// Turns a primitive of a glTF mesh into a Mesh.
 
 #include "import/gltf/document.h"
 #include "scene/mesh.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Polygons, lines or points with separate indices for each attribute -> Mesh.
+// Turns polygons, lines or points with separate indices for each attribute into a Mesh.
 
 #include "scene/mesh.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// X3D geometry nodes -> meshes (ISO/IEC 19775-1, clauses 11 and 13): IndexedFaceSet, the sets of triangles, strips and
-// fans with and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet, PointSet.
+// Turns X3D geometry nodes into meshes (ISO/IEC 19775-1, clauses 11 and 13): IndexedFaceSet, the sets of triangles,
+// strips and fans with and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet, PointSet.
 
 #include "import/x3d/source.h"
 #include "scene/mesh.h"

@@ -1,4 +1,4 @@
-// What is wrong with a source -> a sentence for each, and a site of all the rest.
+// Converts damaged sources: each fault gives one warning, and the site has everything else.
 
 #include "base/error.h"
 #include "base/file.h"

@@ -1,4 +1,4 @@
-// A scene of several documents -> a site of as many, and back.
+// Converts a scene of several documents into a site of as many documents, and reads it back.
 
 #include "base/error.h"
 #include "base/file.h"

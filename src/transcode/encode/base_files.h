@@ -1,5 +1,5 @@
 #pragma once
-// Base meshes -> files that several of them share.
+// Encodes base meshes into files that several of them share.
 
 #include "containers/shared_file.h"
 #include "transcode/site/content_files.h"

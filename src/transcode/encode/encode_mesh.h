@@ -1,5 +1,5 @@
 #pragma once
-// A prepared mesh -> the geometry files of a site.
+// Encodes a prepared mesh into the geometry files of a site.
 
 #include "containers/shared_file.h"
 #include "imgeo/convert.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Small patches -> files that several of them share.
+// Encodes small patches into files that several of them share.
 
 #include "containers/shared_file.h"
 #include "transcode/encode/encode_mesh.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Texture images -> files of a site: unchanged, shrunk, or in another format.
+// Writes texture images to files of a site: unchanged, shrunk, or in another format.
 
 #include "scene/scene.h"
 #include "transcode/encode/encode_mesh.h"

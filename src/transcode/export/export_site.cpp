@@ -1,4 +1,4 @@
-// A site -> a mesh file: read back, welded, written.
+// Exports a site to a mesh file: reads the geometry, welds it and writes it.
 
 #include "transcode/export/export_site.h"
 

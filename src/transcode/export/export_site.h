@@ -1,5 +1,5 @@
 #pragma once
-// A site -> a mesh file.
+// Exports a site to a mesh file.
 
 #include "imgeo/elements.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A scene -> a mesh file, with a report of what it contains.
+// Writes a scene to a mesh file and reports what the file contains.
 
 #include "export/export.h"
 #include "scene/scene.h"

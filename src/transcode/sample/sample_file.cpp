@@ -1,4 +1,4 @@
-// A generated scene -> a mesh file.
+// Writes a generated scene to a mesh file.
 
 #include "transcode/sample/sample_file.h"
 

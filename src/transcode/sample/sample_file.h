@@ -1,5 +1,5 @@
 #pragma once
-// A generated scene -> a mesh file.
+// Writes a generated scene to a mesh file.
 
 #include "transcode/export/export_site.h"
 

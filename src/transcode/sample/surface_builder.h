@@ -1,5 +1,5 @@
 #pragma once
-// Parametric surfaces -> Mesh, for generated scenes.
+// Builds meshes of parametric surfaces, for generated scenes.
 
 #include "scene/mesh.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A site's geometry files -> a scene.
+// Decodes a site's geometry files into a scene.
 
 #include "scene/scene.h"
 #include "transcode/site/site_document.h"

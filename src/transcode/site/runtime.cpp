@@ -8,7 +8,7 @@
 #include <initializer_list>
 
 extern "C" {
-// Placed by runtime_module.S around the bytes of the bundles.
+// The first byte of each bundle and the byte after its last one, defined by runtime_module.S.
 extern const char imgeoPageBegin[], imgeoPageEnd[];
 extern const char imgeoSharedBegin[], imgeoSharedEnd[];
 extern const char imgeoSceneBegin[], imgeoSceneEnd[];
@@ -21,9 +21,9 @@ namespace {
 
 /// A bundle as a file of a site. Replaces the bundle names of the modules that it imports by their file names.
 RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
-                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> used) {
+                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> imports) {
   std::string text(bundle);
-  for (const auto& [bundledName, file] : used) {
+  for (const auto& [bundledName, file] : imports) {
     std::size_t position = text.find(bundledName);
     assert(position != text.npos);
     for (; position != text.npos; position = text.find(bundledName, position + file->name.size())) {

@@ -1,6 +1,6 @@
 #pragma once
-// A finished site -> its document, and the files that the document names. Safe for untrusted bytes; functions throw
-// Error.
+// Opens the document of a finished site and the files that the document names. Safe for untrusted bytes; functions
+// throw Error.
 
 #include "containers/container_reader.h"
 #include "documents/documents.h"
