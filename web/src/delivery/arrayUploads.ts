@@ -14,7 +14,7 @@ export class ArrayUploads {
   readonly #store: StoreBytes;
   /** By buffer, use and byte range: interleaved attributes are views of one buffer. */
   readonly #stored = new WeakMap<ArrayBuffer, Map<string, Promise<GpuArray>>>();
-  readonly #uses = new Map<GpuArray, number>();
+  readonly #useCounts = new Map<GpuArray, number>();
   #retired: GpuArray[] = [];
 
   constructor(store: StoreBytes) {
@@ -24,7 +24,7 @@ export class ArrayUploads {
   /** Bytes of all arrays that are stored and not freed. */
   get byteLength(): number {
     let sum = 0;
-    for (const { byteLength } of this.#uses.keys()) sum += byteLength;
+    for (const { byteLength } of this.#useCounts.keys()) sum += byteLength;
     return sum;
   }
 
@@ -60,11 +60,11 @@ export class ArrayUploads {
   /** Frees the retired arrays. No stage that uses them may be drawn any more. */
   sweep(): void {
     for (const bytes of this.#retired.splice(0)) {
-      const uses = (this.#uses.get(bytes) ?? 0) - 1;
-      if (uses > 0) {
-        this.#uses.set(bytes, uses);
+      const useCount = (this.#useCounts.get(bytes) ?? 0) - 1;
+      if (useCount > 0) {
+        this.#useCounts.set(bytes, useCount);
       } else {
-        this.#uses.delete(bytes);
+        this.#useCounts.delete(bytes);
         bytes.close();
       }
     }
@@ -74,24 +74,24 @@ export class ArrayUploads {
     const uploads = this.#stored.get(array.buffer) ?? new Map<string, Promise<GpuArray>>();
     this.#stored.set(array.buffer, uploads);
     const key = `${use} ${array.byteOffset}+${array.byteLength}`;
-    const begun = uploads.get(key);
-    if (begun !== undefined) {
-      const known = await begun.catch(() => undefined); // the first caller may have been aborted
+    const earlierUpload = uploads.get(key);
+    if (earlierUpload !== undefined) {
+      const stored = await earlierUpload.catch(() => undefined); // the first caller may have been aborted
       signal.throwIfAborted();
-      const uses = known && this.#uses.get(known);
-      if (known !== undefined && uses !== undefined) {
-        this.#uses.set(known, uses + 1);
-        return known;
+      const useCount = stored && this.#useCounts.get(stored);
+      if (stored !== undefined && useCount !== undefined) {
+        this.#useCounts.set(stored, useCount + 1);
+        return stored;
       }
     }
-    const storing = this.#store(array, use, signal);
-    uploads.set(key, storing);
-    const bytes = await storing;
+    const upload = this.#store(array, use, signal);
+    uploads.set(key, upload);
+    const bytes = await upload;
     if (signal.aborted) {
       bytes.close();
       throw signal.reason;
     }
-    this.#uses.set(bytes, 1);
+    this.#useCounts.set(bytes, 1);
     return bytes;
   }
 }

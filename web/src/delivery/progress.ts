@@ -1,3 +1,5 @@
+// Progress of transfers: the state of each requested file, and the share of bytes that have been loaded.
+
 import type { DownloadState } from "../scheduler/download.ts";
 
 /** The transfer of one requested file. */

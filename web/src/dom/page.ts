@@ -23,8 +23,8 @@ async function start(): Promise<void> {
 }
 
 /**
- * Leaves the network to the previews until their files are here, then preloads the runtime, and leaves the processor to
- * them until they are drawn.
+ * Waits until the files of the previews have been downloaded, then preloads the runtime, and waits until the previews
+ * are drawn; at most `maxWaitMs`.
  */
 async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
   const timeout = new Promise((resolve) => setTimeout(resolve, maxWaitMs));

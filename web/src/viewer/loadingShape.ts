@@ -114,7 +114,7 @@ export abstract class LoadingShape {
     this.#textures.follow([]);
   }
 
-  /** Leaves all deliveries for good. */
+  /** Leaves all deliveries. The shape must not be used again. */
   cancel(): void {
     this.#delivery?.cancel();
     this.#textures.cancel();
