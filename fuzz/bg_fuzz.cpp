@@ -12,9 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   geometry.colorComponents = 3 + input.bits(8) % 2;
   geometry.indexType = type();
   geometry.coordType = type();
-  geometry.normalType = type();
-  geometry.texCoordType = type();
-  geometry.colorType = type();
+  for (const VertexRole role : vertexRoles)
+    geometry.attributeTypes[role] = type();
   geometry.normalEncoding = static_cast<NormalEncoding>(input.bits(8) % 4);
   const PatchDescription patch = fuzz::readDescription(input, geometry.encoding, 1);
 

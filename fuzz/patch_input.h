@@ -62,12 +62,9 @@ inline PatchDescription readDescription(InputReader& input, Encoding encoding, s
     patch.index = reference();
   for (std::size_t i = 0; i < coords; ++i)
     patch.coord.push_back(reference());
-  if (present & 2)
-    patch.normal = reference();
-  if (present & 4)
-    patch.texCoord = reference();
-  if (present & 8)
-    patch.color = reference();
+  for (const VertexRole role : vertexRoles)
+    if (present >> (1 + static_cast<unsigned>(role)) & 1)
+      patch.vertexAttributes[role] = reference();
   return patch;
 }
 
@@ -92,11 +89,9 @@ inline int decodeOrRefuse(const PatchDescription& patch, const GeometryDescripti
       require(index < count);
     for (const Vec3u& position : decoded.positions)
       require(std::max({position.x, position.y, position.z}) <= geometry.lattice.maximum());
-    require(decoded.normals.size() == count || decoded.normals.empty());
+    require(isConsistent(decoded, count));
     for (const Vec3f& normal : decoded.normals)
       require(std::abs(length(Vec3d(normal)) - 1) < 1e-5);
-    require(decoded.texCoords.size() == count || decoded.texCoords.empty());
-    require(decoded.colors.size() == count || decoded.colors.empty());
   } catch (const Error& error) {
     require(!error.message().empty());
   }

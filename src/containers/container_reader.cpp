@@ -16,14 +16,15 @@ IndexedPatch SinglePatchReader::decode(const PatchDescription& patch, const Geom
 }
 
 StoredPrecision SinglePatchReader::precisionOf(const GeometryDescription& geometry) {
-  const auto bitsOf = [&](auto reference, ElementType type, std::uint32_t bitsInImages) {
-    const bool isPresent = std::ranges::any_of(
-        geometry.patches, [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });
-    return !isPresent ? 0 : hasElementTypes(geometry.encoding) ? 8 * byteSizeOf(type) : bitsInImages;
-  };
-  return {bitsOf(&PatchDescription::normal, geometry.normalType, 8),
-          bitsOf(&PatchDescription::texCoord, geometry.texCoordType, 16),
-          bitsOf(&PatchDescription::color, geometry.colorType, 8), geometry.normalEncoding};
+  constexpr ByVertexRole<std::uint32_t> bitsInImages{{8, 16, 8}};
+  StoredPrecision precision;
+  precision.normalEncoding = geometry.normalEncoding;
+  for (const VertexRole role : vertexRoles)
+    if (std::ranges::any_of(geometry.patches,
+                            [&](const PatchDescription& patch) { return patch.vertexAttributes[role].has_value(); }))
+      precision.bits[role] =
+          hasElementTypes(geometry.encoding) ? 8 * byteSizeOf(geometry.attributeTypes[role]) : bitsInImages[role];
+  return precision;
 }
 
 ContainerReader::ContainerReader(FetchFile fetch) {

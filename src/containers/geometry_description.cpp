@@ -7,8 +7,25 @@
 namespace imgeo {
 
 const char* nameOf(Role role) {
-  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute", "patch", "base"};
-  return names[static_cast<std::size_t>(role)];
+  switch (role) {
+  case Role::index:
+    return "index";
+  case Role::coord:
+    return "coord";
+  case Role::attribute:
+    return "attribute";
+  case Role::patch:
+    return "patch";
+  case Role::base:
+    return "base";
+  default:
+    return nameOf(*vertexRoleOf(role));
+  }
+}
+
+std::optional<VertexRole> vertexRoleOf(Role role) {
+  const auto* found = std::ranges::find(vertexRoles, role, fileRoleOf);
+  return found == vertexRoles.end() ? std::nullopt : std::optional(*found);
 }
 
 const char* nameOf(Primitive primitive) {
@@ -41,9 +58,10 @@ Reference normalInCoords(const Reference& coord) {
 
 bool hasNormalsInCoords(const GeometryDescription& geometry) {
   return hasElementTypes(geometry.encoding) && geometry.normalEncoding == NormalEncoding::spherical &&
-         geometry.normalType == ElementType::uint8 && byteSizeOf(geometry.coordType) == 2 &&
+         geometry.attributeTypes[VertexRole::normal] == ElementType::uint8 && byteSizeOf(geometry.coordType) == 2 &&
          std::ranges::all_of(geometry.patches, [](const PatchDescription& patch) {
-           return patch.coord.size() == 1 && patch.normal == normalInCoords(patch.coord[0]);
+           return patch.coord.size() == 1 &&
+                  patch.vertexAttributes[VertexRole::normal] == normalInCoords(patch.coord[0]);
          });
 }
 

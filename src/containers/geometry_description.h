@@ -7,6 +7,7 @@
 #include "imgeo/encoding.h"
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
+#include "scene/vertex_attributes.h"
 
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,16 @@ enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribut
 /// "index", "coord" ...: the names of fields in documents.
 const char* nameOf(Role role);
 
+/// The role of the files of a vertex attribute.
+constexpr Role fileRoleOf(VertexRole role) {
+  return static_cast<Role>(static_cast<std::size_t>(Role::normal) + static_cast<std::size_t>(role));
+}
+static_assert(fileRoleOf(vertexRoles.back()) == Role::color &&
+              static_cast<std::size_t>(Role::attribute) == static_cast<std::size_t>(Role::normal) + vertexRoles.size());
+
+/// The vertex attribute that files of a role hold, if any.
+std::optional<VertexRole> vertexRoleOf(Role role);
+
 /// "POINTS", "TRIANGLESTRIP" ...: values of X3DOM's `primType`.
 const char* nameOf(Primitive primitive);
 
@@ -33,7 +44,7 @@ struct PatchDescription {
   Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< classic: columns and rows that indices fill
   std::optional<Reference> index;                 ///< nothing: records are drawn in order
   std::vector<Reference> coord;                   ///< classic: byte planes, most significant first. bg: one
-  std::optional<Reference> normal, texCoord, color;
+  ByVertexRole<std::optional<Reference>> vertexAttributes;
   std::vector<std::vector<Reference>> attributes; ///< per attribute of the geometry: byte planes (classic) or one (bg)
   std::optional<Reference> data;                  ///< compact: the whole patch
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
@@ -45,12 +56,9 @@ template <typename Patch, typename Visit> void visitReferences(Patch& patch, Vis
     visit(Role::index, *patch.index);
   for (auto& plane : patch.coord)
     visit(Role::coord, plane);
-  if (patch.normal)
-    visit(Role::normal, *patch.normal);
-  if (patch.texCoord)
-    visit(Role::texCoord, *patch.texCoord);
-  if (patch.color)
-    visit(Role::color, *patch.color);
+  for (const VertexRole role : vertexRoles)
+    if (auto& reference = patch.vertexAttributes[role])
+      visit(fileRoleOf(role), *reference);
   for (auto& planes : patch.attributes)
     for (auto& plane : planes)
       visit(Role::attribute, plane);
@@ -76,9 +84,9 @@ struct GeometryDescription {
   Box3d box;                                   ///< tight box of all patches
   Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box
   std::uint32_t colorComponents = 3;
-  ElementType indexType = ElementType::uint16, coordType = ElementType::uint16, normalType = ElementType::int8,
-              texCoordType = ElementType::uint16,
-              colorType = ElementType::uint8; ///< bg only, except indexType: classic has uint16 and uint32
+  ElementType indexType = ElementType::uint16; ///< bg and classic, which has uint16 and uint32
+  ElementType coordType = ElementType::uint16; ///< bg only
+  ByVertexRole<ElementType> attributeTypes{{ElementType::int8, ElementType::uint16, ElementType::uint8}}; ///< bg only
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;

@@ -30,7 +30,7 @@ double normalErrorBound(const GeometryDescription& geometry) {
   if (rowOf(geometry).hasMeasuredNormalError)
     return 0;
   const bool isSig = !hasElementTypes(geometry.encoding);
-  const std::uint32_t bits = isSig ? 8 : 8 * byteSizeOf(geometry.normalType);
+  const std::uint32_t bits = isSig ? 8 : 8 * byteSizeOf(geometry.attributeTypes[VertexRole::normal]);
   switch (geometry.normalEncoding) {
   case NormalEncoding::octahedral:
     return octahedralErrorBound(bits);
@@ -42,9 +42,9 @@ double normalErrorBound(const GeometryDescription& geometry) {
   case NormalEncoding::rgb:
     break;
   }
-  if (!isSig && geometry.normalType == ElementType::float32)
+  if (!isSig && geometry.attributeTypes[VertexRole::normal] == ElementType::float32)
     return 2e-7; // only the rounding of single precision
-  return componentErrorBound(isSig ? 1 / 127.5 : 1 / maximumOf(geometry.normalType));
+  return componentErrorBound(isSig ? 1 / 127.5 : 1 / maximumOf(geometry.attributeTypes[VertexRole::normal]));
 }
 
 } // namespace imgeo

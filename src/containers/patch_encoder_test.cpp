@@ -172,7 +172,9 @@ TEST(Containers, DecodeEveryMeshFromEveryArrayType) {
       const Encoded encoded = encode(randomMesh(seed), Primitive::triangles, seed % 2 == 0, bits, options);
       expectEqualWithinSteps(encoded);
       const PatchDescription& patch = encoded.description;
-      if (options.layout == Layout::interleaved && (patch.normal || patch.texCoord || patch.color)) {
+      if (options.layout == Layout::interleaved &&
+          (patch.vertexAttributes[VertexRole::normal] || patch.vertexAttributes[VertexRole::texCoord] ||
+           patch.vertexAttributes[VertexRole::color])) {
         EXPECT_EQ(encoded.patch.files.size(), patch.index ? 2u : 1u);
       }
     }
@@ -208,7 +210,7 @@ TEST(Containers, StoreTwoComponentNormalsInThePaddingOfCoordinates) {
     const Encoded encoded =
         encode(testing::torus(9, 9), Primitive::triangles, true, 16, {Encoding::bg, 8, 1, Target::web, normals});
     const PatchDescription& patch = encoded.description;
-    EXPECT_EQ(patch.normal, (Reference{patch.coord[0].url, ByteLocation{6, 8}}));
+    EXPECT_EQ(patch.vertexAttributes[VertexRole::normal], (Reference{patch.coord[0].url, ByteLocation{6, 8}}));
     EXPECT_EQ(encoded.patch.files.size(), 3u); // index, coordinates, texture coordinates
   }
 }
@@ -376,7 +378,7 @@ protected:
 };
 
 TEST_P(HostilePatch, WithAMissingFileIsAnInputError) {
-  patch.normal->url = "missing";
+  patch.vertexAttributes[VertexRole::normal]->url = "missing";
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::io);
 }
 

@@ -15,7 +15,7 @@ using FetchFile = std::function<Bytes(const std::string& url)>;
 
 /// Bits of a component of each attribute; 0: a geometry lacks the attribute.
 struct StoredPrecision {
-  std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0;
+  ByVertexRole<std::uint32_t> bits;
   NormalEncoding normalEncoding = NormalEncoding::rgb;
 };
 

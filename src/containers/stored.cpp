@@ -26,8 +26,9 @@ float loadTexCoord(std::uint16_t stored, float min, float size) {
 
 Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits) {
   const bool isSig = !hasElementTypes(geometry.encoding);
-  const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(geometry.texCoordType);
-  const bool isExact = !isSig && geometry.texCoordType == ElementType::float32;
+  const ElementType type = geometry.attributeTypes[VertexRole::texCoord];
+  const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(type);
+  const bool isExact = !isSig && type == ElementType::float32;
   const auto bound = [&](double low, double size) {
     const double largest = std::max(std::abs(low), std::abs(low + size));
     return (isExact ? 0 : size / steps / 2) + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
@@ -120,15 +121,6 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
   case Role::coord:
     patch.coord.push_back(reference);
     break;
-  case Role::normal:
-    patch.normal = reference;
-    break;
-  case Role::texCoord:
-    patch.texCoord = reference;
-    break;
-  case Role::color:
-    patch.color = reference;
-    break;
   case Role::attribute:
     patch.attributes.resize(std::max(patch.attributes.size(), attribute + 1));
     patch.attributes[attribute].push_back(reference);
@@ -139,6 +131,8 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
   case Role::base:
     assert(false); // a geometry has it, not a patch
     break;
+  default:
+    patch.vertexAttributes[*vertexRoleOf(role)] = reference;
   }
 }
 

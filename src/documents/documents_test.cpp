@@ -63,12 +63,9 @@ PatchDescription randomPatch(Random& random, Encoding encoding, std::size_t plan
     patch.index = randomReference(random, encoding);
   for (std::size_t plane = 0; plane < planes; ++plane)
     patch.coord.push_back(randomReference(random, encoding));
-  if (random.once(2))
-    patch.normal = randomReference(random, encoding);
-  if (random.once(2))
-    patch.texCoord = randomReference(random, encoding);
-  if (random.once(2))
-    patch.color = randomReference(random, encoding);
+  for (const VertexRole role : vertexRoles)
+    if (random.once(2))
+      patch.vertexAttributes[role] = randomReference(random, encoding);
   return patch;
 }
 
@@ -86,7 +83,7 @@ GeometryDescription randomGeometry(Random& random) {
     do
       geometry.coordType = static_cast<ElementType>(random.below(7));
     while (!holdsLattice(geometry.coordType, geometry.lattice.bits));
-    geometry.normalType = static_cast<ElementType>(random.below(7));
+    geometry.attributeTypes[VertexRole::normal] = static_cast<ElementType>(random.below(7));
     geometry.indexType = static_cast<ElementType>(random.below(7));
   }
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
@@ -114,9 +111,9 @@ GeometryDescription randomGeometry(Random& random) {
     }
   if (geometry.encoding == Encoding::bg && byteSizeOf(geometry.coordType) == 2 && random.once(3)) {
     geometry.normalEncoding = NormalEncoding::spherical;
-    geometry.normalType = ElementType::uint8;
+    geometry.attributeTypes[VertexRole::normal] = ElementType::uint8;
     for (PatchDescription& patch : geometry.patches)
-      patch.normal = normalInCoords(patch.coord[0]);
+      patch.vertexAttributes[VertexRole::normal] = normalInCoords(patch.coord[0]);
   }
   return geometry;
 }
@@ -389,7 +386,7 @@ SceneDocument documentNamed(const std::string& name) {
   document.graph.title = name;
   GeometryDescription geometry;
   geometry.patches = {
-      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}, {}, {}}};
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   addRoot(document.graph, {"", Viewpoint{name, {}, {}, 0.8, {}}, {}, ""});
   addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});
@@ -532,7 +529,7 @@ TEST(ReadScene, ReadsImagesFromImageTextures) {
   patch.implicitMeshSize = {512, 204};
   patch.index = Reference{"i.png", {}};
   patch.coord = {{"high.png", {}}, {"low.png", {}}};
-  patch.normal = Reference{"n.png", {}};
+  patch.vertexAttributes[VertexRole::normal] = Reference{"n.png", {}};
   EXPECT_EQ(document.geometries[0].patches, std::vector<PatchDescription>{patch});
   EXPECT_EQ(document.geometries[0].lattice.bits, 16u);
   EXPECT_EQ(shapeName(document.graph, 0), "S");
@@ -648,8 +645,8 @@ TEST(ReadScene, ReadsX3domsSphericalNormalsFromTheFourthElementOfCoordinates) {
     const GeometryDescription geometry =
         readBinaryGeometry(std::string("normal='ignored' coord='") + coord + "'" + spherical);
     EXPECT_EQ(geometry.normalEncoding, NormalEncoding::spherical);
-    EXPECT_EQ(geometry.normalType, ElementType::uint8);
-    EXPECT_EQ(geometry.patches[0].normal, normal);
+    EXPECT_EQ(geometry.attributeTypes[VertexRole::normal], ElementType::uint8);
+    EXPECT_EQ(geometry.patches[0].vertexAttributes[VertexRole::normal], normal);
   }
   EXPECT_THROW(readBinaryGeometry("coord='a' normalAsSphericalCoordinates='true'"), Error);
 }

@@ -74,6 +74,10 @@ Attributes compactFields(const PatchDescription& patch) {
 
 } // namespace
 
+std::string typeFieldOf(VertexRole role) {
+  return std::string(nameOf(role)) + "Type";
+}
+
 bool isSinglePatch(const GeometryDescription& geometry) {
   return geometry.patches.size() == 1 && geometry.patches[0].data && geometry.patches[0].box == geometry.box;
 }
@@ -103,10 +107,9 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   } else if (!patch.coord.empty()) {
     references.push_back({"coord", urlOf(patch.coord[0])});
   }
-  if (!hasNormalsInCoords(geometry))
-    add("normal", patch.normal);
-  add("texCoord", patch.texCoord);
-  add("color", patch.color);
+  for (const VertexRole role : vertexRoles)
+    if (role != VertexRole::normal || !hasNormalsInCoords(geometry))
+      add(nameOf(role), patch.vertexAttributes[role]);
   std::vector<std::string> attributes;
   for (const std::vector<Reference>& planes : patch.attributes)
     for (const Reference& plane : planes)
@@ -135,14 +138,13 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   Attributes fields;
   if (!row.node.isDefaultProfile)
     fields = {{"profile", row.node.profile}};
-  if (hasElementTypes)
-    fields = {{"indexType", nameOf(geometry.indexType)},
-              {"coordType", nameOf(geometry.coordType)},
-              {"normalType", nameOf(geometry.normalType)},
-              {"texCoordType", nameOf(geometry.texCoordType)},
-              {"colorType", nameOf(geometry.colorType)}};
-  else if (row.storage == PatchStorage::bytePlanes && geometry.indexType != ElementType::uint16)
+  if (hasElementTypes) {
+    fields = {{"indexType", nameOf(geometry.indexType)}, {"coordType", nameOf(geometry.coordType)}};
+    for (const VertexRole role : vertexRoles)
+      fields.push_back({typeFieldOf(role), nameOf(geometry.attributeTypes[role])});
+  } else if (row.storage == PatchStorage::bytePlanes && geometry.indexType != ElementType::uint16) {
     fields.push_back({"indexType", nameOf(geometry.indexType)});
+  }
   if (geometry.base)
     fields.push_back({"base", urlOf(*geometry.base)});
   if (hasNormalsInCoords(geometry))

@@ -19,6 +19,9 @@ std::string counts(const std::vector<Draw>& draws);    ///< MFInt32
 /// Whether the geometry's element also describes its only patch, whose box is the shape's, without a GeometryPatch.
 bool isSinglePatch(const GeometryDescription& geometry);
 
+/// "normalType" ...: the field for the element type of a vertex attribute.
+std::string typeFieldOf(VertexRole role);
+
 /// The geometry's element without its patches. `names` is its DEF, if any.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
 /// The FloatVertexAttribute element of a further attribute.

@@ -3,6 +3,7 @@
 #include "containers/encodings.h"
 #include "containers/stored_coords.h"
 #include "documents/find_x3d.h"
+#include "documents/geometry_element.h"
 #include "documents/vertex_attribute_reader.h"
 
 #include <algorithm>
@@ -113,14 +114,12 @@ void readTexture(const DocumentText& source, const pugi::xml_node& node, Encodin
     fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
   const Reference reference = referenceOf(fields, urls[0], encoding);
   const std::string role = fields.text("containerField");
-  if (equalIgnoringCase(role, "coord"))
+  const auto* vertexRole = std::ranges::find_if(
+      vertexRoles, [&](VertexRole candidate) { return equalIgnoringCase(role, nameOf(candidate)); });
+  if (vertexRole != vertexRoles.end())
+    patch.vertexAttributes[*vertexRole] = reference;
+  else if (equalIgnoringCase(role, "coord"))
     patch.coord.push_back(reference);
-  else if (equalIgnoringCase(role, "normal"))
-    patch.normal = reference;
-  else if (equalIgnoringCase(role, "texCoord"))
-    patch.texCoord = reference;
-  else if (equalIgnoringCase(role, "color"))
-    patch.color = reference;
   else if (equalIgnoringCase(role, "index"))
     patch.index = reference;
   else
@@ -148,9 +147,8 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
     return patch;
   }
   read("index", patch.index);
-  read("normal", patch.normal);
-  read("texCoord", patch.texCoord);
-  read("color", patch.color);
+  for (const VertexRole role : vertexRoles)
+    read(nameOf(role), patch.vertexAttributes[role]);
   for (const std::string& url : fields.strings("coord"))
     patch.coord.push_back(referenceOf(fields, url, encoding));
   if (storage == PatchStorage::bytePlanes)
@@ -234,9 +232,9 @@ void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geome
     fields.fail(ErrorKind::unsupported,
                 std::string("spherical normals in coordinates of type ") + nameOf(geometry.coordType));
   geometry.normalEncoding = NormalEncoding::spherical;
-  geometry.normalType = ElementType::uint8;
+  geometry.attributeTypes[VertexRole::normal] = ElementType::uint8;
   for (PatchDescription& patch : geometry.patches)
-    patch.normal = normalInCoords(patch.coord[0]);
+    patch.vertexAttributes[VertexRole::normal] = normalInCoords(patch.coord[0]);
 }
 
 } // namespace
@@ -260,9 +258,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
   if (row.storage == PatchStorage::arrays) {
     geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
-    geometry.normalType = elementTypeOf(fields, "normalType", ElementType::float32);
-    geometry.texCoordType = elementTypeOf(fields, "texCoordType", ElementType::float32);
-    geometry.colorType = elementTypeOf(fields, "colorType", ElementType::float32);
+    for (const VertexRole role : vertexRoles)
+      geometry.attributeTypes[role] = elementTypeOf(fields, typeFieldOf(role).c_str(), ElementType::float32);
     geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
     if (fields.boolean("compressed", false))
       fields.fail(ErrorKind::unsupported, "compressed containers are not read");

@@ -22,11 +22,11 @@ SceneDocument goldenDocument() {
   patch.implicitMeshSize = {1024, 382};
   patch.index = Reference{"3f786850e387550f.png", {}};
   patch.coord = {{"89e6c98d92887913.png", {}}, {"2b66fd261ee5c6cf.png", {}}};
-  patch.normal = Reference{"da4b9237bacccdf1.png", {}};
+  patch.vertexAttributes[VertexRole::normal] = Reference{"da4b9237bacccdf1.png", {}};
   sig.patches = {patch, patch};
   sig.patches[1].box.min.x = 0;
   sig.patches[1].box.max.x = 1.5;
-  sig.patches[1].normal->location = TexelLocation{4096};
+  sig.patches[1].vertexAttributes[VertexRole::normal]->location = TexelLocation{4096};
 
   GeometryDescription bg;
   bg.encoding = Encoding::bg;
@@ -40,8 +40,8 @@ SceneDocument goldenDocument() {
   strip.draws = {{Primitive::triangleStrip, 10}, {Primitive::points, 3}};
   strip.index = Reference{"1b6453892473a467.bin", ByteLocation{}};
   strip.coord = {{"c1dfd96eea8cc2b6.bin", ByteLocation{0, 8}}};
-  strip.texCoord = Reference{"902ba3cda1883801.bin", ByteLocation{16, 24}};
-  strip.color = Reference{"fe5dbbcea5ce7e29.bin", ByteLocation{}};
+  strip.vertexAttributes[VertexRole::texCoord] = Reference{"902ba3cda1883801.bin", ByteLocation{16, 24}};
+  strip.vertexAttributes[VertexRole::color] = Reference{"fe5dbbcea5ce7e29.bin", ByteLocation{}};
   bg.patches = {strip};
 
   SceneDocument document;

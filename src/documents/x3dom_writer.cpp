@@ -60,7 +60,9 @@ private:
   }
 
   /// X3DOM lights triangles only; other elements are drawn in their emissive colour.
-  static bool isEmissive(const PatchDescription& patch) { return !isLit(patch) && !patch.color; }
+  static bool isEmissive(const PatchDescription& patch) {
+    return !isLit(patch) && !patch.vertexAttributes[VertexRole::color];
+  }
 
   Names& appearanceNames(bool emissive) { return emissive ? emissiveNames_ : appearanceNames_; }
 
@@ -87,7 +89,7 @@ private:
     const auto isTriangles = [](const Draw& draw) {
       return draw.primitive == Primitive::triangles || draw.primitive == Primitive::triangleStrip;
     };
-    return patch.normal && std::ranges::all_of(patch.draws, isTriangles);
+    return patch.vertexAttributes[VertexRole::normal] && std::ranges::all_of(patch.draws, isTriangles);
   }
 
   void writePatch(const Node& node, Attributes names, const GeometryDescription& geometry,
@@ -146,9 +148,8 @@ private:
     write("index", patch.index);
     for (const Reference& plane : patch.coord)
       write("coord", plane);
-    write("normal", patch.normal);
-    write("texCoord", patch.texCoord);
-    write("color", patch.color);
+    for (const VertexRole role : vertexRoles)
+      write(nameOf(role), patch.vertexAttributes[role]);
     writer_.close(node);
   }
 
@@ -188,11 +189,13 @@ private:
 
   static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
     const Reference& coord = patch.coord.at(0);
-    const auto isInCoordFile = [&](const std::optional<Reference>& file) { return file && file->url == coord.url; };
-    const bool isInterleaved = (isInCoordFile(patch.normal) && !hasNormalsInCoords(geometry)) ||
-                               isInCoordFile(patch.texCoord) || isInCoordFile(patch.color);
+    const bool areNormalsInCoords = hasNormalsInCoords(geometry);
+    const bool isInterleaved = std::ranges::any_of(vertexRoles, [&](VertexRole role) {
+      const std::optional<Reference>& file = patch.vertexAttributes[role];
+      return file && file->url == coord.url && (role != VertexRole::normal || !areNormalsInCoords);
+    });
     Attributes types, urls;
-    const auto add = [&](const char* role, const char* typeField, ElementType type,
+    const auto add = [&](const char* role, const std::string& typeField, ElementType type,
                          const std::optional<Reference>& file) {
       if (!file)
         return;
@@ -201,12 +204,11 @@ private:
     };
     add("index", "indexType", geometry.indexType, patch.index);
     add("coord", "coordType", geometry.coordType, patch.coord.at(0));
-    if (hasNormalsInCoords(geometry))
-      types.push_back({"normalAsSphericalCoordinates", "true"});
-    else
-      add("normal", "normalType", geometry.normalType, patch.normal);
-    add("texCoord", "texCoordType", geometry.texCoordType, patch.texCoord);
-    add("color", "colorType", geometry.colorType, patch.color);
+    for (const VertexRole role : vertexRoles)
+      if (role == VertexRole::normal && areNormalsInCoords)
+        types.push_back({"normalAsSphericalCoordinates", "true"});
+      else
+        add(nameOf(role), typeFieldOf(role), geometry.attributeTypes[role], patch.vertexAttributes[role]);
     if (geometry.colorComponents == 4)
       types.push_back({"rgbaColors", "true"});
     return {"BinaryGeometry", {geometryFields(geometry, solid), drawFields(patch), types, urls}};

@@ -14,7 +14,7 @@ PatchDescription patchOf(const std::string& name, std::uint32_t rows, Primitive 
   patch.implicitMeshSize = {256, rows};
   patch.index = Reference{name + "i.png", {}};
   patch.coord = {{name + "c0.png", {}}, {name + "c1.png", {}}};
-  patch.normal = Reference{name + "n.png", {}};
+  patch.vertexAttributes[VertexRole::normal] = Reference{name + "n.png", {}};
   return patch;
 }
 
@@ -29,7 +29,7 @@ SceneDocument imageDocument() {
   twoPatches.patches = {patchOf("a", 7), patchOf("b", 20)};
   onePatch.patches = {patchOf("c", 1)};
   points.patches = {patchOf("d", 2, Primitive::points)};
-  points.patches[0].normal.reset();
+  points.patches[0].vertexAttributes[VertexRole::normal].reset();
   SceneDocument document;
   document.geometries = {twoPatches, onePatch, points};
   document.graph.appearances.resize(3);
@@ -48,8 +48,8 @@ SceneDocument arrayDocument() {
     for (PatchDescription& patch : geometry.patches) {
       patch.coord = {{patch.coord[0].url, ByteLocation{0, 8}}};
       patch.implicitMeshSize = {256, 256};
-      if (patch.normal)
-        patch.normal->location = ByteLocation{0, 4};
+      if (patch.vertexAttributes[VertexRole::normal])
+        patch.vertexAttributes[VertexRole::normal]->location = ByteLocation{0, 4};
       if (patch.index)
         patch.index->location = ByteLocation{};
     }
@@ -75,9 +75,7 @@ void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
     EXPECT_NEAR(geometry.lattice.step, expected.lattice.step, 1e-10 * expected.lattice.step);
     EXPECT_EQ(geometry.lattice.bits, expected.lattice.bits);
     geometry.lattice = expected.lattice;
-    geometry.normalType = expected.normalType; // not written if there are no normals
-    geometry.texCoordType = expected.texCoordType;
-    geometry.colorType = expected.colorType;
+    geometry.attributeTypes = expected.attributeTypes; // not written for attributes that are absent
     for (PatchDescription& patch : geometry.patches)
       patch.implicitMeshSize.y =
           expected.patches.at(static_cast<std::size_t>(&patch - geometry.patches.data())).implicitMeshSize.y;

@@ -129,12 +129,60 @@ std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, con
 
 std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count, const GeometryDescription& geometry) {
   std::vector<Vec3f> normals(count);
-  const std::uint32_t bits = 8 * byteSizeOf(geometry.normalType);
+  const std::uint32_t bits = 8 * byteSizeOf(geometry.attributeTypes[VertexRole::normal]);
   for (std::uint32_t n = 0; n < count; ++n)
     normals[n] = isPair(geometry.normalEncoding)
                      ? loadNormal({records.unsignedAt(n, 0), records.unsignedAt(n, 1)}, geometry.normalEncoding, bits)
                      : unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)});
   return normals;
+}
+
+std::vector<Vec2f> decodeTexCoords(const Records& records, std::uint32_t count, const GeometryDescription& geometry) {
+  const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
+  std::vector<Vec2f> texCoords;
+  for (std::uint32_t n = 0; n < count; ++n)
+    texCoords.push_back({static_cast<float>(min.x + size.x * records.realAt(n, 0)),
+                         static_cast<float>(min.y + size.y * records.realAt(n, 1))});
+  return texCoords;
+}
+
+std::vector<Rgba8> decodeColors(const Records& records, std::uint32_t count, std::uint32_t components) {
+  const auto byte = [&](std::uint32_t n, std::uint32_t component) {
+    const double share = records.realAt(n, component);
+    return static_cast<std::uint8_t>(std::lround(255 * (share >= 0 ? std::min(share, 1.0) : 0)));
+  };
+  std::vector<Rgba8> colors;
+  for (std::uint32_t n = 0; n < count; ++n)
+    colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2), components == 4 ? byte(n, 3) : std::uint8_t{255}});
+  return colors;
+}
+
+/// The number of elements in a record.
+std::uint32_t storedComponents(VertexRole role, const GeometryDescription& geometry) {
+  switch (role) {
+  case VertexRole::normal:
+    return isPair(geometry.normalEncoding) ? 2 : 3;
+  case VertexRole::texCoord:
+    return 2;
+  case VertexRole::color:
+    break;
+  }
+  return geometry.colorComponents;
+}
+
+void decodeInto(IndexedPatch& decoded, VertexRole role, const Records& records, std::uint32_t count,
+                const GeometryDescription& geometry) {
+  switch (role) {
+  case VertexRole::normal:
+    decoded.normals = decodeNormals(records, count, geometry);
+    break;
+  case VertexRole::texCoord:
+    decoded.texCoords = decodeTexCoords(records, count, geometry);
+    break;
+  case VertexRole::color:
+    decoded.colors = decodeColors(records, count, geometry.colorComponents);
+    break;
+  }
 }
 
 NamedAttribute decodeAttribute(const Records& records, std::uint32_t count, const AttributeDescription& description,
@@ -157,11 +205,13 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
     throw Error(ErrorKind::malformed, location,
                 std::string(nameOf(geometry.coordType)) + " is no type for coordinates of " +
                     std::to_string(geometry.lattice.bits) + " bits");
-  if (patch.normal && isPair(geometry.normalEncoding))
-    requireType(geometry.normalType == ElementType::uint8 || geometry.normalType == ElementType::uint16,
-                patch.normal->url, "normals of two numbers", geometry.normalType);
-  else if (patch.normal)
-    requireType(!isUnsigned(geometry.normalType), patch.normal->url, "normals", geometry.normalType);
+  const std::optional<Reference>& normal = patch.vertexAttributes[VertexRole::normal];
+  const ElementType normalType = geometry.attributeTypes[VertexRole::normal];
+  if (normal && isPair(geometry.normalEncoding))
+    requireType(normalType == ElementType::uint8 || normalType == ElementType::uint16, normal->url,
+                "normals of two numbers", normalType);
+  else if (normal)
+    requireType(!isUnsigned(normalType), normal->url, "normals", normalType);
 }
 
 } // namespace
@@ -190,26 +240,11 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
                           : decodeIntegers(coords, count, geometry, location);
   checkInsideBox(decoded.positions, geometry, patch.box, location);
 
-  if (patch.normal)
-    decoded.normals = decodeNormals(
-        fetchRecords(*patch.normal, geometry.normalType, isPair(geometry.normalEncoding) ? 2 : 3), count, geometry);
-  if (patch.texCoord) {
-    const Records records = fetchRecords(*patch.texCoord, geometry.texCoordType, 2);
-    const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
-    for (std::uint32_t n = 0; n < count; ++n)
-      decoded.texCoords.push_back({static_cast<float>(min.x + size.x * records.realAt(n, 0)),
-                                   static_cast<float>(min.y + size.y * records.realAt(n, 1))});
-  }
-  if (patch.color) {
-    const Records records = fetchRecords(*patch.color, geometry.colorType, geometry.colorComponents);
-    const auto byte = [&](std::uint32_t n, std::uint32_t component) {
-      const double share = records.realAt(n, component);
-      return static_cast<std::uint8_t>(std::lround(255 * (share >= 0 ? std::min(share, 1.0) : 0)));
-    };
-    for (std::uint32_t n = 0; n < count; ++n)
-      decoded.colors.push_back(
-          {byte(n, 0), byte(n, 1), byte(n, 2), geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
-  }
+  for (const VertexRole role : vertexRoles)
+    if (const std::optional<Reference>& reference = patch.vertexAttributes[role])
+      decodeInto(decoded, role,
+                 fetchRecords(*reference, geometry.attributeTypes[role], storedComponents(role, geometry)), count,
+                 geometry);
   checkAttributes(patch, geometry);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {
     const AttributeDescription& attribute = geometry.attributes[a];

@@ -36,12 +36,12 @@ void chooseOneType(GeometryDescription& geometry, const PatchedMesh& mesh) {
   if (has(&Patch::normals) && isUnsigned(type) && !isPair(geometry.normalEncoding))
     refuse("components of normals; Int16, Float32 and spherical normals beside Uint16 do");
   if (has(&Patch::texCoords) &&
-      (byteSizeOf(type) == 1 || (geometry.texCoordType == ElementType::float32 && type != ElementType::float32)))
+      (byteSizeOf(type) == 1 ||
+       (geometry.attributeTypes[VertexRole::texCoord] == ElementType::float32 && type != ElementType::float32)))
     refuse("such texture coordinates; Float32 does");
-  if (!isPair(geometry.normalEncoding))
-    geometry.normalType = type;
-  geometry.texCoordType = type;
-  geometry.colorType = type;
+  for (const VertexRole role : vertexRoles)
+    if (role != VertexRole::normal || !isPair(geometry.normalEncoding))
+      geometry.attributeTypes[role] = type;
 }
 
 } // namespace
@@ -49,7 +49,7 @@ void chooseOneType(GeometryDescription& geometry, const PatchedMesh& mesh) {
 void chooseTypes(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
   const std::uint32_t bits = mesh.lattice.bits;
   geometry.coordType = options.coordType.value_or(unsignedTypeOf(coordBytes(Encoding::bg, bits)));
-  geometry.normalType = normalTypeOf(options);
+  geometry.attributeTypes[VertexRole::normal] = normalTypeOf(options);
   assert(holdsLattice(geometry.coordType, bits));
   assert(!isPair(options.normals) || options.normalBits == 16 || byteSizeOf(geometry.coordType) == 2);
   if (options.target == Target::x3dom && options.layout == Layout::interleaved)

@@ -51,7 +51,8 @@ Bytes indexArray(const IndexedPatch& patch, ElementType type) {
 
 /// Whether normals of two bytes lie in the padding of 16-bit coordinates, where X3DOM expects spherical normals.
 bool areNormalsInCoords(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  return !patch.normals.empty() && isPair(geometry.normalEncoding) && geometry.normalType == ElementType::uint8;
+  return !patch.normals.empty() && isPair(geometry.normalEncoding) &&
+         geometry.attributeTypes[VertexRole::normal] == ElementType::uint8;
 }
 
 /// Coordinates of one or two bytes have a fourth element: X3DOM binds four elements if the stride allows it.
@@ -83,7 +84,7 @@ Column coordColumn(const IndexedPatch& patch, const GeometryDescription& geometr
 }
 
 Column normalColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  const ElementType type = geometry.normalType;
+  const ElementType type = geometry.attributeTypes[VertexRole::normal];
   const std::uint32_t size = byteSizeOf(type);
   const bool isOfPairs = isPair(geometry.normalEncoding), isPadded = !isOfPairs && size < 4;
   Column column{Role::normal, {}, (isOfPairs ? 2 : isPadded ? 4 : 3) * size, isPadded};
@@ -104,7 +105,7 @@ Column normalColumn(const IndexedPatch& patch, const GeometryDescription& geomet
 }
 
 Column texCoordColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  const ElementType type = geometry.texCoordType;
+  const ElementType type = geometry.attributeTypes[VertexRole::texCoord];
   const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
   Column column{Role::texCoord, {}, 2 * byteSizeOf(type), false};
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
@@ -117,13 +118,25 @@ Column texCoordColumn(const IndexedPatch& patch, const GeometryDescription& geom
 
 /// Colours always have four elements, so that records of any type are aligned.
 Column colorColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  const ElementType type = geometry.colorType;
+  const ElementType type = geometry.attributeTypes[VertexRole::color];
   Column column{Role::color, {}, 4 * byteSizeOf(type), geometry.colorComponents == 3};
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
   for (const Rgba8& color : patch.colors)
     for (const std::uint8_t channel : {color.r, color.g, color.b, color.a})
       appendShare(column.bytes, type, channel / 255.0);
   return column;
+}
+
+Column columnOf(VertexRole role, const IndexedPatch& patch, const GeometryDescription& geometry) {
+  switch (role) {
+  case VertexRole::normal:
+    return normalColumn(patch, geometry);
+  case VertexRole::texCoord:
+    return texCoordColumn(patch, geometry);
+  case VertexRole::color:
+    break;
+  }
+  return colorColumn(patch, geometry);
 }
 
 Column attributeColumn(const NamedAttribute& attribute, std::size_t number) {
@@ -136,12 +149,9 @@ Column attributeColumn(const NamedAttribute& attribute, std::size_t number) {
 
 std::vector<Column> columnsOf(const IndexedPatch& patch, const GeometryDescription& geometry) {
   std::vector<Column> columns{coordColumn(patch, geometry)};
-  if (!patch.normals.empty() && !areNormalsInCoords(patch, geometry))
-    columns.push_back(normalColumn(patch, geometry));
-  if (!patch.texCoords.empty())
-    columns.push_back(texCoordColumn(patch, geometry));
-  if (!patch.colors.empty())
-    columns.push_back(colorColumn(patch, geometry));
+  for (const VertexRole role : vertexRoles)
+    if (hasAttribute(patch, role) && (role != VertexRole::normal || !areNormalsInCoords(patch, geometry)))
+      columns.push_back(columnOf(role, patch, geometry));
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
     columns.push_back(attributeColumn(patch.namedAttributes.at(a), a));
   return columns;

@@ -17,7 +17,7 @@ constexpr std::array bgNormals{NormalEncoding::rgb, NormalEncoding::octahedral, 
 
 void describeBg(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
   if (options.target == Target::x3dom && !hasUnitTexCoords(mesh)) // integers are 0..1 there
-    geometry.texCoordType = ElementType::float32;
+    geometry.attributeTypes[VertexRole::texCoord] = ElementType::float32;
   geometry.indexType = indexTypeFor(mesh);
   chooseTypes(geometry, mesh, options);
 }

@@ -113,6 +113,27 @@ Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry)
           loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
+std::vector<Vec3f> decodeNormals(const Texels& texels, std::uint32_t count) {
+  std::vector<Vec3f> normals;
+  for (std::uint32_t n = 0; n < count; ++n)
+    normals.push_back(normalOf(texels[n]));
+  return normals;
+}
+
+std::vector<Vec2f> decodeTexCoords(const Texels& texels, std::uint32_t count, const GeometryDescription& geometry) {
+  std::vector<Vec2f> texCoords;
+  for (std::uint32_t n = 0; n < count; ++n)
+    texCoords.push_back(texCoordOf(texels[n], geometry));
+  return texCoords;
+}
+
+std::vector<Rgba8> decodeColors(const Texels& texels, std::uint32_t count, bool hasAlpha) {
+  std::vector<Rgba8> colors;
+  for (std::uint32_t n = 0; n < count; ++n)
+    colors.push_back({texels[n][0], texels[n][1], texels[n][2], hasAlpha ? texels[n][3] : std::uint8_t{255}});
+  return colors;
+}
+
 /// Decodes an attribute from its byte planes, most significant first.
 NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t count,
                                const AttributeDescription& description) {
@@ -168,24 +189,25 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
       position[axis] = loadCoord(position[axis], stored, location);
   checkInsideBox(decoded.positions, geometry, patch.box, location);
 
-  if (patch.normal && isPair(geometry.normalEncoding)) {
-    decoded.normals = decodePairs(Texels(*patch.normal, fetch, 0, 1), count, geometry.normalEncoding);
-  } else if (patch.normal) {
-    const Texels texels = fetchRecords(*patch.normal, 3);
-    for (std::uint32_t n = 0; n < count; ++n)
-      decoded.normals.push_back(normalOf(texels[n]));
-  }
-  if (patch.texCoord) {
-    const Texels texels = fetchRecords(*patch.texCoord, 4);
-    for (std::uint32_t n = 0; n < count; ++n)
-      decoded.texCoords.push_back(texCoordOf(texels[n], geometry));
-  }
-  if (patch.color) {
-    const bool alpha = geometry.colorComponents == 4;
-    const Texels texels = fetchRecords(*patch.color, alpha ? 4 : 3);
-    for (std::uint32_t n = 0; n < count; ++n)
-      decoded.colors.push_back({texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
-  }
+  const auto decode = [&](VertexRole role, const Reference& reference) {
+    switch (role) {
+    case VertexRole::normal:
+      decoded.normals = isPair(geometry.normalEncoding)
+                            ? decodePairs(Texels(reference, fetch, 0, 1), count, geometry.normalEncoding)
+                            : decodeNormals(fetchRecords(reference, 3), count);
+      break;
+    case VertexRole::texCoord:
+      decoded.texCoords = decodeTexCoords(fetchRecords(reference, 4), count, geometry);
+      break;
+    case VertexRole::color:
+      const bool hasAlpha = geometry.colorComponents == 4;
+      decoded.colors = decodeColors(fetchRecords(reference, hasAlpha ? 4 : 3), count, hasAlpha);
+      break;
+    }
+  };
+  for (const VertexRole role : vertexRoles)
+    if (const std::optional<Reference>& reference = patch.vertexAttributes[role])
+      decode(role, *reference);
   checkAttributes(patch, geometry);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {
     std::vector<Texels> planes;

@@ -89,6 +89,18 @@ Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize 
   });
 }
 
+Image recordImage(VertexRole role, const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size) {
+  switch (role) {
+  case VertexRole::normal:
+    return normalImage(patch, geometry.normalEncoding, size);
+  case VertexRole::texCoord:
+    return texCoordImage(patch, geometry, size);
+  case VertexRole::color:
+    break;
+  }
+  return colorImage(patch, geometry.colorComponents, size);
+}
+
 /// The image of byte `plane` of every number, counted from the least significant; one channel for each component.
 Image attributeImage(const NamedAttribute& attribute, const AttributeDescription& description, ImageSize size,
                      std::size_t count, std::uint32_t plane) {
@@ -115,14 +127,11 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
                                                                              : indexImage(patch, running, records)});
   for (std::uint32_t plane = coordBytes(Encoding::classic, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
-  if (!patch.normals.empty())
-    images.push_back({Role::normal, normalImage(patch, geometry.normalEncoding, records)});
-  if (geometry.normalEncoding == NormalEncoding::palette && !patch.normals.empty())
-    encoded.normalError = paletteErrorOf(patch, images.back().image);
-  if (!patch.texCoords.empty())
-    images.push_back({Role::texCoord, texCoordImage(patch, geometry, records)});
-  if (!patch.colors.empty())
-    images.push_back({Role::color, colorImage(patch, geometry.colorComponents, records)});
+  for (const VertexRole role : vertexRoles)
+    if (hasAttribute(patch, role))
+      images.push_back({fileRoleOf(role), recordImage(role, patch, geometry, records)});
+  if (geometry.normalEncoding == NormalEncoding::palette && hasAttribute(patch, VertexRole::normal))
+    encoded.normalError = paletteErrorOf(patch, std::ranges::find(images, Role::normal, &RoleImage::role)->image);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
     for (std::uint32_t plane = geometry.attributes[a].bytes; plane-- > 0;)
       images.push_back(

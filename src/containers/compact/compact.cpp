@@ -20,14 +20,15 @@ const Reference& dataOf(const PatchDescription& patch) {
   return *patch.data;
 }
 
-/// Whether a patch has normals, texture coordinates and colours at most once, and the further attributes of the
+/// Whether a patch has each attribute that is known by its meaning at most once, and the further attributes of the
 /// geometry in their order.
 bool hasAttributes(const compact::CompactPatch& patch, const GeometryDescription& geometry) {
-  std::size_t kinds[3] = {}, others = 0;
+  ByVertexRole<std::size_t> counts;
+  std::size_t others = 0;
   for (const compact::Attribute& attribute : patch.attributes) {
     const compact::AttributeType& type = attribute.type;
-    if (type.kind != compact::AttributeKind::other) {
-      if (++kinds[static_cast<std::size_t>(type.kind)] > 1)
+    if (const std::optional<VertexRole> role = compact::vertexRoleOf(type.kind)) {
+      if (++counts[*role] > 1)
         return false;
       continue;
     }
@@ -123,21 +124,12 @@ StoredPrecision CompactReader::precisionOf(const GeometryDescription& geometry) 
     return compact::attributesOfPatches(compact::payloadOfImage(fetch_(url), url), url);
   });
   StoredPrecision precision;
-  for (const compact::AttributeType& type : valueAt(*types, data))
-    switch (type.kind) {
-    case compact::AttributeKind::normal:
-      precision.normalBits = type.bits;
+  for (const compact::AttributeType& type : valueAt(*types, data)) {
+    if (const std::optional<VertexRole> role = compact::vertexRoleOf(type.kind))
+      precision.bits[*role] = type.bits;
+    if (type.kind == compact::AttributeKind::normal)
       precision.normalEncoding = type.isDerived() ? NormalEncoding::derived : NormalEncoding::octahedral;
-      break;
-    case compact::AttributeKind::texCoord:
-      precision.texCoordBits = type.bits;
-      break;
-    case compact::AttributeKind::color:
-      precision.colorBits = type.bits;
-      break;
-    case compact::AttributeKind::other:
-      break;
-    }
+  }
   return precision;
 }
 

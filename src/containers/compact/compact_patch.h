@@ -14,6 +14,21 @@ namespace imgeo::compact {
 
 enum class AttributeKind : std::uint8_t { normal, texCoord, color, other };
 
+/// The vertex attribute of a kind; nothing for further attributes.
+constexpr std::optional<VertexRole> vertexRoleOf(AttributeKind kind) {
+  switch (kind) {
+  case AttributeKind::normal:
+    return VertexRole::normal;
+  case AttributeKind::texCoord:
+    return VertexRole::texCoord;
+  case AttributeKind::color:
+    return VertexRole::color;
+  case AttributeKind::other:
+    break;
+  }
+  return std::nullopt;
+}
+
 /// How the normal of a wedge is predicted from the normals of its triangles: weighted by area or all alike. With a
 /// derived mode the prediction is the normal, and the file stores no normals.
 enum class NormalMode : std::uint8_t { area, uniform, derivedArea, derivedUniform };

@@ -38,13 +38,26 @@ double shareOf(const Attribute& attribute, std::size_t wedge, std::uint32_t i) {
   return attribute.values[wedge][i] / static_cast<double>((1u << attribute.type.bits) - 1);
 }
 
-void addNormals(CompactPatch& patch, const std::vector<Vec3f>& normals, const AttributeBits& bits) {
+Attribute normalAttribute(const std::vector<Vec3f>& normals, const AttributeBits& bits) {
   Attribute attribute{typeOf(AttributeKind::normal, 3, bits.normal), {}};
   attribute.type.mode = bits.normalMode;
   attribute.values.reserve(normals.size());
   for (const Vec3f& normal : normals)
     attribute.values.push_back(quantiseNormal(normal, bits.normal));
-  patch.attributes.push_back(std::move(attribute));
+  return attribute;
+}
+
+Attribute attributeOf(VertexRole role, const Patch& patch, const GeometryDescription& geometry,
+                      const AttributeBits& bits) {
+  switch (role) {
+  case VertexRole::normal:
+    return normalAttribute(patch.normals, bits);
+  case VertexRole::texCoord:
+    return texCoordAttribute(patch.texCoords, geometry, bits.texCoord);
+  case VertexRole::color:
+    break;
+  }
+  return colorAttribute(patch.colors, geometry.colorComponents, bits.color);
 }
 
 NamedAttribute namedOf(const Attribute& attribute, const AttributeDescription& description) {
@@ -62,12 +75,9 @@ CompactPatch quantiseInOrder(Patch patch, const GeometryDescription& geometry, c
   quantised.positions = std::move(patch.positions);
   quantised.wedgePositions = std::move(patch.wedgePositions);
   quantised.corners = std::move(patch.corners);
-  if (!patch.normals.empty())
-    addNormals(quantised, patch.normals, bits);
-  if (!patch.texCoords.empty())
-    quantised.attributes.push_back(texCoordAttribute(patch.texCoords, geometry, bits.texCoord));
-  if (!patch.colors.empty())
-    quantised.attributes.push_back(colorAttribute(patch.colors, geometry.colorComponents, bits.color));
+  for (const VertexRole role : vertexRoles)
+    if (hasAttribute(patch, role))
+      quantised.attributes.push_back(attributeOf(role, patch, geometry, bits));
   for (std::size_t i = 0; i < patch.namedAttributes.size(); ++i) {
     const AttributeDescription& description = geometry.attributes.at(i);
     quantised.attributes.push_back(namedAttribute(patch.namedAttributes[i], description, 8 * description.bytes));

@@ -75,7 +75,7 @@ void encodePatches(EncodedMesh& mesh, std::vector<Patch> patches, const EncodeOp
     mesh.vertices += patch.vertexCount;
   for (const ElementCounts& counts : elements)
     mesh.elements += counts;
-  if (!descriptions.empty() && (descriptions.front().normal || descriptions.front().data))
+  if (!descriptions.empty() && (descriptions.front().vertexAttributes[VertexRole::normal] || descriptions.front().data))
     mesh.normalErrorDegrees =
         std::max(normalErrorBound(mesh.geometry), *std::ranges::max_element(normalErrors)) * (180 / std::numbers::pi);
   mesh.positionError = positionErrorBound(mesh.geometry);

@@ -32,22 +32,18 @@ void addCounts(const PatchDescription& patch, SiteInfo& info) {
 }
 
 GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& reader) {
-  const auto anyPatch = [&](auto reference) {
-    return std::ranges::any_of(geometry.patches,
-                               [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });
-  };
   GeometryInfo info;
   info.encoding = geometry.encoding;
   info.positionBits = geometry.lattice.bits;
   if (hasElementTypes(geometry.encoding))
     info.coordType = nameOf(geometry.coordType);
-  if (anyPatch(&PatchDescription::index))
+  if (std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) { return patch.index.has_value(); }))
     info.indexType = nameOf(geometry.indexType);
   const StoredPrecision precision = reader.precisionOf(geometry);
-  info.normalBits = precision.normalBits;
-  info.texCoordBits = precision.texCoordBits;
-  info.colorBits = precision.colorBits;
-  if (precision.normalBits > 0)
+  info.normalBits = precision.bits[VertexRole::normal];
+  info.texCoordBits = precision.bits[VertexRole::texCoord];
+  info.colorBits = precision.bits[VertexRole::color];
+  if (info.normalBits > 0)
     info.normalEncoding = nameOf(precision.normalEncoding);
   for (const AttributeDescription& attribute : geometry.attributes)
     info.attributes.push_back(attribute.name);

@@ -215,9 +215,9 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   ElementList input = elementsOf(mesh, quantised, kind);
   const ElementList site = elementsOf(patches, kind);
   const StoredPrecision precision = reader.precisionOf(geometry);
-  roundColors(input.colors, precision.colorBits);
+  roundColors(input.colors, precision.bits[VertexRole::color]);
   const AttributeBounds bounds{normalBoundDegrees(geometry, manifest.value_or(SiteManifest{})),
-                               texCoordErrorBound(geometry, std::max(precision.texCoordBits, 1u)),
+                               texCoordErrorBound(geometry, std::max(precision.bits[VertexRole::texCoord], 1u)),
                                namedBounds(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   addCounts(difference, input, site, topology, report);

@@ -180,7 +180,7 @@ TEST(Verify, SeesABoxThatDoesNotFitItsPatch) {
 TEST(Verify, SeesNormalsTurned) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     DamagedSite site(encoding);
-    Reference& normal = *site.geometry().patches[0].normal;
+    Reference& normal = *site.geometry().patches[0].vertexAttributes[VertexRole::normal];
     if (encoding == Encoding::classic)
       site.changeImage(normal, [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 4); });
     else
@@ -193,19 +193,19 @@ TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
     DamagedSite images(Encoding::classic, testing::sphere(30, 30), normals),
         arrays(Encoding::bg, testing::sphere(30, 30), normals);
-    images.changeImage(*images.geometry().patches[0].normal,
+    images.changeImage(*images.geometry().patches[0].vertexAttributes[VertexRole::normal],
                        [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 16); });
     expectFinding(images, "Normals are off");
     // The file that the normals share with the coordinates.
     PatchDescription& patch = arrays.geometry().patches[0];
     arrays.change(patch.coord[0], [](Bytes& bytes) { bytes[6] = static_cast<std::uint8_t>(bytes[6] ^ 16); });
-    patch.normal->url = patch.coord[0].url;
+    patch.vertexAttributes[VertexRole::normal]->url = patch.coord[0].url;
     arrays.write();
     expectFinding(arrays, "Normals are off");
   }
   DamagedSite palette(Encoding::classic, testing::sphere(30, 30), NormalEncoding::palette);
   EXPECT_TRUE(palette.verified().equal);
-  palette.changeImage(*palette.geometry().patches[0].normal, [](Image& image) {
+  palette.changeImage(*palette.geometry().patches[0].vertexAttributes[VertexRole::normal], [](Image& image) {
     for (std::size_t i = 0; i < 3; ++i)
       image.pixels[i] = static_cast<std::uint8_t>(255 - image.pixels[i]);
   });
@@ -215,7 +215,7 @@ TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
 TEST(Verify, SeesNormalsLeftOut) {
   DamagedSite site;
   for (PatchDescription& patch : site.geometry().patches)
-    patch.normal.reset();
+    patch.vertexAttributes[VertexRole::normal].reset();
   site.write();
   expectFinding(site, "normals that the site lacks");
 }
@@ -226,9 +226,11 @@ TEST(Verify, SeesOtherColoursAndTextureCoordinates) {
     mesh.colors.push_back({static_cast<std::uint8_t>(wedge), 7, 9, 255});
   DamagedSite colored(Encoding::classic, mesh), mapped(Encoding::classic, mesh);
   EXPECT_TRUE(colored.verified().equal);
-  colored.changeImage(*colored.geometry().patches[0].color, [](Image& image) { image.pixels[0] ^= 1; });
+  colored.changeImage(*colored.geometry().patches[0].vertexAttributes[VertexRole::color],
+                      [](Image& image) { image.pixels[0] ^= 1; });
   expectFinding(colored, "other colours");
-  mapped.changeImage(*mapped.geometry().patches[0].texCoord, [](Image& image) { image.pixels[2] ^= 4; });
+  mapped.changeImage(*mapped.geometry().patches[0].vertexAttributes[VertexRole::texCoord],
+                     [](Image& image) { image.pixels[2] ^= 4; });
   expectFinding(mapped, "Texture coordinates are off");
 }
 
