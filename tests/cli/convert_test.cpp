@@ -111,7 +111,7 @@ TEST_F(Convert, MakesPointsAndLinesSmallerThanClassicDoes) {
   for (int i = 0; i < 3000; ++i) {
     const double angle = 0.02 * i, radius = 1 + 0.3 * std::sin(7.3 * i);
     const std::string position = std::to_string(radius * std::cos(angle)) + " " +
-                              std::to_string(radius * std::sin(angle)) + " " + std::to_string(0.001 * i);
+                                 std::to_string(radius * std::sin(angle)) + " " + std::to_string(0.001 * i);
     points += position + " " + std::to_string(i % 256) + " 80 " + std::to_string(i % 7) + "\n";
     lines += "v " + position + "\n" + (i > 0 ? "l " + std::to_string(i) + " " + std::to_string(i + 1) + "\n" : "");
   }
