@@ -27,7 +27,7 @@ StoredPrecision SinglePatchReader::precisionOf(const GeometryDescription& geomet
   return precision;
 }
 
-ContainerReader::ContainerReader(FetchFile fetch) {
+ContainerReader::ContainerReader(const FetchFile& fetch) {
   for (const EncodingRow* row : allEncodings())
     readers_.push_back(row->makeReader(fetch));
 }

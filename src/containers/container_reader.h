@@ -14,7 +14,7 @@ namespace imgeo {
 /// are requested one after the other. Safe to call from any thread.
 class ContainerReader {
 public:
-  explicit ContainerReader(FetchFile fetch);
+  explicit ContainerReader(const FetchFile& fetch);
 
   /// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked
   /// against the description, and limits (containers/limits.h) bound every
