@@ -81,7 +81,7 @@ Reference referenceOf(const FieldReader& fields, const std::string& url, Encodin
     return reference;
   const std::string_view fragment = std::string_view(url).substr(hash + 1);
   if (!std::visit([&](auto& location) { return parseFragment(fragment, location); }, reference.location))
-    fields.fail(ErrorKind::malformed, "a reference's fragment states no place in its file");
+    fields.fail(ErrorKind::malformed, "a reference's fragment is not an index in its file");
   return reference;
 }
 

@@ -42,7 +42,7 @@ function near(actual: number, expected: number, tolerance = 1e-6): void {
 }
 
 describe("attributes of <x3d>", () => {
-  test("place the camera, at the start and when they change", async () => {
+  test("position the camera, at the start and when they change", async () => {
     await withScene(
       siteWith("orbit", { attributes: 'camera-orbit="30deg 60deg 9m" camera-target="1m 0m 0m"' }),
       {},
