@@ -56,7 +56,7 @@ test("shapes of one file load with one request, and each follows its element", a
         .shadowRoot!.querySelector("[role=progressbar]")!
         .getAttribute("aria-valuetext"),
     );
-    assert.equal(await progressText, "100 %, all of it is shown");
+    assert.equal(await progressText, "100 %, all details are shown");
     const all = Array.from({ length: count }, (_, n) => n);
     assert.deepEqual(await shapesAt(view, all), all.map(nameOf));
     await view.page.evaluate(() => {

@@ -12,13 +12,13 @@ type ModifierKeys = Pick<MouseEvent, "ctrlKey" | "metaKey" | "shiftKey" | "altKe
 
 export class AnchorLinks {
   readonly #nav: HTMLElement;
-  readonly #navigator: CameraController;
+  readonly #cameraController: CameraController;
   readonly #warn: (sentence: string) => void;
   readonly #links = new Map<SceneElement, HTMLAnchorElement>();
 
-  constructor(nav: HTMLElement, navigator: CameraController, warn: (sentence: string) => void) {
+  constructor(nav: HTMLElement, cameraController: CameraController, warn: (sentence: string) => void) {
     this.#nav = nav;
-    this.#navigator = navigator;
+    this.#cameraController = cameraController;
     this.#warn = warn;
   }
 
@@ -79,10 +79,10 @@ export class AnchorLinks {
   #bindViewpoint(href: string, event: Event): void {
     const viewpoint =
       href.startsWith("#") &&
-      this.#navigator.viewpoints.find(({ element }) => attributeOf(element, "DEF") === href.slice(1));
+      this.#cameraController.viewpoints.find(({ element }) => attributeOf(element, "DEF") === href.slice(1));
     if (!viewpoint) return;
     event.preventDefault();
-    this.#navigator.bind(viewpoint.element);
+    this.#cameraController.bind(viewpoint.element);
   }
 }
 

@@ -1,4 +1,4 @@
-// Camera input from pointers and keys: passes movements to the navigator, unless the
+// Camera input from pointers and keys: passes movements to the camera controller, unless the
 // page's author has disabled them.
 
 import type { NavigationType } from "../navigation/navigationType.ts";
@@ -13,21 +13,21 @@ export interface CameraInputLimits {
 }
 
 export class CameraInput {
-  readonly #navigator: CameraController;
+  readonly #cameraController: CameraController;
   readonly #limits: () => CameraInputLimits;
 
-  constructor(navigator: CameraController, limits: () => CameraInputLimits) {
-    this.#navigator = navigator;
+  constructor(cameraController: CameraController, limits: () => CameraInputLimits) {
+    this.#cameraController = cameraController;
     this.#limits = limits;
   }
 
   /** The navigation type in use. Setting a type that the scene does not allow has no effect. */
   get type(): NavigationType {
-    return this.#limits().isDisabled ? "none" : this.#navigator.type;
+    return this.#limits().isDisabled ? "none" : this.#cameraController.type;
   }
 
   set type(type: NavigationType) {
-    this.#navigator.type = type;
+    this.#cameraController.type = type;
   }
 
   get canZoom(): boolean {
@@ -35,30 +35,30 @@ export class CameraInput {
     return canZoom && !isDisabled;
   }
 
-  /** Turns by radians to the right and over the top. */
-  turn(right: number, over: number): void {
-    if (this.type !== "none") this.#navigator.turn(right, over);
+  /** Turns the scene by radians to the right and downwards on the screen. */
+  turn(right: number, down: number): void {
+    if (this.type !== "none") this.#cameraController.turn(right, down);
   }
 
   /** Multiplies the camera's distance to its target. */
   zoom(factor: number): void {
-    if (this.canZoom) this.#navigator.zoom(factor);
+    if (this.canZoom) this.#cameraController.zoom(factor);
   }
 
   /** Moves the scene by fractions of the view's shorter side. */
   pan(right: number, up: number): void {
-    if (this.type !== "none" && this.#limits().canPan) this.#navigator.pan(right, up);
+    if (this.type !== "none" && this.#limits().canPan) this.#cameraController.pan(right, up);
   }
 
   move(motion: MovementInput): void {
-    if (this.type !== "none") this.#navigator.move(motion);
+    if (this.type !== "none") this.#cameraController.move(motion);
   }
 
   reset(): void {
-    if (this.type !== "none") this.#navigator.reset();
+    if (this.type !== "none") this.#cameraController.reset();
   }
 
   showAll(): void {
-    if (this.type !== "none") this.#navigator.showAll();
+    if (this.type !== "none") this.#cameraController.showAll();
   }
 }

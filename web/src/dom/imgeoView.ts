@@ -49,17 +49,17 @@ export class ImgeoView extends HTMLElement {
 
   /** The scene's viewpoints, in document order. */
   get viewpoints(): readonly ViewpointEntry[] {
-    const navigator = this.#controller?.viewer.navigator;
-    return (navigator?.viewpoints ?? []).map(({ element, viewpoint }) => ({
+    const cameraController = this.#controller?.viewer.cameraController;
+    return (cameraController?.viewpoints ?? []).map(({ element, viewpoint }) => ({
       element: element as Element,
       description: viewpoint.description,
-      isBound: element === navigator?.bound,
+      isBound: element === cameraController?.bound,
     }));
   }
 
   /** Whether automatic rotation is off. */
   get paused(): boolean {
-    return this.#controller?.viewer.navigator.autoRotation.isStopped ?? true;
+    return this.#controller?.viewer.cameraController.autoRotation.isStopped ?? true;
   }
 
   /**
@@ -83,28 +83,28 @@ export class ImgeoView extends HTMLElement {
     const entry = this.viewpoints.find(
       ({ element, description }) => element === viewpoint || description === viewpoint,
     );
-    if (entry) this.#controller?.viewer.navigator.bind(entry.element);
+    if (entry) this.#controller?.viewer.cameraController.bind(entry.element);
   }
 
   /** Moves the camera back to the bound viewpoint. */
   resetView(): void {
-    this.#controller?.viewer.navigator.reset();
+    this.#controller?.viewer.cameraController.reset();
   }
 
   showAll(): void {
-    this.#controller?.viewer.navigator.showAll();
+    this.#controller?.viewer.cameraController.showAll();
   }
 
   /** The camera's orbit; as a string in the form of the attribute `camera-orbit`. */
   getCameraOrbit(): Orbit & { toString(): string } {
-    const navigator = this.#controller?.viewer.navigator;
-    const orbit = navigator ? orbitOf(navigator.pose) : { theta: 0, phi: 0, radius: 0 };
+    const cameraController = this.#controller?.viewer.cameraController;
+    const orbit = cameraController ? orbitOf(cameraController.pose) : { theta: 0, phi: 0, radius: 0 };
     return { ...orbit, toString: () => `${orbit.theta}rad ${orbit.phi}rad ${orbit.radius}m` };
   }
 
   /** The camera's position in scene coordinates. */
   getCameraPosition(): Vector3D {
-    return vector3DOf(this.#controller?.viewer.navigator.pose.position ?? { x: 0, y: 0, z: 0 });
+    return vector3DOf(this.#controller?.viewer.cameraController.pose.position ?? { x: 0, y: 0, z: 0 });
   }
 
   /**
@@ -119,7 +119,7 @@ export class ImgeoView extends HTMLElement {
       if (canvas === undefined) resolve(null);
       else canvas.toBlob(resolve, mimeType, qualityArgument);
     });
-    if (blob === null) throw new Error("There is no picture to make a file of.");
+    if (blob === null) throw new Error("the view cannot be encoded as an image");
     return blob;
   }
 

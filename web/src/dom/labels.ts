@@ -6,11 +6,11 @@ import type { Orbit } from "../navigation/orbit.ts";
 
 export const stageLabels: Readonly<Record<StageName | "none", string>> = {
   none: "nothing is shown yet",
-  points: "the shape is shown as points",
-  base: "a coarse shape is shown, all of it is coming",
-  surface: "the surface is shown",
-  shaded: "the shape is shown, details are coming",
-  full: "all of it is shown",
+  points: "the scene is shown as points",
+  base: "a coarse version is shown, details are loading",
+  surface: "the surface is shown, details are loading",
+  shaded: "the shaded surface is shown, details are loading",
+  full: "all details are shown",
 };
 
 /** The keys of each navigation type, for the description of the canvas. */

@@ -14,37 +14,37 @@ const typeNames: Readonly<Record<NavigationType, string>> = {
 };
 
 export class Menus {
-  readonly #navigator: CameraController;
+  readonly #cameraController: CameraController;
   readonly #viewpointMenu = makeMenu("Viewpoint");
   readonly #typeMenu = makeMenu("Way to move");
   #namedViewpoints: readonly ViewpointInstance[] = [];
   #listedTypes: readonly NavigationType[] = [];
 
-  constructor(controls: HTMLElement, navigator: CameraController, signal: AbortSignal) {
-    this.#navigator = navigator;
+  constructor(controls: HTMLElement, cameraController: CameraController, signal: AbortSignal) {
+    this.#cameraController = cameraController;
     controls.replaceChildren(this.#typeMenu, this.#viewpointMenu);
     this.#viewpointMenu.addEventListener(
       "change",
       () => {
         const chosen = this.#namedViewpoints[this.#viewpointMenu.selectedIndex];
-        if (chosen) navigator.bind(chosen.element);
+        if (chosen) cameraController.bind(chosen.element);
       },
       { signal },
     );
     this.#typeMenu.addEventListener(
       "change",
       () => {
-        navigator.type = this.#listedTypes[this.#typeMenu.selectedIndex] ?? navigator.type;
+        cameraController.type = this.#listedTypes[this.#typeMenu.selectedIndex] ?? cameraController.type;
       },
       { signal },
     );
   }
 
-  /** Updates the menus from the navigator. */
+  /** Updates the menus from the camera controller. */
   update(): void {
-    const { viewpoints, bound, type } = this.#navigator;
+    const { viewpoints, bound, type } = this.#cameraController;
     this.#namedViewpoints = viewpoints.filter(({ viewpoint }) => viewpoint.description !== "");
-    this.#listedTypes = this.#navigator.listedTypes;
+    this.#listedTypes = this.#cameraController.listedTypes;
     fillMenu(
       this.#viewpointMenu,
       this.#namedViewpoints.map(({ viewpoint }) => viewpoint.description),

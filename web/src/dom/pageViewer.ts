@@ -55,7 +55,7 @@ export interface PageViewerListener {
 
 export class PageViewer {
   readonly renderer: SceneRenderer;
-  readonly navigator: CameraController;
+  readonly cameraController: CameraController;
   readonly #x3d: Element;
   readonly #canvas: HTMLCanvasElement;
   readonly #scheduler = new Scheduler(slotCountFor(""));
@@ -104,7 +104,7 @@ export class PageViewer {
     this.#listener = listener;
     this.#isPreviewed = previewed.length > 0;
     this.#loading = new LoadingEvents(x3d, this.#transfers, this.#isPreviewed ? "base" : "none");
-    this.navigator = new CameraController(
+    this.cameraController = new CameraController(
       () => {
         this.renderer.requestFrame();
       },
@@ -112,7 +112,7 @@ export class PageViewer {
         listener.onNavigation();
       },
     );
-    this.renderer = new SceneRenderer(canvas, context, this.navigator, () => {
+    this.renderer = new SceneRenderer(canvas, context, this.cameraController, () => {
       this.#onFrame();
     });
     this.#readsTextures = this.renderer.hasVertexTextureUnits;
@@ -295,7 +295,7 @@ export class PageViewer {
       before?.sphere === built.sphere &&
       before.navigation === scene.navigation &&
       isSameList(before.viewpoints, built.viewpoints);
-    if (!isSame) this.navigator.setScene(this.#displayed);
+    if (!isSame) this.cameraController.setScene(this.#displayed);
     return changes;
   }
 
@@ -308,7 +308,7 @@ export class PageViewer {
   /** Reads the scene again if the camera's distance to a LOD requires another level. */
   #followLods(): void {
     if (this.#displayed === undefined || this.#nestedReads > maxNestedLods) return;
-    const changed = this.#lods.update(this.#displayed.lods, this.navigator.pose.position);
+    const changed = this.#lods.update(this.#displayed.lods, this.cameraController.pose.position);
     if (changed.length === 0) return;
     for (const lod of changed) this.#core.reader.touch(lod);
     this.#nestedReads += 1;
@@ -319,7 +319,7 @@ export class PageViewer {
   /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */
   #followBind(element: Element, attribute: string | null): void {
     if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
-    this.navigator.bind(element, element.getAttribute(attribute)?.trim().toLowerCase() === "true");
+    this.cameraController.bind(element, element.getAttribute(attribute)?.trim().toLowerCase() === "true");
   }
 
   #onStage(stage: Stage | undefined): void {
@@ -332,7 +332,7 @@ export class PageViewer {
     const { sphere } = this.renderer;
     if (this.#displayed === undefined || this.#displayed.sphere === sphere) return;
     this.#displayed = { ...this.#displayed, sphere };
-    this.navigator.setScene(this.#displayed);
+    this.cameraController.setScene(this.#displayed);
   }
 
   #onRequests(): void {

@@ -4,23 +4,23 @@
 import type { CameraController } from "../navigation/cameraController.ts";
 
 export class ResetButtons {
-  readonly #navigator: CameraController;
+  readonly #cameraController: CameraController;
   readonly #buttons: readonly HTMLButtonElement[];
 
-  constructor(controls: HTMLElement, navigator: CameraController, signal: AbortSignal) {
-    this.#navigator = navigator;
+  constructor(controls: HTMLElement, cameraController: CameraController, signal: AbortSignal) {
+    this.#cameraController = cameraController;
     this.#buttons = [
       makeButton(
         "Show all",
         () => {
-          navigator.showAll();
+          cameraController.showAll();
         },
         signal,
       ),
       makeButton(
         "Start",
         () => {
-          navigator.reset();
+          cameraController.reset();
         },
         signal,
       ),
@@ -30,7 +30,7 @@ export class ResetButtons {
 
   /** Shows or hides the buttons. */
   update(): void {
-    const { isAtHome, source, type } = this.#navigator;
+    const { isAtHome, source, type } = this.#cameraController;
     const isMovedAway = source === "user-interaction" && !isAtHome && type !== "none";
     for (const button of this.#buttons) if (button.hidden === isMovedAway) button.hidden = !isMovedAway;
   }

@@ -1,8 +1,7 @@
-// The CSS touch-action of a view. A view that handles all touch gestures keeps a
-// page from being scrolled by touch; one that leaves vertical gestures to the page, as <model-viewer>
-// does, cannot be turned over the top. By default a view leaves vertical gestures to the
-// page until it has the focus, by a tap or the keyboard, and handles all of them in a page
-// that cannot scroll.
+// The CSS touch-action of a view. A view that handles all touch gestures keeps a page from being
+// scrolled by touch; one that leaves vertical gestures to the page, as <model-viewer> does, cannot
+// be turned up and down by touch. By default a view leaves vertical gestures to the page until it
+// has the focus, by a tap or the keyboard, and handles all of them in a page that cannot scroll.
 
 /** Values of CSS touch-action; `manipulation` leaves scrolling and pinching to the page. */
 export type TouchAction = "none" | "pan-x" | "pan-y" | "manipulation";

@@ -56,7 +56,7 @@ export class ViewController {
     this.#x3d = x3d;
     this.#ui = ui;
     this.#hotspots = new Hotspots(host, ui.hotspots, {
-      isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.navigator.isMoving,
+      isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.cameraController.isMoving,
       pointAt: async (x, y) => {
         const { canvas } = ui;
         const hit = await this.viewer.pickAsync(
@@ -91,19 +91,19 @@ export class ViewController {
       preview?.shapes,
     );
     const { signal } = this.#listeners;
-    const { navigator } = this.viewer;
-    this.#cameraInput = new CameraInput(navigator, this.#limits);
-    this.#menus = new Menus(ui.controls, navigator, signal);
-    this.#links = new AnchorLinks(ui.links, navigator, (sentence) => {
+    const { cameraController } = this.viewer;
+    this.#cameraInput = new CameraInput(cameraController, this.#limits);
+    this.#menus = new Menus(ui.controls, cameraController, signal);
+    this.#links = new AnchorLinks(ui.links, cameraController, (sentence) => {
       this.#warnOnce(sentence);
     });
-    this.#resetButtons = new ResetButtons(ui.controls, navigator, signal);
+    this.#resetButtons = new ResetButtons(ui.controls, cameraController, signal);
     this.#settings = this.#readSettings();
-    navigator.isInstant = this.#reducedMotion.matches;
+    cameraController.isInstant = this.#reducedMotion.matches;
     this.#reducedMotion.addEventListener(
       "change",
       ({ matches }) => {
-        navigator.isInstant = matches;
+        cameraController.isInstant = matches;
         this.#updateRotation();
       },
       { signal },
@@ -194,11 +194,11 @@ export class ViewController {
 
   /** Starts automatic rotation without delay. */
   play(): void {
-    this.viewer.navigator.autoRotation.start(false);
+    this.viewer.cameraController.autoRotation.start(false);
   }
 
   pause(): void {
-    this.viewer.navigator.autoRotation.stop();
+    this.viewer.cameraController.autoRotation.stop();
   }
 
   dispose(): void {
@@ -274,11 +274,11 @@ export class ViewController {
   }
 
   #applySettings(): void {
-    const { renderer, navigator } = this.viewer;
+    const { renderer, cameraController } = this.viewer;
     const settings = this.#settings;
-    navigator.setCamera(cameraSettingOf(settings));
-    navigator.autoRotation.delayMs = settings["auto-rotate-delay"];
-    navigator.autoRotation.radiansPerSecond = settings["rotation-per-second"];
+    cameraController.setCamera(cameraSettingOf(settings));
+    cameraController.autoRotation.delayMs = settings["auto-rotate-delay"];
+    cameraController.autoRotation.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
     renderer.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
@@ -292,7 +292,7 @@ export class ViewController {
    * reduced motion.
    */
   #updateRotation(): void {
-    const { autoRotation } = this.viewer.navigator;
+    const { autoRotation } = this.viewer.cameraController;
     const shouldRotate =
       this.#settings["auto-rotate"] &&
       this.poster.isModelVisible &&
@@ -307,7 +307,7 @@ export class ViewController {
    */
   #updateDescription(): void {
     const { canvas } = this.#ui;
-    const { type } = this.viewer.navigator;
+    const { type } = this.viewer.cameraController;
     const isStatic = this.#cameraInput.type === "none";
     canvas.setAttribute("aria-label", this.#label);
     // Screen readers pass arrow keys on to the role `application` only.
@@ -336,23 +336,23 @@ export class ViewController {
   }
 
   #onFrame(): void {
-    const { navigator, renderer } = this.viewer;
+    const { cameraController, renderer } = this.viewer;
     const { view } = renderer;
     if (this.#preview && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
     if (view !== undefined) this.#hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
-    if (navigator.pose === this.#lastPose) return;
+    if (cameraController.pose === this.#lastPose) return;
     const isFirst = this.#lastPose === undefined;
-    this.#lastPose = navigator.pose;
-    this.#send("camera-change", { source: navigator.source });
-    if (!isFirst && navigator.source !== "automatic") this.#announceViewSoon();
+    this.#lastPose = cameraController.pose;
+    this.#send("camera-change", { source: cameraController.source });
+    if (!isFirst && cameraController.source !== "automatic") this.#announceViewSoon();
   }
 
   #announceViewSoon(): void {
     clearTimeout(this.#announcementTimer);
     this.#announcementTimer = setTimeout(() => {
-      const { navigator } = this.viewer;
-      this.#ui.announce(navigator.viewpointName ?? viewLabelOf(orbitOf(navigator.pose)));
+      const { cameraController } = this.viewer;
+      this.#ui.announce(cameraController.viewpointName ?? viewLabelOf(orbitOf(cameraController.pose)));
     }, announcementDelayMs);
   }
 

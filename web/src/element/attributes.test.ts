@@ -19,7 +19,7 @@ describe("a view's attributes", () => {
 
   test("parse camera-orbit as two angles and a length or a percentage, each of which may be auto", () => {
     for (const [text, expected] of [
-      ["0deg 75deg 105%", { theta: 0, phi: (75 * Math.PI) / 180, radius: { share: 1.05 } }],
+      ["0deg 75deg 105%", { theta: 0, phi: (75 * Math.PI) / 180, radius: { factor: 1.05 } }],
       [" -0.5rad  1.2rad 250cm ", { theta: -0.5, phi: 1.2, radius: { length: 2.5 } }],
       ["auto 90deg auto", { theta: undefined, phi: Math.PI / 2, radius: undefined }],
       ["auto auto 2e1m", { theta: undefined, phi: undefined, radius: { length: 20 } }],

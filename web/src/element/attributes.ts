@@ -56,7 +56,7 @@ const radius: ValueType<RadiusSetting> = {
     const amount = Number(value);
     if (!Number.isFinite(amount)) return undefined;
     const meters = { m: 1, cm: 0.01, mm: 0.001 }[unit?.toLowerCase() ?? ""];
-    return meters === undefined ? { share: amount / 100 } : { length: amount * meters };
+    return meters === undefined ? { factor: amount / 100 } : { length: amount * meters };
   },
 };
 

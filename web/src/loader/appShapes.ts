@@ -1,5 +1,5 @@
-// The shapes of a scene in an app's own three.js scene. Each shape's object holds the stages loaded so far and draws them
-// in a group for each instance of the shape.
+// The shapes of a scene in an app's own three.js scene. Each shape's object holds the stages loaded so far and draws
+// them in a group for each instance of the shape.
 
 import type { Group } from "three";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
@@ -87,7 +87,10 @@ export class AppShape extends LoadingShape {
     this.object.clear();
   }
 
-  /** Empties `missingPatches` if the shape is visible and has no file left to load. Files of a hidden shape may still be requested. */
+  /**
+   * Empties `missingPatches` if the shape is visible and has no file left to load. Files of a hidden shape may still be
+   * requested.
+   */
   forgetMissing(): void {
     if (this.isVisible && this.isGeometrySettled) this.missingPatches.clear();
   }
@@ -126,7 +129,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     this.#changes.recordPresent(shape, instance);
   }
 
-  /** Never called: documents that are read once only gain nodes. */
+  /** Never called: an app's document does not change, and loaded Inlines only add nodes to it. */
   readonly onLeave = (): void => undefined;
 
   /** Returns the changes since the last call. */

@@ -37,7 +37,7 @@ export interface ImgeoSceneEventMap extends Object3DEventMap {
 }
 
 /** Where a scene's files come from, and how its shapes are drawn. */
-export interface SceneSources {
+export interface ImgeoSceneOptions {
   /** The document's <X3D>, and its absolute URL. */
   readonly x3d: SceneElement;
   readonly url: string;
@@ -67,9 +67,10 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   readonly #picker = new ScenePicker();
   #error: Error | undefined;
 
-  constructor({ x3d, url, urlOf, resolve, fetch, scheduler, keepsVertices, makeMaterial, runJob }: SceneSources) {
+  constructor({ x3d, url, urlOf, resolve, fetch, scheduler, keepsVertices, makeMaterial, runJob }: ImgeoSceneOptions) {
     super();
-    for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // a rejection may go unhandled
+    // An app need not use the promises: their rejections must not be reported as unhandled.
+    for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
     const uploadThrottle = new UploadThrottle();
     const textures = new BitmapTextures(uploadThrottle);
     const buffers = new ArrayBuffers();

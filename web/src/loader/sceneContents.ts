@@ -135,8 +135,9 @@ export class SceneContents {
   #display({ root }: SceneDescription): SceneChanges {
     this.#groups.follow(withoutLights(root));
     this.box.copy(this.#groups.box);
+    // three.js visits children in order: the observer must come before the billboards that it turns.
     if (this.#groups.hasBillboards && this.#billboards.parent === null)
-      this.root.add(this.#billboards, this.#groups.root); // three.js visits children in order: the observer before the billboards that it turns
+      this.root.add(this.#billboards, this.#groups.root);
     return this.shapes.takeChanges();
   }
 
@@ -164,7 +165,10 @@ export class SceneContents {
     return loadStates.find((state) => states.has(state)) ?? "empty";
   }
 
-  /** A camera has updated a LOD in the middle of a frame. The levels that the frame's cameras need are requested after it. */
+  /**
+   * A camera has updated a LOD in the middle of a frame. The levels that the frame's cameras need are requested after
+   * the frame.
+   */
   #onCameraUpdate(): void {
     if (this.#isLevelUpdateDue || this.#isStopped) return;
     this.#isLevelUpdateDue = true;
@@ -174,7 +178,10 @@ export class SceneContents {
     });
   }
 
-  /** Chooses the level of each LOD by the camera that is nearest to any of its instances. Returns whether any level has changed. */
+  /**
+   * Chooses the level of each LOD by the camera that is nearest to any of its instances. Returns whether any level has
+   * changed.
+   */
   #updateLevels(): boolean {
     const nearest = new Map<SceneElement, { readonly lod: SceneLod; readonly distance: number }>();
     for (const lod of this.#lods) {
@@ -206,7 +213,10 @@ function visibleChildrenOf(object: Object3D): readonly Object3D[] {
 
 const groupsWithoutLights = new WeakMap<GroupDescription, GroupDescription>();
 
-/** A group without its lights: the app has its own. The same object for the same description, so that unchanged groups are skipped. */
+/**
+ * A group without its lights: the app has its own. The same object for the same description, so that unchanged groups
+ * are skipped.
+ */
 function withoutLights(group: GroupDescription): GroupDescription {
   const known = groupsWithoutLights.get(group);
   if (known !== undefined) return known;

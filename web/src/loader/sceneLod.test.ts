@@ -6,7 +6,10 @@ import { SceneLod } from "./sceneLod.ts";
 
 const element = { localName: "LOD", children: [], getAttribute: () => null, getAttributeNames: () => [] };
 
-/** A LOD with center (1, 0, 0) whose levels hold a box each, except `emptyLevel`. Levels outside of `loadedLevels` have the state `otherState`. */
+/**
+ * A LOD with center (1, 0, 0) whose levels hold a box each, except `emptyLevel`. Levels outside of `loadedLevels` have
+ * the state `otherState`.
+ */
 function lodOf(
   range: readonly number[],
   loadedLevels: Set<number>,

@@ -8,9 +8,9 @@ import type { LodDescription } from "../document/description.ts";
 import { lodLevelAt } from "../scene/lodLevel.ts";
 
 /**
- * The state of an object's shapes. `loading`: some are still being loaded; `displayed`: all have loaded or failed, and at
- * least one displays something; `failed`: none displays anything, because files have failed; `empty`: there are none. The state of a group is the first of
- * these that any of its children has.
+ * The state of an object's shapes. `loading`: some are still being loaded; `displayed`: all have loaded or failed, and
+ * at least one displays something; `failed`: none displays anything, because files have failed; `empty`: there are
+ * none. The state of a group is the first of these that any of its children has.
  */
 export const loadStates = ["loading", "displayed", "failed", "empty"] as const;
 export type LoadState = (typeof loadStates)[number];
@@ -103,7 +103,7 @@ export class SceneLod extends LOD {
     return isReady;
   }
 
-  /** The level to display until the required one is ready: the one displayed now, or else the nearest that is displayed. */
+  /** The level to display until the required one is ready: the one displayed now, or else the nearest that is loaded. */
   #substituteLevel(): number | undefined {
     const { levels } = this;
     const rank = (index: number) => (index === this.#displayedLevel ? -1 : Math.abs(index - this.#level));

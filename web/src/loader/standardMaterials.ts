@@ -30,8 +30,8 @@ import { srgbColorsDefine } from "../render/shaders/vertexFormat.ts";
 import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
 /**
- * Makes the material of a shape from X3D's. `shading`: "smooth" by normals, "flat" by the surface's slope, "unlit" and
- * "distance" for points and lines. May return any built-in material of three.js but ShaderMaterials; each call must
+ * Makes the material of a shape from X3D's. `shading`: "smooth" by normals, "flat" by the surface's slope, "unlit" for
+ * points and lines, "distance" for points that stand in for a surface. May return any built-in material of three.js but ShaderMaterials; each call must
  * make a new one. Called for each stage of a patch.
  */
 export type MaterialMaker = (material: MaterialDescription, shading: Shading) => Material;
@@ -97,7 +97,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, shadowOptions
         request.shading === "smooth" && !("flatShading" in material && material.flatShading === true),
       );
     },
-    // The document is read once, so only textures change later.
+    // The document does not change; only textures do.
     applyAppearance: (material, appearance, _, surfaceTextures) => {
       setTextureMaps(material, shadowMaterials.get(material), appearance, surfaceTextures);
     },

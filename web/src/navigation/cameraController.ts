@@ -152,15 +152,15 @@ export class CameraController {
   }
 
   /**
-   * Orbits by radians to the right and over the top. In WALK and FLY the camera looks around instead, so that the scene
-   * follows the pointer.
+   * Turns the scene by radians to the right and downwards on the screen: orbits in EXAMINE, looks around in WALK and
+   * FLY.
    */
-  turn(right: number, over: number): void {
+  turn(right: number, down: number): void {
     if (this.#type === "examine") {
-      this.#moveTo(orbitPose(this.#pose, right, over));
+      this.#moveTo(orbitPose(this.#pose, right, down));
     } else {
       const scale = this.#pose.fieldOfView / Math.PI; // dragging across the whole view is half a turn
-      this.#moveTo(turnPose(this.#pose, -right * scale, over * scale));
+      this.#moveTo(turnPose(this.#pose, -right * scale, down * scale));
     }
   }
 
@@ -213,7 +213,7 @@ export class CameraController {
     return this.#pose;
   }
 
-  /** The distance nearer than which nothing need be drawn. */
+  /** Surfaces nearer than this distance need not be drawn. */
   get clearance(): number {
     return clearanceOf(this.#type, this.#avatar);
   }
@@ -264,7 +264,7 @@ export class CameraController {
     this.#moveTo(isWalking ? this.#pose : pose);
   }
 
-  /** Carries out the movement of this time that pressed keys and the pending walk request. */
+  /** Moves the camera for `seconds`, as pressed keys and the pending movement of WALK request. */
   #moveFor(seconds: number): void {
     if (this.#type !== "walk") {
       this.#pose = applyMovement(this.#pose, this.#input, seconds, this.#speed, false);

@@ -128,7 +128,7 @@ describe("orbiting", () => {
     assertNear(projected(pose, 1, pose.center).x, 0, 1e-6);
   });
 
-  test("to the right moves near points to the right on the screen, over the top moves them down", () => {
+  test("to the right moves near points to the right on the screen, downwards moves them down", () => {
     const front = start.position.clone().lerp(start.center, 0.5);
     assert.ok(projected(orbitPose(start, 0.1, 0), 1, front).x > 0);
     assert.ok(projected(orbitPose(start, 0, 0.1), 1, front).y < 0);
@@ -147,10 +147,10 @@ describe("orbiting", () => {
   });
 
   test("stops at a pole and can turn back from it", () => {
-    for (const over of [-4, 4]) {
-      const atPole = orbitPose(start, 0, over);
-      assert.ok(orbitPose(atPole, 0, -over / 8).position.distanceTo(atPole.position) > 0.1);
-      assertNear(orbitPose(atPole, 0, over).position.distanceTo(atPole.position), 0, 1e-6);
+    for (const down of [-4, 4]) {
+      const atPole = orbitPose(start, 0, down);
+      assert.ok(orbitPose(atPole, 0, -down / 8).position.distanceTo(atPole.position) > 0.1);
+      assertNear(orbitPose(atPole, 0, down).position.distanceTo(atPole.position), 0, 1e-6);
     }
   });
 });

@@ -77,9 +77,12 @@ export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
   return { ...pose, center, position: center.clone().addScaledVector(forwardOf(pose), -distance) };
 }
 
-/** Orbits around the center by angles in radians: to the right about `up`, and over the top, but not past a pole. */
-export function orbitPose(pose: Pose, right: number, over: number): Pose {
-  const turn = boundedRotation(pose, right, over);
+/**
+ * Orbits around the center, so that the scene turns on the screen by radians to the right about `up`, and downwards,
+ * but not past a pole.
+ */
+export function orbitPose(pose: Pose, right: number, down: number): Pose {
+  const turn = boundedRotation(pose, right, down);
   return {
     ...pose,
     position: pose.position.clone().sub(pose.center).applyQuaternion(turn).add(pose.center),
@@ -128,8 +131,8 @@ export interface Lens {
 }
 
 /**
- * The lens for a view of `aspect` (width / height) onto a scene inside `sphere`. For a camera inside the sphere,
- * `clearance` is the distance nearer than which nothing need be drawn.
+ * The lens for a view of `aspect` (width / height) onto a scene inside `sphere`. A camera inside the
+ * sphere need not see surfaces nearer than `clearance`.
  */
 export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: number): Lens {
   const aspectRatio = pose.aspectRatio ?? 1;

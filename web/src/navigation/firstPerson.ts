@@ -1,5 +1,5 @@
-// Walking and flying: the eye turns without moving, and moves ahead. The center of rotation stays in front of the eye,
-// so that a user can switch to EXAMINE.
+// Walking and flying: the eye turns in place and moves. The center of rotation stays in front of the eye, so that a
+// user can switch to EXAMINE.
 
 import { Vector3 } from "three";
 import type { Pose } from "./cameraPose.ts";

@@ -1,5 +1,5 @@
-// The surroundings of a walking avatar, sampled by two small depth images: one, from the eye straight down, shows surfaces
-// below the eye; the other, around the eye at its level, shows walls. A lintel above the eye is in neither, so
+// The surroundings of a walking avatar, sampled by two small depth images: one, from the eye straight down, shows
+// surfaces below the eye; the other, around the eye at its level, shows walls. A lintel above the eye is in neither, so
 // doorways stay open.
 
 import type { Quaternion, Vector3 } from "three";

@@ -46,8 +46,8 @@ export function avatarOf(navigation: NavigationDescription | undefined, sphere: 
 }
 
 /**
- * The distance nearer than which nothing need be drawn: half the avatar's radius (ISO/IEC 19775-1, 23.4.4), 0 for
- * EXAMINE.
+ * Surfaces nearer than this distance need not be drawn: half the avatar's radius (ISO/IEC 19775-1, 23.4.4), 0 in
+ * EXAMINE and NONE.
  */
 export function clearanceOf(type: NavigationType, { radius }: Avatar): number {
   return type === "walk" || type === "fly" ? radius / 2 : 0;

@@ -79,10 +79,10 @@ describe("the author's camera attributes", () => {
   });
 
   test("may set the radius as a length, or as a multiple of the framing distance", () => {
-    const radiusOf = (radius: { length: number } | { share: number }) =>
+    const radiusOf = (radius: { length: number } | { factor: number }) =>
       orbitOf(poseWith(start, { ...unsetCamera, fieldOfView: 1, orbit: { theta: 0, phi: 1, radius } }, sphere)).radius;
     assertNear(radiusOf({ length: 7 }), 7);
-    assertNear(radiusOf({ share: 1.5 }), 1.5 * framingDistance(sphere, 1));
+    assertNear(radiusOf({ factor: 1.5 }), 1.5 * framingDistance(sphere, 1));
   });
 
   test("may set the center, which the camera looks at", () => {

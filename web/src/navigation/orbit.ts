@@ -13,8 +13,8 @@ export interface Orbit {
   readonly radius: number;
 }
 
-/** A length in scene units, or a multiple of the distance at which the scene fills the view. */
-export type RadiusSetting = { readonly length: number } | { readonly share: number };
+/** A length in scene units, or a factor of the distance at which the scene fills the view. */
+export type RadiusSetting = { readonly length: number } | { readonly factor: number };
 
 /** The author's values of an orbit; undefined: not set. */
 export interface OrbitSetting {
@@ -103,7 +103,7 @@ export function poseWithin(pose: Pose, { minOrbit, maxOrbit }: CameraSetting, sp
 
 function lengthOf(radius: RadiusSetting | undefined, pose: Pose, sphere: Sphere): number | undefined {
   if (radius === undefined) return undefined;
-  return "length" in radius ? radius.length : radius.share * framingDistance(sphere, pose.fieldOfView);
+  return "length" in radius ? radius.length : radius.factor * framingDistance(sphere, pose.fieldOfView);
 }
 
 /** The equivalent angle at most half a turn from `to`. */

@@ -1,6 +1,6 @@
-// The camera controller of the WALK type: moves an avatar over walkable ground, past obstacles, up steps, and down where
-// the floor ends. It moves only within the area that the latest ground samples cover, and requests new samples only while
-// the avatar moves.
+// The camera controller of the WALK type: moves an avatar over walkable ground, past obstacles, up steps, and down
+// where the floor ends. It moves only within the area that the latest ground samples cover, and requests new samples
+// only while the avatar moves.
 
 import { Quaternion, Vector3 } from "three";
 import type { Pose } from "./cameraPose.ts";

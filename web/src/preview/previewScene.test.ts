@@ -82,7 +82,7 @@ describe("the camera of a preview", () => {
   };
   const cameras: readonly CameraSetting[] = [
     unsetCamera,
-    { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { share: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
+    { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { factor: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
   ];
   for (const [what, markup] of Object.entries(scenes)) {
     test(`has the pose of the runtime's camera for ${what}`, () => {
@@ -90,14 +90,14 @@ describe("the camera of a preview", () => {
         const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
         const preview = previewSceneOf(description, camera);
         const { box, viewpoints } = instancesOf(description);
-        const navigator = new CameraController(
+        const cameraController = new CameraController(
           () => undefined,
           () => undefined,
         );
-        navigator.setCamera(camera);
-        navigator.setScene({ sphere: sphereAround(box), viewpoints, navigation: description.navigation });
-        assert.deepEqual(preview?.pose, navigator.pose);
-        assert.equal(preview.clearance, navigator.clearance);
+        cameraController.setCamera(camera);
+        cameraController.setScene({ sphere: sphereAround(box), viewpoints, navigation: description.navigation });
+        assert.deepEqual(preview?.pose, cameraController.pose);
+        assert.equal(preview.clearance, cameraController.clearance);
         assert.deepEqual(preview.sphere, sphereAround(box));
       }
     });
