@@ -15,7 +15,7 @@ import type {
 import { textureRoles } from "./description.ts";
 import { dataUrl } from "./dataUrl.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf, lowerNameOf } from "./element.ts";
+import { attributeOf, emptyElement, lowerNameOf } from "./element.ts";
 import { readLines } from "./lineProperties.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -85,13 +85,6 @@ function readMaterial(element: SceneElement | undefined, warnings: Warning[]): M
   }
 }
 
-const emptyElement: SceneElement = {
-  localName: "",
-  children: [],
-  getAttribute: () => null,
-  getAttributeNames: () => [],
-};
-
 const automaticAlpha: AlphaDescription = { mode: "AUTO", cutoff: 0.5 };
 
 function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription {
@@ -105,7 +98,7 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
  */
 function firstTextureOf(child: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
   if (lowerNameOf(child) !== "multitexture") return [child];
-  warnings.push({ element: child, message: "of a <MultiTexture> only the first picture is shown" });
+  warnings.push({ element: child, message: "only the first texture of a <MultiTexture> is shown" });
   return childrenOf(child).filter(isTexture).slice(0, 1);
 }
 
@@ -171,7 +164,7 @@ function readTexture(
   ];
 }
 
-/** The common fields of textures; no URL: there is no image. */
+/** The common fields of textures; `url` is undefined where there is no image. */
 type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & {
   readonly url: string | undefined;
 };

@@ -134,9 +134,9 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly normalEncoding: NormalEncoding;
   /** Where images are decoded: by the shader, in workers, or wherever is better. */
   readonly decode: DecodeMode;
-  /** In images Uint16: the vertex's column and row, or Uint32: its index. */
+  /** In images, Uint16 stands for the vertex's column and row, Uint32 for its index. */
   readonly indexType: ElementType;
-  /** Typed arrays only, as the types of other attributes. */
+  /** Typed arrays only, as are `normalType` and the types of the other attributes. */
   readonly coordType: ElementType;
   readonly attributes: readonly AttributeDescription[];
   /** The attribute whose values color the vertices. */
@@ -157,7 +157,7 @@ export type MaterialDescription =
 /** The meaning of alpha. AUTO blends where the material or a texture is transparent. */
 export interface AlphaDescription {
   readonly mode: "AUTO" | "OPAQUE" | "MASK" | "BLEND";
-  /** MASK only: fragments of less alpha are not drawn. */
+  /** MASK only: fragments with a lower alpha are not drawn. */
   readonly cutoff: number;
 }
 

@@ -220,7 +220,7 @@ describe("a scene", () => {
     const arrows = sceneOf('<Shape><Appearance><LineProperties linetype="6"/></Appearance></Shape>');
     assert.deepEqual(
       arrows.warnings.map(({ message }) => message),
-      ["lines of linetype 6 are not drawn so; they are solid"],
+      ["linetype 6 is not supported; the lines are solid"],
     );
   });
 
@@ -260,6 +260,15 @@ describe("a scene", () => {
     assert.deepEqual(visibleIds('<Switch><Shape DEF="a"/></Switch>'), []);
   });
 
+  test("hides shapes that are hidden themselves or by a group around them", () => {
+    const scene = sceneOf(`<Group visible="false"><Transform><Shape/></Transform></Group>
+      <Transform visible="false"><Group><Shape/></Group></Transform><Shape visible="false"/><Group><Shape/></Group>`);
+    assert.deepEqual(
+      shapesOf(scene.root).map(({ visible }) => visible),
+      [false, false, false, true],
+    );
+  });
+
   test("warns of USE in a circle and of unknown names", () => {
     const scene = sceneOf(
       '<Group DEF="g"><Group USE="h"/></Group><Group DEF="h"><Group USE="g"/></Group><Shape USE="none"/>',
@@ -290,7 +299,7 @@ describe("the author's priority", () => {
   });
 
   for (const text of ["-1", "much", "", "1 2", "NaN"]) {
-    test(`is 1 where it reads "${text}", with a warning`, () => {
+    test(`is 1, with a warning, where the attribute is "${text}"`, () => {
       const scene = sceneOf(`<Shape priority="${text}"><ImageGeometry priority="${text}"/></Shape>`);
       assert.equal(shapesOf(scene.root)[0]?.priority, 1);
       assert.equal(scene.warnings.length, 2);
@@ -299,15 +308,6 @@ describe("the author's priority", () => {
 
   test("of file contents is a field of the scene", () => {
     assert.equal(readScene(elementsOf('<x3d chunkpriority="normal: 2"/>')).chunkPriority, "normal: 2");
-  });
-
-  test("does not matter for hidden shapes, or shapes in hidden groups", () => {
-    const shapes = shapesIn(`<Group visible="false"><Transform><Shape/></Transform></Group>
-      <Transform visible="false"><Group><Shape/></Group></Transform><Shape visible="false"/><Group><Shape/></Group>`);
-    assert.deepEqual(
-      shapes.map(({ visible }) => visible),
-      [false, false, false, true],
-    );
   });
 });
 

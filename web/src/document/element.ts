@@ -8,6 +8,14 @@ export interface SceneElement {
   getAttributeNames(): string[];
 }
 
+/** An element without attributes, whose fields all have their defaults. */
+export const emptyElement: SceneElement = {
+  localName: "",
+  children: [],
+  getAttribute: () => null,
+  getAttributeNames: () => [],
+};
+
 /** The tag's name in lower case: names are matched case-insensitively. */
 export function lowerNameOf(element: SceneElement): string {
   return element.localName.toLowerCase();

@@ -1,5 +1,5 @@
-// One occurrence of an element in the scene, with the fragment last read from it. An element has several instances where
-// a group around it is USEd or its document is inlined twice.
+// One occurrence of an element in the scene, with the fragment last read from it. An element has several instances
+// where a group around it is USEd or its document is inlined twice.
 
 import type { SceneElement } from "./element.ts";
 import type { ElementTree } from "./elementTree.ts";
@@ -18,7 +18,7 @@ export interface DocumentContext {
 export class ElementInstance {
   readonly element: SceneElement;
   readonly context: DocumentContext;
-  /** The element that describes this instance; not `element` where that USEs a node. */
+  /** The element with the node's fields: the one that `element` USEs, or `element` itself. */
   node: SceneElement;
   /** The fragment depends on all descendants of `sources`. */
   dependsOnDescendants = false;

@@ -99,8 +99,8 @@ export function latticeBitsOf({ positionBits }: GeometryDescription): number {
 }
 
 /**
- * The quantization box is spread over whole bytes. The lattice has the upper bits of these; stored numbers lack the lower
- * ones.
+ * The lattice coordinate of the box's upper side, which may be fractional: the box spans all values of whole bytes, of
+ * which compact stores the upper `bits` bits.
  */
 function maxLatticeValue(bits: number): number {
   const bytes = Math.ceil(bits / 8);

@@ -45,7 +45,8 @@ export class GeometryCache {
   }
 
   /**
-   * The element's geometry, read where the cache lacks it. In both cases `lookup` is called for every name that it USEs.
+   * The element's geometry, read where the cache lacks it. In both cases `lookup` is called for every name that the
+   * geometry USEs.
    */
   geometryOf(
     element: SceneElement,

@@ -107,16 +107,18 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
 
 function arraysOfRuns(
   primitive: VertexArrays["primitive"],
-  childData: VertexData,
+  vertexData: VertexData,
   runs: Runs,
   fields: Fields,
   isCreased: boolean,
 ): VertexArrays | undefined {
-  if (primitive === "points") return vertexArraysOf(primitive, childData, runs.flat());
-  if (primitive === "lines") return vertexArraysOf(primitive, childData, linesOf(runs));
+  if (primitive === "points") return vertexArraysOf(primitive, vertexData, runs.flat());
+  if (primitive === "lines") return vertexArraysOf(primitive, vertexData, linesOf(runs));
   const oriented = fields.ccw ? runs : runs.map((run) => run.toReversed());
   const { data, faces } =
-    childData.texCoords.length > 0 ? { data: childData, faces: oriented } : withDefaultTexCoords(childData, oriented);
+    vertexData.texCoords.length > 0
+      ? { data: vertexData, faces: oriented }
+      : withDefaultTexCoords(vertexData, oriented);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
   if (data.normals.length > 0) return vertexArraysOf(primitive, data, cornersOf(faces));
   // Sets of triangles are smooth across shared vertices; faces have hard edges up to creaseAngle.

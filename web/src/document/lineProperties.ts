@@ -32,7 +32,7 @@ export function readLines(element: SceneElement, warnings: Warning[]): LineDescr
   if (!applied) return undefined;
   const known = dashesOf.get(linetype);
   if (known === undefined)
-    warnings.push({ element, message: `lines of linetype ${linetype} are not drawn so; they are solid` });
+    warnings.push({ element, message: `linetype ${linetype} is not supported; the lines are solid` });
   const dashes = known ?? [];
   const width = Math.min(Math.max(linewidthScaleFactor, minWidth), maxWidth);
   return width === minWidth && dashes.length === 0 ? undefined : { width, dashes };

@@ -22,10 +22,10 @@ export function asViewpoint({
   const aspectRatio = (width || 2) / (height || 2);
   const halfExtent = Math.min(width || 2, height || 2) / 2;
   const axis = (vector: Vec3) => rotated(vector, orientation);
-  const [aside, up, back] = [axis([1, 0, 0]), axis([0, 1, 0]), axis([0, 0, 1])];
-  const distance = halfExtent / Math.tan(narrowFieldOfView / 2) - dot(minus(position, centerOfRotation), back);
+  const [xAxis, yAxis, zAxis] = [axis([1, 0, 0]), axis([0, 1, 0]), axis([0, 0, 1])];
+  const distance = halfExtent / Math.tan(narrowFieldOfView / 2) - dot(minus(position, centerOfRotation), zAxis);
   const [x, y] = [(left + right) / 2, (bottom + top) / 2];
-  const coordinateAlong = (i: 0 | 1 | 2) => position[i] + aside[i] * x + up[i] * y + back[i] * distance;
+  const coordinateAlong = (i: 0 | 1 | 2) => position[i] + xAxis[i] * x + yAxis[i] * y + zAxis[i] * distance;
   return {
     ...values,
     orientation,

@@ -15,7 +15,7 @@ export const noPixels: PixelImage = { width: 0, height: 0, components: 1, pixels
 /** The largest texture size of most GPUs. */
 const maxEdge = 16384;
 
-/** Parses the numbers of an SFImage; undefined where the number of pixels is wrong or a pixel exceeds its components. */
+/** Parses the numbers of an SFImage; undefined where they do not match its size or a pixel exceeds its components. */
 export function pixelImageOf([width, height, count, ...pixels]: readonly number[]): PixelImage | undefined {
   if (width === undefined || height === undefined) return undefined;
   const isEdge = (edge: number) => Number.isInteger(edge) && edge >= 0 && edge <= maxEdge;

@@ -22,7 +22,7 @@ export interface InlinedDocument {
 
 /** The context that reading a node needs besides its element. */
 export interface NodeReadingContext extends ShapeReadingContext {
-  /** The page's element for it. */
+  /** The page's element for the node: itself, or the Inline element whose document it is in. */
   readonly host: SceneElement;
   readonly childrenOf: (element: SceneElement) => readonly SceneElement[];
   readonly levelOf: (lod: SceneElement) => number | undefined;
@@ -35,7 +35,7 @@ export function isReadAsWhole(node: SceneElement): boolean {
   return lowerNameOf(node) === "shape";
 }
 
-/** `element` is read; `node` describes it, which is another element where `element` USEs a node. */
+/** Reads `element`. `node`: the element with its fields, which is the one that `element` USEs, or `element` itself. */
 export function readNode(element: SceneElement, node: SceneElement, context: NodeReadingContext): FragmentReader {
   const { warnings } = context;
   switch (lowerNameOf(node)) {

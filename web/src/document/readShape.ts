@@ -27,8 +27,8 @@ export interface ShapeReadingContext {
 }
 
 /**
- * `element` is the shape's identity, `host` the page's element for it, and `node` describes it, which is another element
- * where `element` USEs a shape.
+ * `element`: the shape's identity. `host`: the page's element for it. `node`: the element with its fields, which is the
+ * one that `element` USEs, or `element` itself.
  */
 export function readShape(
   element: SceneElement,

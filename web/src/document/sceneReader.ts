@@ -6,7 +6,7 @@
 
 import type { SceneDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf, lowerNameOf } from "./element.ts";
+import { attributeOf, emptyElement, lowerNameOf } from "./element.ts";
 import { ElementTree } from "./elementTree.ts";
 import { GeometryCache } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
@@ -21,7 +21,7 @@ import type { TextReader } from "./textReader.ts";
 
 /** What reading needs besides the document. When a result for an element changes, call `touch` with the element. */
 export interface SceneReaderOptions {
-  /** The absolute URL of the document, which it must not inline itself; undefined: unknown. */
+  /** The absolute URL of the document, so that it does not inline itself; undefined: unknown. */
   readonly url?: string;
   /** The document of an Inline; undefined while it is not loaded. */
   readonly inlined?: (inline: SceneElement) => InlinedDocument | undefined;
@@ -50,7 +50,7 @@ export class SceneReader {
   readonly #geometries = new GeometryCache();
   readonly #inlinedTrees = new WeakMap<SceneElement, ElementTree>();
   /** By element: the instances that were read from it. */
-  readonly #readers = new Map<SceneElement, Set<ElementInstance>>();
+  readonly #dependents = new Map<SceneElement, Set<ElementInstance>>();
   /** By name: the instances that have looked it up. */
   readonly #nameUsers = new Map<string, Set<ElementInstance>>();
   readonly #root: ElementInstance;
@@ -76,7 +76,7 @@ export class SceneReader {
 
   /** Call where fonts may have changed. */
   touchTexts(): void {
-    for (const element of this.#readers.keys()) if (lowerNameOf(element) === "text") this.touch(element);
+    for (const element of this.#dependents.keys()) if (lowerNameOf(element) === "text") this.touch(element);
   }
 
   /** Call where children of the element may have been added, removed or reordered. */
@@ -118,7 +118,7 @@ export class SceneReader {
     for (const touched of this.#touched) {
       for (let element: SceneElement | undefined = touched; element !== undefined; element = page.parentOf(element)) {
         this.#geometries.touch(element);
-        for (const instance of this.#readers.get(element) ?? [])
+        for (const instance of this.#dependents.get(element) ?? [])
           if (element === touched || instance.dependsOnDescendants) instance.invalidateReader();
       }
       page.updateName(touched);
@@ -168,17 +168,17 @@ export class SceneReader {
   }
 
   #read(instance: ElementInstance): FragmentReader {
-    this.#removeReader(instance);
+    this.#removeDependencies(instance);
     const {
       element,
       context: { tree, host },
     } = instance;
     const warnings: Warning[] = [];
-    this.#addReader(instance, element);
+    this.#addSource(instance, element);
     const lookup = (name: string) => {
       const used = tree.definedAs(name);
       this.#addNameUser(instance, name);
-      if (used !== undefined) this.#addReader(instance, used);
+      if (used !== undefined) this.#addSource(instance, used);
       return used;
     };
     const name = attributeOf(element, "USE");
@@ -198,7 +198,7 @@ export class SceneReader {
       host: host ?? element,
       childrenOf: (parent) => tree.childrenOf(parent),
       listen: (source) => {
-        this.#addReader(instance, source);
+        this.#addSource(instance, source);
       },
       levelOf: (lod) => this.#options.levelOf?.(lod),
       inlined: (inline) => this.#inlinedAt(instance, inline, warnings),
@@ -220,11 +220,11 @@ export class SceneReader {
     return found.x3d;
   }
 
-  #addReader(instance: ElementInstance, element: SceneElement): void {
+  #addSource(instance: ElementInstance, element: SceneElement): void {
     instance.sources.add(element);
-    const readers = this.#readers.get(element);
-    if (readers === undefined) this.#readers.set(element, new Set([instance]));
-    else readers.add(instance);
+    const dependents = this.#dependents.get(element);
+    if (dependents === undefined) this.#dependents.set(element, new Set([instance]));
+    else dependents.add(instance);
   }
 
   /** Names of inlined documents are not recorded: those documents do not change. */
@@ -236,8 +236,8 @@ export class SceneReader {
     else users.add(instance);
   }
 
-  #removeReader(instance: ElementInstance): void {
-    for (const element of instance.sources) removeFromSet(this.#readers, element, instance);
+  #removeDependencies(instance: ElementInstance): void {
+    for (const element of instance.sources) removeFromSet(this.#dependents, element, instance);
     for (const name of instance.names) removeFromSet(this.#nameUsers, name, instance);
     instance.sources.clear();
     instance.names.clear();
@@ -246,17 +246,11 @@ export class SceneReader {
   #remove(instance: ElementInstance): void {
     this.#instanceCount -= 1;
     this.#truncated.delete(instance);
-    this.#removeReader(instance);
+    this.#removeDependencies(instance);
     for (const child of instance.children) this.#remove(child);
   }
 }
 
-const emptyElement: SceneElement = {
-  localName: "",
-  children: [],
-  getAttribute: () => null,
-  getAttributeNames: () => [],
-};
 const defaultNavigation = readFields(emptyElement, nodeFields.NavigationInfo, []);
 
 function problemWith(

@@ -3,7 +3,7 @@
 import { geometryOfArrays } from "../document/arrayGeometry.ts";
 import type { AppearanceDescription, TextureDescription, Warning } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { childrenOf, lowerNameOf } from "../document/element.ts";
+import { childrenOf, emptyElement, lowerNameOf } from "../document/element.ts";
 import type { TextReader } from "../document/textReader.ts";
 import type { GlyphAtlas } from "./glyphAtlas.ts";
 import { hasInk, glyphAtlasOf, glyphAtlasUrl } from "./glyphAtlas.ts";
@@ -50,13 +50,6 @@ export function textReader(measure: MeasureRun, editionOf: (font: Font, text: st
   };
   return { geometryOf, appearanceOf: withGlyphAtlas };
 }
-
-const emptyElement: SceneElement = {
-  localName: "",
-  children: [],
-  getAttribute: () => null,
-  getAttributeNames: () => [],
-};
 
 function styleOf(fields: Values<typeof nodeFields.FontStyle>): TextStyle {
   const { family, justify, spacing, horizontal, leftToRight, topToBottom } = fields;
