@@ -28,7 +28,7 @@ const variants: readonly { file: string; bits?: number; caption: string }[] = [
 
 const viewpointElement = /<Viewpoint[\s\S]*?<\/Viewpoint>/;
 
-/** The site's page with this Viewpoint element. */
+/** A picture of the site's page with its Viewpoint element replaced. */
 async function picture(browser: Browser, site: string, viewpoint: string): Promise<Buffer> {
   const server = await startServer(site);
   const page = await browser.newPage({ viewport: panel, reducedMotion: "reduce" });
@@ -49,7 +49,7 @@ async function picture(browser: Browser, site: string, viewpoint: string): Promi
 }
 
 /** A PNG of all pictures in rows of three, each with its caption. */
-async function together(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
+async function contactSheetOf(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
   const page = await browser.newPage({ viewport: { width: 3 * panel.width, height: 2 * (panel.height + 26) } });
   await page.setContent(`<style>
       body { margin: 0; display: grid; grid-template-columns: repeat(3, 1fr); font: 14px sans-serif; background: #edf0f2 }
@@ -89,7 +89,7 @@ try {
     viewpoint ||= viewpointElement.exec(readFileSync(join(site, "index.html"), "utf8"))?.[0] ?? "";
     pictures.push(await picture(browser, site, viewpoint));
   }
-  writeFileSync(output, await together(browser, pictures));
+  writeFileSync(output, await contactSheetOf(browser, pictures));
 } finally {
   await browser.close();
   rmSync(sites, { recursive: true, force: true });

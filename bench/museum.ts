@@ -23,7 +23,7 @@ async function stillPicture(page: Page): Promise<Buffer> {
   }
 }
 
-async function beside(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
+async function sideBySide(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
   const page = await browser.newPage({ viewport: { width: size.width * pictures.length, height: size.height } });
   await page.setContent(
     `<style>body { margin: 0; display: flex } img { display: block }</style>${pictures
@@ -48,7 +48,7 @@ try {
     document.querySelector("x3d")!.setAttribute("camera-orbit", "-10deg 70deg 45%");
     document.querySelector("x3d")!.setAttribute("camera-target", "-0.03m 0.155m 0m");
   });
-  writeFileSync(output, await beside(browser, [surface, await stillPicture(page)]));
+  writeFileSync(output, await sideBySide(browser, [surface, await stillPicture(page)]));
 } finally {
   await browser.close();
   await server.close();

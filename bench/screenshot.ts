@@ -22,7 +22,7 @@ const [
 
 const panel = { width: 400, height: 340 };
 
-interface Strip {
+interface PictureRow {
   profile: "compact" | "classic";
   /** The page's container files, each with its rank in the order of requests. */
   ranks: (html: string) => Map<string, number>;
@@ -30,7 +30,7 @@ interface Strip {
   moments: readonly { rank: number; caption: string }[];
 }
 
-const strips: readonly Strip[] = [
+const pictureRows: readonly PictureRow[] = [
   {
     profile: "compact",
     ranks: patchRanks,
@@ -61,13 +61,13 @@ function patchRanks(html: string): Map<string, number> {
 /** A promise that never resolves: held requests stay held. */
 const forever = new Promise(() => undefined);
 
-/** In the page: resolves when the files `coming` are on the GPU and no frame has been due for four frames. */
-async function untilDrawn(coming: readonly string[]): Promise<void> {
+/** In the page: resolves when the files `expected` are on the GPU and no frame has been due for four frames. */
+async function untilDrawn(expected: readonly string[]): Promise<void> {
   const x3d = document.querySelector<Partial<ViewElement & Loadable> & Element>("x3d")!;
   const isReady = (file: string): boolean =>
     x3d.resources?.some(({ url, state }) => url.endsWith(file) && state === "ready") === true;
   for (let still = 0; still < 4; await new Promise(requestAnimationFrame)) {
-    still = coming.every(isReady) && x3d.statistics?.isFrameDue === false ? still + 1 : 0;
+    still = expected.every(isReady) && x3d.statistics?.isFrameDue === false ? still + 1 : 0;
   }
 }
 
@@ -75,7 +75,7 @@ async function picture(
   browser: Browser,
   site: string,
   held: ReadonlySet<string>,
-  coming: readonly string[],
+  expected: readonly string[],
 ): Promise<Buffer> {
   const server = await startServer(site);
   server.when((path) => held.has(path.slice(1)), { hold: forever });
@@ -83,7 +83,7 @@ async function picture(
   try {
     const page = await context.newPage();
     await page.goto(server.origin, { waitUntil: "commit" });
-    await page.evaluate(untilDrawn, coming);
+    await page.evaluate(untilDrawn, expected);
     // Hides the progress bar and other elements over the scene.
     await page.evaluate(() => {
       for (const element of document.querySelector("imgeo-view")?.shadowRoot?.children ?? []) {
@@ -97,7 +97,7 @@ async function picture(
   }
 }
 
-/** A PNG of all strips below each other. */
+/** A PNG of all rows, one below another. */
 async function contactSheetOf(browser: Browser, rows: { png: Buffer; caption: string }[][]): Promise<Buffer> {
   const columns = Math.max(...rows.map((row) => row.length));
   const page = await browser.newPage({
@@ -118,11 +118,11 @@ async function contactSheetOf(browser: Browser, rows: { png: Buffer; caption: st
   return png;
 }
 
-/** Pictures of one page at the moments of its strip. */
+/** Pictures of one page at the moments of its row. */
 async function panelsOf(
   browser: Browser,
   site: string,
-  { profile, ranks: ranksIn, moments }: Strip,
+  { profile, ranks: ranksIn, moments }: PictureRow,
 ): Promise<{ png: Buffer; caption: string }[]> {
   execFileSync(converter, ["convert", model, "-o", site, "--profile", profile, "--force"], {
     stdio: ["ignore", "ignore", "inherit"],
@@ -132,11 +132,11 @@ async function panelsOf(
     [...ranks].reduce((sum, [url, own]) => sum + (own <= rank ? statSync(join(site, url)).size : 0), 0);
   const panels: { png: Buffer; caption: string }[] = [];
   for (const { rank, caption } of moments) {
-    const coming = [...ranks].filter(([, own]) => own <= rank).map(([url]) => url);
-    const held = new Set([...ranks.keys()].filter((url) => !coming.includes(url)));
+    const expected = [...ranks].filter(([, own]) => own <= rank).map(([url]) => url);
+    const held = new Set([...ranks.keys()].filter((url) => !expected.includes(url)));
     const share = Math.round((100 * bytesUpTo(rank)) / bytesUpTo(Infinity));
     panels.push({
-      png: await picture(browser, site, held, coming),
+      png: await picture(browser, site, held, expected),
       caption: `${profile}, ${share} % of the bytes: ${caption}`,
     });
   }
@@ -147,7 +147,7 @@ const site = mkdtempSync(join(tmpdir(), "imgeo-screenshot-"));
 const browser = await launchChromium();
 try {
   const rows: { png: Buffer; caption: string }[][] = [];
-  for (const strip of strips) rows.push(await panelsOf(browser, site, strip));
+  for (const pictureRow of pictureRows) rows.push(await panelsOf(browser, site, pictureRow));
   const png = await contactSheetOf(browser, rows);
   writeFileSync(output, png);
   console.log(

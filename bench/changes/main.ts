@@ -36,7 +36,7 @@ const changes: Record<string, (round: number) => void> = {
   "a Transform is moved": (round) => {
     document.querySelectorAll("transform")[5000]!.setAttribute("translation", `100 100 ${round % 2}`);
   },
-  "visibility of a Shape": (round) => {
+  "a Shape is hidden, or shown": (round) => {
     document.querySelectorAll("shape")[8000]!.setAttribute("visible", String(round % 2 === 0));
   },
   "a Material is coloured": (round) => {
@@ -48,10 +48,10 @@ const changes: Record<string, (round: number) => void> = {
     added.innerHTML = '<Shape USE="box"></Shape>';
     document.querySelector("scene")!.append(added);
   },
-  "one is removed": () => {
+  "a Transform is removed": () => {
     document.querySelectorAll("transform")[6000]!.remove();
   },
-  "one in the middle is inserted": (round) => {
+  "a Transform is inserted in the middle": (round) => {
     const added = document.createElement("Transform");
     added.innerHTML = "<Shape><Appearance><Material></Material></Appearance><Box></Box></Shape>";
     added.setAttribute("translation", `${round} 0 4`);

@@ -42,10 +42,10 @@ async function writePage(directory: string): Promise<void> {
 }
 
 /** Loads a decoder's files into the page. */
-async function give(page: Page, decoder: string, files: readonly Buffer[]): Promise<void> {
+async function loadFiles(page: Page, decoder: string, files: readonly Buffer[]): Promise<void> {
   await page.evaluate(
     ({ decoder, texts }) => {
-      window.files[decoder] = texts.map((text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)));
+      window.files[decoder] = texts.map((text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0)));
     },
     { decoder, texts: files.map((file) => file.toString("base64")) },
   );
@@ -63,7 +63,7 @@ const median = (values: number[]): number => values.toSorted((a, b) => a - b)[Ma
 
 /** One row of the table. */
 async function measure(page: Page, decoder: string, files: readonly Buffer[], triangles: number) {
-  await give(page, decoder, files);
+  await loadFiles(page, decoder, files);
   const first = await decode(page, decoder);
   // Draco and gltfpack drop triangles that have become degenerate with 16-bit positions.
   if (Math.abs(first.triangles - triangles) > triangles / 100)
@@ -109,10 +109,11 @@ try {
     for (const [decoder, files] of Object.entries(inputs)) rows.push(await measure(page, decoder, files, triangles));
     const draco = rows.find(({ decoder }) => decoder === "draco")!;
     const ms = (value: number): string => `${value.toFixed(value < 10 ? 1 : 0)} ms`;
-    const ofDraco = (value: number, its: number): string => `${ms(value)} (${(value / its).toFixed(2)})`;
+    const withRatio = (value: number, dracoValue: number): string =>
+      `${ms(value)} (${(value / dracoValue).toFixed(2)})`;
     for (const { decoder, bytes, first, warm, processor, task } of rows) {
       console.log(
-        `| ${[model.name, decoder, bytes, ms(first), ofDraco(warm, draco.warm), ofDraco(processor, draco.processor), ms(task)].join(" | ")} |`,
+        `| ${[model.name, decoder, bytes, ms(first), withRatio(warm, draco.warm), withRatio(processor, draco.processor), ms(task)].join(" | ")} |`,
       );
     }
     await page.close();

@@ -17,7 +17,7 @@ export interface RecordOptions {
    * `model-complete` of the document. Other pages are complete with their first draw of
    * at least minModelVertices vertices.
    */
-  saysWhenComplete: boolean;
+  announcesCompletion: boolean;
   minModelVertices: number;
   /** If false, no pictures are taken, and times are those at which commands have been sent to the GPU. */
   takesPictures: boolean;
@@ -39,8 +39,8 @@ type Context = WebGLRenderingContext | WebGL2RenderingContext;
 export function recordFrames(options: RecordOptions): void {
   const recording: Recording = { complete: 0, frames: [], columns: 0 };
   window.recording = recording;
-  const sparse = 2;
-  const due = new Set<Context>();
+  const pixelStep = 2;
+  const recorded = new Set<Context>();
   let hasModel = false;
 
   const complete = (): void => {
@@ -55,26 +55,26 @@ export function recordFrames(options: RecordOptions): void {
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(all.buffer));
     gl.bindFramebuffer(gl.FRAMEBUFFER, bound);
     const at = performance.now();
-    const [columns, rows] = [Math.floor(width / sparse), Math.floor(height / sparse)];
-    const some = new Uint32Array(columns * rows);
-    for (let i = 0; i < some.length; ++i)
-      some[i] = all[Math.floor(i / columns) * sparse * width + (i % columns) * sparse]!;
+    const [columns, rows] = [Math.floor(width / pixelStep), Math.floor(height / pixelStep)];
+    const pixels = new Uint32Array(columns * rows);
+    for (let i = 0; i < pixels.length; ++i)
+      pixels[i] = all[Math.floor(i / columns) * pixelStep * width + (i % columns) * pixelStep]!;
     recording.columns = columns;
-    recording.frames.push({ at, pixels: new Uint8Array(some.buffer) });
+    recording.frames.push({ at, pixels: new Uint8Array(pixels.buffer) });
   };
   /** False for a canvas that the page draws into but displays later. */
-  const isSeen = ({ canvas }: Context): boolean =>
+  const isVisible = ({ canvas }: Context): boolean =>
     canvas instanceof HTMLCanvasElement && canvas.checkVisibility({ opacityProperty: true, visibilityProperty: true });
-  const note = (gl: Context, count: number): void => {
+  const onDraw = (gl: Context, count: number): void => {
     if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // offscreen
     hasModel ||= count >= options.minModelVertices;
-    if (due.has(gl)) return;
-    due.add(gl);
+    if (recorded.has(gl)) return;
+    recorded.add(gl);
     // After all draws of the frame have been issued, and before the browser presents it.
     queueMicrotask(() => {
-      due.delete(gl);
-      if (options.takesPictures && isSeen(gl)) takePicture(gl);
-      if (hasModel && !options.saysWhenComplete && recording.complete === 0) complete();
+      recorded.delete(gl);
+      if (options.takesPictures && isVisible(gl)) takePicture(gl);
+      if (hasModel && !options.announcesCompletion && recording.complete === 0) complete();
     });
   };
 
@@ -89,7 +89,7 @@ export function recordFrames(options: RecordOptions): void {
       const draw = calls[name];
       if (draw)
         calls[name] = function (...args) {
-          note(this, Number(args[countArgument]));
+          onDraw(this, Number(args[countArgument]));
           return draw.apply(this, args);
         };
     }
@@ -98,7 +98,8 @@ export function recordFrames(options: RecordOptions): void {
   document.addEventListener(
     "load",
     ({ target }) => {
-      if (options.saysWhenComplete && target instanceof Element && target.localName.toLowerCase() === "x3d") complete();
+      if (options.announcesCompletion && target instanceof Element && target.localName.toLowerCase() === "x3d")
+        complete();
     },
     true,
   );
@@ -121,34 +122,38 @@ export function timesOf(): Times {
   if (last === undefined) throw new Error("nothing was drawn");
   const final = last.pixels;
   const background = final.slice(0, 3); // the models do not reach the corner
-  const off = (pixels: Uint8Array, i: number, channel: number): number =>
+  const differenceToBackground = (pixels: Uint8Array, i: number, channel: number): number =>
     Math.abs(pixels[i + channel]! - background[channel]!);
-  const shows = (pixels: Uint8Array, i: number): boolean =>
-    Math.max(off(pixels, i, 0), off(pixels, i, 1), off(pixels, i, 2)) > 8;
+  const isForeground = (pixels: Uint8Array, i: number): boolean =>
+    Math.max(
+      differenceToBackground(pixels, i, 0),
+      differenceToBackground(pixels, i, 1),
+      differenceToBackground(pixels, i, 2),
+    ) > 8;
   // One pixel of tolerance: simplification moves the outline slightly, which would miss much of a thin leg.
   const isCovered = (pixels: Uint8Array, i: number): boolean =>
     [0, -4, 4, -4 * columns, 4 * columns].some(
-      (away) => i + away >= 0 && i + away < pixels.length && shows(pixels, i + away),
+      (away) => i + away >= 0 && i + away < pixels.length && isForeground(pixels, i + away),
     );
-  let [covered, whole] = [0, 0];
+  let [foregroundCount, whole] = [0, 0];
   for (let i = 0; i < final.length; i += 4) {
-    if (shows(final, i)) covered += 1;
-    for (let channel = 0; channel < 3; ++channel) whole += off(final, i, channel);
+    if (isForeground(final, i)) foregroundCount += 1;
+    for (let channel = 0; channel < 3; ++channel) whole += differenceToBackground(final, i, channel);
   }
   const measured = frames.map(({ at, pixels }) => {
-    let [both, missing] = [0, 0];
+    let [coveredCount, missing] = [0, 0];
     for (let i = 0; i < final.length; i += 4) {
-      if (shows(final, i) && isCovered(pixels, i)) both += 1;
+      if (isForeground(final, i) && isCovered(pixels, i)) coveredCount += 1;
       for (let channel = 0; channel < 3; ++channel) missing += Math.abs(pixels[i + channel]! - final[i + channel]!);
     }
-    return { at, coverage: both / covered, likeness: 1 - missing / whole };
+    return { at, coverage: coveredCount / foregroundCount, similarity: 1 - missing / whole };
   });
   // The time from which the condition holds for all further frames.
   const since = (holds: (frame: (typeof measured)[number]) => boolean): number =>
     measured[measured.findLastIndex((frame) => !holds(frame)) + 1]!.at;
   return {
     first: since(({ coverage }) => coverage >= 0.95),
-    nearlyFinal: since(({ likeness }) => likeness >= 0.9),
-    final: since(({ likeness }) => likeness >= 0.998),
+    nearlyFinal: since(({ similarity }) => similarity >= 0.9),
+    final: since(({ similarity }) => similarity >= 0.998),
   };
 }

@@ -21,7 +21,7 @@ const { values: options, positionals: modelNames } = parseArgs({
 const runs = Number(options.runs);
 if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is not a number of loads`);
 
-const lines: Record<string, LinkOptions | undefined> = {
+const connections: Record<string, LinkOptions | undefined> = {
   unthrottled: undefined,
   "20 Mbit/s, 40 ms": { bitsPerSecond: 20e6, roundTripMs: 40 },
   "5 Mbit/s, 40 ms": { bitsPerSecond: 5e6, roundTripMs: 40 },
@@ -60,8 +60,8 @@ async function printLoads(model: string, page: BenchPage): Promise<void> {
   await withServer(page, async (server) => {
     const cells: string[] = [];
     let sent = 0;
-    for (const line of Object.values(lines)) {
-      const { first, nearlyFinal: nearlyFinal, final, bytes } = await medianLoad(browser, page, server, line, runs);
+    for (const connection of Object.values(connections)) {
+      const { first, nearlyFinal, final, bytes } = await medianLoad(browser, page, server, connection, runs);
       sent = bytes;
       const seconds = (ms: number): string => (ms / 1000).toFixed(2);
       cells.push(first === final ? seconds(final) : [first, nearlyFinal, final].map(seconds).join(" / "));
@@ -83,8 +83,13 @@ const work = mkdtempSync(join(tmpdir(), "imgeo-load-"));
 try {
   const models = prepareModels(modelNames, work);
   if (!options.tasks) {
-    print("model", "format", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
-    print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));
+    print(
+      "model",
+      "format",
+      "kB",
+      ...Object.keys(connections).map((connection) => `${connection}: first / 90 % / final image, s`),
+    );
+    print("---", "---", "--:", ...Object.keys(connections).map(() => "--:"));
   }
   let largest: { model: Model; pages: BenchPage[] } | undefined;
   for (const model of models) {

@@ -97,11 +97,11 @@ async function loadOnce(context: BrowserContext, page: BenchPage, server: TestSe
 /** Opens an idle tab that will record the page's frames. */
 export async function openTab(
   context: BrowserContext,
-  { saysWhenComplete }: BenchPage,
+  { announcesCompletion }: BenchPage,
   takesPictures: boolean,
 ): Promise<Page> {
   const tab = await context.newPage();
-  await tab.addInitScript(recordFrames, { saysWhenComplete, minModelVertices, takesPictures, completeMessage });
+  await tab.addInitScript(recordFrames, { announcesCompletion, minModelVertices, takesPictures, completeMessage });
   await new Promise((resolve) => setTimeout(resolve, tabMs));
   return tab;
 }

@@ -15,15 +15,15 @@ export interface BenchPage {
   directory: string;
   contentPolicy: string;
   /** The page sends an event when the model is complete; other pages are complete with their first picture. */
-  saysWhenComplete: boolean;
+  announcesCompletion: boolean;
 }
 
-const strict = "default-src 'self'";
+const strictPolicy = "default-src 'self'";
 /** The policy that X3DOM (eval, data URLs) and decoders in workers (wasm, blobs) need. */
-const lax = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
+const laxPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
 
 export function sitePage(model: Model, container: Container): BenchPage {
-  return { name: container, directory: model.sites[container], contentPolicy: strict, saysWhenComplete: true };
+  return { name: container, directory: model.sites[container], contentPolicy: strictPolicy, announcesCompletion: true };
 }
 
 /** The mesh as text in the page, displayed by the newest X3DOM. Six digits hold more than 16 bits, three more than 8. */
@@ -42,7 +42,7 @@ export function inlinePage(model: Model, directory: string): BenchPage {
 <X3D><Scene>${viewpoint}</Viewpoint>${lights}<Shape><Appearance><Material></Material></Appearance>
 ${inlineMesh(meshOf(model))}</Shape></Scene></X3D></body></html>`,
   );
-  return { name: "inline X3D", directory, contentPolicy: lax, saysWhenComplete: false };
+  return { name: "inline X3D", directory, contentPolicy: laxPolicy, announcesCompletion: false };
 }
 
 function inlineMesh({ positions, normals, triangles }: PlainMesh): string {
@@ -107,5 +107,5 @@ async function threePage(name: string, script: string, preloads: string[], direc
 <link rel="modulepreload" href="page.js">${hints.join("")}<script type="module" src="page.js"></script>
 <style>html, body { margin: 0; height: 100% } canvas { display: block }</style></head><body></body></html>`,
   );
-  return { name, directory, contentPolicy: lax, saysWhenComplete: true };
+  return { name, directory, contentPolicy: laxPolicy, announcesCompletion: true };
 }

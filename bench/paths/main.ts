@@ -91,7 +91,7 @@ async function measure(browser: Browser, site: string, decode: string): Promise<
   }
 }
 
-/** Frame time while the scene rotates automatically. */
+/** Lets the scene rotate for `turningMs`; returns the number of frames drawn, and the statistics afterwards. */
 async function turn(page: Page) {
   return page.evaluate(async (ms) => {
     const x3d = document.querySelector<ViewElement>("x3d")!;
@@ -151,7 +151,7 @@ try {
   }
   const isSoftware = /swiftshader|llvmpipe|software/i.test(renderer);
   console.log(
-    `\nMedians of ${runs}; ${renderer}, ${cpus().length} cores.${isSoftware ? " A software renderer: times of frames decide nothing." : ""}`,
+    `\nMedians of ${runs}; ${renderer}, ${cpus().length} cores.${isSoftware ? " A software renderer: frame times are not meaningful." : ""}`,
   );
 } finally {
   await browser.close();

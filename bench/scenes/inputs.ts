@@ -14,7 +14,7 @@ export interface Camera {
 
 export interface Input {
   readonly name: string;
-  /** Origin of the scene, for readers. */
+  /** File name and package, or command, for people. */
   readonly source: string;
   /** Path of the file; empty for the generated hall. */
   readonly file: string;
@@ -26,7 +26,7 @@ const root = process.env.IMGEO_PACKAGES ?? "/";
 const models = join(root, "usr/share/assimp/models");
 const castle = join(root, "usr/share/doc/castle-game-engine-doc/examples");
 
-const from = (name: string, target: string, orbit: string): Camera => ({
+const cameraAt = (name: string, target: string, orbit: string): Camera => ({
   name,
   attributes: `camera-target="${target}" camera-orbit="${orbit}"`,
 });
@@ -36,13 +36,13 @@ export const inputs: readonly Input[] = [
     name: "hall",
     source: "`imgeo sample hall --seats 2000`",
     file: "",
-    cameras: [{ name: "from the door", attributes: "" }, from("from the stage", "0m 2.4m 10m", "180deg 88deg 11m")],
+    cameras: [{ name: "from the door", attributes: "" }, cameraAt("from the stage", "0m 2.4m 10m", "180deg 88deg 11m")],
   },
   {
     name: "house",
     source: "`AC14-FZK-Haus.ifc` of assimp-testmodels",
     file: join(models, "IFC/AC14-FZK-Haus.ifc"),
-    cameras: [{ name: "from the garden", attributes: "" }, from("in the kitchen", "4m 1.6m -3m", "90deg 85deg 3m")],
+    cameras: [{ name: "from the garden", attributes: "" }, cameraAt("in the kitchen", "4m 1.6m -3m", "90deg 85deg 3m")],
   },
   {
     name: "engine",
@@ -58,15 +58,15 @@ export const inputs: readonly Input[] = [
     source: "`level-dungeon.gltf` of castle-game-engine-doc",
     file: join(castle, "third_person_navigation/data/level/level-dungeon.gltf"),
     cameras: [
-      from("in its yard", "10m 1m 0m", "150deg 75deg 14m"),
-      from("at its gate", "-28m 1m 0m", "90deg 80deg 8m"),
+      cameraAt("in its yard", "10m 1m 0m", "150deg 75deg 14m"),
+      cameraAt("at its gate", "-28m 1m 0m", "90deg 80deg 8m"),
     ],
   },
   {
     name: "bridge",
     source: "`bridge.x3d` of castle-game-engine-doc",
     file: join(castle, "viewport_and_scenes/view_3d_model_basic/data/bridge.x3d"),
-    cameras: [{ name: "from the water", attributes: "" }, from("on it", "15m 2m 0m", "80deg 80deg 20m")],
+    cameras: [{ name: "from the water", attributes: "" }, cameraAt("on it", "15m 2m 0m", "80deg 80deg 20m")],
   },
 ];
 

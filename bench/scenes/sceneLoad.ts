@@ -36,7 +36,7 @@ export interface SceneLoad {
 }
 
 export async function loadScene(browser: Browser, directory: string, line: LinkOptions): Promise<SceneLoad> {
-  const server = await serve({ name: "", directory, contentPolicy: "default-src 'self'", saysWhenComplete: true });
+  const server = await serve({ name: "", directory, contentPolicy: "default-src 'self'", announcesCompletion: true });
   const context = await browser.newContext({ viewport, reducedMotion: "reduce" });
   try {
     const page = await context.newPage();
@@ -53,8 +53,8 @@ export async function loadScene(browser: Browser, directory: string, line: LinkO
       undefined,
       { timeout: timeoutMs },
     );
-    const seen = await page.evaluate(measure, order);
-    return { ...seen, requests: server.requests.length, bytes: server.bytesSent, picture: await page.screenshot() };
+    const measured = await page.evaluate(measure, order);
+    return { ...measured, requests: server.requests.length, bytes: server.bytesSent, picture: await page.screenshot() };
   } finally {
     await context.close();
     await server.close();
@@ -103,7 +103,7 @@ async function measure(order: readonly string[]): Promise<Omit<SceneLoad, "reque
     return fieldOf(named, "DEF").replaceAll(/[-_.]?\d+$/g, "") || element.localName;
   };
   const roleAttributes = { base: ["base"], patches: ["data"], preview: ["preview"], texture: ["url"] } as const;
-  const asked = order.flatMap((path) => {
+  const requestedFiles = order.flatMap((path) => {
     for (const [role, attributes] of Object.entries(roleAttributes)) {
       const users = attributes.flatMap((attribute) => Array.from(x3d.querySelectorAll(`[${attribute}*="${path}"]`)));
       if (path !== "" && users.length > 0) {
@@ -129,6 +129,6 @@ async function measure(order: readonly string[]): Promise<Omit<SceneLoad, "reque
     finalSeconds: timeOf("load") / 1000,
     drawCalls: statistics?.drawCalls ?? 0,
     ...count,
-    requestedFiles: asked,
+    requestedFiles,
   };
 }

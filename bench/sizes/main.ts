@@ -11,7 +11,7 @@ import { repository } from "../../tests/browser/paths.ts";
 import { runtimeBundle, siteBundle, workerBundle } from "../../web/bundle.ts";
 import { leanThree } from "../../web/leanThree.ts";
 
-/** Without three.js itself, which the app brings, but with its add-ons. */
+/** Leaves out three.js itself, which the app brings, but keeps its add-ons. */
 const withoutThree: Plugin = {
   name: "without three.js",
   setup(bundle) {
@@ -19,7 +19,7 @@ const withoutThree: Plugin = {
   },
 };
 
-async function bundled(source: string, ...plugins: Plugin[]): Promise<Buffer> {
+async function bundleOf(source: string, ...plugins: Plugin[]): Promise<Buffer> {
   const { outputFiles } = await build({
     ...runtimeBundle,
     plugins,
@@ -31,7 +31,7 @@ async function bundled(source: string, ...plugins: Plugin[]): Promise<Buffer> {
 }
 
 /** The modules that a page of `imgeo convert` loads: those that draw the preview, and all. */
-async function ofSite(): Promise<{ first: Buffer[]; all: Buffer[] }> {
+async function siteModules(): Promise<{ first: Buffer[]; all: Buffer[] }> {
   const { outputFiles } = await build({ ...siteBundle, outdir: "dist", write: false });
   const modules = outputFiles.map(({ path, contents }) => ({ path, bytes: Buffer.from(contents) }));
   return {
@@ -40,13 +40,13 @@ async function ofSite(): Promise<{ first: Buffer[]; all: Buffer[] }> {
   };
 }
 
-async function worker(): Promise<Buffer> {
+async function workerModule(): Promise<Buffer> {
   const { outputFiles } = await build({ ...workerBundle, write: false });
   return Buffer.from(outputFiles[0]!.contents);
 }
 
 /** The file of another viewer's package that pages load, minified if the package does not minify it. */
-async function shipped(path: string): Promise<Buffer> {
+async function packagedFile(path: string): Promise<Buffer> {
   const { code } = await transform(readFileSync(join(repository, "node_modules", path)), {
     minify: true,
     legalComments: "inline",
@@ -54,7 +54,7 @@ async function shipped(path: string): Promise<Buffer> {
   return Buffer.from(code);
 }
 
-const site = await ofSite();
+const site = await siteModules();
 const element = `import "./web/src/dom/index.ts";`;
 const loader = `export { ImgeoLoader } from "./web/src/loader/index.ts";`;
 // The modules of three.js that an app uses to display a mesh, as bench/load's pages do.
@@ -65,14 +65,18 @@ type Files = Buffer | Buffer[];
 const rows: [name: string, withThree: Files | undefined, without: Files | undefined][] = [
   ["imgeo, what a page loads before its first image", site.first, undefined],
   ["imgeo, all that it loads", site.all, undefined],
-  ["imgeo, the element `<x3d>` in one module", await bundled(element, leanThree), await bundled(element, withoutThree)],
-  ["imgeo, `ImgeoLoader`", await bundled(app + loader), await bundled(loader, withoutThree)],
-  ["imgeo's worker, for compact", undefined, await worker()],
-  ["three.js itself, in an app", await bundled(app), undefined],
+  [
+    "imgeo, the element `<x3d>` in one module",
+    await bundleOf(element, leanThree),
+    await bundleOf(element, withoutThree),
+  ],
+  ["imgeo, `ImgeoLoader`", await bundleOf(app + loader), await bundleOf(loader, withoutThree)],
+  ["imgeo's worker, for compact", undefined, await workerModule()],
+  ["three.js itself, in an app", await bundleOf(app), undefined],
   [
     "three.js' GLTFLoader and MeshoptDecoder",
     undefined,
-    await bundled(
+    await bundleOf(
       `export { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
      export { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";`,
       withoutThree,
@@ -80,10 +84,10 @@ const rows: [name: string, withThree: Files | undefined, without: Files | undefi
   ],
   [
     "model-viewer",
-    await shipped("@google/model-viewer/dist/model-viewer.min.js"),
-    await shipped("@google/model-viewer/dist/model-viewer-module.min.js"),
+    await packagedFile("@google/model-viewer/dist/model-viewer.min.js"),
+    await packagedFile("@google/model-viewer/dist/model-viewer-module.min.js"),
   ],
-  ["X3DOM", undefined, await shipped("x3dom-1.8/x3dom.js")],
+  ["X3DOM", undefined, await packagedFile("x3dom-1.8/x3dom.js")],
 ];
 
 /** Sums sizes; each file is compressed separately. */

@@ -1,3 +1,5 @@
+// Displays a mesh that three.js' DRACOLoader decodes.
+
 import { Mesh, MeshPhongMaterial } from "three";
 import { DRACOLoader } from "three/examples/jsm/loaders/DRACOLoader.js";
 import { show } from "./threePage.ts";

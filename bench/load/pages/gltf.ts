@@ -1,3 +1,5 @@
+// Loads the glTF files of gltfpack, with the material that the other pages use.
+
 import { Mesh, MeshPhongMaterial, type Object3D } from "three";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";

@@ -1,3 +1,5 @@
+// Displays a glTF file of gltfpack.
+
 import { load } from "./gltf.ts";
 import { show } from "./threePage.ts";
 
