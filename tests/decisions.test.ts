@@ -10,7 +10,7 @@ const folder = join(root, "docs/decisions");
 const pages = readdirSync(folder).filter((name) => name.endsWith(".md") && name !== "README.md");
 const read = (path: string): string => readFileSync(path, "utf8");
 
-/** What is wrong with the form of a page; nothing where it has it. */
+/** The faults in the form of a page; empty if there are none. */
 function faultsOf(text: string): string[] {
   const faults: string[] = [];
   if (!/^# \S.*\n\nDate: \d{4}-\d\d-\d\d\. Status: (accepted|superseded by \[.+\]\(.+\.md\))\.\n/.test(text))

@@ -1,5 +1,5 @@
-// docs/glossary.md against the tree: terms are defined where it says, and the words that it rules out
-// stand in no identifier and no file name. No comment begins with "Of".
+// Compares docs/glossary.md with the tree: the files that define its terms exist, and the words that it rules out
+// occur in no identifier and no file name. No comment begins with "Of".
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";

@@ -1,6 +1,6 @@
 // Checks every #include of src/ and every import of web/src/ against docs/layers.txt, and finds cycles between files. Unit
-// tests keep to the rules of the code beside them; besides, they may use node's modules, the shared test data of tests/
-// and what a row "tests of FOLDER" lists.
+// tests follow the rules of the code beside them; in addition they may use node's modules, the shared test data of
+// tests/ and what a row "tests of FOLDER" lists.
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -11,7 +11,7 @@ type Layers = Map<string, Set<string>>;
 
 const root = join(import.meta.dirname, "..");
 
-/** "folder: names it may use" a line; `#` starts a comment. */
+/** Reads lines of the form "folder: names that it may use"; `#` starts a comment. */
 function readLayers(text: string): Layers {
   const layers: Layers = new Map();
   for (const line of text.split("\n")) {
@@ -23,7 +23,7 @@ function readLayers(text: string): Layers {
   return layers;
 }
 
-/** The row of the table that a file (or an imported path) belongs to. */
+/** The folder of the table that a file (or an imported path) belongs to. */
 function layerOf(layers: Layers, path: string): string | undefined {
   return [...layers.keys()].find((folder) => path.startsWith(`${folder}/`));
 }

@@ -55,9 +55,9 @@ const runtime: Readonly<Record<string, Readonly<Record<string, Field<unknown>>>>
 /** Rows of the runtime's table that hold the fields of several nodes; their nodes are in the documented list. */
 const sharedRows: Readonly<Record<string, string>> = { InlineGeometry: "Geometry of polygons, lines and points" };
 
-/** Fields that the converter writes or reads and nodes.ts does not have, by the reason. */
+/** Fields that the converter writes or reads but nodes.ts lacks, by the reason. */
 const notInRuntimeTable: Readonly<Record<string, readonly string[]>> = {
-  "written by src/documents and read by no one": ["X3D.profile", "X3D.version", "TextureProperties.generateMipMaps"],
+  "written by src/documents and not read": ["X3D.profile", "X3D.version", "TextureProperties.generateMipMaps"],
   "used in the page's title, or read by the converter": [
     "WorldInfo.title",
     "WorldInfo.info",
@@ -67,7 +67,7 @@ const notInRuntimeTable: Readonly<Record<string, readonly string[]>> = {
   "read as an attribute by web/src/document/appearance.ts": ["PixelTexture.containerField", "TextureTransform.mapping"],
 };
 
-/** Fields of the runtime's table that node_fields.h does not have, of nodes that it has, by the reason. */
+/** Fields of the runtime's table that node_fields.h lacks although it has the node, by the reason. */
 const notInConverterTable: Readonly<Record<string, readonly string[]>> = {
   "kept as further attributes of the element (Node::fields in src/scene/scene.h)": [
     ...["priority", "bboxCenter", "bboxSize", "visible", "render"].map((name) => `Transform.${name}`),
@@ -87,7 +87,7 @@ const notInConverterTable: Readonly<Record<string, readonly string[]>> = {
 
 const knownOnlyToTheConverter = new Set(Object.values(notInRuntimeTable).flat());
 
-/** X3D's types of the documented table, by the name of the type that the runtime reads the text with. */
+/** Whether a documented X3D type is the one that the runtime reads with the type named `runtimeType`. */
 function isTypeOf(documentedType: string, runtimeType: string): boolean {
   if (runtimeType.startsWith("priority")) return documentedType === "SFFloat";
   if (runtimeType.startsWith("map of colours")) return documentedType === "SFString";
@@ -170,7 +170,7 @@ const typesOfMethod: Readonly<Record<string, RegExp>> = {
   strings: /^MFString$/,
 };
 
-/** Attributes that are no fields of one node, and fields of X3DOM that the converter refuses unless they are default. */
+/** Attributes that every node has, and fields of X3DOM that the converter refuses unless they have their default. */
 const notDocumented = ["DEF", "USE", "compressed"];
 
 /** Calls such as `fields.real("alphaCutoff", 0.5f)` or `boolean(node_, "ccw", true)`: method, field, default. */
@@ -194,7 +194,7 @@ test("every field that the converter reads by its name is documented, with that 
   for (const { where, method, name, fallback } of reads) {
     const rows = rowsByName.get(name) ?? [];
     const typed = rows.filter(({ type }) => typesOfMethod[method]?.test(type));
-    assert.ok(typed.length > 0, `${where} reads ${name} with ${method}(): docs/formats/nodes.md does not have it so`);
+    assert.ok(typed.length > 0, `${where} reads ${name} with ${method}(): docs/formats/nodes.md has no such field`);
     if (method === "reals" || !/^(true|false|[\d.]+f?)$/.test(fallback)) continue;
     const text = /^\d/.test(fallback) ? fallback.replace(/f$/, "") : fallback;
     assert.ok(
@@ -204,7 +204,7 @@ test("every field that the converter reads by its name is documented, with that 
   }
 });
 
-/** The strings of a list in a C++ source, which begins behind `beginning`. */
+/** The strings of the list in a C++ source that begins with `beginning`. */
 function stringsOf(path: string, beginning: string): string[] {
   const text = read(path);
   const begin = text.indexOf(beginning);
@@ -212,7 +212,7 @@ function stringsOf(path: string, beginning: string): string[] {
   return [...text.slice(begin, text.indexOf("}", begin)).matchAll(/"(\w+)"/g)].map(([, name = ""]) => name);
 }
 
-test("the converter takes those geometry nodes for drawn in pages that are documented", () => {
+test("the converter's list of geometry nodes that pages draw equals the documented one", () => {
   const [, documentGeometry = ""] = read("docs/formats/nodes.md").split("\n## Geometry in the document\n");
   const notGeometry = ["Coordinate", "Normal", "TextureCoordinate", "Color", "FontStyle"];
   const inDocument = [...documented].filter(([heading]) =>
@@ -225,7 +225,7 @@ test("the converter takes those geometry nodes for drawn in pages that are docum
   );
 });
 
-test("pages may have every documented node of X3D", () => {
+test("pages may contain every documented node of X3D", () => {
   const allowed = stringsOf("src/documents/page_sanitizer.cpp", "allowedElements[]");
   const ours = ["X3D", "ImageGeometry", "BinaryGeometry", "GeometryPatch"];
   const nodes = [...documented.values()].flatMap((section) => section.nodes).filter((node) => !ours.includes(node));

@@ -1,3 +1,5 @@
+// Tests how the benchmarks read tasks and processor times from Chromium's traces.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { longestTaskMsOf, mainTasksOf, processorMsOf, type TraceEvent } from "../bench/load/trace.ts";

@@ -24,17 +24,17 @@ test("both decoders of compact give the same verdict on every file of the corpor
   assert.ok(verdicts.filter((verdict) => /^\d+$/.test(verdict)).length > 20, "most of them decode");
 });
 
-/** `make soak` tests more. */
-const mutants = Number(process.env.IMGEO_MUTANTS ?? 1500);
+/** Number of damaged files; `make soak` sets more. */
+const mutantCount = Number(process.env.IMGEO_MUTANTS ?? 1500);
 
-test("and on damaged copies of these files", async () => {
+test("both decoders of compact give the same verdict on damaged copies of these files", async () => {
   const directory = mkdtempSync(join(tmpdir(), "imgeo-mutants-"));
   try {
-    writeMutants(directory, corpusOfCompact, mutants, 1);
+    writeMutants(directory, corpusOfCompact, mutantCount, 1);
     const { count, differences } = await differencesIn(
       execFileSync(compactVerdicts, [directory], { encoding: "utf8" }),
     );
-    assert.deepEqual([count, differences], [mutants, []]);
+    assert.deepEqual([count, differences], [mutantCount, []]);
   } finally {
     rmSync(directory, { recursive: true });
   }

@@ -28,7 +28,7 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
       const { topology, coord, index, vertexCount } = buffers;
       const { normal } = buffers.attributes;
       const elementsOf = (kind: typeof topology): Uint32Array =>
-        Uint32Array.from(topology === kind ? (index ?? running(vertexCount)) : []);
+        Uint32Array.from(topology === kind ? (index ?? indicesBelow(vertexCount)) : []);
       return {
         positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => coordinate(numberAt(coord, i), i % 3)),
         ...(normal && {
@@ -41,7 +41,7 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
     });
 }
 
-function running(count: number): number[] {
+function indicesBelow(count: number): number[] {
   return Array.from({ length: count }, (_, n) => n);
 }
 

@@ -100,7 +100,7 @@ export function silhouette(picture: Picture, blank: Picture): Uint8Array {
   return mask;
 }
 
-/** Number of pixels that are in one of two silhouettes only, divided by the pixels of the first. */
+/** Number of pixels that are in exactly one of two silhouettes, divided by the pixels of the first. */
 export function silhouetteDifference(a: Uint8Array, b: Uint8Array): number {
   let covered = 0;
   let different = 0;

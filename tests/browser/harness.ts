@@ -126,14 +126,14 @@ export async function withPage(
 function watch(page: Page, server: TestServer): View {
   const errors: string[] = [];
   const foreignRequests: string[] = [];
-  const asked: string[] = [];
+  const requestedPaths: string[] = [];
   page.on("console", (message) => {
     // Chromium reports invalid WebGL calls as warnings.
     if (message.type() === "error" || /GL_INVALID|WebGL: INVALID/.test(message.text())) errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => {
-    if (request.url().startsWith(server.origin)) asked.push(request.url().slice(server.origin.length));
+    if (request.url().startsWith(server.origin)) requestedPaths.push(request.url().slice(server.origin.length));
     // Blob URLs have the page's origin.
     else if (new URL(request.url()).origin !== new URL(server.origin).origin) foreignRequests.push(request.url());
   });
@@ -143,11 +143,11 @@ function watch(page: Page, server: TestServer): View {
     server,
     errors,
     foreignRequests,
-    requestedPaths: asked,
+    requestedPaths,
     observed,
     async promise(name, selector = "x3d", seconds = 20) {
-      const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });
-      if (!isKept)
+      const isResolved = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });
+      if (!isResolved)
         throw new Error(`${name} of ${selector} did not resolve within ${seconds} s; console: ${errors.join("; ")}`);
     },
     async events(type, target) {
@@ -205,7 +205,7 @@ export async function screenshotOf(page: Page): Promise<Picture> {
  * after `seconds` with the list of pending work.
  */
 export async function settle(page: Page, seconds = 60): Promise<void> {
-  const goingOn = await page.evaluate(async (timeoutMs) => {
+  const pendingWork = await page.evaluate(async (timeoutMs) => {
     const frame = (): Promise<number> => new Promise(requestAnimationFrame);
     const due = (): string[] =>
       Array.from(document.querySelectorAll("x3d")).flatMap((x3d) =>
@@ -218,21 +218,23 @@ export async function settle(page: Page, seconds = 60): Promise<void> {
         ),
       );
     let draws = -1;
-    const unrest = (): string[] => {
+    const findPendingWork = (): string[] => {
       const before = draws;
       draws = window.observed.draws;
       return [...(draws === before ? [] : [`it is still drawing (${draws} draws so far)`]), ...due(), ...decoding()];
     };
     const end = performance.now() + timeoutMs;
     for (let still = 0; still < 4; await frame()) {
-      const now = unrest();
-      still = now.length === 0 ? still + 1 : 0;
-      if (now.length > 0 && performance.now() > end) return now;
+      const pending = findPendingWork();
+      still = pending.length === 0 ? still + 1 : 0;
+      if (pending.length > 0 && performance.now() > end) return pending;
     }
     return [];
   }, 1000 * seconds);
-  if (goingOn.length > 0)
-    throw new Error(`the page has not finished drawing after ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
+  if (pendingWork.length > 0)
+    throw new Error(
+      `the page has not finished drawing after ${seconds} s: ${Array.from(new Set(pendingWork)).join(", ")}`,
+    );
 }
 
 /** The picture of a page of `directory` after everything has loaded. */

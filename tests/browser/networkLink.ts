@@ -29,21 +29,21 @@ export class NetworkLink {
     const isNew = !this.#connected.has(socket);
     this.#connected.add(socket);
     await pause((isNew ? 2 : 1) * this.#options.roundTripMs);
-    await this.#turn(headBytes);
+    await this.#transmit(headBytes);
   }
 
   /** Sends the body at the link's bandwidth; stops when the client disconnects. */
   async send(response: ServerResponse, body: Uint8Array): Promise<void> {
     for (let at = 0; at < body.length && !response.destroyed; at += packetBytes) {
       const packet = body.subarray(at, at + packetBytes);
-      await this.#turn(packet.length);
+      await this.#transmit(packet.length);
       response.write(packet);
     }
     response.end();
   }
 
   /** Resolves when `bytes` bytes have been sent. */
-  async #turn(bytes: number): Promise<void> {
+  async #transmit(bytes: number): Promise<void> {
     const now = performance.now();
     this.#freeAt = Math.max(this.#freeAt, now) + (8000 * bytes) / this.#options.bitsPerSecond;
     await pause(this.#freeAt - now);

@@ -66,7 +66,7 @@ export function firstHit({ origin, direction }: Ray, patches: PlainPatch[]): Ray
       const shares: Vec3 = [1 - u - v, u, v];
       found = {
         patch,
-        triangle: mesh.triangleNumbers?.[t] ?? t,
+        triangle: mesh.triangleIndices?.[t] ?? t,
         vertices,
         shares,
         distance,

@@ -1,6 +1,7 @@
 // An HTTP server for tests: it serves directories and single bodies, records every request, and fails, holds, delays,
-// truncates or replaces the answers to requests that match a rule. It sends everything with `Content-Security-Policy:
-// default-src 'self'`, so every test that loads a page of imgeo proves that the page needs no more.
+// truncates or replaces the answers to requests that match a rule. By default it sends everything with
+// `Content-Security-Policy: default-src 'self'`, so every test that loads a page of imgeo proves that the page needs
+// no more.
 
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
@@ -46,7 +47,7 @@ export interface TestServer {
   putEncoded(path: string, encoding: "br" | "gzip", body: Buffer): void;
   /** Content-Security-Policy of every answer. The default is the strictest; pages of other runtimes need more. */
   contentPolicy: string;
-  /** Serves `body` under "/name". */
+  /** Serves `body` at `path`, which begins with "/". */
   put(path: string, body: Buffer | string): void;
   /** Adds a rule; the latest rule that matches a path applies. Returns a function that removes the rule. */
   when(matches: RegExp | ((path: string) => boolean), behaviour: Behaviour): () => void;
@@ -70,7 +71,7 @@ export async function startServer(directory: string): Promise<TestServer> {
   const requests: RequestRecord[] = [];
   const bodies = new Map<string, Buffer>();
   const encoded = new Map<string, { encoding: string; body: Buffer }>();
-  let line: NetworkLink | undefined;
+  let link: NetworkLink | undefined;
   const rules: { matches: (path: string) => boolean; behaviour: Behaviour }[] = [];
 
   async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
@@ -86,7 +87,7 @@ export async function startServer(directory: string): Promise<TestServer> {
       if (!response.writableFinished) record.state = "aborted";
     });
     const behaviour = rules.findLast((rule) => rule.matches(path))?.behaviour ?? {};
-    await line?.arrive(request);
+    await link?.arrive(request);
     await behaviour.hold;
     if (behaviour.delayMs !== undefined) await new Promise((resolve) => setTimeout(resolve, behaviour.delayMs));
     if (record.state === "aborted") return;
@@ -108,7 +109,7 @@ export async function startServer(directory: string): Promise<TestServer> {
       ...behaviour.headers,
     });
     testServer.bytesSent += sent.length;
-    if (line) await line.send(response, sent);
+    if (link) await link.send(response, sent);
     else response.end(sent);
   }
 
@@ -131,7 +132,7 @@ export async function startServer(directory: string): Promise<TestServer> {
     origin: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
     requests,
     bytesSent: 0,
-    useLink: (options) => void (line = options && new NetworkLink(options)),
+    useLink: (options) => void (link = options && new NetworkLink(options)),
     putEncoded: (path, encoding, body) => void encoded.set(path, { encoding, body }),
     put: (path, body) => void bodies.set(path, Buffer.from(body)),
     when(matches, behaviour) {

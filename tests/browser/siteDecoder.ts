@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { decodePng } from "./png.ts";
 
-/** An element's name and attributes, lower case, and its offset in the text. */
+/** An element's name and its attributes by name; names are in lower case. */
 export interface Tag {
   name: string;
   attributes: Record<string, string>;
@@ -50,7 +50,7 @@ export interface PlainPatch {
   /** Pairs of vertices; strips are converted to pairs. */
   lines: Uint32Array;
   /** Index of each triangle in the patch; degenerate triangles that join strips count too. */
-  triangleNumbers?: Uint32Array;
+  triangleIndices?: Uint32Array;
   /** Vertices drawn as points. */
   points: Uint32Array;
 }
@@ -80,17 +80,17 @@ export function ranksOfFiles(html: string): Map<string, number> {
   const ranks = new Map<string, number>();
   for (const { name, attributes } of tagsOf(html)) {
     if (!/^(geometrypatch|imagegeometry|binarygeometry)$/.test(name)) continue;
-    const note = (text: string | undefined, rank: (index: number) => number): void => {
+    const setRank = (text: string | undefined, rank: (index: number) => number): void => {
       stringsOf(text).forEach((reference, index) => {
         const url = reference.split("#")[0]!;
         ranks.set(url, Math.min(rank(index), ranks.get(url) ?? Infinity));
       });
     };
-    note(attributes.coord, (index) => (index === 0 ? 0 : 3 + index));
-    note(attributes.index, () => 1);
-    note(attributes.normal, () => 2);
-    note(attributes.color, () => 3);
-    note(attributes.texcoord, () => 3);
+    setRank(attributes.coord, (index) => (index === 0 ? 0 : 3 + index));
+    setRank(attributes.index, () => 1);
+    setRank(attributes.normal, () => 2);
+    setRank(attributes.color, () => 3);
+    setRank(attributes.texcoord, () => 3);
   }
   return ranks;
 }
@@ -131,7 +131,7 @@ function normalsOfPairs(
   return Float32Array.from(normals.flat());
 }
 
-function decodeSig(node: Attributes, patch: Attributes, directory: string, planesHere: number): PlainPatch {
+function decodeSig(node: Attributes, patch: Attributes, directory: string, planeCount: number): PlainPatch {
   const image = (url: string): DataImage => {
     const [path, first] = url.split("#");
     const { data, channels, width, height } = decodePng(readFileSync(join(directory, path!)));
@@ -143,14 +143,14 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   const index = patch.index ? image(patch.index) : undefined;
   // The midpoint of the possible values replaces missing bytes.
   const byteOf = (plane: Records, index: number, r: number, axis: number): number =>
-    index < planesHere ? plane.at(r, axis) : 127.5;
+    index < planeCount ? plane.at(r, axis) : 127.5;
   const coordinate: Records = {
     at: (r, axis) => planes.reduce((value, plane, index) => 256 * value + byteOf(plane, index, r, axis), 0),
   };
   const normal = patch.normal ? image(patch.normal) : undefined;
   const color = patch.color ? image(patch.color) : undefined;
   const indexWidth = numbersOf(patch.implicitmeshsize ?? node.implicitmeshsize, [256])[0]!;
-  const drawn = (n: number): number => {
+  const recordIndexOf = (n: number): number => {
     if (!index) return n;
     const texel = (n % indexWidth) + Math.floor(n / indexWidth) * index.width;
     if (node.indextype === "Uint32") return index.at(texel, 0) + 256 * index.at(texel, 1) + 65536 * index.at(texel, 2);
@@ -160,7 +160,7 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
     positions: spread(node, coordinate, recordCount, 256 ** planes.length - 1),
     ...(normal && { normals: normalsOfImage(node, normal, recordCount) }),
     ...(color && { colors: table(recordCount, (r, axis) => color.at(r, axis) / 255) }),
-    ...elementsOf(patch, drawn),
+    ...elementsOf(patch, recordIndexOf),
   };
 }
 
@@ -241,36 +241,36 @@ function spread(node: Attributes, stored: Records, records: number, largest: num
 
 function elementsOf(
   patch: Attributes,
-  drawn: (n: number) => number,
-): Required<Pick<PlainPatch, "triangles" | "triangleNumbers" | "lines" | "points">> {
+  recordIndexOf: (n: number) => number,
+): Required<Pick<PlainPatch, "triangles" | "triangleIndices" | "lines" | "points">> {
   const triangles: number[] = [];
-  const triangleNumbers: number[] = [];
-  let counted = 0;
+  const triangleIndices: number[] = [];
+  let triangleCount = 0;
   const lines: number[] = [];
   const points: number[] = [];
   const counts = numbersOf(patch.vertexcount, []);
   let first = 0;
   stringsOf(patch.primtype).forEach((primitive, draw) => {
-    const vertices = Array.from({ length: counts[draw]! }, (_, i) => drawn(first + i));
+    const vertices = Array.from({ length: counts[draw]! }, (_, i) => recordIndexOf(first + i));
     first += counts[draw]!;
     if (primitive === "POINTS") points.push(...vertices);
     else if (primitive === "LINES") lines.push(...vertices);
     else if (primitive === "LINESTRIP") vertices.slice(1).forEach((vertex, i) => lines.push(vertices[i]!, vertex));
     else if (primitive === "TRIANGLES") {
       for (const vertex of vertices) triangles.push(vertex);
-      for (let i = 2; i < vertices.length; i += 3) triangleNumbers.push(counted++);
+      for (let i = 2; i < vertices.length; i += 3) triangleIndices.push(triangleCount++);
     } else if (primitive === "TRIANGLESTRIP") {
-      for (let i = 2; i < vertices.length; ++i, ++counted) {
+      for (let i = 2; i < vertices.length; ++i, ++triangleCount) {
         const [a, b, c] = [vertices[i - 2]!, vertices[i - 1]!, vertices[i]!];
         if (a === b || b === c || c === a) continue;
         triangles.push(...(i % 2 === 0 ? [a, b, c] : [b, a, c]));
-        triangleNumbers.push(counted);
+        triangleIndices.push(triangleCount);
       }
     } else throw new Error(`the test decoder does not know ${primitive}`);
   });
   return {
     triangles: Uint32Array.from(triangles),
-    triangleNumbers: Uint32Array.from(triangleNumbers),
+    triangleIndices: Uint32Array.from(triangleIndices),
     lines: Uint32Array.from(lines),
     points: Uint32Array.from(points),
   };

@@ -1,3 +1,5 @@
+// Tests `imgeo convert` as a user runs it, with `info`, `verify`, `export` and `serve` on its sites.
+
 #include "run.h"
 
 #include <cmath>
@@ -213,7 +215,6 @@ TEST_F(Convert, ReadsStandardInput) {
 }
 
 TEST_F(Convert, WritesTheSameBytesWithAnyNumberOfThreads) {
-  const std::vector<std::string> options{"--patch-vertices", "256"};
   for (const std::string threads : {"1", "2"})
     ASSERT_EQ(
         run({"convert", input_, "-o", directory_ / threads, "--patch-vertices", "256", "--threads", threads}).code, 0);
@@ -326,10 +327,10 @@ TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
                 "property float heat\nproperty uchar label\nelement face 1\n"
                 "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
   EXPECT_NE(run({"info", input_}).out.find("heat, label"), std::string::npos);
-  for (const std::vector<std::string>& as :
+  for (const std::vector<std::string>& encoding :
        {std::vector<std::string>{}, {"--profile", "classic"}, {"--container", "bg"}}) {
     std::vector<std::string> command{"convert", input_, "-o", site_, "--keep-attributes", "label,heat", "--json"};
-    command.insert(command.end(), as.begin(), as.end());
+    command.insert(command.end(), encoding.begin(), encoding.end());
     const Outcome outcome = run(command);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out)["attributes"].size(), 2);
@@ -375,8 +376,8 @@ TEST_F(Convert, DropsDegenerateAndRepeatedElementsOnRequest) {
       const Outcome verified = run({"verify", site_, input_});
       EXPECT_EQ(verified.code, 0) << verified.out;
     }
-  const std::string told = run({"convert", input_, "-o", site_, "--drop", "degenerate"}).out;
-  EXPECT_NE(told.find("dropped 1 degenerate elements, kept 1 repeated ones"), std::string::npos) << told;
+  const std::string output = run({"convert", input_, "-o", site_, "--drop", "degenerate"}).out;
+  EXPECT_NE(output.find("dropped 1 degenerate elements, kept 1 repeated ones"), std::string::npos) << output;
 }
 
 TEST_F(Convert, ServePrintsTheAddressAndStopsOnCtrlC) {

@@ -1,5 +1,5 @@
-// Whatever is wrong: one clear sentence on standard error, the documented exit
-// code, and nothing left behind.
+// Tests that the tool answers every error with one clear sentence on standard error and the documented exit code, and
+// leaves no files behind.
 
 #include "run.h"
 
@@ -30,7 +30,7 @@ protected:
     EXPECT_EQ(outcome.out, "");
     EXPECT_TRUE(outcome.err.starts_with("imgeo: ")) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << "expected: " << words << "\nsaid: " << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << "expected: " << words << "\nprinted: " << outcome.err;
   }
 
   TemporaryDirectory directory_;
@@ -42,23 +42,23 @@ std::string header(const std::string& format, const std::string& vertices, const
          "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
-TEST_F(Faults, ATruncatedPly) {
+TEST_F(Faults, RefusesATruncatedPly) {
   const std::string whole = gridPly(10);
   expectRefusal("cut.ply", whole.substr(0, whole.size() / 2), 3, "cut.ply");
   expectRefusal("cut.ply", header("binary_little_endian", "100", "10") + std::string(50, 'x'), 3, "cut.ply");
 }
 
-TEST_F(Faults, APlyThatClaimsFourBillionFaces) {
+TEST_F(Faults, RefusesAPlyThatClaimsFourBillionFaces) {
   expectRefusal("liar.ply", header("ascii", "3", "4294967295") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, "liar.ply");
   expectRefusal("liar.ply", header("binary_little_endian", "0", "4294967295"), 3, "liar.ply");
 }
 
-TEST_F(Faults, CoordinatesThatAreNoNumbers) {
+TEST_F(Faults, RefusesCoordinatesThatAreNoNumbers) {
   for (const char* bad : {"nan", "inf", "-inf"})
     expectRefusal("bad.ply", header("ascii", "3", "1") + "0 0 0\n1 " + bad + " 0\n0 1 0\n3 0 1 2\n", 3, "bad.ply:11");
 }
 
-TEST_F(Faults, TextureCoordinatesAndAttributesThatAreNoNumbers) {
+TEST_F(Faults, RefusesTextureCoordinatesAndAttributesThatAreNoNumbers) {
   const auto cloud = [](const std::string& properties, const std::string& values) {
     return "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
            properties + "end_header\n0 0 0 " + values + "\n";
@@ -70,25 +70,25 @@ TEST_F(Faults, TextureCoordinatesAndAttributesThatAreNoNumbers) {
   expectRefusal("bad.ply", heat, 1, "no attribute \"cold\" but heat", {"--keep-attributes", "cold"});
 }
 
-TEST_F(Faults, AnEmptyMesh) {
+TEST_F(Faults, RefusesAnEmptyMesh) {
   expectRefusal("empty.ply", header("ascii", "0", "0"), 3, "empty.ply");
   expectRefusal("empty.ply", "", 3, "empty.ply");
   expectRefusal("empty.obj", "# nothing\n", 3, "empty.obj");
 }
 
-TEST_F(Faults, AnUnknownFormat) {
+TEST_F(Faults, RefusesAnUnknownFormat) {
   expectRefusal("statue.max", "what is this", 3, "statue.max");
   expectRefusal("photo.png", "\x89PNG\r\n\x1a\n", 3, "photo.png");
 }
 
-TEST_F(Faults, AnInputThatIsMissingOrADirectory) {
+TEST_F(Faults, RefusesAnInputThatIsMissingOrADirectory) {
   expectSentence(run({"convert", directory_ / "missing.ply", "-o", directory_ / "site"}), 2, "No such file");
   expectSentence(run({"convert", "/tmp", "-o", directory_ / "site"}), 2, "is a directory");
   expectSentence(run({"verify", directory_ / "site", directory_ / "missing.ply"}), 2, "site");
   EXPECT_TRUE(std::filesystem::is_empty(directory_.path()));
 }
 
-TEST_F(Faults, ATargetThatCannotBeWritten) {
+TEST_F(Faults, RefusesATargetThatCannotBeWritten) {
   write(directory_ / "mesh.ply", gridPly(3));
   expectSentence(run({"convert", directory_ / "mesh.ply", "-o", directory_ / "mesh.ply/site"}), 2, "mesh.ply");
   expectSentence(run({"convert", directory_ / "mesh.ply", "-o", "/proc/site"}), 2, "/proc");
@@ -96,7 +96,7 @@ TEST_F(Faults, ATargetThatCannotBeWritten) {
   EXPECT_EQ(namesIn(directory_.path()), std::vector<std::string>{"mesh.ply"});
 }
 
-TEST_F(Faults, ADirectoryThatIsNotASite) {
+TEST_F(Faults, RefusesADirectoryThatIsNotASite) {
   std::filesystem::create_directory(directory_ / "photos");
   write(directory_ / "photos/cat.jpg", "cat");
   write(directory_ / "mesh.ply", gridPly(3));
@@ -108,14 +108,14 @@ TEST_F(Faults, ADirectoryThatIsNotASite) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "photos/cat.jpg"));
 }
 
-TEST_F(Faults, AnInputInsideTheDirectoryThatIsReplaced) {
+TEST_F(Faults, RefusesAnInputInsideTheDirectoryThatIsReplaced) {
   std::filesystem::create_directory(directory_ / "scans");
   write(directory_ / "scans/mesh.ply", gridPly(3));
   expectSentence(run({"convert", directory_ / "scans/mesh.ply", "-o", directory_ / "scans", "--force"}), 1, "inside");
   EXPECT_TRUE(std::filesystem::exists(directory_ / "scans/mesh.ply"));
 }
 
-TEST_F(Faults, OptionsThatCannotBeHonoured) {
+TEST_F(Faults, RefusesOptionsThatCannotBeHonoured) {
   const auto refuse = [&](const std::string& words, const std::vector<std::string>& options) {
     expectRefusal("mesh.ply", gridPly(3), 1, words, options);
   };
@@ -182,7 +182,7 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--container is given more than once", {"--container", "bg", "--container", "sig"});
 }
 
-TEST_F(Faults, CommandsThatAreIncomplete) {
+TEST_F(Faults, RefusesCommandsThatAreIncomplete) {
   expectSentence(run({}), 1, "no command");
   expectSentence(run({"convrt"}), 1, "did you mean convert?");
   expectSentence(run({"convert", "mesh.ply"}), 1, "--output DIR is missing");
@@ -192,7 +192,7 @@ TEST_F(Faults, CommandsThatAreIncomplete) {
   expectSentence(run({"completion", "tcsh"}), 1, "tcsh");
 }
 
-TEST_F(Faults, AFullDevice) {
+TEST_F(Faults, ReportsAFullDevice) {
   if (!std::filesystem::exists("/dev/full"))
     GTEST_SKIP();
   write(directory_ / "mesh.ply", gridPly(3));

@@ -1,4 +1,4 @@
-// The texts made from the flag table are kept as files, so that a change to them
+// Compares the texts made from the flag table with golden files, so that a change to them
 // is seen in review. IMGEO_REWRITE_GOLDENS=1 rewrites them.
 
 #include "run.h"

@@ -54,7 +54,7 @@ inline std::string gridPly(int n) {
 }
 
 struct Outcome {
-  int code = -1; ///< exit code; 128 + signal where one ended it
+  int code = -1; ///< exit code; 128 + signal if a signal ended the tool
   std::string out, err;
 };
 
@@ -76,7 +76,7 @@ inline pid_t start(const std::vector<std::string>& words, const std::string& out
   _exit(127);
 }
 
-/// Waits for a process; 128 + signal where one ended it.
+/// Waits for a process and returns its exit code, or 128 + signal if a signal ended it.
 inline int wait(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);

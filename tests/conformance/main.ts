@@ -72,12 +72,12 @@ async function showAll(browser: Browser, names: readonly string[]): Promise<Row[
 }
 
 /** Mean difference of a colour channel, 0 … 255, between our picture and another's. */
-function meanTo(row: Row, rival: Runtime): number {
-  return difference(decodePng(row.pictures.imgeo), decodePng(row.pictures[rival])).mean;
+function meanTo(row: Row, other: Runtime): number {
+  return difference(decodePng(row.pictures.imgeo), decodePng(row.pictures[other])).mean;
 }
 
 function lineOf(row: Row): { text: string; isExplained: boolean } {
-  const means = runtimes.slice(1).map((rival) => meanTo(row, rival));
+  const means = runtimes.slice(1).map((other) => meanTo(row, other));
   const why = explanations[row.name] ?? "";
   return {
     text: `| ${row.name} | ${means.map((mean) => mean.toFixed(2)).join(" | ")} | ${why} |`,
@@ -107,9 +107,9 @@ try {
       `${head}| document | X_ITE | X3DOM | why imgeo differs |\n|---|--:|--:|---|\n${lines.map(({ text }) => text).join("\n")}\n`,
     );
   }
-  const open = rows.filter((_, i) => lines[i]?.isExplained === false).map(({ name }) => name);
-  if (open.length > 0) {
-    console.error(`differ without an explanation: ${open.join(", ")}`);
+  const unexplained = rows.filter((_, i) => lines[i]?.isExplained === false).map(({ name }) => name);
+  if (unexplained.length > 0) {
+    console.error(`differ without an explanation: ${unexplained.join(", ")}`);
     process.exitCode = 1;
   }
 } finally {

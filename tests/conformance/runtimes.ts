@@ -21,8 +21,8 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
   const bundle = await build({ ...runtimeBundle, write: false });
   server.put("/imgeo.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
-  const of = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
-  server.put("/x_ite.js", of("x_ite/dist/x_ite.min.js"));
+  const packageFile = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
+  server.put("/x_ite.js", packageFile("x_ite/dist/x_ite.min.js"));
   const fonts = readdirSync(join(repository, "node_modules/x_ite/dist/assets/fonts"), {
     recursive: true,
     encoding: "utf8",
@@ -36,9 +36,9 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
     "assets/lib/woff2_decoder.js",
     ...fonts,
   ])
-    server.put(`/${file}`, of(`x_ite/dist/${file}`));
-  server.put("/x3dom.js", of("x3dom-1.8/x3dom.js"));
-  server.put("/x3dom.css", of("x3dom-1.8/x3dom.css"));
+    server.put(`/${file}`, packageFile(`x_ite/dist/${file}`));
+  server.put("/x3dom.js", packageFile("x3dom-1.8/x3dom.js"));
+  server.put("/x3dom.css", packageFile("x3dom-1.8/x3dom.css"));
 }
 
 /** The page in which a runtime displays the document at `path`. */

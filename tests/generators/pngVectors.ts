@@ -1,5 +1,5 @@
 // Writes vectors/png: PNG files that the decoders of both languages must read or refuse alike. Run `scripts/node
-// tests/generators/pngVectors.ts` to write the files again, which changes nothing, or to add one. What each reader must
+// tests/generators/pngVectors.ts` after adding a row to `files`; the other files do not change. What each reader must
 // return is in vectors/png/verdicts.json, which is written by hand.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -55,8 +55,8 @@ function filtered(
   return Buffer.from(rows);
 }
 
-const best = (rows: Buffer): Buffer => deflateSync(rows, { level: 9 });
-const fast = (rows: Buffer): Buffer => deflateSync(rows);
+const deflatedBest = (rows: Buffer): Buffer => deflateSync(rows, { level: 9 });
+const deflated = (rows: Buffer): Buffer => deflateSync(rows);
 const storedBlocks = (rows: Buffer): Buffer => deflateSync(rows, { level: 0 });
 
 /** The bytes with the lowest bit of one of them changed. */
@@ -104,16 +104,16 @@ const [grayHeader, rgbHeader, rgbaHeader, paletteHeader] = [gray, rgb, rgba, pal
   chunk("IHDR", headerData(width, height, colorType)),
 ) as [Buffer, Buffer, Buffer, Buffer];
 const colors = chunk("PLTE", noise(3, 9));
-const grayData = chunk("IDAT", best(grayRows));
-const rgbStream = best(rgbRows);
+const grayData = chunk("IDAT", deflatedBest(grayRows));
+const rgbStream = deflatedBest(rgbRows);
 const rgbData = chunk("IDAT", rgbStream);
-const paletteData = chunk("IDAT", best(filtered(indices, width, 1)));
+const paletteData = chunk("IDAT", deflatedBest(filtered(indices, width, 1)));
 const rgbPng = png(rgbHeader, rgbData);
-const text = chunk("tEXt", Buffer.from("a\0b"));
+const textChunk = chunk("tEXt", Buffer.from("a\0b"));
 
 /** The RGB image with another header. */
 const withHeader = (...header: Parameters<typeof headerData>): Buffer =>
-  png(chunk("IHDR", headerData(...header)), chunk("IDAT", fast(rgbRows)));
+  png(chunk("IHDR", headerData(...header)), chunk("IDAT", deflated(rgbRows)));
 /** The RGB image with other bytes in its image data. */
 const withData = (stream: Buffer): Buffer => png(rgbHeader, chunk("IDAT", stream));
 const withPalette = (entries: Buffer, data = paletteData): Buffer => png(paletteHeader, chunk("PLTE", entries), data);
@@ -128,9 +128,12 @@ function withFilters(name: string, colorType: number): Buffer {
 const files: Readonly<Record<string, Buffer>> = {
   gray: png(grayHeader, grayData),
   rgb: rgbPng,
-  rgba: png(rgbaHeader, chunk("IDAT", best(rgbaRows))),
+  rgba: png(rgbaHeader, chunk("IDAT", deflatedBest(rgbaRows))),
   palette: png(paletteHeader, colors, paletteData),
-  "palette-of-256": withPalette(noise(7, 768), chunk("IDAT", best(filtered(noise(9, width * height), width, 1)))),
+  "palette-of-256": withPalette(
+    noise(7, 768),
+    chunk("IDAT", deflatedBest(filtered(noise(9, width * height), width, 1))),
+  ),
   "filters-gray": withFilters("filters-gray", gray),
   "filters-rgb": withFilters("filters-rgb", rgb),
   "filters-rgba": withFilters("filters-rgba", rgba),
@@ -159,7 +162,7 @@ const files: Readonly<Record<string, Buffer>> = {
     rgbHeader,
     ...[0, 31, 62, 93].map((begin) => chunk("IDAT", rgbStream.subarray(begin, begin + 31))),
   ),
-  "empty-idat": png(grayHeader, chunk("IDAT"), chunk("IDAT", fast(grayRows))),
+  "empty-idat": png(grayHeader, chunk("IDAT"), chunk("IDAT", deflated(grayRows))),
   "stored-blocks": withData(storedBlocks(rgbRows)),
   "stored-blocks-several": png(
     chunk("IHDR", headerData(300, 300, gray)),
@@ -172,10 +175,10 @@ const files: Readonly<Record<string, Buffer>> = {
     rgbData,
   ),
   "palette-suggested-for-rgb": png(rgbHeader, colors, rgbData),
-  "one-texel": png(chunk("IHDR", headerData(1, 1, gray)), chunk("IDAT", best(Buffer.from([0, 127])))),
+  "one-texel": png(chunk("IHDR", headerData(1, 1, gray)), chunk("IDAT", deflatedBest(Buffer.from([0, 127])))),
   "longest-edge": png(
     chunk("IHDR", headerData(4096, 1, gray)),
-    chunk("IDAT", best(filtered(noise(17, 4096), 4096, 1))),
+    chunk("IDAT", deflatedBest(filtered(noise(17, 4096), 4096, 1))),
   ),
 
   // Other bytes, and parts of a PNG.
@@ -191,7 +194,7 @@ const files: Readonly<Record<string, Buffer>> = {
   "no-end": rgbPng.subarray(0, -12),
   "bytes-after-end": Buffer.concat([rgbPng, Buffer.alloc(1)]),
 
-  // Headers of images that are no images of vertex data, or that nobody can read.
+  // Headers of images that cannot hold vertex data, or that are invalid.
   "sixteen-bits": withHeader(width, height, rgb, 16),
   "one-bit-gray": withHeader(width, height, gray, 1),
   "gray-with-alpha": withHeader(width, height, grayWithAlpha),
@@ -199,7 +202,7 @@ const files: Readonly<Record<string, Buffer>> = {
   "four-bit-palette": png(
     chunk("IHDR", headerData(width, height, palette, 4)),
     colors,
-    chunk("IDAT", fast(Buffer.alloc(5 * height))),
+    chunk("IDAT", deflated(Buffer.alloc(5 * height))),
   ),
   interlaced: withHeader(width, height, rgb, 8, [0, 0, 1]),
   "unknown-compression": withHeader(width, height, rgb, 8, [1, 0, 0]),
@@ -212,7 +215,7 @@ const files: Readonly<Record<string, Buffer>> = {
   "no-width": withHeader(0, height, rgb),
   huge: withHeader(2 ** 31 - 1, 2 ** 31 - 1, rgb),
 
-  // Checksums of chunks, and chunks in a wrong order or number.
+  // Wrong checksums, and chunks in a wrong order or number.
   "damaged-data": withDamage(rgbPng, 47),
   "damaged-header-sum": withDamage(rgbPng, 29),
   "damaged-palette-sum": png(paletteHeader, chunk("PLTE", noise(3, 9), 1), paletteData),
@@ -222,11 +225,11 @@ const files: Readonly<Record<string, Buffer>> = {
   "data-in-two-runs": png(
     rgbHeader,
     chunk("IDAT", rgbStream.subarray(0, 61)),
-    text,
+    textChunk,
     chunk("IDAT", rgbStream.subarray(61)),
   ),
   "no-data": png(rgbHeader),
-  "header-not-first": png(text, rgbHeader, rgbData),
+  "header-not-first": png(textChunk, rgbHeader, rgbData),
   "two-headers": png(rgbHeader, rgbHeader, rgbData),
   "short-header": png(chunk("IHDR", headerData(width, height, rgb).subarray(0, 12)), rgbData),
 
@@ -237,19 +240,19 @@ const files: Readonly<Record<string, Buffer>> = {
   "palette-too-large": withPalette(Buffer.alloc(771, 1)),
   "palette-too-short": withPalette(
     noise(3, 9),
-    chunk("IDAT", best(filtered(Buffer.alloc(width * height, 3), width, 1))),
+    chunk("IDAT", deflatedBest(filtered(Buffer.alloc(width * height, 3), width, 1))),
   ),
 
-  // Image data that are wrong inside of a valid chunk.
-  "unknown-filter": withData(fast(Buffer.concat([Buffer.from([5]), rgbRows.subarray(1)]))),
-  "more-than-its-texels": withData(fast(Buffer.concat([rgbRows, Buffer.alloc(1)]))),
-  "less-than-its-texels": withData(fast(rgbRows.subarray(0, -1))),
+  // Wrong image data in a valid chunk.
+  "unknown-filter": withData(deflated(Buffer.concat([Buffer.from([5]), rgbRows.subarray(1)]))),
+  "more-than-its-texels": withData(deflated(Buffer.concat([rgbRows, Buffer.alloc(1)]))),
+  "less-than-its-texels": withData(deflated(rgbRows.subarray(0, -1))),
   "more-stored-bytes-than-texels": withData(storedBlocks(Buffer.concat([rgbRows, Buffer.alloc(1)]))),
   "fewer-stored-bytes-than-texels": withData(storedBlocks(rgbRows.subarray(0, -1))),
-  "wrong-adler": withData(withDamage(fast(rgbRows), 120)),
+  "wrong-adler": withData(withDamage(deflated(rgbRows), 120)),
   "wrong-adler-of-stored-blocks": withData(withDamage(storedBlocks(rgbRows), 120)),
-  "zlib-stream-cut": withData(fast(rgbRows).subarray(0, -20)),
-  "bytes-after-zlib-stream": withData(Buffer.concat([fast(rgbRows), Buffer.alloc(2)])),
+  "zlib-stream-cut": withData(deflated(rgbRows).subarray(0, -20)),
+  "bytes-after-zlib-stream": withData(Buffer.concat([deflated(rgbRows), Buffer.alloc(2)])),
   "no-zlib-stream": withData(Buffer.alloc(40, 0xff)),
   "too-short-for-its-size": withHeader(4096, 4096, rgba),
 };

@@ -1,4 +1,4 @@
-// The two releases of X3DOM for which pages are written, from npm, and pictures of pages in them.
+// Takes pictures of pages in the two releases of X3DOM, from npm, for which imgeo writes pages.
 
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
