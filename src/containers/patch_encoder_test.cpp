@@ -98,7 +98,7 @@ TEST(Containers, DecodeEveryMeshAtEveryPrecision) {
   for (const std::uint32_t bits : everyPrecision)
     for (std::uint32_t seed = 0; seed < 24; ++seed) {
       const Mesh mesh = randomMesh(seed + 100 * bits);
-      const bool indexed = !random.once(4);
+      const bool indexed = !random.oneIn(4);
       for (const EncodeOptions& options : everyNormalEncoding(bits)) {
         SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", " + nameOf(options.normals) +
                      " normals of " + std::to_string(options.normalBits));

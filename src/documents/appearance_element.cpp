@@ -68,7 +68,7 @@ void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t in
   if (!names.empty() && names[0].name == "USE")
     return writer.leaf(element);
   const ImageFile& image = graph.images.at(texture.image);
-  attributes.push_back({"url", strings({image.url})});
+  attributes.push_back({"url", quoteStrings({image.url})});
   addUnless(attributes, "preview", image.preview, {}, image.preview);
   addUnless(attributes, "repeatS", texture.boundaryS == Boundary::clamp, false, "false");
   addUnless(attributes, "repeatT", texture.boundaryT == Boundary::clamp, false, "false");

@@ -20,11 +20,8 @@ using TextureNames = std::function<Attributes(std::size_t texture)>;
 void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appearance& appearance,
                      const Attributes& names, const TextureNames& textureNames);
 
-/// Writes an ImageTexture; if `names` is a USE, without its other fields.
+/// Writes an ImageTexture. If `names` is a USE, its own fields and children are left out.
 void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t texture,
                   const std::string& containerField, const Attributes& names);
-
-/// The material's field for the texture of a role; "" if the kind of material has none.
-std::string textureField(const AnyMaterial& material, TextureRole role);
 
 } // namespace imgeo

@@ -1,7 +1,5 @@
 #include "documents/appearance_names.h"
 
-#include "documents/appearance_element.h"
-
 namespace imgeo {
 
 namespace {

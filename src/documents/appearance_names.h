@@ -1,5 +1,5 @@
 #pragma once
-// X3D's names for the enumerations of an appearance, for the writer and the reader.
+// X3D's names for the enumerations of an appearance, and for the fields of its textures, for the writer and the reader.
 
 #include "documents/find_x3d.h"
 #include "scene/appearance.h"
@@ -22,7 +22,7 @@ inline const char* nameOf(AlphaMode mode) {
 inline const char* nameOf(Boundary boundary) {
   return boundaryNames.at(static_cast<std::size_t>(boundary));
 }
-/// The mapping name of a role's texture.
+/// The mapping of the texture in a role (X3D 4, 18.4: `mapping` fields).
 inline const char* nameOf(TextureRole role) {
   return textureRoleNames.at(static_cast<std::size_t>(role));
 }
@@ -36,7 +36,10 @@ std::optional<Value> valueNamed(const std::array<const char*, count>& names, std
   return {};
 }
 
-/// X3D's names for the filters of TextureProperties.
+/// The material's field for the texture of a role; "" if the kind of material has none.
+std::string textureField(const AnyMaterial& material, TextureRole role);
+
+/// X3D's names for the filters of TextureProperties. The setters ignore unknown names.
 std::string magnificationFilter(const Texture& texture);
 std::string minificationFilter(const Texture& texture);
 void setMagnificationFilter(Texture& texture, std::string_view name);

@@ -1,6 +1,5 @@
 #include "documents/appearance_reader.h"
 
-#include "documents/appearance_element.h"
 #include "documents/appearance_names.h"
 #include "documents/find_x3d.h"
 #include "documents/node_fields_reader.h"

@@ -19,7 +19,7 @@ public:
   std::size_t read(const pugi::xml_node& node);
 
 private:
-  /// A material, its textures, and the values of its mapping fields by the name of their texture's role.
+  /// A material with its textures. `mappings` has the values of its mapping fields, by nameOf(TextureRole).
   struct DefinedMaterial {
     AnyMaterial material;
     std::vector<TextureUse> textures;

@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// Maximum number of preload hints; more would compete with each generic.
+/// Maximum number of preload hints; more would compete with each other.
 constexpr std::size_t maxPreloads = 16;
 
 /// Collects the Shapes outside of LOD and Switch, whose children the runtime chooses among.

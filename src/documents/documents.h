@@ -19,19 +19,19 @@ struct SceneDocument {
   std::vector<std::string> warnings;
 };
 
+/// Urls of a page, relative to it.
 struct PageOptions {
-  std::string runtimeUrl;                     ///< url of the runtime's ES module, relative
-  std::string stylesheetUrl;                  ///< relative
-  std::vector<std::string> eagerModuleUrls{}; ///< urls of modules that the runtime needs at once; relative
-  std::vector<std::string>
-      deferredModuleUrls{}; ///< urls of modules that the runtime needs after it has displayed base meshes; relative
+  std::string runtimeUrl;                        ///< the runtime's ES module
+  std::string stylesheetUrl;                     ///< the page's stylesheet
+  std::vector<std::string> eagerModuleUrls{};    ///< modules that the runtime needs at once
+  std::vector<std::string> deferredModuleUrls{}; ///< modules that the runtime needs after it has displayed base meshes
 };
 
 /// `scene.x3d`: the scene as XML, laid out for readability.
 std::string writeX3d(const SceneDocument& document);
 
-/// The document of the Inline node `inlineNode` as a file of its own beside the others. Documents that this
-/// document inlines must have been written, so that their urls are known.
+/// The document of the Inline node `inlineNode` as an X3D file of its own, beside `scene.x3d`. Documents that it
+/// inlines must have been written before, so that their urls are known.
 std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode);
 
 /// `index.html`: the same <X3D> element in an HTML page that loads the runtime's modules and has preload hints for the

@@ -4,7 +4,7 @@
 #include "containers/named_attributes.h"
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
-#include "documents/appearance_element.h"
+#include "documents/appearance_names.h"
 #include "documents/element_writer.h"
 #include "scene/shape_instances.h"
 
@@ -36,7 +36,7 @@ Vec3f randomColor(Random& random) {
 }
 Box3d randomBox(Random& random) {
   Box3d box;
-  if (random.once(5))
+  if (random.oneIn(5))
     return box;
   box.add(randomVector(random));
   box.add(randomVector(random));
@@ -44,11 +44,11 @@ Box3d randomBox(Random& random) {
 }
 
 Reference randomReference(Random& random, Encoding encoding) {
-  const std::string url = "f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin");
-  const std::uint32_t begin = random.once(2) ? random.bits() : 0;
+  const std::string url = "f" + std::to_string(random.below(1000)) + (random.oneIn(3) ? "\" &'<x>.png" : ".bin");
+  const std::uint32_t begin = random.oneIn(2) ? random.bits() : 0;
   if (encoding != Encoding::bg)
     return {url, TexelLocation{begin}};
-  return {url, ByteLocation{begin, random.once(2) ? 1 + random.below(64) : 0}};
+  return {url, ByteLocation{begin, random.oneIn(2) ? 1 + random.below(64) : 0}};
 }
 
 PatchDescription randomPatch(Random& random, Encoding encoding, std::size_t planes) {
@@ -59,24 +59,24 @@ PatchDescription randomPatch(Random& random, Encoding encoding, std::size_t plan
     patch.draws.push_back({static_cast<Primitive>(random.below(4)), random.bits()});
   if (encoding == Encoding::classic)
     patch.implicitMeshSize = {1 + random.below(4096), 1 + random.below(4096)};
-  if (random.once(2))
+  if (random.oneIn(2))
     patch.index = randomReference(random, encoding);
   for (std::size_t plane = 0; plane < planes; ++plane)
     patch.coord.push_back(randomReference(random, encoding));
   for (const VertexRole role : vertexRoles)
-    if (random.once(2))
+    if (random.oneIn(2))
       patch.vertexAttributes[role] = randomReference(random, encoding);
   return patch;
 }
 
 GeometryDescription randomGeometry(Random& random) {
   GeometryDescription geometry;
-  geometry.encoding = random.once(2) ? Encoding::classic : Encoding::bg;
+  geometry.encoding = random.oneIn(2) ? Encoding::classic : Encoding::bg;
   geometry.lattice = {randomVector(random), length(randomVector(random)) + 1e-6, 8 + random.below(25)};
   geometry.box = randomBox(random);
-  if (random.once(2))
+  if (random.oneIn(2))
     geometry.texCoordMin = {random.between(-5, 5), random.between(-5, 5)};
-  if (random.once(2))
+  if (random.oneIn(2))
     geometry.texCoordSize = {random.between(0, 5), 0};
   geometry.colorComponents = 3 + random.below(2);
   if (geometry.encoding == Encoding::bg) {
@@ -87,7 +87,7 @@ GeometryDescription randomGeometry(Random& random) {
     geometry.indexType = static_cast<ElementType>(random.below(7));
   }
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
-  for (std::uint32_t count = random.once(2) ? random.below(3) : 0; count > 0; --count) {
+  for (std::uint32_t count = random.oneIn(2) ? random.below(3) : 0; count > 0; --count) {
     AttributeDescription attribute{"a" + std::to_string(count) + "<&\"", 1 + random.below(4), 2, {}, {}};
     if (geometry.encoding == Encoding::classic)
       attribute.bytes = 1 + random.below(3);
@@ -97,7 +97,7 @@ GeometryDescription randomGeometry(Random& random) {
     }
     geometry.attributes.push_back(attribute);
   }
-  if (geometry.encoding == Encoding::classic && random.once(2))
+  if (geometry.encoding == Encoding::classic && random.oneIn(2))
     geometry.indexType = ElementType::uint32;
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
     geometry.patches.push_back(
@@ -109,7 +109,7 @@ GeometryDescription randomGeometry(Random& random) {
       for (std::size_t file = filesOf(geometry.encoding, attribute); file > 0; --file)
         patch.attributes.back().push_back(randomReference(random, geometry.encoding));
     }
-  if (geometry.encoding == Encoding::bg && byteSizeOf(geometry.coordType) == 2 && random.once(3)) {
+  if (geometry.encoding == Encoding::bg && byteSizeOf(geometry.coordType) == 2 && random.oneIn(3)) {
     geometry.normalEncoding = NormalEncoding::spherical;
     geometry.attributeTypes[VertexRole::normal] = ElementType::uint8;
     for (PatchDescription& patch : geometry.patches)
@@ -124,7 +124,7 @@ Rotation randomRotation(Random& random) {
 
 Appearance randomAppearance(Random& random, std::size_t textures) {
   Appearance appearance;
-  if (random.once(2))
+  if (random.oneIn(2))
     appearance.name = "look_" + std::to_string(random.bits());
   switch (random.below(3)) {
   case 0:
@@ -138,10 +138,10 @@ Appearance randomAppearance(Random& random, std::size_t textures) {
   default:
     appearance.material = UnlitMaterial{.emissiveColor = randomColor(random)};
   }
-  const bool haveSameTransform = random.once(2);
+  const bool haveSameTransform = random.oneIn(2);
   TextureTransform transform;
   for (int role = 0; role < 8 && textures > 0; ++role) {
-    if (textureField(appearance.material, static_cast<TextureRole>(role)).empty() || random.once(2))
+    if (textureField(appearance.material, static_cast<TextureRole>(role)).empty() || random.oneIn(2))
       continue;
     if (!haveSameTransform)
       transform = {{random.between(-2, 2), 0}, {random.between(1, 2), 1}, {0, 0}, random.between(-1, 1)};
@@ -158,11 +158,11 @@ Texture randomTexture(Random& random, std::size_t images) {
   texture.image = random.below(images);
   texture.boundaryS = static_cast<Boundary>(random.below(3));
   texture.boundaryT = static_cast<Boundary>(random.below(3));
-  if (random.once(2))
+  if (random.oneIn(2))
     texture.magnification = static_cast<Filter>(1 + random.below(2));
-  if (random.once(2)) {
+  if (random.oneIn(2)) {
     texture.minification = static_cast<Filter>(1 + random.below(2));
-    texture.mipMaps = random.once(2);
+    texture.mipMaps = random.oneIn(2);
     if (texture.mipMaps)
       texture.betweenMipMaps = static_cast<Filter>(1 + random.below(2));
   }
@@ -173,21 +173,21 @@ Texture randomTexture(Random& random, std::size_t images) {
 NodeContent randomLeaf(Random& random) {
   switch (random.below(5)) {
   case 0:
-    return Viewpoint{random.once(2) ? "" : randomText(random), randomVector(random), randomRotation(random),
+    return Viewpoint{random.oneIn(2) ? "" : randomText(random), randomVector(random), randomRotation(random),
                      random.between(0.1f, 3), randomVector(random)};
   case 1:
     return OrthoViewpoint{randomText(random),  randomVector(random), randomRotation(random), {-2, -1}, {3, 4},
                           randomVector(random)};
   case 2:
-    return DirectionalLight{randomVector(random), randomColor(random), random.between(0, 1), random.once(2),
+    return DirectionalLight{randomVector(random), randomColor(random), random.between(0, 1), random.oneIn(2),
                             random.between(0, 1)};
   case 3:
     return PointLight{randomVector(random), {0, 0, 1},           7, randomColor(random), random.between(0, 9),
-                      random.once(2),       random.between(0, 1)};
+                      random.oneIn(2),      random.between(0, 1)};
   default:
     return SpotLight{
         randomVector(random), randomVector(random), random.between(0, 1), random.between(0, 1), {1, 2, 3},
-        random.between(1, 9), randomColor(random),  random.between(0, 9), random.once(2),       random.between(0, 1)};
+        random.between(1, 9), randomColor(random),  random.between(0, 9), random.oneIn(2),      random.between(0, 1)};
   }
 }
 
@@ -196,13 +196,13 @@ SceneDocument randomDocument(std::uint32_t seed) {
   Random random(seed);
   SceneDocument document;
   SceneGraph& graph = document.graph;
-  if (!random.once(4))
+  if (!random.oneIn(4))
     graph.title = randomText(random);
-  if (random.once(3))
+  if (random.oneIn(3))
     graph.info = {randomText(random), "more"};
-  if (random.once(2))
+  if (random.oneIn(2))
     graph.background = Background{randomColor(random)};
-  graph.headlight = random.once(2);
+  graph.headlight = random.oneIn(2);
   for (std::uint32_t count = random.below(3); count > 0; --count)
     graph.images.push_back({"textures/" + std::to_string(count) + ".png", {}});
   for (std::uint32_t count = graph.images.empty() ? 0 : random.below(4); count > 0; --count)
@@ -215,9 +215,9 @@ SceneDocument randomDocument(std::uint32_t seed) {
   std::vector<std::size_t> added; // children come before their parents, so there are no cycles
   for (std::uint32_t count = random.below(12); count > 0; --count) {
     Node node;
-    if (!random.once(3))
+    if (!random.oneIn(3))
       node.name = "Größe_" + std::to_string(count) + ".a-b";
-    if (random.once(5))
+    if (random.oneIn(5))
       node.extras = "{\"note\":\"" + std::to_string(random.bits()) + "\"}";
     const std::uint32_t kind = random.below(4);
     if (kind == 0)
@@ -225,8 +225,8 @@ SceneDocument randomDocument(std::uint32_t seed) {
     if (kind == 1) {
       Shape shape;
       shape.mesh = random.below(document.geometries.size());
-      shape.solid = !random.once(3);
-      if (!random.once(4))
+      shape.solid = !random.oneIn(3);
+      if (!random.oneIn(4))
         shape.appearance = random.below(graph.appearances.size());
       node.content = shape;
     }
@@ -234,7 +234,7 @@ SceneDocument randomDocument(std::uint32_t seed) {
       node.content = Transform{randomVector(random),
                                randomRotation(random),
                                randomVector(random),
-                               random.once(2) ? Rotation{} : randomRotation(random),
+                               random.oneIn(2) ? Rotation{} : randomRotation(random),
                                {}};
     if (kind >= 2)
       for (std::uint32_t children = random.below(4); children > 0 && !added.empty(); --children)
@@ -242,7 +242,7 @@ SceneDocument randomDocument(std::uint32_t seed) {
     added.push_back(addNode(graph, std::move(node)));
   }
   for (const std::size_t node : added)
-    if (random.once(2))
+    if (random.oneIn(2))
       graph.roots.push_back(node);
   return document;
 }
@@ -369,7 +369,7 @@ TEST(Documents, AreReadWithoutRegardToCase) {
   expectEqual(readScene(text, "x"), document);
 }
 
-TEST(Documents, HaveTheSameElementInBothForms) {
+TEST(Documents, HaveTheSameX3dElementInHtmlAndX3d) {
   const SceneDocument document = randomDocument(5);
   const auto withoutIndents = [](std::string_view text) {
     std::string out;
@@ -534,7 +534,7 @@ TEST(ReadScene, ReadsImagesFromImageTextures) {
   EXPECT_EQ(shapeName(document.graph, 0), "S");
 }
 
-TEST(ReadScene, IgnoresTextThatOnlyResemblesTheElement) {
+TEST(ReadScene, IgnoresTextThatResemblesTheX3dElement) {
   const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
                                            "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
                                            "x");

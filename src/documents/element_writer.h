@@ -11,7 +11,7 @@
 namespace imgeo {
 
 struct Attribute {
-  std::string name, value; ///< the value is not escaped
+  std::string name, value; ///< `value` is not escaped yet
 };
 
 using Attributes = std::vector<Attribute>;
@@ -31,11 +31,12 @@ public:
 
   void open(const Element& element);
   void close(const Element& element);
-  void
-  leaf(const Element& element); ///< an empty element, with an end tag, since HTML has no self-closing custom elements
-  void leaf(const Element& element, std::string_view content); ///< an element that contains text, which is escaped
+  /// Writes an empty element, with an end tag, since HTML has no self-closing custom elements.
+  void leaf(const Element& element);
+  /// Writes an element that contains text, which is escaped.
+  void leaf(const Element& element, std::string_view content);
 
-  /// A comment; consecutive hyphens, which would end it, are separated by spaces.
+  /// Writes a comment; consecutive hyphens, which would end it, are separated by spaces.
   void comment(std::string_view content);
 
   const std::string& text() const { return text_; }
@@ -66,7 +67,7 @@ template <typename T> std::string numbers(Vec3<T> v) {
 /// The numbers, separated by spaces.
 std::string numbers(const std::vector<double>& values);
 
-/// Appends the attribute `name` with `text` unless its value is the default, which an absent attribute stands for.
+/// Appends the attribute `name` with the text of `value`, unless `value` is the default of an absent attribute.
 template <typename T>
 void addUnless(Attributes& attributes, const char* name, const T& value, const T& defaultValue, std::string text) {
   if (!(value == defaultValue))

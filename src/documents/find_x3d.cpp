@@ -28,20 +28,20 @@ public:
     std::size_t begin = std::string_view::npos;
     for (std::size_t at = text_.find('<'); at != std::string_view::npos; at = text_.find('<', at)) {
       const std::string_view rest = text_.substr(at);
-      if (const std::size_t behind = behindDeclaration(at, rest); behind != at) {
-        at = behind;
+      if (const std::size_t end = endOfDeclaration(at, rest); end != at) {
+        at = end;
         continue;
       }
-      const std::size_t behind = behindTag(at);
+      const std::size_t end = endOfTag(at);
       const std::string_view tag = tagName(rest);
       if (begin == std::string_view::npos && equalIgnoringCase(tag, "x3d")) {
         begin = at;
-        if (text_[behind - 2] == '/')
-          return {begin, behind};
+        if (text_[end - 2] == '/')
+          return {begin, end};
       } else if (begin != std::string_view::npos && equalIgnoringCase(tag, "/x3d")) {
-        return {begin, behind};
+        return {begin, end};
       }
-      at = begin == std::string_view::npos ? behindRawText(tag, behind) : behind;
+      at = begin == std::string_view::npos ? endOfRawText(tag, end) : end;
     }
     if (begin == std::string_view::npos)
       throw Error(ErrorKind::malformed, name_, "there is no <X3D> element");
@@ -53,24 +53,25 @@ private:
     throw Error(kind, locationOf(text_, name_, at), message);
   }
 
-  std::size_t behind(std::string_view end, std::size_t at, const char* message) const {
-    const std::size_t found = text_.find(end, at);
+  /// The offset after the next `terminator` from `at`. Without one, throws Error{malformed} with `message`.
+  std::size_t endAfter(std::string_view terminator, std::size_t at, const char* message) const {
+    const std::size_t found = text_.find(terminator, at);
     if (found == std::string_view::npos)
       fail(ErrorKind::malformed, at, message);
-    return found + end.size();
+    return found + terminator.size();
   }
 
-  /// The offset behind a comment, CDATA section, instruction or document type; `at` for a tag.
-  std::size_t behindDeclaration(std::size_t at, std::string_view rest) const {
+  /// The offset after a comment, CDATA section, instruction or document type; `at` for a tag.
+  std::size_t endOfDeclaration(std::size_t at, std::string_view rest) const {
     if (rest.starts_with("<!--"))
-      return behind("-->", at + 4, "a comment has no end");
+      return endAfter("-->", at + 4, "a comment has no end");
     if (rest.starts_with("<![CDATA["))
-      return behind("]]>", at, "a CDATA section has no end");
+      return endAfter("]]>", at, "a CDATA section has no end");
     if (rest.starts_with("<?"))
-      return behind(">", at, "an instruction has no end");
+      return endAfter(">", at, "an instruction has no end");
     if (!rest.starts_with("<!"))
       return at;
-    const std::size_t end = behind(">", at, "a declaration has no end");
+    const std::size_t end = endAfter(">", at, "a declaration has no end");
     std::string_view type = rest.substr(2, end - at - 3);
     if (!startsWith(type, "doctype"))
       fail(ErrorKind::malformed, at, "a declaration of unknown kind");
@@ -84,7 +85,7 @@ private:
     return end;
   }
 
-  std::size_t behindTag(std::size_t at) const {
+  std::size_t endOfTag(std::size_t at) const {
     char quote = 0;
     for (std::size_t i = at + 1; i < text_.size(); ++i) {
       const char c = text_[i];
@@ -108,8 +109,8 @@ private:
     return tag.substr(1, end - 1);
   }
 
-  /// The offset behind the content of an HTML raw text element, in which there are no tags.
-  std::size_t behindRawText(std::string_view tag, std::size_t at) const {
+  /// The end of the content of an HTML raw text element, in which there are no tags; `at` for other elements.
+  std::size_t endOfRawText(std::string_view tag, std::size_t at) const {
     for (const std::string_view raw : {"script", "style", "title", "textarea"}) {
       if (!equalIgnoringCase(tag, raw))
         continue;

@@ -29,7 +29,7 @@ std::string urlOf(const Reference& reference) {
   return reference.url + std::visit([](const auto& location) { return fragmentOf(location); }, reference.location);
 }
 
-/// The shortest decimal numbers whose error is at most `fraction` of the lattice's step.
+/// The components of a vector as the shortest decimals whose error is at most `fraction` of the lattice's step.
 std::string shortNumbers(Vec3d vector, const Lattice& lattice, double fraction) {
   for (int axis = 0; axis < 3; ++axis)
     vector[axis] = shortestWithin(vector[axis], fraction * lattice.step);
@@ -50,10 +50,10 @@ std::string primTypes(const std::vector<Draw>& draws) {
   types.reserve(draws.size());
   for (const Draw& draw : draws)
     types.push_back(nameOf(draw.primitive));
-  return strings(types);
+  return quoteStrings(types);
 }
 
-std::string counts(const std::vector<Draw>& draws) {
+std::string vertexCounts(const std::vector<Draw>& draws) {
   std::string text;
   for (const Draw& draw : draws)
     text.append(text.empty() ? "" : " ").append(std::to_string(draw.count));
@@ -67,7 +67,7 @@ Attributes compactFields(const PatchDescription& patch) {
   Attributes fields{{"recordCount", std::to_string(patch.vertexCount)}};
   if (patch.draws != std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
     fields.push_back({"primType", primTypes(patch.draws)});
-  fields.push_back({"vertexCount", counts(patch.draws)});
+  fields.push_back({"vertexCount", vertexCounts(patch.draws)});
   fields.push_back({"data", urlOf(*patch.data)});
   return fields;
 }
@@ -87,7 +87,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   const bool hasPlanes = rowOf(encoding).storage == PatchStorage::bytePlanes;
   Attributes draws{{"recordCount", std::to_string(patch.vertexCount)},
                    {"primType", primTypes(patch.draws)},
-                   {"vertexCount", counts(patch.draws)}};
+                   {"vertexCount", vertexCounts(patch.draws)}};
   if (patch.data)
     return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), compactFields(patch)}};
   if (hasPlanes)
@@ -103,7 +103,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
     std::vector<std::string> planes;
     for (const Reference& plane : patch.coord)
       planes.push_back(urlOf(plane));
-    references.push_back({"coord", strings(planes)});
+    references.push_back({"coord", quoteStrings(planes)});
   } else if (!patch.coord.empty()) {
     references.push_back({"coord", urlOf(patch.coord[0])});
   }
@@ -115,7 +115,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
     for (const Reference& plane : planes)
       attributes.push_back(urlOf(plane));
   if (!attributes.empty())
-    references.push_back({"attrib", strings(attributes)});
+    references.push_back({"attrib", quoteStrings(attributes)});
   return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), draws, references}};
 }
 

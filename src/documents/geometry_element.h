@@ -9,12 +9,12 @@
 
 namespace imgeo {
 
-/// bboxCenter and bboxSize, rounded by less than half a step of the lattice. No attributes for an empty box.
+/// The fields bboxCenter and bboxSize, rounded by less than half a step of the lattice. None for an empty box.
 Attributes boxAttributes(const Box3d& box, const Lattice& lattice);
-/// `position` and `size`, which define the lattice, with the minimum number of digits for it.
+/// The fields `position` and `size`, which define the lattice, with as few digits as the lattice allows.
 Attributes decodeAttributes(const GeometryDescription& geometry);
-std::string primTypes(const std::vector<Draw>& draws); ///< MFString
-std::string counts(const std::vector<Draw>& draws);    ///< MFInt32
+std::string primTypes(const std::vector<Draw>& draws);    ///< the field primType, an MFString
+std::string vertexCounts(const std::vector<Draw>& draws); ///< the field vertexCount, an MFInt32
 
 /// Whether the geometry's element also describes its only patch, whose box is the shape's, without a GeometryPatch.
 bool isSinglePatch(const GeometryDescription& geometry);
@@ -24,7 +24,7 @@ std::string typeFieldOf(VertexRole role);
 
 /// The geometry's element without its patches. `names` is its DEF, if any.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
-/// The FloatVertexAttribute element of a further attribute.
+/// The FloatVertexAttribute element of a named attribute.
 Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding);
 /// The GeometryPatch element of a patch; not for isSinglePatch() geometries.
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry);

@@ -40,9 +40,8 @@ bool parseInteger(std::string_view text, std::uint32_t& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Parses the ending "+S" of a url, X3DOM's stride. It is part of the file's name unless a '?' separates them. Any
-/// other
-/// '+' is an ordinary character.
+/// Parses the ending "+S" of a url, X3DOM's stride. The ending is part of the file's name unless a '?' separates them.
+/// Any other '+' is an ordinary character.
 Reference stridedReference(const std::string& url) {
   const std::size_t plus = url.rfind('+');
   ByteLocation location;
@@ -106,7 +105,7 @@ std::vector<Draw> drawsOf(const FieldReader& fields) {
   return draws;
 }
 
-/// Reads an ImageTexture child, which names an image as in X3DOM.
+/// Reads an ImageTexture child, which refers to an image of the patch as in X3DOM.
 void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
   const FieldReader fields(source, node);
   const std::vector<std::string> urls = fields.strings("url");

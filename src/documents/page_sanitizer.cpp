@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// The elements that are allowed, sorted.
+/// The elements that are allowed in pages, sorted.
 constexpr std::string_view allowedElements[] = {"AcousticProperties",
                                                 "Analyser",
                                                 "Anchor",
@@ -268,7 +268,7 @@ constexpr std::string_view allowedElements[] = {"AcousticProperties",
                                                 "WorldInfo"};
 static_assert(std::ranges::is_sorted(allowedElements));
 
-/// Attributes of HTML on which browsers act: global ones, and those of elements that fetch or send.
+/// Attributes of HTML on which browsers act: global attributes, and those of elements that load or send data.
 constexpr std::string_view activeAttributes[] = {
     "action",     "autofocus", "background", "contenteditable", "data",   "form", "formaction", "href",
     "http-equiv", "is",        "ping",       "popover",         "poster", "slot", "src",        "srcdoc",
@@ -297,7 +297,7 @@ bool isSafeUrl(std::string_view url) {
   std::string scheme;
   for (const char c : url) {
     if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f)
-      continue; // browsers remove them
+      continue; // browsers remove such characters
     if (c == ':')
       break;
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+' && c != '-' && c != '.')
@@ -311,16 +311,16 @@ bool isSafeUrl(std::string_view url) {
 std::map<std::string, std::size_t> elementsLeftOutOfPage(const SceneGraph& graph) {
   std::map<std::string, std::size_t> counts;
   for (const std::size_t index : nodesOfDocument(graph, graph.roots))
-    if (const GenericNode* other = std::get_if<GenericNode>(&graph.nodes[index].content))
-      if (!isAllowedInPage(other->element) && other->element != commentElement)
-        ++counts[other->element];
+    if (const GenericNode* generic = std::get_if<GenericNode>(&graph.nodes[index].content))
+      if (!isAllowedInPage(generic->element) && generic->element != commentElement)
+        ++counts[generic->element];
   return counts;
 }
 
 std::string safeUrls(std::string_view text) {
   std::vector<std::string> urls = parseStrings(text);
   std::erase_if(urls, [](const std::string& url) { return !isSafeUrl(url); });
-  return urls.empty() ? "" : strings(urls);
+  return urls.empty() ? "" : quoteStrings(urls);
 }
 
 } // namespace imgeo

@@ -18,7 +18,7 @@ namespace imgeo {
 namespace {
 
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
-constexpr std::size_t maxDepth = 256;               // of elements, and of nodes with what they USE
+constexpr std::size_t maxDepth = 256;               // of nested elements, and of nodes through their USEs
 
 constexpr std::array nodeNames{"Shape",      "Group",    "Transform", "Viewpoint", "OrthoViewpoint", "DirectionalLight",
                                "PointLight", "SpotLight"};
@@ -76,7 +76,7 @@ private:
       document_.graph.headlight = fields.boolean("headlight", true);
       if (const std::vector<std::string> types = fields.strings("type"); !types.empty()) {
         const std::size_t node = add(fields, GenericNode{"NavigationInfo", "", {}});
-        document_.graph.nodes[node].fields = {{"type", strings(types)}};
+        document_.graph.nodes[node].fields = {{"type", quoteStrings(types)}};
         return node;
       }
     } else if (is("Background")) {
@@ -85,7 +85,7 @@ private:
       return readInline(fields);
     } else if (std::ranges::any_of(nodeNames, is)) {
       const std::string use = fields.text("USE");
-      return use.empty() ? readNodeElement(fields, depth) : defined(fields, use);
+      return use.empty() ? readNodeElement(fields, depth) : usedNode(fields, use);
     } else if (const std::string use = fields.text("USE"); !use.empty()) {
       if (const auto found = defined_.find(use); found != defined_.end())
         return found->second;
@@ -112,8 +112,10 @@ private:
     return node;
   }
 
-  std::optional<std::size_t> defined(const FieldReader& fields, const std::string& use) const {
-    if (passedOver_.contains(use))
+  /// The node that an element USEs. Returns nothing for a Shape that was left out; throws Error{malformed} for an
+  /// unknown name.
+  std::optional<std::size_t> usedNode(const FieldReader& fields, const std::string& use) const {
+    if (leftOut_.contains(use))
       return {};
     const auto found = defined_.find(use);
     if (found == defined_.end())
@@ -170,8 +172,9 @@ private:
     return add(fields, Group{}, std::move(children));
   }
 
-  /// A Group with a box is one Shape (see x3dom_writer.h) if it contains only Shapes of one appearance whose geometries
-  /// differ in their patches alone. In this case joins the geometries to that of the first Shape.
+  /// Joins Shapes that x3dom_writer.h has written for the patches of one Shape: the children of a Group with a box, if
+  /// all are Shapes of one appearance whose geometries differ only in their patches. Appends the patches to the
+  /// geometry of the first Shape. Returns false if the children are not such Shapes.
   bool joinPatches(const FieldReader& fields, const std::vector<std::size_t>& children, std::size_t first) {
     const Box3d box = fields.box();
     if (box.empty() || children.empty() || document_.geometries.size() - first != children.size())
@@ -181,7 +184,7 @@ private:
       const Shape* shape = shapeAt(i);
       if (!shape || !shape->appearance || shape->appearance != shapeAt(0)->appearance || shape->mesh != first + i ||
           !isJoinable_[shape->mesh] || !document_.graph.nodes[children[i]].name.empty() ||
-          !sameButForPatches(document_.geometries[first + i], document_.geometries[first]))
+          !areEqualExceptPatches(document_.geometries[first + i], document_.geometries[first]))
         return false;
     }
     GeometryDescription& geometry = document_.geometries[first];
@@ -194,7 +197,7 @@ private:
     return true;
   }
 
-  static bool sameButForPatches(GeometryDescription a, const GeometryDescription& b) {
+  static bool areEqualExceptPatches(GeometryDescription a, const GeometryDescription& b) {
     a.patches = b.patches;
     a.box = b.box;
     return a == b;
@@ -241,7 +244,7 @@ private:
       }
     }
     if (!shape) {
-      passedOver_.insert(fields.text("DEF"));
+      leftOut_.insert(fields.text("DEF"));
       return {};
     }
     shape->appearance = appearance;
@@ -280,7 +283,7 @@ private:
   std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
   std::vector<bool> isJoinable_;               ///< by geometry: it is its own only patch, and has no DEF
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
-  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry is inline in the document, or missing
+  std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry is inline in the document, or missing
   std::map<std::string, Shape> definedGeometries_;
 };
 

@@ -116,7 +116,7 @@ void SceneWriter::writeSceneSettings() {
   if ((!graph.title.empty() || !graph.info.empty()) && !hasGenericNode("WorldInfo")) {
     Attributes fields{{"title", graph.title}};
     if (!graph.info.empty())
-      fields.push_back({"info", strings(graph.info)});
+      fields.push_back({"info", quoteStrings(graph.info)});
     writer_.leaf({"WorldInfo", {fields}});
   }
   if (!hasGenericNode("NavigationInfo"))
@@ -154,8 +154,8 @@ std::string SceneWriter::write() {
 
 void SceneWriter::writeExtras(const Node& node) {
   if (!node.extras.empty())
-    writer_.leaf(
-        {"MetadataString", {{{"containerField", "metadata"}, {"name", "extras"}, {"value", strings({node.extras})}}}});
+    writer_.leaf({"MetadataString",
+                  {{{"containerField", "metadata"}, {"name", "extras"}, {"value", quoteStrings({node.extras})}}}});
 }
 
 void SceneWriter::writeChildren(const Node& node) {
@@ -200,9 +200,9 @@ Element SceneWriter::genericElement(const GenericNode& generic, const Node& node
     if (field.name == "preview" && image)
       continue; // replaced by the preview of the image below
     if (field.name == "url" && image)
-      field.value = strings({image->url});
+      field.value = quoteStrings({image->url});
     if (field.name == "url" && generic.document)
-      field.value = strings({document_.graph.inlined.at(*generic.document).url});
+      field.value = quoteStrings({document_.graph.inlined.at(*generic.document).url});
     element.groups.back().push_back(std::move(field));
   }
   if (kind_ == DocumentKind::page && generic.element == "FontStyle")

@@ -36,7 +36,7 @@ protected:
   void writeExtras(const Node& node);
   /// Writes extras and child nodes. The children of a Shape are those that an X3D source has besides the geometry.
   void writeChildren(const Node& node);
-  /// The further fields of a node's element that are allowed in this kind of document.
+  /// Node::fields, without those that are not allowed in this kind of document.
   Attributes furtherFields(const Node& node) const;
   /// The given fields without those that are not allowed in this kind of document.
   Attributes allowedFields(const std::vector<FieldText>& candidates) const;
@@ -46,7 +46,7 @@ protected:
   public:
     Names(std::size_t count) : names_(count), written_(count) {}
     std::string& operator[](std::size_t index) { return names_[index]; }
-    /// At the first call for an element its DEF, from then on its USE; nothing for an element without a name.
+    /// Returns an element's DEF at the first call and its USE at later ones; nothing for an element without a name.
     Attributes defOrUse(std::size_t index);
 
   private:

@@ -10,8 +10,8 @@ namespace imgeo {
 std::vector<AttributeDescription> readVertexAttributes(const DocumentText& source, const pugi::xml_node& node,
                                                        Encoding encoding);
 
-/// Groups a patch's references, which are listed one attribute after the other, by attribute. Throws Error{malformed}
-/// if their number is not that of the attributes' files.
+/// Groups the references in a patch's field `attrib`, which are listed one attribute after the other, by attribute.
+/// Throws Error{malformed} if there are more or fewer of them than the attributes have files.
 std::vector<std::vector<Reference>> referencesByAttribute(const FieldReader& fields,
                                                           const std::vector<Reference>& references,
                                                           const std::vector<AttributeDescription>& attributes,

@@ -39,7 +39,7 @@ private:
     const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
     if (geometry.patches.size() == 1)
       return writePatch(node, names, geometry, geometry.patches[0]);
-    if (shape.appearance) { // needs a DEF, which all patches but the first USE
+    if (shape.appearance) { // the appearance needs a DEF, which all patches but the first USE
       std::string& name = appearanceNames(isEmissive(geometry.patches[0]))[*shape.appearance];
       if (name.empty())
         name = defNames_.take(names.empty() ? "look" : names[0].value + "-look");
@@ -123,7 +123,7 @@ private:
 
   static Attributes drawFields(const PatchDescription& patch) {
     Attributes fields{{"primType", primTypes(patch.draws)},
-                      {"vertexCount", counts(patch.draws)},
+                      {"vertexCount", vertexCounts(patch.draws)},
                       {"recordCount", std::to_string(patch.vertexCount)}};
     if (!isLit(patch))
       fields.push_back({"lit", "false"});
@@ -153,11 +153,11 @@ private:
     writer_.close(node);
   }
 
-  /// Texels must not be resized, filtered or repeated.
+  /// Writes an ImageTexture whose texels X3DOM does not resize, filter or repeat.
   void writeImage(const char* role, const Reference& image) {
     assert(image.location == FileLocation{TexelLocation{}});
     const Element texture{"ImageTexture",
-                          {{{"containerField", role}, {"url", strings({image.url})}, {"scale", "false"}}}};
+                          {{{"containerField", role}, {"url", quoteStrings({image.url})}, {"scale", "false"}}}};
     writer_.open(texture);
     if (isSamplingDefined_)
       writer_.leaf({"TextureProperties", {{{"USE", samplingName_}}}});

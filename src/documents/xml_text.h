@@ -13,15 +13,15 @@ std::string validText(std::string_view text);
 /// Escapes text between tags.
 std::string escapeText(std::string_view text);
 
-/// Quotes an attribute value: with double quotes, or with single quotes if it contains double quotes only. Line ends
-/// and tabs are escaped, so that parsers keep them.
+/// Quotes an attribute value: with double quotes, or with single quotes if it contains double and no single quotes.
+/// Line ends and tabs are escaped, so that parsers keep them.
 std::string quoteAttribute(std::string_view text);
 
 /// Assigns the DEF names of a document: unique, valid XML names without colons. Requested names that are valid and
 /// unused are not changed.
 class DefNames {
 public:
-  /// Assigns the requested name, made valid, with a number appended if it is used already; "" for "".
+  /// Assigns the requested name, made valid, with a number appended if the name is taken already. Returns "" for "".
   std::string take(std::string_view requested);
 
 private:

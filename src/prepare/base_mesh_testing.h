@@ -1,5 +1,5 @@
 #pragma once
-// Mixtures of segments of a base mesh and whole patches. Header-only and for tests alone.
+// Checks for cracks between the segments of a base mesh and whole patches. Header-only and for tests alone.
 
 #include "prepare/base_mesh.h"
 #include "scene/testing.h"
@@ -33,13 +33,13 @@ private:
   std::map<std::pair<PointKey, PointKey>, int> counts_;
 };
 
-/// Expects of a closed mesh that no mixture of segments and patches has an open edge.
+/// Expects that mixtures of segments and patches have no cracks. The mesh must be closed.
 inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
   Random random(static_cast<std::uint32_t>(patches.size()));
   for (int mixture = 0; mixture < 6; ++mixture) {
     std::vector<bool> hasArrived;
     for (std::size_t segment = 0; segment < patches.size(); ++segment)
-      hasArrived.push_back(mixture > 1 ? random.once(2) : mixture == 1);
+      hasArrived.push_back(mixture > 1 ? random.oneIn(2) : mixture == 1);
     EdgeBalance edges;
     for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
       if (!hasArrived[base.segments[triangle]]) {

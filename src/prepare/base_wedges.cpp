@@ -75,7 +75,7 @@ std::vector<std::uint32_t> nearestWedges(WedgeSets& sets, const SimplifiedTriang
   return nearest;
 }
 
-/// Makes one wedge of all sets of a vertex whose texture coordinates are close to each other.
+/// Makes the wedges of each simplified vertex: sets whose texture coordinates are close to each other share one.
 class WedgeBuilder {
 public:
   WedgeBuilder(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
@@ -136,7 +136,7 @@ private:
   SimplifiedWedges wedges_;
 };
 
-/// One wedge for each position, for patches without attributes.
+/// One wedge for each position, for patches without attributes, in which SimplifiedWedges::sources do not matter.
 SimplifiedWedges plainWedges(const SimplifiedTriangles& simplified) {
   SimplifiedWedges wedges{std::vector<std::uint32_t>(simplified.positions.size()),
                           std::vector<std::uint32_t>(simplified.positions.size()), simplified.corners};

@@ -1,6 +1,6 @@
 #pragma once
-// The wedges of a simplified patch. One of its vertices replaces many vertices of the patch. Where a texture seam
-// runs among these, they belong to several charts of the texture; each chart becomes a wedge, so that no triangle is
+// The wedges of a simplified patch. Each simplified vertex replaces many vertices of the patch. If a texture seam runs
+// between these, they belong to several charts of the texture; each chart becomes a wedge, so that no triangle is
 // stretched across the seam.
 
 #include "prepare/patches.h"

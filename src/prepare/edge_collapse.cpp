@@ -61,6 +61,7 @@ private:
   static std::uint32_t afterCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
   static std::uint32_t beforeCorner(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
+  /// Appends the linked corners `begin` to `end` to those of a vertex.
   void append(std::uint32_t vertex, std::uint32_t begin, std::uint32_t end) {
     if (first_[vertex] == none)
       first_[vertex] = begin;
@@ -76,8 +77,8 @@ private:
         visit(corner);
   }
 
-  /// The vertices that share an edge with a vertex, whose marks_ become mark_. The reference is valid until the next
-  /// call.
+  /// The vertices that share an edge with `vertex`. Increments mark_ and sets the marks_ of these vertices to it. The
+  /// reference is valid until the next call.
   const std::vector<std::uint32_t>& neighboursOf(std::uint32_t vertex) {
     neighbours_.clear();
     ++mark_;

@@ -150,15 +150,15 @@ IndexedPatch asLineStrips(const Patch& patch) {
   return drawLineStrips(patch, minStripLines);
 }
 
-/// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose
-/// coordinates differ in the highest bit decides the Morton order.
+// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose coordinates differ in the highest bit
+// decides the Morton order.
 bool isBeforeInMortonOrder(Vec3u a, Vec3u b) {
   const auto lowerHighestBit = [](std::uint32_t x, std::uint32_t y) { return x < y && x < (x ^ y); };
-  int deciding = 0;
+  int decidingAxis = 0;
   for (int axis = 1; axis < 3; ++axis)
-    if (lowerHighestBit(a[deciding] ^ b[deciding], a[axis] ^ b[axis]))
-      deciding = axis;
-  return a[deciding] < b[deciding];
+    if (lowerHighestBit(a[decidingAxis] ^ b[decidingAxis], a[axis] ^ b[axis]))
+      decidingAxis = axis;
+  return a[decidingAxis] < b[decidingAxis];
 }
 
 std::vector<std::uint32_t> mortonOrder(const Patch& patch) {
@@ -188,18 +188,18 @@ IndexedPatch withoutIndices(const IndexedPatch& patch) {
 }
 
 ElementCounts elementsOf(const Draw& draw) {
-  const auto behind = [&](std::uint32_t first) { return std::max(draw.count, first) - first; };
+  const auto indicesAfter = [&](std::uint32_t first) { return std::max(draw.count, first) - first; };
   switch (draw.primitive) {
   case Primitive::points:
     return {.points = draw.count};
   case Primitive::lines:
     return {.lines = draw.count / 2};
   case Primitive::lineStrip:
-    return {.lines = behind(1)};
+    return {.lines = indicesAfter(1)};
   case Primitive::triangles:
     return {.triangles = draw.count / 3};
   case Primitive::triangleStrip:
-    return {.triangles = behind(2)};
+    return {.triangles = indicesAfter(2)};
   }
   return {};
 }

@@ -9,7 +9,7 @@
 namespace imgeo {
 namespace {
 
-/// A triangle as the values of its corners, rotated so that the least comes first.
+/// A corner: its position and its attributes.
 using Corner = std::array<double, 12>;
 using Triangle = std::array<Corner, 3>;
 
@@ -25,6 +25,7 @@ template <typename Piece> Corner cornerOf(const Piece& piece, std::uint32_t wedg
   return c;
 }
 
+/// The triangle with its corners rotated so that the minimum comes first.
 Triangle turned(Triangle t) {
   return std::min({t, Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}});
 }
@@ -126,7 +127,7 @@ void expectNumberedByFirstUse(const IndexedPatch& result) {
   ASSERT_EQ(used, result.vertexCount());
 }
 
-TEST(Triangles, AreThoseOfThePatch) {
+TEST(Triangles, AreTheTrianglesOfThePatch) {
   for (const Patch& patch : everyKindOfPatch()) {
     const IndexedPatch result = asTriangles(patch);
     expectWhole(result);
@@ -197,7 +198,7 @@ TEST(Strips, AreCloseToTheMinimumNumberOfIndices) {
   }
 }
 
-TEST(Strips, LeaveManyLoneTrianglesToADrawOfTheirOwn) {
+TEST(Strips, LeaveManySeparateTrianglesToADrawOfTheirOwn) {
   const auto joined = [](std::uint32_t loose) {
     Mesh mesh = testing::grid(10);
     for (std::uint32_t i = 0; i < loose; ++i) {
@@ -216,7 +217,7 @@ TEST(Strips, LeaveManyLoneTrianglesToADrawOfTheirOwn) {
   EXPECT_EQ(many.draws[1], (Draw{Primitive::triangles, 1500}));
 }
 
-TEST(Strips, OfDegenerateTrianglesAloneAreTheseTriangles) {
+TEST(Strips, AreTrianglesIfAllTrianglesAreDegenerate) {
   Mesh mesh = testing::grid(1);
   mesh.corners = {0, 1, 1, 2, 2, 3};
   const Patch patch = patchOf(mesh);
@@ -253,7 +254,7 @@ std::vector<Line> linesIn(const IndexedPatch& patch) {
   return result;
 }
 
-TEST(Lines, AreThoseOfThePatchWithAndWithoutStripsAndIndices) {
+TEST(Lines, AreTheLinesOfThePatchWithAndWithoutStripsAndIndices) {
   for (std::uint32_t seed = 0; seed < 300; ++seed) {
     Mesh mesh = testing::polylines(1 + seed % 40, seed);
     for (std::uint32_t& corner : mesh.corners)

@@ -75,28 +75,29 @@ struct WeightTables {
     return powers.values[endCost * (2 - degree) + (isSwap ? swapCost : 0)];
   }
 
-  /// Cost of a spoke: a swap there, or an odd number of tips at its outer vertex. `oddBefore`: the tips of other paths
-  /// there are odd. Bits of `links`: the previous spoke, the spoke itself and the next one.
-  static std::uint32_t spokeCost(bool outerBefore, bool outerBehind, std::uint32_t oddBefore, std::uint32_t links) {
-    const bool before = links & 1, here = links >> 1 & 1, behind = links >> 2 & 1;
+  /// Cost of a spoke: a swap there, or an odd number of tips at its outer vertex. `areOthersOdd`: the number of tips of
+  /// other paths there is odd. Bits of `links`: the previous spoke, the spoke itself and the next one.
+  static std::uint32_t spokeCost(bool hasPreviousOuter, bool hasNextOuter, std::uint32_t areOthersOdd,
+                                 std::uint32_t links) {
+    const bool previous = links & 1, here = links >> 1 & 1, next = links >> 2 & 1;
     if (here) {
-      const int turnBefore = before ? 1 : outerBefore ? 2 : 0, turnBehind = outerBehind ? 1 : behind ? 2 : 0;
-      const bool isSwap = turnBefore != 0 && turnBehind != 0 && turnBefore != turnBehind;
-      return (isSwap ? swapCost : 0) + (oddBefore ? oddCost : 0);
+      const int previousTurn = previous ? 1 : hasPreviousOuter ? 2 : 0, nextTurn = hasNextOuter ? 1 : next ? 2 : 0;
+      const bool isSwap = previousTurn != 0 && nextTurn != 0 && previousTurn != nextTurn;
+      return (isSwap ? swapCost : 0) + (areOthersOdd ? oddCost : 0);
     }
-    const std::uint32_t tips = (before && !outerBefore) + (behind && !outerBehind);
-    return (oddBefore + tips) % 2 * oddCost;
+    const std::uint32_t tips = (previous && !hasPreviousOuter) + (next && !hasNextOuter);
+    return (areOthersOdd + tips) % 2 * oddCost;
   }
 
   float ofTriangle[outerKinds][4];
-  float ofSpoke[8][8]; ///< by outer links before and behind and oddness, then by links
+  float ofSpoke[8][8]; ///< by the first three arguments of spokeCost as bits, then by its `links`
   float odd;
 };
 
 } // namespace
 
-/// Samples the spokes of one star. Spoke i is between triangles i - 1 and i. In a state of several spokes bit 0 is that
-/// of the first.
+/// Samples the spokes of one star. Spoke i is between triangles i - 1 and i. In a number that holds the states of
+/// several spokes, bit 0 is the state of the first.
 class StripLinks::StarSampler {
 public:
   StarSampler(StripLinks& links, const Star& star) : links_(links), size_(star.size) {
@@ -213,9 +214,9 @@ private:
   void write() {
     for (std::uint32_t i = 0; i < count_; ++i) {
       const std::uint32_t in = ins_[i];
-      const std::uint32_t behind = i + 1 == size_ ? 0 : i + 1;
+      const std::uint32_t next = i + 1 == size_ ? 0 : i + 1;
       links_.triangles_[numbers_[i]].linked =
-          spokes_[i] << in | spokes_[behind] << before(in) | std::uint32_t{outers_[i] != outerFree} << after(in);
+          spokes_[i] << in | spokes_[next] << before(in) | std::uint32_t{outers_[i] != outerFree} << after(in);
     }
   }
 

@@ -19,10 +19,10 @@ struct VertexClusters {
 /// Every vertex in a cluster of its own.
 VertexClusters singletonClusters(std::size_t vertexCount);
 
-/// Clusters vertices by the cells of a grid, about `clusterCount` of which the surface touches. The vertices of a
-/// cluster also have normals in the same octant, so that the two sides of a thin wall stay separate. Each vertex with
-/// `isFixed` has a cluster of its own. `points` are within -1 .. 1. `normals` has one normal for each triangle, whose
-/// length is twice the triangle's area; `area` is the sum of the areas.
+/// Clusters vertices by the cells of a grid, whose cell size is chosen so that the surface touches about `clusterCount`
+/// cells. The vertices of a cluster also have normals in the same octant, so that the two sides of a thin wall stay
+/// separate. Each vertex with `isFixed` has a cluster of its own. `points` are within -1 .. 1. `normals` has one normal
+/// for each triangle, whose length is twice the triangle's area; `area` is the sum of the areas.
 VertexClusters clusterVertices(std::span<const Vec3d> points, std::span<const std::uint32_t> corners,
                                std::span<const Vec3d> normals, double area, const std::vector<bool>& isFixed,
                                std::size_t clusterCount);

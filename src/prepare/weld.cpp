@@ -13,7 +13,7 @@ namespace imgeo {
 
 namespace {
 
-/// The bits by which values are compared: -0 is 0, and a NaN equals itself.
+/// The bits by which values are compared: -0 counts as 0, and a NaN equals itself.
 std::uint32_t keyOf(float value) {
   return std::bit_cast<std::uint32_t>(value + 0.0f);
 }
@@ -62,8 +62,8 @@ std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t v
   return std::span(attribute.values).subspan(std::size_t{vertex} * attribute.components, attribute.components);
 }
 
-/// For each position the first equal position. Works in memory order, so that hash slots can be prefetched: with a
-/// large table most of the time is memory latency.
+/// For each position the index of the first equal position. Visits positions in memory order, so that hash slots can be
+/// prefetched: with a large table most of the time is memory latency.
 std::vector<std::uint32_t> firstEqualPositions(const std::vector<Vec3f>& positions) {
   constexpr std::size_t ahead = 16;
   IndexHashTable table(positions.size());
@@ -173,8 +173,8 @@ struct OtherCorners {
   auto operator<=>(const OtherCorners&) const = default;
 };
 
-/// Marks the elements that repeat an earlier one, among elements with the haveSameBits first canonical corner, which
-/// are given in ascending order.
+/// Marks the elements that repeat an earlier one. `others` are the elements with one first canonical corner, in
+/// ascending order.
 void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& repeated) {
   constexpr std::size_t maxPairwiseCount = 8; // up to this number comparing all pairs is faster than sorting
   if (others.size() > maxPairwiseCount)
@@ -185,8 +185,8 @@ void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& 
         repeated[others[i].element] = 1;
 }
 
-/// By element: 1 if it repeats an earlier one, else 0. Elements are compared with those of the haveSameBits first
-/// canonical corner, which are maxPairwiseCount.
+/// By element: 1 if it repeats an earlier one, else 0. An element is compared with the few elements that have the same
+/// first canonical corner.
 std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   const auto cornersOf = [&](std::size_t element) {
@@ -214,7 +214,7 @@ std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   return repeated;
 }
 
-/// By element: 1 if two of its corners have the haveSameBits position, else 0.
+/// By element: 1 if two of its corners have the same position, else 0.
 std::vector<std::uint8_t> findDegenerate(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   std::vector<std::uint8_t> degenerate(mesh.elementCount());

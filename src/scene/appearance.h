@@ -12,7 +12,7 @@
 
 namespace imgeo {
 
-/// X3D Material: colours 0..1, shininess 0..1 (times 128 is the exponent).
+/// X3D Material: colours 0..1; shininess 0..1, which times 128 is the specular exponent.
 struct Material {
   Vec3f diffuseColor{0.8f, 0.8f, 0.8f};
   Vec3f specularColor{0, 0, 0};
@@ -52,12 +52,12 @@ Material phongOf(const AnyMaterial& material);
 enum class TextureRole : std::uint8_t {
   color,
   emissive,
-  metallicRoughness, ///< PhysicalMaterial
+  metallicRoughness, ///< PhysicalMaterial only
   normal,
   occlusion,
-  ambient,   ///< Material
-  specular,  ///< Material
-  shininess, ///< Material
+  ambient,   ///< Material only
+  specular,  ///< Material only
+  shininess, ///< Material only
 };
 
 /// X3D TextureTransform: a texture coordinate t is read at

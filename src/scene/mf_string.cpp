@@ -30,7 +30,7 @@ std::vector<std::string> parseStrings(std::string_view text) {
   return strings;
 }
 
-std::string strings(const std::vector<std::string>& values) {
+std::string quoteStrings(const std::vector<std::string>& values) {
   std::string text;
   for (const std::string& value : values) {
     text += text.empty() ? "\"" : " \"";

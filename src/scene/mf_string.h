@@ -11,7 +11,7 @@ namespace imgeo {
 /// string. Tolerates malformed text.
 std::vector<std::string> parseStrings(std::string_view text);
 
-/// The text of a list of strings; every string is quoted.
-std::string strings(const std::vector<std::string>& values);
+/// The text of an MFString attribute; every string is quoted.
+std::string quoteStrings(const std::vector<std::string>& values);
 
 } // namespace imgeo

@@ -41,7 +41,7 @@ struct FieldText {
 inline constexpr const char* commentElement = "#comment";
 
 /// An X3D element that is written as it was read, without interpretation: its attributes are Node::fields, its child
-/// elements are Node::children. A comment has the name commentElement and a text only.
+/// elements are Node::children. A comment has commentElement as its element, and otherwise only a text.
 struct GenericNode {
   std::string element;
   std::string text;                 ///< its character data, such as the source code of a Script
@@ -123,8 +123,9 @@ std::vector<std::size_t> nodesInOrder(const SceneGraph& graph);
 /// its Inlines.
 std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vector<std::size_t>& roots);
 
-/// Appends the nodes, appearances, images and inlined documents of `more` to those of `graph`, and adds `firstMesh`
-/// to the mesh indices of its shapes. Returns the indices of its roots, which have no parent yet.
+/// Appends the nodes, appearances, textures, images and inlined documents of `more` to those of `graph`, and adds
+/// `firstMesh` to the mesh indices of the appended shapes. Returns the new indices of the roots of `more`, which have
+/// no parent yet.
 std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh);
 
 /// The indices of all Shape nodes in document order.

@@ -5,7 +5,7 @@
 namespace imgeo {
 namespace {
 
-TEST(RemoveShapes, LeavesTheNodesAroundThem) {
+TEST(RemoveShapes, KeepsAllOtherNodes) {
   SceneGraph graph;
   const std::size_t kept = addRoot(graph, {"", Shape{1, {}, true}, {}, ""});
   const std::size_t removed = addRoot(graph, {"", Shape{0, {}, true}, {}, ""});

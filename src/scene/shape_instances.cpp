@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t maxShapeInstances = 1'000'000;
 
-[[noreturn]] void failAtLimit(const std::string& where) {
-  throw Error(ErrorKind::limit, where, "the scene shows more than a million shapes");
+[[noreturn]] void failAtLimit(const std::string& location) {
+  throw Error(ErrorKind::limit, location, "the scene shows more than a million shapes");
 }
 
 /// Counts shape instances up to the limit. Visits each node once.
@@ -19,35 +19,36 @@ class InstanceCounter {
 public:
   explicit InstanceCounter(const SceneGraph& graph) : graph_(graph), counts_(graph.nodes.size()) {}
 
-  std::size_t below(const std::vector<std::size_t>& nodes) {
+  /// The number of instances in the subtrees of `nodes`; one more than the limit for any number above it.
+  std::size_t countInSubtrees(const std::vector<std::size_t>& nodes) {
     std::size_t sum = 0;
     for (const std::size_t node : nodes)
-      sum = std::min(sum + at(node), maxShapeInstances + 1);
+      sum = std::min(sum + countInSubtree(node), maxShapeInstances + 1);
     return sum;
   }
 
 private:
-  std::size_t at(std::size_t index) {
+  std::size_t countInSubtree(std::size_t index) {
     if (counts_[index])
       return *counts_[index];
     const Node& node = graph_.nodes[index];
-    const GenericNode* other = std::get_if<GenericNode>(&node.content);
-    const bool isShape = std::holds_alternative<Shape>(node.content) || (other && other->element == "Shape");
-    const std::size_t count = isShape ? 1 : below(node.children);
+    const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+    const bool isShape = std::holds_alternative<Shape>(node.content) || (generic && generic->element == "Shape");
+    const std::size_t count = isShape ? 1 : countInSubtrees(node.children);
     counts_[index] = count;
     return count;
   }
 
   const SceneGraph& graph_;
-  std::vector<std::optional<std::size_t>> counts_;
+  std::vector<std::optional<std::size_t>> counts_; ///< by node: instances in its subtree
 };
 
 /// Lists the shape instances below nodes. A node without shapes below it is visited once, even if it is USEd several
 /// times.
 class InstanceCollector {
 public:
-  InstanceCollector(const SceneGraph& graph, const std::string& where)
-      : graph_(graph), where_(where), hasNoShapes_(graph.nodes.size()) {}
+  InstanceCollector(const SceneGraph& graph, const std::string& location)
+      : graph_(graph), location_(location), hasNoShapes_(graph.nodes.size()) {}
 
   void collect(std::size_t index, const Affine3d& worldFromParent) {
     if (hasNoShapes_[index])
@@ -55,7 +56,7 @@ public:
     const Node& node = graph_.nodes[index];
     if (std::holds_alternative<Shape>(node.content)) {
       if (instances.size() == maxShapeInstances)
-        failAtLimit(where_);
+        failAtLimit(location_);
       instances.push_back({index, worldFromParent});
       return;
     }
@@ -71,14 +72,14 @@ public:
 
 private:
   const SceneGraph& graph_;
-  const std::string& where_;
-  std::vector<bool> hasNoShapes_;
+  const std::string& location_;
+  std::vector<bool> hasNoShapes_; ///< by node: its subtree has no shapes
 };
 
 } // namespace
 
 void checkShapeInstanceLimit(const SceneGraph& graph, const std::string& location) {
-  if (InstanceCounter(graph).below(graph.roots) > maxShapeInstances)
+  if (InstanceCounter(graph).countInSubtrees(graph.roots) > maxShapeInstances)
     failAtLimit(location);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Meshes for tests: closed, open, seamed, broken and random ones. Header-only and
-// for tests alone. The same arguments give the same bits on every machine: the
-// generator's sequence is the standard's, and no library distribution is used.
+// Meshes for tests: closed, open, seamed, broken and random ones. Header-only and for tests alone. The same arguments
+// give the same bits on every machine: the C++ standard defines the numbers of std::mt19937, and no distribution of the
+// standard library is used.
 
 #include "scene/scene.h"
 
@@ -24,7 +24,8 @@ public:
   float between(float low, float high) {
     return low + (high - low) * static_cast<float>(bits() >> 8) / static_cast<float>(0xffffff);
   }
-  bool once(std::uint32_t in) { return below(in) == 0; }
+  /// True in one of `count` cases.
+  bool oneIn(std::uint32_t count) { return below(count) == 0; }
   Vec3f point() {
     const float x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
     return {x, y, z};
@@ -54,8 +55,8 @@ inline void addTriangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint3
   mesh.corners.insert(mesh.corners.end(), {a, b, c});
 }
 
-/// The unit sphere: closed, with normals. 2 + (rings - 1) * segments vertices,
-/// 2 * (rings - 1) * segments triangles; rings at least 2, segments at least 3.
+/// The unit sphere: closed, with normals; 2 + (rings - 1) * segments vertices, 2 * (rings - 1) * segments triangles.
+/// `rings` is at least 2, `segments` at least 3.
 inline Mesh sphere(std::uint32_t rings, std::uint32_t segments) {
   assert(rings >= 2 && segments >= 3);
   Mesh mesh;
@@ -87,9 +88,9 @@ inline Mesh sphere(std::uint32_t rings, std::uint32_t segments) {
   return mesh;
 }
 
-/// A closed torus (radii 1 and 0.35) with normals and texture coordinates 0 .. 1:
-/// rings * segments positions and, for the seams, (rings + 1) * (segments + 1)
-/// wedges; 2 * rings * segments triangles. Both at least 3.
+/// A closed torus (radii 1 and 0.35) with normals and texture coordinates 0 .. 1: rings * segments positions and, for
+/// the seams, (rings + 1) * (segments + 1) wedges; 2 * rings * segments triangles. `rings` and `segments` are at
+/// least 3.
 inline Mesh torus(std::uint32_t rings, std::uint32_t segments) {
   assert(rings >= 3 && segments >= 3);
   Mesh mesh;
@@ -117,8 +118,8 @@ inline Mesh torus(std::uint32_t rings, std::uint32_t segments) {
   return mesh;
 }
 
-/// An open, gently waved height field of n x n quads, without any attribute:
-/// (n + 1)^2 vertices, 2 n^2 triangles that face +z. n at least 1.
+/// An open, gently waved height field of n x n quads, without any attribute: (n + 1)^2 vertices, 2 n^2 triangles that
+/// face +z. `n` is at least 1.
 inline Mesh grid(std::uint32_t n) {
   assert(n >= 1);
   Mesh mesh;
@@ -139,14 +140,14 @@ inline Mesh grid(std::uint32_t n) {
   return mesh;
 }
 
-/// Triangles without connectivity: every corner has its own position. Every
-/// fourth or so repeats the bits of an earlier one, as in an STL file.
+/// Triangles without connectivity: every corner has its own position. About every fourth position has the bits of an
+/// earlier one, as in an STL file.
 inline Mesh soup(std::uint32_t triangles, std::uint32_t seed) {
   Random random(seed);
   Mesh mesh;
   mesh.name = "soup";
   for (std::uint32_t corner = 0; corner < 3 * triangles; ++corner) {
-    const bool repeat = corner > 0 && random.once(4);
+    const bool repeat = corner > 0 && random.oneIn(4);
     mesh.positions.push_back(repeat ? mesh.positions[random.below(corner)] : random.point());
     mesh.corners.push_back(corner);
   }
@@ -198,21 +199,21 @@ inline Mesh polylines(std::uint32_t count, std::uint32_t seed) {
   const auto addLine = [&](std::uint32_t a, std::uint32_t b) { mesh.corners.insert(mesh.corners.end(), {a, b}); };
   for (std::uint32_t line = 0; line < count; ++line) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const std::uint32_t length = 1 + random.below(random.once(8) ? 200 : 12);
+    const std::uint32_t length = 1 + random.below(random.oneIn(8) ? 200 : 12);
     for (std::uint32_t i = 0; i <= length; ++i) {
       mesh.positions.push_back(random.point());
       if (i > 0)
         addLine(first + i - 1, first + i);
     }
-    if (random.once(3))
-      addLine(first + length, random.once(2) ? first : random.below(first + 1));
+    if (random.oneIn(3))
+      addLine(first + length, random.oneIn(2) ? first : random.below(first + 1));
   }
   addLine(0, 0);
   addPlainWedges(mesh);
   return mesh;
 }
 
-/// One to four components for each of `count` wedges: integers, fractions, or one value.
+/// A random attribute of one to four components for `count` wedges. Its values are integers, fractions, or all equal.
 inline NamedAttribute randomAttribute(Random& random, const std::string& name, std::uint32_t count) {
   const std::uint32_t kind = random.below(3), components = 1 + random.below(4);
   const float low = random.between(-1000, 1000), extent = std::exp2(static_cast<float>(random.below(20)) - 5);
@@ -254,7 +255,7 @@ inline const Appearance& appearanceOf(const SceneGraph& graph, std::size_t n) {
   return graph.appearances.at(shapeOf(graph, shapeNodes(graph).at(n)).appearance.value());
 }
 
-/// A random one of these meshes, of random size and position, with or without each attribute, creases and seams
+/// One of the meshes above, at random, of random size and position, with or without each attribute, creases and seams
 /// (positions with several wedges), degenerate and duplicate triangles. Consistent, finite and not empty.
 inline Mesh randomMesh(std::uint32_t seed) {
   Random random(seed);
@@ -285,15 +286,15 @@ inline Mesh randomMesh(std::uint32_t seed) {
     break;
   }
   const float scale = std::exp2(static_cast<float>(random.below(21)) - 10);
-  const Vec3f offset = random.once(2) ? Vec3f{} : random.point() * (10 * scale);
+  const Vec3f offset = random.oneIn(2) ? Vec3f{} : random.point() * (10 * scale);
   for (Vec3f& position : mesh.positions)
     position = position * scale + offset;
 
   if (mesh.topology == Topology::triangles) {
-    for (std::uint32_t extra = random.once(3) ? random.below(10) : 0; extra > 0; --extra) {
+    for (std::uint32_t extra = random.oneIn(3) ? random.below(10) : 0; extra > 0; --extra) {
       const std::size_t at = 3 * random.below(mesh.elementCount());
       const std::uint32_t a = mesh.corners[at], b = mesh.corners[at + 1], c = mesh.corners[at + 2];
-      if (random.once(2))
+      if (random.oneIn(2))
         addTriangle(mesh, b, c, a); // duplicate
       else
         addTriangle(mesh, a, b, b); // degenerate
@@ -301,16 +302,16 @@ inline Mesh randomMesh(std::uint32_t seed) {
   }
   if (mesh.topology != Topology::points) {
     // A crease or seam: some corners get a wedge of their own at the same position.
-    if (random.once(2))
+    if (random.oneIn(2))
       for (std::uint32_t& corner : mesh.corners)
-        if (random.once(8)) {
+        if (random.oneIn(8)) {
           mesh.wedgePositions.push_back(mesh.wedgePositions[corner]);
           corner = static_cast<std::uint32_t>(mesh.wedgeCount() - 1);
         }
   }
   mesh.normals.clear(), mesh.texCoords.clear(), mesh.colors.clear();
-  const bool normals = random.once(2), texCoords = random.once(3), colors = random.once(3);
-  mesh.colorComponents = colors && random.once(2) ? 4 : 3;
+  const bool normals = random.oneIn(2), texCoords = random.oneIn(3), colors = random.oneIn(3);
+  mesh.colorComponents = colors && random.oneIn(2) ? 4 : 3;
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
     if (normals)
       mesh.normals.push_back(random.direction());
@@ -324,9 +325,9 @@ inline Mesh randomMesh(std::uint32_t seed) {
         mesh.colors.back().a = static_cast<std::uint8_t>(random.below(256));
     }
   }
-  for (std::uint32_t left = random.once(3) ? 1 + random.below(3) : 0; left > 0; --left)
+  for (std::uint32_t number = random.oneIn(3) ? 1 + random.below(3) : 0; number > 0; --number)
     mesh.namedAttributes.push_back(
-        randomAttribute(random, "measure" + std::to_string(left), static_cast<std::uint32_t>(mesh.wedgeCount())));
+        randomAttribute(random, "measure" + std::to_string(number), static_cast<std::uint32_t>(mesh.wedgeCount())));
   return mesh;
 }
 

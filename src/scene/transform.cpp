@@ -15,7 +15,7 @@ Affine3d scaled(Vec3d scale) {
   return {{scale.x, 0, 0}, {0, scale.y, 0}, {0, 0, scale.z}, {}};
 }
 
-/// The quaternion of a rotation matrix by its largest component (Shepperd 1978).
+/// The rotation of a rotation matrix, computed from the largest component of its quaternion (Shepperd 1978).
 Rotation rotationOf(const Affine3d& m) {
   const double w = m.x.x + m.y.y + m.z.z, x = m.x.x - m.y.y - m.z.z, y = m.y.y - m.x.x - m.z.z,
                z = m.z.z - m.x.x - m.y.y;
@@ -37,7 +37,9 @@ struct Eigen {
 /// elements are zero.
 Eigen eigenOf(Affine3d m) {
   Affine3d axes;
-  const auto column = [](Affine3d& of, int i) -> Vec3d& { return i == 0 ? of.x : i == 1 ? of.y : of.z; };
+  const auto column = [](Affine3d& matrix, int i) -> Vec3d& {
+    return i == 0 ? matrix.x : i == 1 ? matrix.y : matrix.z;
+  };
   for (int sweep = 0; sweep < 32; ++sweep)
     for (const auto& [p, q] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
       const double offDiagonal = column(m, p)[q];

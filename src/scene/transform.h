@@ -22,6 +22,7 @@ struct Transform {
   friend bool operator==(const Transform&, const Transform&) = default;
 };
 
+/// The rotation of the quaternion x i + y j + z k + w, of any length; none for a quaternion of length 0.
 Rotation rotationOfQuaternion(double x, double y, double z, double w);
 
 Affine3d affineOf(const Rotation& rotation);

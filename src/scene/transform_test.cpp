@@ -51,7 +51,7 @@ TEST(Transform, HasNoScaleOrientationForARotationAndAScale) {
     Transform transform;
     transform.rotation = {randomVector(random), random.between(-3, 3)};
     transform.scale = {random.between(0.1f, 5), random.between(0.1f, 5), random.between(0.1f, 5)};
-    if (random.once(2))
+    if (random.oneIn(2))
       transform.scale = transform.scale * -1;
     const Transform read = transformOf(affineOf(transform));
     EXPECT_EQ(read.scaleOrientation, Rotation{});

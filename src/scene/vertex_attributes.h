@@ -13,7 +13,8 @@
 
 namespace imgeo {
 
-/// A further vertex attribute with the name that its source gives it, such as a quantity of a scan or a simulation.
+/// A vertex attribute other than those of VertexRole, such as a quantity of a scan or a simulation. The source names
+/// it.
 struct NamedAttribute {
   std::string name;
   std::uint32_t components = 1; ///< 1..4
@@ -47,14 +48,14 @@ struct VertexAttributes {
   std::vector<NamedAttribute> namedAttributes; ///< with unique names
 };
 
-/// What code that treats these attributes alike needs to know of one of them.
+/// The properties of one attribute, for code that handles all of them in the same way.
 template <typename Value> struct VertexAttributeRow {
   VertexRole role;
   const char* name;     ///< role of its files, and field of X3D nodes
   const char* plural;   ///< in messages
   const char* gltfName; ///< name of the attribute of a glTF primitive
   std::vector<Value> VertexAttributes::*values;
-  Value missing; ///< value of vertices that lack the attribute beside vertices that have it
+  Value missing; ///< value that append() gives to vertices without the attribute
 };
 
 /// One row for each VertexRole, in its order.
@@ -94,7 +95,7 @@ const char* nameOf(VertexRole role);
 /// Whether the attribute is present.
 bool hasAttribute(const VertexAttributes& attributes, VertexRole role);
 
-/// Whether any attribute is present, further ones included.
+/// Whether any attribute is present, named ones included.
 bool hasAnyAttribute(const VertexAttributes& attributes);
 
 /// The values at the given indices; empty for an absent attribute.
@@ -110,10 +111,10 @@ template <typename T> std::vector<T> gather(const std::vector<T>& values, std::s
 VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> indices);
 
 /// Appends the attributes of `moreCount` vertices to those of `count` vertices. Where one side lacks an attribute that
-/// the other has, its values are those of VertexAttributeRow::missing, and zeros for further attributes.
+/// the other has, its values are VertexAttributeRow::missing, or zeros for named attributes.
 void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more, std::size_t moreCount);
 
-/// Whether every attribute that is present has `count` values, and names are unique.
+/// Whether every attribute that is present has values for `count` vertices, and names are unique.
 bool isConsistent(const VertexAttributes& attributes, std::size_t count);
 
 } // namespace imgeo

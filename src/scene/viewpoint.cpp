@@ -26,8 +26,8 @@ Viewpoint viewpointFor(const Box3d& box) {
   double distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d c{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
-    const double aside = std::max(std::abs(dot(c, right)), std::abs(dot(c, up)));
-    distance = std::max(distance, dot(c, back) + aside / maxTangent);
+    const double offAxis = std::max(std::abs(dot(c, right)), std::abs(dot(c, up)));
+    distance = std::max(distance, dot(c, back) + offAxis / maxTangent);
   }
   if (distance == 0)
     distance = 1; // a single point

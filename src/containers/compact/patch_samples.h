@@ -34,7 +34,7 @@ inline void addRandom(CompactPatch& patch, const AttributeType& type, std::uint3
       const auto below = [&](std::int32_t n) {
         return static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n)));
       };
-      const auto either = [&](std::int32_t n) { return random.once(2) ? n : -n; };
+      const auto either = [&](std::int32_t n) { return random.oneIn(2) ? n : -n; };
       const std::int32_t x = below(radius + 1), y = below(radius - x + 1);
       value = {{either(x), either(y), either(radius - x - y), 0}};
       continue;
@@ -209,7 +209,7 @@ inline void repeatValues(CompactPatch& patch, std::uint32_t once) {
   Random random(once);
   for (Attribute& attribute : patch.attributes)
     for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge)
-      if (!random.once(once))
+      if (!random.oneIn(once))
         attribute.values[wedge] = attribute.values[patch.wedgePositions[wedge] % patch.positions.size()];
 }
 

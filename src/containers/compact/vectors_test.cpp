@@ -89,7 +89,7 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
   testing::Random random(seed);
   for (std::size_t at = 0; at < std::min<std::size_t>(payload.size(), 64); ++at)
     for (const int value : {0, 1, 2, 17, 31, 32, 128, 255})
-      if (value != payload[at] && random.once(3))
+      if (value != payload[at] && random.oneIn(3))
         add({{at, value}});
   for (int i = 0; i < 40; ++i)
     add({{random.below(payload.size()), random.below(256)}});

@@ -127,7 +127,7 @@ TEST(GltfTexture, HasTheSameTransformInX3d) {
   for (int i = 0; i < 200; ++i) {
     const float rotation = random.between(-3, 3), size = random.between(0.1f, 4), x = random.between(-2, 2),
                 y = random.between(-2, 2);
-    const bool isRotated = random.once(2);
+    const bool isRotated = random.oneIn(2);
     const Vec2f scale = isRotated ? Vec2f{size, size} : Vec2f{size, random.between(-3, -1)};
     const float angle = isRotated ? rotation : 0;
     GltfText gltf =

@@ -62,7 +62,7 @@ void NodeReader::addNavigation(const Value& extras) {
     if (type.is_string())
       types.push_back(type.get<std::string>());
   if (!types.empty())
-    addRoot(scene_.graph, {"", GenericNode{"NavigationInfo", "", {}}, {}, "", {{"type", strings(types)}}});
+    addRoot(scene_.graph, {"", GenericNode{"NavigationInfo", "", {}}, {}, "", {{"type", quoteStrings(types)}}});
 }
 
 void NodeReader::readScene() {

@@ -239,7 +239,7 @@ private:
     if (urls.empty())
       return;
     ++summary_.remoteImages;
-    url->value = strings(urls);
+    url->value = quoteStrings(urls);
   }
 
   /// Reads a Transform. Malformed fields count as absent and are removed from `fields`.
