@@ -1,5 +1,6 @@
 // A scene as plain data: the fields of a document's nodes with every default filled in. Descriptions are immutable.
 
+import type { ElementType } from "../stage/elementType.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { SceneElement } from "./element.ts";
 import type { Rotation, Vec2, Vec3 } from "./fieldTypes.ts";
@@ -98,9 +99,6 @@ export interface ColorMapDescription {
 /** The meaning of an image geometry's texels: vertices and indices, or a surface over their grid. */
 export const meshModes = ["sig", "heightMap", "geometryImage", "sculpt"] as const;
 export type MeshMode = (typeof meshModes)[number];
-
-export const elementTypes = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"] as const;
-export type ElementType = (typeof elementTypes)[number];
 
 /** The encoding of unit normals: three components, two numbers, or RGB from a palette. */
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;

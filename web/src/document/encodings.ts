@@ -1,14 +1,8 @@
 // The document format of each encoding, one row each. Stage builders are in delivery/encodings. Mirrors
 // src/containers/encodings.h.
 
-import type {
-  ElementType,
-  Encoding,
-  GeometryDescription,
-  ImageProfile,
-  PatchDescription,
-  Reference,
-} from "./description.ts";
+import type { ElementType } from "../stage/elementType.ts";
+import type { Encoding, GeometryDescription, ImageProfile, PatchDescription, Reference } from "./description.ts";
 
 export interface EncodingFormat {
   /** The value of an ImageGeometry's `profile` field; undefined: a BinaryGeometry. */

@@ -5,7 +5,6 @@ import type {
   Box3,
   ByteReference,
   Draw,
-  ElementType,
   Encoding,
   GeometryDescription,
   MeshMode,
@@ -15,7 +14,9 @@ import type {
   Reference,
   Warning,
 } from "./description.ts";
-import { decodeModes, elementTypes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
+import type { ElementType } from "../stage/elementType.ts";
+import { elementTypes } from "../stage/elementType.ts";
+import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { byVertexRole, byVertexRoleWith, vertexRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";

@@ -4,7 +4,7 @@ import { Matrix3, Matrix4, Vector3 } from "three";
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
-import { elementTypeOf } from "../stage/elementType.ts";
+import { elementTypeOf, glTypeOf } from "../stage/elementType.ts";
 import { latticeBitsOf } from "../document/encodings.ts";
 import { isBlended, litParametersOf } from "../lighting/materialParameters.ts";
 import { lensOf } from "../navigation/cameraPose.ts";
@@ -145,7 +145,7 @@ export class PreviewRenderer {
     gl.vertexAttribPointer(
       location,
       components,
-      glTypes[elementTypeOf(array)],
+      glTypeOf(elementTypeOf(array)),
       isNormalized && !isFloat,
       stride * elementBytes,
       offset * elementBytes,
@@ -160,17 +160,6 @@ export class PreviewRenderer {
     gl.bufferData(target, array, gl.STATIC_DRAW);
   }
 }
-
-/** WebGL's constants for element types. */
-const glTypes = {
-  Int8: 0x1400,
-  Uint8: 0x1401,
-  Int16: 0x1402,
-  Uint16: 0x1403,
-  Int32: 0x1404,
-  Uint32: 0x1405,
-  Float32: 0x1406,
-} as const;
 
 function kindOf(
   { geometry, appearance }: PreviewShape,

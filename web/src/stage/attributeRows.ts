@@ -3,7 +3,7 @@
 // not in it.
 
 export interface AttributeRow {
-  /** Numbers of an element, where the document states no other number. */
+  /** The number of components, unless the document states another. */
   readonly components: 2 | 3 | 4;
   /** The largest number of components. */
   readonly maxComponents: 2 | 3 | 4;
@@ -11,7 +11,7 @@ export interface AttributeRow {
   readonly bufferName: string;
   /** The #define of materials whose vertices have it; undefined: three.js has one, or shaders read zeros instead. */
   readonly define?: string;
-  /** Its files are requested only for shapes with a texture. */
+  /** Whether its files are requested only for shapes with a texture. */
   readonly isForTextures: boolean;
   /** Default weight of its files in the order of requests. */
   readonly chunkWeight: number;

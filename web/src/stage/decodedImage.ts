@@ -1,4 +1,4 @@
-/** An image of vertex data: an ImageBitmap once it is decoded, a texture once it is on the GPU. */
+/** An image of vertex data or of a texture: an ImageBitmap once it is decoded, a texture once it is on the GPU. */
 export interface DecodedImage {
   readonly width: number;
   readonly height: number;

@@ -13,7 +13,7 @@ export interface DrawRange {
   readonly primitive: "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
   readonly first: number;
   readonly count: number;
-  /** Lines that are drawn as surfaces, with a width in pixels. */
+  /** Whether lines are drawn as surfaces, with a width in pixels. */
   readonly isWide?: boolean;
 }
 
@@ -64,7 +64,7 @@ export interface TextureStage extends StageHead {
   readonly kind: "textures";
   /** Undefined: element n is record n. */
   readonly index: TexelRange | undefined;
-  /** Index texels hold the index of the record; otherwise its column and row in the coordinate image. */
+  /** Whether index texels hold the index of the record; otherwise its column and row in the coordinate image. */
   readonly isIndexWide: boolean;
   /** Draws two triangles for each cell; without normals it is shaded by its slope. */
   readonly grid: Grid | undefined;
@@ -92,7 +92,7 @@ export interface ValuePlanes {
   readonly missingBytesMidpoint: number;
 }
 
-/** A typed array on the GPU; JavaScript keeps no copy. */
+/** A typed array that the renderer has: on the GPU without a copy in JavaScript, or not uploaded yet. */
 export interface GpuArray {
   readonly byteLength: number;
   /** Frees the memory. */

@@ -74,7 +74,7 @@ export function withCreasedNormals(
   faces: readonly (readonly Corner[])[],
   creaseAngle: number,
 ): { data: VertexData; faces: Corner[][] } {
-  const faceNormals = faces.map((face) => newellNormal(data.positions, face));
+  const faceNormals = faces.map((face) => faceNormal(data.positions, face));
   const facesAround = new Map<number, number[]>();
   for (const [faceIndex, face] of faces.entries()) {
     for (const { position } of face) {
@@ -128,7 +128,7 @@ export function withDefaultTexCoords(
 }
 
 /** The unit normal by Newell's method; zero for a face without area. */
-function newellNormal(positions: readonly number[], face: readonly Corner[]): Vec3 {
+function faceNormal(positions: readonly number[], face: readonly Corner[]): Vec3 {
   let sum = zero;
   for (const [i, { position }] of face.entries()) {
     const next = face[(i + 1) % face.length]?.position ?? position;

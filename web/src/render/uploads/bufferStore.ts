@@ -8,7 +8,7 @@ import type { BufferAttribute, BufferGeometry, InterleavedBuffer } from "three";
 import { GLBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import type { ElementType } from "../../stage/elementType.ts";
-import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
+import { arrayTypeOf, byteSizeOf, glTypeOf } from "../../stage/elementType.ts";
 import type { ArrayUse, GpuArray } from "../../stage/stage.ts";
 import type { BufferProvider, BufferUpload } from "./bufferProvider.ts";
 
@@ -17,25 +17,15 @@ const bytesPerStep = 2 ** 18;
 /** Arrays of at most this size stay in JavaScript until they are needed: one step uploads them. */
 const maxBytesKept = bytesPerStep;
 
-interface Kept {
+/** An array that is not on the GPU yet. */
+interface KeptArray {
   readonly array: ElementArray;
   readonly use: ArrayUse;
 }
 
-/** WebGL's type constants. */
-const glTypes: Readonly<Record<ElementType, number>> = {
-  Int8: 0x1400,
-  Uint8: 0x1401,
-  Int16: 0x1402,
-  Uint16: 0x1403,
-  Int32: 0x1404,
-  Uint32: 0x1405,
-  Float32: 0x1406,
-};
-
 export class BufferStore implements BufferProvider {
   readonly #gl: WebGL2RenderingContext;
-  readonly #buffers = new WeakMap<GpuArray, WebGLBuffer | Kept>();
+  readonly #buffers = new WeakMap<GpuArray, WebGLBuffer | KeptArray>();
   #bytes = 0;
 
   constructor(gl: WebGL2RenderingContext) {
@@ -66,13 +56,13 @@ export class BufferStore implements BufferProvider {
     }
     const buffer = gl.createBuffer();
     this.#buffers.set(bytes, buffer);
-    return { bytes, steps: pieces(gl, buffer, array, use) };
+    return { bytes, steps: uploadPieces(gl, buffer, array, use) };
   }
 
   recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
     const attribute = new GLBufferAttribute(
       this.#bufferOf(bytes),
-      glTypes[type],
+      glTypeOf(type),
       stride,
       byteSizeOf(type) as 1 | 2 | 4,
       Math.floor(bytes.byteLength / byteSizeOf(type) / stride),
@@ -89,7 +79,7 @@ export class BufferStore implements BufferProvider {
   indexAttributeOf(bytes: GpuArray, type: ElementType): BufferAttribute {
     return new GLBufferAttribute(
       this.#bufferOf(bytes),
-      glTypes[type],
+      glTypeOf(type),
       1,
       byteSizeOf(type) as 1 | 2 | 4,
       bytes.byteLength / byteSizeOf(type),
@@ -128,12 +118,12 @@ export class BufferStore implements BufferProvider {
     const held = this.#heldOf(bytes);
     if (held instanceof WebGLBuffer) return held;
     const buffer = this.#gl.createBuffer();
-    for (const steps = pieces(this.#gl, buffer, held.array, held.use); steps.next().done !== true;);
+    for (const steps = uploadPieces(this.#gl, buffer, held.array, held.use); steps.next().done !== true;);
     this.#buffers.set(bytes, buffer);
     return buffer;
   }
 
-  #heldOf(bytes: GpuArray): WebGLBuffer | Kept {
+  #heldOf(bytes: GpuArray): WebGLBuffer | KeptArray {
     const held = this.#buffers.get(bytes);
     if (held === undefined) throw new RangeError("the array is closed");
     return held;
@@ -146,7 +136,7 @@ function* keeping(byteLength: number): Generator<number, void, void> {
 }
 
 /** Uploads through COPY_WRITE_BUFFER, which no vertex array object records. */
-function* pieces(
+function* uploadPieces(
   gl: WebGL2RenderingContext,
   buffer: WebGLBuffer,
   array: ElementArray,

@@ -9,7 +9,8 @@ import { boundsOf, countThatFits, indexArrayOf, vertexArrayOf } from "../../../d
 import { byteSizeOf } from "../../../stage/elementType.ts";
 import type { BufferStage, DrawRange, NormalFormat, GpuIndex, GpuVertices } from "../../../stage/stage.ts";
 import { withoutStrips } from "../../../decode/strips.ts";
-import type { ElementType, GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
+import type { ElementType } from "../../../stage/elementType.ts";
+import type { GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
 import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geometry.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
