@@ -29,17 +29,17 @@ function drawModes(shapes: readonly string[], blending: "opaque" | "blended" = "
 
 const smallMeshes = Array.from({ length: minInstances }, (_, n) => geometry(`small${n}`, 24));
 
-test("in a scene of few shapes, each shape is drawModes alone", () => {
+test("in a scene of few shapes, each shape is drawn alone", () => {
   const shapes = [...smallMeshes.slice(2), '<ImageGeometry USE="small3"/>'];
   assert.deepEqual(new Set(drawModes(shapes)), new Set(["alone"]));
 });
 
-test("in a scene of many shapes, small meshes are merged and large ones are drawModes alone", () => {
+test("in a scene of many shapes, small meshes are merged and large ones are drawn alone", () => {
   const shapes = [...smallMeshes, geometry("large", maxMergedVertices + 1), geometry("unknownSize", 0)];
   assert.deepEqual(drawModes(shapes), [...smallMeshes.map(() => "merged"), "alone", "alone"]);
 });
 
-test("in a scene of many shapes, blended shapes are never drawModes alone, so that they can be sorted", () => {
+test("in a scene of many shapes, blended shapes are never drawn alone, so that they can be sorted", () => {
   const shapes = [...smallMeshes, geometry("large", maxMergedVertices + 1), geometry("image", 24, "classic")];
   assert.deepEqual(drawModes(shapes, "blended"), [...smallMeshes.map(() => "merged"), "instanced", "instanced"]);
   assert.deepEqual(new Set(drawModes(smallMeshes.slice(1), "blended")), new Set(["alone"]));
@@ -61,7 +61,7 @@ test("vertices that the GPU decodes are in images, not in buffers, and are never
   assert.deepEqual(drawModes(shapes).slice(-3), ["alone", "instanced", "instanced"]);
 });
 
-test("after shapes come and go, the remaining ones are drawModes as in a new scene", () => {
+test("after shapes come and go, the remaining ones are drawn as in a new scene", () => {
   const scene = readScene(
     elementsOf(
       `<X3D>${[...smallMeshes, geometry("twin", maxMergedVertices / 2), '<ImageGeometry USE="twin"/>']

@@ -7,8 +7,7 @@ import { formatOf } from "../../document/encodings.ts";
 
 /**
  * `alone`: one draw call per instance. `instanced`: one call for all instances. `merged`: one call for a mesh into
- * which
- * several shapes are merged.
+ * which several shapes are merged.
  */
 export type DrawMode = "alone" | "instanced" | "merged";
 

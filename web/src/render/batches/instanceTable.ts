@@ -15,8 +15,9 @@ export class InstanceTable {
   readonly uniform: { value: DataTexture };
   #numbers = new Float32Array(numbersPerRow * minRows);
   readonly #free: number[] = [];
-  /** Indices that have ever been given out, and the number of those in use. */
+  /** All indices from here on are free. */
   #end = 0;
+  /** The number of indices in use. */
   #used = 0;
   readonly #changedRows = new Set<number>();
   /** The last texture that three.js has uploaded. */
@@ -37,7 +38,7 @@ export class InstanceTable {
     this.#used -= 1;
     this.#free.push(instanceIndex);
     if (this.#used > 0) return;
-    // Nothing uses it: it starts over, also after a lost context has taken the texture.
+    // No record is in use, so the table starts over, with a new texture: the old one may be lost with its context.
     this.#free.length = 0;
     this.#end = 0;
     this.#replace();

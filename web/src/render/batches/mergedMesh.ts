@@ -25,8 +25,8 @@ export class MergedMesh implements MergedGeometry {
   readonly #instanceIndices = new GrowingArray(Uint32Array);
   readonly #index = new GrowingArray(Uint16Array);
   readonly #entries = new Map<Member, Entry>();
-  /** Indices of removed members. */
-  #lostIndices = 0;
+  /** The number of indices that belong to removed members. */
+  #removedIndexCount = 0;
 
   /** For draws whose stages have the same `layoutOf` key. */
   constructor({ stage, request }: BatchedDraw, buffers: BufferProvider) {
@@ -45,7 +45,7 @@ export class MergedMesh implements MergedGeometry {
 
   /** The fraction of indices that belong to removed members, 0 … 1. */
   get removedFraction(): number {
-    return this.#lostIndices === 0 ? 0 : this.#lostIndices / this.#index.length;
+    return this.#removedIndexCount === 0 ? 0 : this.#removedIndexCount / this.#index.length;
   }
 
   get needsRebuild(): boolean {
@@ -89,7 +89,7 @@ export class MergedMesh implements MergedGeometry {
   remove(member: Member): void {
     const memberIndices = this.indicesOf(member);
     memberIndices.fill(0);
-    this.#lostIndices += memberIndices.length;
+    this.#removedIndexCount += memberIndices.length;
     this.#entries.delete(member);
   }
 
@@ -99,7 +99,7 @@ export class MergedMesh implements MergedGeometry {
     for (const { data } of this.#columns) data.clear();
     this.#instanceIndices.clear();
     this.#index.clear();
-    this.#lostIndices = 0;
+    this.#removedIndexCount = 0;
     for (const member of members) this.add(member);
   }
 

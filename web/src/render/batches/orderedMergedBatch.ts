@@ -4,12 +4,11 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere } from "three";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
-import type { Batch, BatchResources, Member, Run } from "./batch.ts";
+import type { BatchResources, Member, Run } from "./batch.ts";
 import { MergedMesh } from "./mergedMesh.ts";
+import { MergingBatch } from "./mergingBatch.ts";
 
-export class OrderedMergedBatch implements Batch {
-  readonly #resources: BatchResources;
-  readonly #mesh: MergedMesh;
+export class OrderedMergedBatch extends MergingBatch<MergedMesh> {
   /** By run; as many as the frame with the most runs had. Those that a frame does not need are invisible. */
   readonly #objects: DrawnObject[] = [];
   /** Owns the vertices, which the geometries of all objects share. */
@@ -18,29 +17,9 @@ export class OrderedMergedBatch implements Batch {
   #index = new BufferAttribute(new Uint16Array(), 1);
   /** The members in the order of the index. */
   #order: readonly Member[] = [];
-  #hasChanged = true;
 
   constructor(resources: BatchResources, buffers: BufferProvider) {
-    this.#resources = resources;
-    this.#mesh = new MergedMesh(resources.draw, buffers);
-  }
-
-  get isEmpty(): boolean {
-    return this.#mesh.isEmpty;
-  }
-
-  hasRoomFor(member: Member): boolean {
-    return this.#mesh.hasRoomFor(member);
-  }
-
-  add(member: Member): void {
-    this.#mesh.add(member);
-    this.#hasChanged = true;
-  }
-
-  remove(member: Member): void {
-    this.#mesh.remove(member);
-    this.#hasChanged = true;
+    super(resources, new MergedMesh(resources.draw, buffers));
   }
 
   invalidateBounds(): void {
@@ -52,14 +31,14 @@ export class OrderedMergedBatch implements Batch {
   }
 
   drawRuns(runs: readonly Run[]): void {
-    if (this.#hasChanged) this.#send();
+    if (this.hasChanged) this.#replaceGeometries();
     const members = runs.flatMap((run) => run.members);
     if (members.length !== this.#order.length || members.some((member, n) => member !== this.#order[n]))
       this.#writeIndex(members);
     let first = 0;
     runs.forEach((run, n) => {
       const object = this.#objectAt(n);
-      const count = run.members.reduce((sum, member) => sum + this.#mesh.indicesOf(member).length, 0);
+      const count = run.members.reduce((sum, member) => sum + this.merged.indicesOf(member).length, 0);
       object.geometry.setDrawRange(first, count);
       object.renderOrder = run.order;
       object.visible = true;
@@ -74,27 +53,28 @@ export class OrderedMergedBatch implements Batch {
       object.geometry.dispose();
     }
     this.#vertices.dispose();
-    this.#resources.material.dispose();
+    this.resources.material.dispose();
   }
 
   #objectAt(n: number): DrawnObject {
-    return (this.#objects[n] ??= this.#resources.addObject(this.#shared()));
+    return (this.#objects[n] ??= this.resources.addObject(this.#makeGeometry()));
   }
 
   /** Replaces the vertices and the index, which three.js uploads with the next frame. */
-  #send(): void {
-    this.#hasChanged = false;
-    if (this.#mesh.removedFraction > 0.5) this.#mesh.rebuild();
+  #replaceGeometries(): void {
+    this.hasChanged = false;
+    if (this.merged.removedFraction > 0.5) this.merged.rebuild();
     for (const { geometry } of this.#objects) geometry.dispose();
     this.#vertices.dispose();
     this.#vertices = new BufferGeometry();
-    this.#mesh.setVerticesOf(this.#vertices);
-    this.#index = new BufferAttribute(new Uint16Array(this.#mesh.index.length), 1).setUsage(DynamicDrawUsage);
+    this.merged.setVerticesOf(this.#vertices);
+    this.#index = new BufferAttribute(new Uint16Array(this.merged.index.length), 1).setUsage(DynamicDrawUsage);
     this.#order = [];
-    for (const object of this.#objects) object.geometry = this.#shared();
+    for (const object of this.#objects) object.geometry = this.#makeGeometry();
   }
 
-  #shared(): BufferGeometry {
+  /** Makes a geometry with the common vertices and the common index. */
+  #makeGeometry(): BufferGeometry {
     const geometry = new BufferGeometry();
     for (const [name, attribute] of Object.entries(this.#vertices.attributes)) geometry.setAttribute(name, attribute);
     geometry.setIndex(this.#index);
@@ -106,7 +86,7 @@ export class OrderedMergedBatch implements Batch {
     const { array } = this.#index;
     let first = 0;
     for (const member of members) {
-      const indices = this.#mesh.indicesOf(member);
+      const indices = this.merged.indicesOf(member);
       (array as Uint16Array).set(indices, first);
       first += indices.length;
     }

@@ -37,9 +37,8 @@ export const pickTargetCount = 4;
 /** Defined where fragments with too little alpha are not hit. */
 const alphaCutoffDefine = "HAS_ALPHA_CUTOFF";
 
-const vertexShader = /* glsl */ `
-#include <common>
-uniform bool hasNormals;
+/** Declared in both shaders. */
+const varyings = /* glsl */ `
 varying vec3 vPosition;
 varying vec3 vNormal;
 flat varying int element;
@@ -53,7 +52,12 @@ varying vec3 cornerWeights;
 #ifdef USE_COLOR_ALPHA
   varying float vertexAlpha;
 #endif
+`;
 
+const vertexShader = /* glsl */ `
+#include <common>
+uniform bool hasNormals;
+${varyings}
 void main() {
   #include <uv_vertex>
   #include <beginnormal_vertex>
@@ -105,13 +109,7 @@ void main() {
 
 const fragmentShader = /* glsl */ `
 uniform uint pickId;
-varying vec3 vPosition;
-varying vec3 vNormal;
-flat varying int element;
-flat varying ivec3 cornerVertices;
-flat varying vec3 facePoint;
-flat varying vec3 faceNormal;
-varying vec3 cornerWeights;
+${varyings}
 layout(location = 0) out uvec4 outIds;
 layout(location = 1) out uvec4 outPosition;
 layout(location = 2) out uvec4 outNormal;
@@ -121,10 +119,6 @@ layout(location = 3) out uvec4 outFaceNormal;
 #endif
 #ifdef ${alphaMaskDefine}
   uniform sampler2D alphaMask;
-  varying vec2 ${alphaMaskVarying};
-#endif
-#ifdef USE_COLOR_ALPHA
-  varying float vertexAlpha;
 #endif
 
 void main() {
