@@ -194,8 +194,7 @@ export class SceneRenderer {
     this.#backgroundMesh?.removeFromParent();
     this.#backgroundMesh = background instanceof Mesh ? background : undefined;
     if (this.#backgroundMesh) this.#scene.add(this.#backgroundMesh);
-    // scene.background instead of the renderer's clear colour, which would be lost with the
-    // context.
+    // scene.background survives a lost context; the renderer's clear colour does not.
     this.#scene.background = background instanceof Color ? background : null;
   }
 

@@ -1,6 +1,6 @@
-// Vertex attributes of small meshes on their way into one merged mesh: one tightly packed array
-// (column) per attribute, whatever stride the source has, padded to words of four bytes as GPUs
-// prefer.
+// Copies vertex attributes of small meshes into one array (column) per attribute of a merged mesh.
+// Columns are tightly packed, whatever the stride of the source; each vertex is padded to words of
+// four bytes, as GPUs prefer.
 
 import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";

@@ -1,8 +1,8 @@
 // Frame pacing for frames that only refine the picture. A scene of many patches changes many times
 // a second while it loads. A GPU that needs longer than a frame for each of these changes would
 // have no time left for uploads. So after a frame that takes longer than `quickFrameMs`, the next
-// refinement waits twice as long as that frame durationMs. No change is lost: the delayed frame shows all
-// changes that have come meanwhile.
+// such frame waits for twice that duration. No change is lost: the delayed frame shows all changes
+// that have come meanwhile.
 
 import { fencePassed } from "./gpuFence.ts";
 
@@ -28,7 +28,7 @@ export class FramePacer {
     return this.#isPending;
   }
 
-  /** Calls back once, however often it is requested before the frame: immediately, or after the delay. */
+  /** Calls back immediately, or after the delay. Further requests before the next frame are ignored. */
   request(callback: () => void): void {
     if (this.#isPending) return;
     this.#isPending = true;

@@ -33,6 +33,7 @@ uniform vec3 scopedAmbients[ALL_LIGHTS];
   #define drawLightScope lightScope
 #endif
 
+// 1 if the light reaches the drawn object's scope, otherwise 0.
 float lightShareInScope(int light) {
   vec2 range = lightScopeRanges[light];
   return step(range.x, drawLightScope) * step(drawLightScope, range.y);
@@ -46,9 +47,12 @@ vec3 ambientLightInScope() {
 `;
 
 const lightsInScope = replaceChunks(ShaderChunk.lights_fragment_begin, [
-  lit("getPointLightInfo( pointLight, geometryPosition, directLight );", "UNROLLED_LOOP_INDEX"),
-  lit("getSpotLightInfo( spotLight, geometryPosition, directLight );", "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX"),
-  lit(
+  limitToScope("getPointLightInfo( pointLight, geometryPosition, directLight );", "UNROLLED_LOOP_INDEX"),
+  limitToScope(
+    "getSpotLightInfo( spotLight, geometryPosition, directLight );",
+    "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX",
+  ),
+  limitToScope(
     "getDirectionalLightInfo( directionalLight, directLight );",
     "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX",
   ),
@@ -58,8 +62,9 @@ const lightsInScope = replaceChunks(ShaderChunk.lights_fragment_begin, [
   ],
 ]);
 
-function lit(statement: string, number: string): readonly [string, string] {
-  return [statement, `${statement}\n\t\tdirectLight.color *= lightShareInScope( ${number} );`];
+/** The replacement of a statement that computes `directLight` in one of three.js' light loops. */
+function limitToScope(statement: string, lightIndex: string): readonly [string, string] {
+  return [statement, `${statement}\n\t\tdirectLight.color *= lightShareInScope( ${lightIndex} );`];
 }
 
 /** Call in `onBeforeCompile`. Programs of unlit materials stay as they are. */

@@ -70,8 +70,8 @@ function ambientOf({ color, ambientIntensity }: LightDescription): Color {
 }
 
 /**
- * In the order in which three.js' programs count lights. The headlight, where there is one, is the last directional
- * light.
+ * Appends the values of each light in the order in which three.js' programs count lights. The headlight, where there is
+ * one, is the last directional light.
  */
 function setScopeRanges(
   { lightScopeRanges, scopedAmbients }: SceneLightUniforms,

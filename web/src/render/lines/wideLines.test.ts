@@ -82,7 +82,7 @@ describe("wide lines in buffers", () => {
     });
   });
 
-  test("are none where there are too few vertices", () => {
+  test("are absent where a draw has too few vertices", () => {
     assert.equal(endsOf({ primitive: "lineStrip", first: 0, count: 1, isWide: true }).count, 0);
   });
 });

@@ -1,5 +1,6 @@
-// Glyphs from a texture whose alpha is the distance to the outlines of letters (Green 2007): sharp
-// from near. From far, the edge is softened as far as the field reaches, and mipmaps do the rest.
+// Draws glyphs from a texture whose alpha is the distance to their outlines (Green 2007), so that they
+// are sharp from near. From far, the edge is softened as far as the field reaches, and mipmaps do the
+// rest.
 
 import type { Material, WebGLProgramParametersWithUniforms } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";

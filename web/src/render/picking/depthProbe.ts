@@ -46,8 +46,7 @@ export class DepthProbe {
 
   /**
    * Draws the surfaces of the candidates and reads their depths. Ground is searched down to `searchDepth` below the
-   * eye.
-   * Resolves to undefined if the context is lost meanwhile.
+   * eye. Resolves to undefined if the context is lost meanwhile.
    */
   async probe(
     depthCamera: DepthCamera,

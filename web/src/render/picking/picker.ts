@@ -94,8 +94,7 @@ export class Picker {
 
   /**
    * Does not block: the result is read when the GPU is done. It is "stale" if the draw that was hit has been disposed
-   * of
-   * meanwhile.
+   * of meanwhile.
    */
   async pickAsync(
     camera: PerspectiveCamera,

@@ -1,4 +1,4 @@
-// Reads integer pixelCount (four 32-bit words each) of the bound framebuffer's attachments: either
+// Reads pixels of integers (four 32-bit words each) of the bound framebuffer's attachments: either
 // blocking, or asynchronously through a pixel pack buffer and a fence.
 
 import { fencePassed } from "../frames/gpuFence.ts";
@@ -27,7 +27,7 @@ export function readPixelAsync(gl: WebGL2RenderingContext, attachments: number):
   );
 }
 
-/** A block of pixelCount of one attachment. */
+/** A block of pixels of one attachment. */
 export interface PixelBlock {
   readonly attachment: number;
   readonly x: number;
@@ -37,8 +37,7 @@ export interface PixelBlock {
 }
 
 /**
- * Reads the pixelCount of several blocks without blocking, one block after the other, each row by row from the bottom.
- * All
+ * Reads the pixels of several blocks without blocking, one block after the other, each row by row from the bottom. All
  * words are zero if the context is lost meanwhile.
  */
 export function readBlocksAsync(gl: WebGL2RenderingContext, blocks: readonly PixelBlock[]): Promise<Uint32Array> {

@@ -103,7 +103,7 @@ export const instanceFragmentChunk = /* glsl */ `
 #endif
 `;
 
-/** Replaces the beginning of a fragment shader. */
+/** Replaces `void main() {` of a fragment shader. */
 export const discardFacesChunk = /* glsl */ `void main() {
 #ifdef ${instancesDefine}
   if (instanceFaces == (gl_FrontFacing ? ${backFaces}u : ${frontFaces}u)) discard;

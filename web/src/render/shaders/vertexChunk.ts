@@ -96,8 +96,8 @@ int gridVertex(int drawVertexIndex) {
 
 #endif
 
-// three.js draws no triangle strips, so they are drawn as separate triangles: triangle t is t, t +
-// 1, t + 2, with the first two exchanged if t is odd.
+// three.js draws no triangle strips, so they are drawn as separate triangles. Triangle t has the
+// corners t, t + 1, t + 2 of the strip; the first two are exchanged if t is odd.
 int sequenceIndex(int drawVertexIndex) {
   #ifdef GRID
     return gridVertex(drawVertexIndex);
@@ -283,7 +283,7 @@ export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz)
 /** The first statement of a vertex shader. */
 export const readVertexStatement = "Vertex vertex = readVertex();";
 
-/** Makes the shaders of a built-in material read vertices with this chunk. Call in `onBeforeCompile`. */
+/** Makes the shaders of a material read vertices with this chunk. Call in `onBeforeCompile` of built-in materials. */
 export function addVertexReading(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {

@@ -65,14 +65,17 @@ export interface ImageVertexUniforms extends VertexUniforms, Record<`${VertexRol
 const otherSamplerCount = 9;
 /** Samplers in vertex shaders, hence texture units that a vertex shader must have. */
 export const minVertexTextureUnits = otherSamplerCount + vertexRoles.length;
-/** Defined in materials that read images, and in those that read normals from them. */
+
+/** Defined in materials that read vertices from images. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
+/** Defined in those of them that read normals. */
 export const imageNormalsDefine = "IMAGE_NORMALS";
 /** Defined in materials that light in linear space: vertex colours are sRGB. */
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
+
 /** How the vertices of a draw are read. */
 export interface VertexFormat {
-  /** From images, not from buffers. */
+  /** Whether they are in images; otherwise in buffers. */
   readonly isFromImages: boolean;
   /** As attributeDefinesOf returns them. */
   readonly attributeDefines: Readonly<Record<string, string>>;
@@ -80,7 +83,7 @@ export interface VertexFormat {
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf returns them. */
   readonly normalDefines: Readonly<Record<string, string>>;
-  /** Each instance has a record (shaders/instanceRecord.ts); otherwise the object's matrix says where it is. */
+  /** Whether each instance has a record (shaders/instanceRecord.ts); otherwise the object's matrix transforms it. */
   readonly isInstanced: boolean;
   /** For wide lines, the distance in vertices from one line to the next; 0: no wide lines. */
   readonly wideLineStep: 0 | 1 | 2;

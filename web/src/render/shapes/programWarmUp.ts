@@ -34,8 +34,8 @@ export function warmUpObjects(
   const objects = new Map<string, Object3D>();
   const bare = new BufferGeometry();
   // three.js' programs differ by the attributes of the geometry.
-  const one = new BufferAttribute(new Int8Array(3), 3);
-  const inBuffers = new BufferGeometry().setAttribute("position", one).setAttribute("normal", one);
+  const attribute = new BufferAttribute(new Int8Array(3), 3);
+  const inBuffers = new BufferGeometry().setAttribute("position", attribute).setAttribute("normal", attribute);
   for (const { geometry: described, appearance, visible } of shapes) {
     if (described === undefined || !visible) continue;
     const {
@@ -45,8 +45,8 @@ export function warmUpObjects(
       lines,
     } = appearance;
     const surfaceTextures = new Map(textures.map(({ role }) => [role, placeholderTexture]));
-    for (const bareStage of expectedStages(described, textures.length > 0)) {
-      const stage = lines ? withWideLines(bareStage) : bareStage;
+    for (const expected of expectedStages(described, textures.length > 0)) {
+      const stage = lines ? withWideLines(expected) : expected;
       for (const range of stage.draws) {
         const applicable = stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
         const isBatched =

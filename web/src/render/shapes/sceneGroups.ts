@@ -1,5 +1,5 @@
 // Mirrors a scene's instance tree (scene/) in three.js groups. Groups own nothing on the GPU; the
-// listener fills those of shapes.
+// listener adds drawn objects to the groups of shapes.
 
 import type { Camera, Object3D } from "three";
 import { Box3, Group, Vector3 } from "three";
@@ -48,13 +48,13 @@ export class SceneGroups implements InstanceTreeListener {
   /** The groups of shape instances. */
   readonly #shapeGroups = new Map<NodeInstance, ShapeGroup>();
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
-  readonly #shapes: ShapeInstanceListener;
+  readonly #listener: ShapeInstanceListener;
   #lightInstances: readonly LightInstance[] = [];
   #lights: SceneLights = makeLights([]);
   #boundedGroups: readonly BoundedGroup[] = [];
 
-  constructor(shapes: ShapeInstanceListener) {
-    this.#shapes = shapes;
+  constructor(listener: ShapeInstanceListener) {
+    this.#listener = listener;
     this.root.matrixAutoUpdate = false;
     this.root.add(this.#lights.root);
   }
@@ -140,7 +140,7 @@ export class SceneGroups implements InstanceTreeListener {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup && node.description.kind === "shape") {
       shapeGroup.updateMatrixWorld(true);
-      this.#shapes.onRotate?.(node.description, shapeGroup);
+      this.#listener.onRotate?.(node.description, shapeGroup);
       return;
     }
     const group = this.#groups.get(node);
@@ -151,13 +151,13 @@ export class SceneGroups implements InstanceTreeListener {
   onEnter(node: NodeInstance): void {
     const { description } = node;
     if (description.kind === "group")
-      this.#addGroup(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
+      this.#addGroup(node, description, this.#listener.makeGroup?.(description) ?? new Group());
     if (description.kind !== "shape") return;
     const group: ShapeGroup = new Group();
     group.lightScope = node.lightScope;
     this.#shapeGroups.set(node, group);
     this.#addGroup(node, description, group);
-    this.#shapes.onEnter(description, node, group);
+    this.#listener.onEnter(description, node, group);
   }
 
   onChange(node: NodeInstance, hasMoved: boolean, before: NodeDescription): void {
@@ -168,12 +168,12 @@ export class SceneGroups implements InstanceTreeListener {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup) shapeGroup.lightScope = node.lightScope;
     if (shapeGroup && description.kind === "shape" && before.kind === "shape")
-      this.#shapes.onChange(description, node, shapeGroup, before);
+      this.#listener.onChange(description, node, shapeGroup, before);
   }
 
   onLeave(node: NodeInstance): void {
     const shapeGroup = this.#shapeGroups.get(node);
-    if (shapeGroup && node.description.kind === "shape") this.#shapes.onLeave(node.description, node, shapeGroup);
+    if (shapeGroup && node.description.kind === "shape") this.#listener.onLeave(node.description, node, shapeGroup);
     this.#groups.get(node)?.removeFromParent();
     this.#groups.delete(node);
     this.#shapeGroups.delete(node);
@@ -203,6 +203,6 @@ function applyDescription(description: GroupDescription | ShapeDescription, grou
   }
   if (description.transform) group.matrix.copy(matrixOf(description.transform));
   else group.matrix.identity();
-  // Not those of groups below it, which are visited next.
+  // Groups below this one are visited next, so only its own world matrix is updated.
   if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
 }

@@ -182,8 +182,8 @@ export class SceneShapes {
     this.#extendBounds(object, stage.bounds);
   }
 
-  setTexture(element: SceneElement, role: TextureRole, picture: SurfaceTexture | undefined): void {
-    this.#shapes.get(element)?.setTexture(role, picture);
+  setTexture(element: SceneElement, role: TextureRole, texture: SurfaceTexture | undefined): void {
+    this.#shapes.get(element)?.setTexture(role, texture);
   }
 
   /** Whether to draw vertices as points in place of surfaces. */

@@ -71,7 +71,7 @@ export class ShapeObject {
     for (const { draws } of this.#patches.values()) draws.addInstance(group);
   }
 
-  /** The group has moved, has become visible or invisible, or has another light scope. */
+  /** Call when the group has moved, has become visible or invisible, or has another light scope. */
   updateInstance(group: ShapeGroup): void {
     for (const { draws } of this.#patches.values()) draws.updateInstance(group);
   }
@@ -125,15 +125,15 @@ export class ShapeObject {
   }
 
   /** Sets how its geometry is drawn. */
-  setDrawModes(drawing: DrawModes): void {
-    if (drawing === this.#drawModes) return;
-    this.#drawModes = drawing;
+  setDrawModes(drawModes: DrawModes): void {
+    if (drawModes === this.#drawModes) return;
+    this.#drawModes = drawModes;
     this.#applyAppearance();
   }
 
   /** Applies a texture to surfaces with texture coordinates; undefined: removes it. */
-  setTexture(role: TextureRole, picture: SurfaceTexture | undefined): void {
-    if (picture) this.#surfaceTextures.set(role, picture);
+  setTexture(role: TextureRole, texture: SurfaceTexture | undefined): void {
+    if (texture) this.#surfaceTextures.set(role, texture);
     else this.#surfaceTextures.delete(role);
     this.#applyAppearance();
   }

@@ -27,7 +27,7 @@ export interface PatchDraws {
   readonly picks: readonly PickDraw[];
   /** Adds an instance of the shape, which `group` holds. */
   addInstance(group: ShapeGroup): void;
-  /** The group has moved, has become visible or invisible, or has another light scope. */
+  /** Call when the group has moved, has become visible or invisible, or has another light scope. */
   updateInstance(group: ShapeGroup): void;
   /** Removes an instance. */
   removeInstance(group: ShapeGroup): void;
@@ -46,11 +46,11 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   const applicable = (surfaceTextures: SurfaceTextures) =>
     stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
-  const draws = context.geometries.acquire(stage).flatMap((shape, drawIndex) => {
+  const draws = context.geometries.acquire(stage).flatMap((bufferGeometry, drawIndex) => {
     const range = stage.draws[drawIndex];
     if (range === undefined || range.count === 0) return [];
-    shape.boundingBox = box;
-    shape.boundingSphere = sphere;
+    bufferGeometry.boundingBox = box;
+    bufferGeometry.boundingSphere = sphere;
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared);
     const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
     const materials = new MaterialPerLightScope((lightScope) =>
@@ -65,29 +65,29 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       bounds: sphere,
       shapeFromStored,
       acquireResources: () => ({
-        geometry: shape,
+        geometry: bufferGeometry,
         request: pickRequestOf(stage, range, side, uniforms.of(range), displayed.appearance, displayed.surfaceTextures),
         release: () => undefined,
       }),
     });
-    return [{ range, shape, materials, request, pick }];
+    return [{ range, bufferGeometry, materials, request, pick }];
   });
   const objects = new Map<ShapeGroup, DrawnObject[]>();
-  const leave = (group: ShapeGroup) => {
+  const removeInstance = (group: ShapeGroup) => {
     for (const object of objects.get(group) ?? []) object.removeFromParent();
     objects.delete(group);
   };
   return {
     picks: draws.map(({ pick }) => pick),
     addInstance(group) {
-      const here = draws.map(({ range, shape, materials, request }) => {
+      const added = draws.map(({ range, bufferGeometry, materials, request }) => {
         const material = materials.of(group);
-        const object = objectWithMatrix(range, shape, material, shapeFromStored);
+        const object = objectWithMatrix(range, bufferGeometry, material, shapeFromStored);
         materialFactory.prepareObject(object, request, material);
         return object;
       });
-      if (here.length > 0) group.add(...here);
-      objects.set(group, here);
+      if (added.length > 0) group.add(...added);
+      objects.set(group, added);
     },
     updateInstance(group) {
       // Objects are children of the group and move with it.
@@ -99,7 +99,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         materialFactory.prepareObject(object, request, material);
       });
     },
-    removeInstance: leave,
+    removeInstance,
     applyAppearance(appearance, surfaceTextures) {
       displayed = { appearance, surfaceTextures };
       setAppearanceUniforms(uniforms.common, geometry, appearance);
@@ -110,7 +110,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       }
     },
     dispose() {
-      for (const group of Array.from(objects.keys())) leave(group);
+      for (const group of Array.from(objects.keys())) removeInstance(group);
       for (const { materials, pick } of draws) {
         for (const material of materials.all) material.dispose();
         pick.dispose();
@@ -140,8 +140,13 @@ class MaterialPerLightScope {
   }
 }
 
-function objectWithMatrix(draw: DrawRange, shape: BufferGeometry, material: Material, matrix: Matrix4): DrawnObject {
-  const object = makeDrawnObject(draw, shape, material);
+function objectWithMatrix(
+  range: DrawRange,
+  geometry: BufferGeometry,
+  material: Material,
+  matrix: Matrix4,
+): DrawnObject {
+  const object = makeDrawnObject(range, geometry, material);
   object.matrixAutoUpdate = false;
   object.matrix.copy(matrix);
   object.matrixWorldNeedsUpdate = true;

@@ -21,6 +21,7 @@ export function setDataSampling(texture: Texture): void {
 }
 
 const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
+
 /**
  * For textures of an appearance. Their colours are not converted, like those of materials (materials/x3dMaterials.ts).
  */
