@@ -71,8 +71,8 @@ export function deviceSizeOf(element: Element): [width: number, height: number, 
 }
 
 /**
- * The exact size that the browser reports, unless it differs by more than rounding: it does not include an emulated
- * pixel ratio.
+ * The exact size that the browser reports; if it differs by more than rounding, the rounded size: the browser's report
+ * does not include an emulated pixel ratio.
  */
 function devicePixels(cssPixels: number, exact: number | undefined): number {
   const product = cssPixels * devicePixelRatio;

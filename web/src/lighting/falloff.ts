@@ -1,6 +1,6 @@
-// Falloff of light in X3D (ISO/IEC 19775-1, 17.2.2.4). Distance d attenuates by 1 / max(a + b d + c
-// d^2, 1), and to nothing beyond the radius; between beamWidth and cutOffAngle, intensity falls
-// linearly with the angle.
+// Falloff of light in X3D (ISO/IEC 19775-1, 17.2.2.4). At distance d, light is attenuated by
+// 1 / max(a + b d + c d^2, 1); beyond the radius there is none. Between beamWidth and cutOffAngle,
+// intensity falls linearly with the angle.
 
 import type { Vec3 } from "../document/description.ts";
 

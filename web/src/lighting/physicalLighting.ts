@@ -16,7 +16,8 @@ export const physicalDefine = "PHYSICAL";
 export const physicalLighting = /* glsl */ `
 const float environmentRadiance = 0.3;
 
-vec3 normalReflectance(const in X3dMaterial material) {
+// The reflectance at normal incidence, F0.
+vec3 reflectanceF0(const in X3dMaterial material) {
   return mix(vec3(0.04), material.diffuseColor, material.metallic);
 }
 
@@ -34,7 +35,7 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
   float distribution = alpha2 / (denominator * denominator);
   float visibility =
     0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
-  vec3 fresnel = mix(normalReflectance(material), vec3(1.0), pow(1.0 - VH, 5.0));
+  vec3 fresnel = mix(reflectanceF0(material), vec3(1.0), pow(1.0 - VH, 5.0));
   reflected.directDiffuse += light.color * NL * (1.0 - fresnel) * (1.0 - material.metallic) * material.diffuseColor;
   reflected.directSpecular += light.color * NL * fresnel * distribution * visibility;
 }
@@ -45,7 +46,7 @@ vec3 environmentReflectance(const in X3dMaterial material, float NV) {
   vec4 r = material.roughness * c0 + c1;
   float a004 = min(r.x * r.x, exp2(-9.28 * NV)) * r.x + r.y;
   vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
-  return normalReflectance(material) * ab.x + ab.y;
+  return reflectanceF0(material) * ab.x + ab.y;
 }
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
@@ -57,7 +58,10 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 }
 `;
 
-/** Replaces three.js' output encoding, which is off for the scene's other materials. */
+/**
+ * Replaces three.js' chunk for output encoding. The renderer's encoding is off, so colours of physical materials are
+ * encoded here.
+ */
 export const physicalOutput = /* glsl */ `
 #include <colorspace_fragment>
 #ifdef ${physicalDefine}

@@ -9,8 +9,7 @@ import { physicalDefine, physicalLighting } from "./physicalLighting.ts";
 
 /**
  * The functions directX3d and ambientX3d. They need three.js' IncidentLight (color, direction towards the light) and
- * ReflectedLight (direct and indirect, Diffuse
- * and Specular). Directions have length 1.
+ * ReflectedLight (directDiffuse, directSpecular, indirectDiffuse, indirectSpecular). Directions have length 1.
  */
 export const x3dLighting = /* glsl */ `
 struct X3dMaterial {

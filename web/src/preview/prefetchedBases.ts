@@ -49,7 +49,7 @@ export class PrefetchedBases {
       byteLength: bytes.byteLength,
       bases: await decodeBases(bytes),
     }));
-    for (const promise of [downloaded, decoded]) promise.catch(() => undefined); // a rejection may go unhandled
+    for (const promise of [downloaded, decoded]) promise.catch(() => undefined); // there may be no other handler
     return { downloaded, decoded };
   }
 

@@ -143,9 +143,8 @@ export class Preview {
     const [width, height] = deviceSizeOf(this.canvas);
     this.#setSize(width, height);
     if (!this.#draw()) return;
-    // Makes the canvas visible, not before it is drawn: the compositor would wait for the GPU's warm-up, and the page
-    // for
-    // the compositor.
+    // Makes the canvas visible. Earlier, the compositor would wait for the GPU's warm-up, and the page for the
+    // compositor.
     this.canvas.classList.add("drawn");
     this.#state = "drawn";
     this.#settle();

@@ -40,8 +40,8 @@ void main() {
 }
 `;
 
-// Light positions are in view coordinates. The shader calls the function of each light's
-// kind: a GPU that chooses the kind at every pixel evaluates all kinds.
+// Light positions are in view coordinates. The source calls the function of each light's kind,
+// because a GPU that branches on the kind at every pixel evaluates all kinds.
 const fragmentShader = (lights: readonly LightKind[]): string => /* glsl */ `
 precision highp float;
 struct IncidentLight { vec3 color; vec3 direction; };

@@ -7,7 +7,8 @@ import type { Vec3 } from "../document/description.ts";
 const minSine = 1e-6;
 
 /**
- * The rotation of a billboard about `axis` (0 0 0: it also keeps upright on the screen). `eye` is the viewer's position
+ * The rotation about `axis` that turns a billboard to the viewer. If the axis is 0 0 0, the billboard turns freely and
+ * stays upright on the screen. `eye` is the viewer's position
  * and `up` the screen's up direction, both in the billboard's coordinates.
  */
 export function billboardRotation(axis: Vec3, eye: Vector3, up: Vector3): Matrix4 {

@@ -16,7 +16,7 @@ import { matrixOf } from "./transforms.ts";
 /** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
   onEnter(node: NodeInstance): void;
-  /** The node's description or inherited state has changed; `hasMoved`: so has its transform. */
+  /** The node's description or inherited state has changed. `hasMoved`: whether its transform has, too. */
   onChange(node: NodeInstance, hasMoved: boolean, previous: NodeDescription): void;
   onLeave(node: NodeInstance): void;
 }
@@ -124,7 +124,9 @@ function transformOf(description: NodeDescription): unknown {
 function childFrameOf(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
   if (description.kind !== "group") return sceneFromParent;
   if (description.transform) return sceneFromParent.clone().multiply(matrixOf(description.transform));
-  return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent; // the renderer rotates it for each view
+  // The renderer rotates a billboard for each view. Its own matrix makes its descendants count as moved when it begins or
+  // ceases to be one.
+  return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent;
 }
 
 function leafSummary(
@@ -201,7 +203,7 @@ function matchChildren(
   };
 }
 
-/** Children whose new descriptions are not known yet. */
+/** Children for which no new description has been found yet. */
 class UnmatchedChildren {
   readonly #remaining: Set<NodeInstance>;
   readonly #byDescription: ReadonlyMap<NodeDescription, NodeInstance>;

@@ -9,16 +9,16 @@ const megabyte = 2 ** 20;
 /** Uploads arrays in steps of one megabyte. */
 class FakeRenderer {
   isEmpty = false;
-  moved = 0;
-  closed = 0;
+  uploadedBytes = 0;
+  closedCount = 0;
 
   beginBufferUpload({ byteLength }: { byteLength: number }): BufferUpload {
-    const move = (): void => {
-      this.moved += megabyte;
+    const uploadStep = (): void => {
+      this.uploadedBytes += megabyte;
     };
     function* steps(): Generator<number, void, void> {
       for (let left = byteLength; left > 0; left -= megabyte) {
-        move();
+        uploadStep();
         yield megabyte;
       }
     }
@@ -26,7 +26,7 @@ class FakeRenderer {
       bytes: {
         byteLength,
         close: () => {
-          this.closed += 1;
+          this.closedCount += 1;
         },
       },
       steps: steps(),
@@ -68,20 +68,20 @@ describe("the upload pipeline", () => {
     const renderer = new FakeRenderer();
     const stored = store(renderer, 11);
     const maxBytes = 4 * megabyte;
-    assert.equal(renderer.moved, 0, "nothing is uploaded before a frame");
-    const moves: number[] = [];
-    const sum = (): number => moves.reduce((all, bytes) => all + bytes, 0);
+    assert.equal(renderer.uploadedBytes, 0, "nothing is uploaded before a frame");
+    const bytesByFrame: number[] = [];
+    const sum = (): number => bytesByFrame.reduce((all, bytes) => all + bytes, 0);
     while (sum() < 11 * megabyte) {
       await nextFrame();
-      moves.push(renderer.moved - sum());
+      bytesByFrame.push(renderer.uploadedBytes - sum());
     }
     await nextFrame(); // finds that no step is left
     assert.ok(
-      moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= maxBytes),
-      `${moves.join(", ")} bytes before a frame`,
+      bytesByFrame.length >= 3 && bytesByFrame.every((bytes) => bytes > 0 && bytes <= maxBytes),
+      `${bytesByFrame.join(", ")} bytes before a frame`,
     );
     assert.equal((await stored).byteLength, 11 * megabyte);
-    assert.equal(renderer.closed, 0);
+    assert.equal(renderer.closedCount, 0);
   });
 
   test("does not wait for frames while the scene is empty", async () => {
@@ -99,8 +99,8 @@ describe("the upload pipeline", () => {
     const stored = store(renderer, 11, aborter.signal);
     await nextFrame();
     aborter.abort(new Error("removed"));
-    const { moved } = renderer;
+    const { uploadedBytes } = renderer;
     await Promise.all([assert.rejects(stored, { message: "removed" }), nextFrame()]);
-    assert.deepEqual([renderer.moved, renderer.closed], [moved, 1]);
+    assert.deepEqual([renderer.uploadedBytes, renderer.closedCount], [uploadedBytes, 1]);
   });
 });

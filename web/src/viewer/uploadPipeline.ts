@@ -1,5 +1,6 @@
 // Uploads images and arrays to the GPU. The browser decodes images outside of the main
-// thread. Images and arrays are uploaded in pieces before frames; no copy remains in JavaScript.
+// thread. Images and arrays are uploaded in pieces before frames. JavaScript keeps no copy, except
+// of small arrays (render/uploads/bufferStore.ts).
 
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DataImage } from "../decode/image.ts";

@@ -57,7 +57,7 @@ export interface ViewerCoreOptions<Shape extends LoadingShape> {
   /** The host's shapes, which join `deliveries`. */
   readonly shapes: LoadingShapes<Shape>;
   readonly reader: Pick<SceneReaderOptions, "url" | "levelOf">;
-  /** How many missing faces of a font have loaded since: texts are laid out again when the number changes. */
+  /** How many times faces of a font have loaded; texts are laid out again when the number changes. */
   readonly fontEditionOf?: Parameters<typeof textReader>[1];
   readonly inlines: Omit<InlinesOptions, "pool">;
   readonly host: ViewerHost;
