@@ -166,7 +166,7 @@ describe("a typed array", () => {
     assert.deepEqual(Array.from(odd.array), [0x0605, 0x0807, 0x0a09]);
   });
 
-  test("that is interleaved with others is a view of the same bytes as they are", () => {
+  test("that is interleaved with others is a view of the same bytes as theirs", () => {
     const views = [0, 6, 12].map((byteOffset) => vertexArrayOf(bytes, range({ byteOffset, byteStride: 18, count: 2 })));
     assert.deepEqual(
       views.map(({ offset }) => offset),

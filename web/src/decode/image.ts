@@ -1,3 +1,5 @@
+// Checks an image of vertex data and decodes it with the browser.
+
 import type { DecodedImage } from "../stage/decodedImage.ts";
 import { DecodeError } from "./decodeError.ts";
 import type { PngHeader } from "./png.ts";

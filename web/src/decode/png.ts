@@ -8,7 +8,7 @@ import { foreignFormatOf } from "./foreignFormat.ts";
 export interface PngHeader {
   readonly width: number;
   readonly height: number;
-  /** Numbers of a texel: 1 for gray, 3 for RGB and palettes, 4 for RGBA. */
+  /** Components of a texel: 1 for gray, 3 for RGB and palettes, 4 for RGBA. */
   readonly channels: 1 | 3 | 4;
 }
 
@@ -43,8 +43,8 @@ export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): PngHeader {
 }
 
 /**
- * Throws unless the header is first, there is at most one palette, the chunks of image data are consecutive, and every
- * other chunk is ancillary.
+ * Throws unless there is one header, at most one palette, the chunks of image data are consecutive, and every other
+ * chunk is ancillary.
  */
 function checkOrder(types: readonly string[]): void {
   const isCritical = (type: string) => (type.charCodeAt(0) & 32) === 0; // its first letter is upper case

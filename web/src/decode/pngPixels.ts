@@ -13,7 +13,7 @@ export interface Pixels {
   readonly data: Uint8Array<ArrayBuffer>;
 }
 
-/** Rejects with DecodeError. Safe for untrusted bytes: memory is bounded by the file's length. */
+/** Decodes a whole PNG. Rejects with DecodeError. Safe for untrusted bytes: memory is bounded by the file's length. */
 export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels> {
   const { width, height, channels } = checkPng(png);
   const chunks = chunksOf(png);
@@ -69,8 +69,8 @@ function checkCrc({ type, data }: { type: string; data: Uint8Array }): void {
 }
 
 /**
- * Unpacks a zlib stream that consists of stored blocks only, as incompressible bytes do (RFC 1950, RFC 1951, section
- * 3.2.4). Undefined for any other stream, and for one in which anything is wrong.
+ * Unpacks a zlib stream of stored blocks, to which deflate turns incompressible bytes (RFC 1950; RFC 1951, 3.2.4).
+ * Undefined for any other stream, and for one in which anything is wrong.
  */
 function unpackStored(packed: Uint8Array, length: number): Uint8Array | undefined {
   const checksumLength = 4;
@@ -121,7 +121,7 @@ function adler32(bytes: Uint8Array): number {
   return b * 65536 + a;
 }
 
-/** Unpacks a zlib stream of exactly `length` bytes; memory is never taken for more. Rejects with DecodeError. */
+/** Unpacks a zlib stream to exactly `length` bytes, and allocates no more. Rejects with DecodeError. */
 async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: number): Promise<Uint8Array> {
   const bytes = new Uint8Array(length);
   let filled = 0;

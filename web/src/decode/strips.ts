@@ -1,4 +1,4 @@
-// Converts triangle strips to separate triangles: three.js draws buffers as triangles only.
+// Converts triangle strips to separate triangles: three.js draws the buffers of a Mesh as separate triangles.
 
 import type { IndexArray } from "../stage/vertexArray.ts";
 import type { DrawRange } from "../stage/stage.ts";

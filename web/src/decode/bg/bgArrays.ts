@@ -87,7 +87,7 @@ function sizesOf(range: ElementRange): { size: number; group: number; stride: nu
   return { size, group, stride: range.byteStride === 0 ? group : range.byteStride };
 }
 
-/** The elements from `bytesBefore` bytes before the range to the end of its last group, with its padding. */
+/** The elements from `bytesBefore` bytes before the range to the end of its last group, including padding. */
 function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefore = 0): ElementArray {
   const { size, group, stride } = sizesOf(range);
   if (stride % size !== 0 || stride < group) {

@@ -68,8 +68,8 @@ export async function sumsOf(
     const texelOf = texelsOf(image, { count, rowLength });
     for (let record = 0; record < count; ++record) {
       const at = texelOf(record) * image.channels;
-      for (let axis = 0; axis < channels; ++axis) {
-        sums[stride * record + axis] = (sums[stride * record + axis] ?? 0) * 256 + (data[at + axis] ?? 0);
+      for (let channel = 0; channel < channels; ++channel) {
+        sums[stride * record + channel] = (sums[stride * record + channel] ?? 0) * 256 + (data[at + channel] ?? 0);
       }
     }
   }
@@ -133,8 +133,8 @@ export interface NormalJob extends RecordLayout {
 }
 
 /**
- * Decodes normals to bytes: three of a vector, or two numbers, of which the second ones are in the lower half of the
- * image.
+ * Decodes normals to bytes: the three of a vector, or a pair, whose first number is in the upper half of the image and
+ * whose second is in the lower half.
  */
 export async function classicNormals({ file, format, ...layout }: NormalJob): Promise<VertexArray> {
   if (!isPairFormat(format)) return bytesOf(await imageOf(file, 3), layout, 3);

@@ -26,13 +26,13 @@ type Vector = [number, number, number];
 /** Decodes the coordinates of a grid, and computes its index and normals. */
 export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
   const { columns, rows } = grid;
-  const isHeights = grid.kind === "heightMap";
-  const sums = await sumsOf(job, isHeights ? 1 : 3, 3);
+  const isHeightMap = grid.kind === "heightMap";
+  const sums = await sumsOf(job, isHeightMap ? 1 : 3, 3);
   const shift = 256 ** (job.planeCount - job.planes.length);
   const array = new Float32Array(columns * rows * 3);
   for (let record = 0; record < columns * rows; ++record) {
     const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.missingBytesMidpoint;
-    const point = isHeights
+    const point = isHeightMap
       ? [
           ((record % columns) * maxStored) / (columns - 1),
           stored(0),
@@ -74,7 +74,7 @@ function slopeNormals(
   const isClosed = kind === "sculpt";
   const normals = new Float32Array(points.length);
   const at = (row: number, column: number, axis: number) => points[3 * (row * columns + column) + axis] ?? 0;
-  const slopeAt = (row: number, column: number): Vector => {
+  const normalAt = (row: number, column: number): Vector => {
     const left = isClosed ? (column + columns - 1) % columns : Math.max(column - 1, 0);
     const right = isClosed ? (column + 1) % columns : Math.min(column + 1, columns - 1);
     const [above, below] = [Math.max(row - 1, 0), Math.min(row + 1, rows - 1)];
@@ -84,9 +84,9 @@ function slopeNormals(
   };
   for (let row = 0; row < rows; ++row) {
     for (let column = 0; column < columns; ++column) {
-      let normal = slopeAt(row, column);
+      let normal = normalAt(row, column);
       // At a pole all points of a row coincide; the normals are then those of the next row.
-      if (normal.every((component) => component === 0)) normal = slopeAt(row === 0 ? 1 : row - 1, column);
+      if (normal.every((component) => component === 0)) normal = normalAt(row === 0 ? 1 : row - 1, column);
       const length = Math.hypot(...normal) || 1;
       normals.set(
         normal.map((component) => component / length),

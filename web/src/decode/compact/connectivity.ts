@@ -4,16 +4,14 @@
 export interface Connectivity {
   /** Per corner. */
   readonly vertex: Int32Array;
-  /** Per triangle: the corner opposite of its first edge, in the triangle across that edge. */
+  /** Per triangle: the corner opposite its first edge, in the triangle across that edge. */
   readonly across: Int32Array;
   /** Per triangle: the same for its second edge, where it closes onto an existing triangle there. */
   readonly closing: Int32Array;
-  /**
-   * Per vertex: the vertices after the next and before the previous one on the boundary, when the vertex was decoded.
-   */
+  /** Per vertex, on the boundary when it was decoded: the vertex after its next one, and the one before its previous. */
   readonly ahead: Int32Array;
   readonly behind: Int32Array;
-  /** Per vertex: the corner opposite of the boundary edge on its other side. */
+  /** Per vertex: the apex behind the edge of the triangle that closes its other side. */
   readonly second: Int32Array;
   /**
    * Triangles only: for each node of the boundary, in the order of creation, the counts of triangles and of nodes when

@@ -24,7 +24,7 @@ export const triangleModelCount = vertexModels + numberModelCount;
 const nodeSize = 4;
 const previousField = 1; // field 0 is the vertex
 const nextField = 2;
-const apexField = 3; // the corner opposite of its edge, in the decoded triangle
+const apexField = 3; // the corner opposite its edge, in the triangle behind it
 
 /** Safe for untrusted bytes. Throws DecodeError. */
 export function decodeTriangles(decoder: RangeDecoder, triangleCount: number, vertexCount: number): Connectivity {

@@ -20,7 +20,7 @@ export class Neighbours {
   /** At the next and the previous corner of its first triangle. In lines, `a` is the other end and `b` is -1. */
   a = -1;
   b = -1;
-  /** Opposite of a and b, in the triangle across their edge. */
+  /** Opposite the edge of a and b, in the triangle across it. */
   o = -1;
   readonly #topology: Topology;
   readonly #wedge: Int32Array;
@@ -55,7 +55,7 @@ export class Neighbours {
   }
 }
 
-/** Per wedge: 1 where it has the value of the previous wedge of its vertex. Empty where every vertex is one wedge. */
+/** Per wedge: 1 where it has the value of the previous wedge of its vertex. Empty where every vertex has one wedge. */
 export function decodeRepeats(decoder: RangeDecoder, model: number, { seams }: Wedges): Uint8Array {
   if (seams === undefined) return new Uint8Array();
   const repeats = new Uint8Array(seams.previous.length);

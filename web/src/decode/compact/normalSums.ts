@@ -1,7 +1,7 @@
 // Sums of triangle normals, in 32 wrapping bits, from which positions and normals are predicted:
 // docs/formats/compact.md, the end of "Positions".
 
-/** `count` sums: x, y, z of each. */
+/** `count` sums: x, y, z of each. Edges are shortened by `shift` bits before their cross product. */
 export class NormalSums {
   readonly sums: Int32Array;
   readonly #coordinates: Int32Array;

@@ -27,15 +27,15 @@ describe("buffers", () => {
       } = patch;
       const buffers = buffersOf(patch);
       const perElement = { points: 1, lines: 2, triangles: 3 }[header.topology];
-      const running = Array.from({ length: header.wedgeCount }, (_, n) => n);
+      const identity = Array.from({ length: header.wedgeCount }, (_, n) => n);
       const positionOf = (w: number) => {
         const v = seams ? vertex[seams.corner[w]!]! : w;
         return coordinates.subarray(3 * v, 3 * v + 3);
       };
       assert.deepEqual(
-        elementsOf(buffers.index ?? running, perElement, (w) => `${w}: ${at(buffers.coord, w).join()}`),
+        elementsOf(buffers.index ?? identity, perElement, (w) => `${w}: ${at(buffers.coord, w).join()}`),
         elementsOf(
-          header.topology === "points" ? running : wedge,
+          header.topology === "points" ? identity : wedge,
           perElement,
           (w) => `${w}: ${Array.from(positionOf(w), Math.fround).join()}`,
         ),

@@ -39,8 +39,8 @@ export function buffersOf(patch: CompactPatch): PatchBuffers {
 /** Makes the array of an attribute from its decoded values. */
 const makeArray: Readonly<Record<VertexRole, (values: Int32Array, type: AttributeType) => VertexArray>> = {
   normal: directionsOf,
-  texCoord: sharesOf,
-  color: sharesOf,
+  texCoord: normalizedOf,
+  color: normalizedOf,
 };
 
 /** All arrays except the index. */
@@ -104,13 +104,13 @@ function directionsOf(values: Int32Array, { bits }: AttributeType): VertexArray 
   return interleaved(values, 3, bits <= 8 ? new Int8Array(4 * count) : new Int16Array(4 * count), 1);
 }
 
-/** Scales numbers of `bits` bits to the whole range of bytes or 16-bit words. */
-function sharesOf(values: Int32Array, { components, bits }: AttributeType): VertexArray {
+/** Scales integers of `bits` bits to the whole range of bytes or 16-bit words, which the GPU normalizes. */
+function normalizedOf(values: Int32Array, { components, bits }: AttributeType): VertexArray {
   const count = values.length / components;
-  const stride = components === 2 ? 2 : 4; // multiples of four bytes are what GPUs read at once
+  const stride = components === 2 ? 2 : 4; // GPUs read four bytes at once
   const array = bits <= 8 && components > 2 ? new Uint8Array(stride * count) : new Uint16Array(stride * count);
-  const largest = array instanceof Uint8Array ? 255 : 65535;
-  return interleaved(values, components as 2 | 3 | 4, array, largest / (2 ** bits - 1));
+  const maxOutput = array instanceof Uint8Array ? 255 : 65535;
+  return interleaved(values, components as 2 | 3 | 4, array, maxOutput / (2 ** bits - 1));
 }
 
 function othersOf(values: Int32Array, { components, bits }: AttributeType): OtherValues {

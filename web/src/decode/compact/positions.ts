@@ -67,13 +67,11 @@ class PositionDecoder {
   readonly #candidates = new Int32Array(3 * 4);
   #candidateCount = 0;
   #candidateSet = 0;
-  /**
-   * Context: 1 + the bit length of the distance between the first two candidates (at most 15); 0 where there is one.
-   */
+  /** Context: 1 + the bit length of the distance of the first two candidates, at most 15; 0 for a single candidate. */
   #agreement = 0;
   /** The chosen candidate, and the normal of the surface there, of any length. */
   readonly #guess = new Int32Array(3);
-  readonly #slope = new Int32Array(3);
+  readonly #normal = new Int32Array(3);
 
   constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, segments: Segments | undefined) {
     const { vertexCount, positionBits, grid } = header;
@@ -117,27 +115,27 @@ class PositionDecoder {
     return { coordinates: this.#coordinates, normalSums: sums.sums };
   }
 
-  /** A vertex that is predicted from the vertex before it in the order of decoding. */
+  /** Decodes a vertex from the vertex before it in the order of decoding. */
   #decodeFromPrevious(x: number): void {
     const last = x > 0 ? x - 1 : this.#vertexCount;
     this.#beginCandidates(last, last, last);
-    this.#slope.fill(0);
+    this.#normal.fill(0);
     this.#decode(x, 2, 0);
   }
 
-  /** A vertex of a line, predicted from the lines that lead to it. */
+  /** Decodes a vertex of a line from the lines that lead to it. */
   #decodeOnLine(x: number, from: Int32Array): void {
     const last = from[x]!;
     const further = from[last]!;
     this.#beginCandidates(last, last, last);
     if (further >= 0) this.#addCandidate(last, last, further, 1);
-    this.#slope.fill(0);
+    this.#normal.fill(0);
     this.#decode(x, 2, 0);
   }
 
   /**
-   * The third vertex of a triangle; `across` is the corner opposite of its first edge in the neighbour there, or -1 for
-   * a root.
+   * Decodes the third vertex of a triangle; `across` is the corner opposite its first edge in the neighbour there, or
+   * -1 for a root.
    */
   #decodeAcrossEdge(x: number, across: number): void {
     if (across < 0) {
@@ -153,7 +151,7 @@ class PositionDecoder {
     if (s >= 0) this.#addCandidate(vertex[after(s)]!, vertex[before(s)]!, vertex[s]!, 1);
     if (ahead[x]! >= 0) this.#addCandidate(p, ahead[x]!, k, 2);
     if (behind[x]! >= 0) this.#addCandidate(p, p, behind[x]!, 4);
-    const dominant = this.#setSlope(k, p);
+    const dominant = this.#setNormal(k, p);
     const masks = this.#masks;
     this.#decode(x, dominant, this.#grid ? masks[k]! * 64 + masks[p]! * 8 + masks[o]! : 0);
   }
@@ -176,19 +174,18 @@ class PositionDecoder {
   }
 
   /**
-   * Sets the slope to the surface's normal at an edge, shortened to 15 bits so that products are exact; returns its
-   * dominant axis.
+   * Sets the surface's normal at an edge, shortened to 15 bits so that products are exact; returns its dominant axis.
    */
-  #setSlope(k: number, p: number): 0 | 1 | 2 {
+  #setNormal(k: number, p: number): 0 | 1 | 2 {
     const sums = this.#sums.sums;
-    const slope = this.#slope;
+    const normal = this.#normal;
     const x = (sums[3 * k]! + sums[3 * p]!) | 0;
     const y = (sums[3 * k + 1]! + sums[3 * p + 1]!) | 0;
     const z = (sums[3 * k + 2]! + sums[3 * p + 2]!) | 0;
     const shift = Math.max(0, bitLength(Math.max(Math.abs(x), Math.abs(y), Math.abs(z))) - 15);
-    slope[0] = x >> shift;
-    slope[1] = y >> shift;
-    slope[2] = z >> shift;
+    normal[0] = x >> shift;
+    normal[1] = y >> shift;
+    normal[2] = z >> shift;
     return dominantAxis(x, y, z);
   }
 
@@ -215,7 +212,7 @@ class PositionDecoder {
     guess[2] = candidates[3 * chosen + 2]!;
   }
 
-  /** Reads the residuals of a vertex, with the candidates and the slope that were set. */
+  /** Reads the residuals of a vertex, with the candidates and the normal that were set. */
   #decode(x: number, dominant: 0 | 1 | 2, maskContext: number): void {
     const decoder = this.#decoder;
     const coordinates = this.#coordinates;
@@ -260,14 +257,15 @@ class PositionDecoder {
 
   /** Predicts the last coordinate: that of the surface's plane at the two other coordinates. */
   #height(x: number, dominant: number, mask: number, axis: number): number {
-    const slope = this.#slope;
+    const normal = this.#normal;
     const guess = this.#guess;
     const coordinates = this.#coordinates;
-    if (slope[axis] === 0) return guess[axis]!;
+    if (normal[axis] === 0) return guess[axis]!;
     const u = orders[3 * (3 * mask + dominant)]!;
     const w = orders[3 * (3 * mask + dominant) + 1]!;
-    const rise = slope[u]! * (coordinates[3 * x + u]! - guess[u]!) + slope[w]! * (coordinates[3 * x + w]! - guess[w]!);
-    return guess[axis]! - Math.trunc(rise / slope[axis]!);
+    const rise =
+      normal[u]! * (coordinates[3 * x + u]! - guess[u]!) + normal[w]! * (coordinates[3 * x + w]! - guess[w]!);
+    return guess[axis]! - Math.trunc(rise / normal[axis]!);
   }
 
   #clamp(coordinate: number): number {

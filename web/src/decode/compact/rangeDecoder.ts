@@ -1,6 +1,6 @@
 // Decodes one stream of a file: adaptive bits from its front, raw bits from its back (docs/formats/compact.md,
-// "Stream"; Martin, "Range encoding", 1979; the two ends as in Opus, RFC 6716). The state is in fields of a class
-// because captured variables measured a third slower.
+// "Stream"; Martin, "Range encoding", 1979; the two ends as in Opus, RFC 6716). The state is in fields of a class:
+// variables captured by closures took a third longer.
 
 import { DecodeError } from "../decodeError.ts";
 
@@ -9,7 +9,7 @@ export const numberModelCount = 32;
 
 /** Safe for untrusted bytes: every call returns or throws DecodeError. */
 export class RangeDecoder {
-  /** Per model: 32 times the probability of a 1 in 1/65536, plus the number of bits decoded with it, up to 31. */
+  /** Per model: 32 times the probability of a 1, in 1/65536, plus the number of bits decoded with it, up to 31. */
   readonly #models: Int32Array;
   readonly #bytes: Uint8Array;
   #front = 3;
@@ -115,7 +115,7 @@ export class RangeDecoder {
     return this.#rest(this.#length(models));
   }
 
-  /** The same range, in fewer bits for a number that is mostly 0. */
+  /** Reads a number of the same range, stored in fewer bits if it is mostly 0. */
   small(models: number): number {
     let length = 0;
     while (length < 30 && this.bit(models + length) === 0) ++length;

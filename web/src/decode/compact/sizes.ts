@@ -16,7 +16,10 @@ const residualModels = segmentModels + numberModelCount;
 const gridModel = residualModels + numberModelCount;
 const modelCount = gridModel + 1;
 
-/** The planes on which isosurfaces have their vertices, each axis its own, in 1/65536 lattice steps. */
+/**
+ * The planes on which the vertices of an isosurface lie, for each axis: the first one and their distance, in 1/65536
+ * lattice steps.
+ */
 export interface Grid {
   readonly origin: Float64Array;
   readonly step: Float64Array;
@@ -25,13 +28,14 @@ export interface Grid {
 export interface PatchHeader {
   readonly topology: Topology;
   readonly positionBits: number;
+  /** Triangles: bits by which edges are shortened before their cross product, which is computed in 32 bits. */
   readonly normalShift: number;
   readonly grid: Grid | undefined;
   readonly vertexCount: number;
   readonly wedgeCount: number;
   readonly elementCount: number;
   readonly attributes: readonly AttributeType[];
-  /** Number of patches that a base mesh stands in for; 0: a patch. */
+  /** Number of patches that a base mesh stands in for; 0 in a patch. */
   readonly segmentCount: number;
   /** Base meshes: residuals of positions that only one segment uses are multiples of 2^residualShift. */
   readonly residualShift: number;

@@ -1,5 +1,5 @@
-// Decodes texture coordinates. Each is predicted by laying out its triangle, in its shape in space, beside the edge
-// that is known (docs/formats/compact.md, "Texture coordinates").
+// Decodes texture coordinates. Each is predicted by laying out its triangle in the texture, beside the known edge and
+// with the angles that it has in space (docs/formats/compact.md, "Texture coordinates").
 
 import { DecodeError } from "../decodeError.ts";
 import { choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";

@@ -33,13 +33,13 @@ export function stated({
   attributes,
   segments,
 }: CompactPatch): StatedPatch {
-  const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
+  const identity = Array.from({ length: header.wedgeCount }, (_, w) => w);
   return {
     topology: ["", "points", "lines", "triangles"].indexOf(header.topology),
     positionBits: header.positionBits,
     positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
-    wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : running,
-    corners: header.topology === "points" ? running : Array.from(wedge),
+    wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : identity,
+    corners: header.topology === "points" ? identity : Array.from(wedge),
     ...(segments && { parts: Array.from(segments.segment), partCount: header.segmentCount }),
     attributes: attributes.map((values, attributeIndex) => {
       const { kind, components, bits, isUniform, isDerived } = header.attributes[attributeIndex]!;

@@ -14,12 +14,12 @@ const madeModels = sameModels + 9;
 const stepModels = madeModels + 3;
 const wedgeModels = stepModels + 16;
 export const wedgeModelCount = wedgeModels + numberModelCount;
-const maxStepCount = 15; // the wedge is coded by its index instead
+const maxStepCount = 15; // stands for a wedge that is coded by its index
 
 export interface Wedges {
   /** Per corner; empty for points. */
   readonly wedge: Int32Array;
-  /** Undefined if every vertex is one wedge. */
+  /** Undefined if every vertex has one wedge. */
   readonly seams: Seams | undefined;
 }
 
@@ -109,7 +109,7 @@ class WedgeDecoder {
     return { wedge: this.#wedge, seams: { corner: this.#corner, previous: this.#previous, isSplit } };
   }
 
-  /** Predicts the wedge of corner c: the one that the triangle across an edge has at the vertex. */
+  /** Predicts the wedge of corner c: the one at the vertex in the triangle across an edge, or else the latest one. */
   #guess(c: number, i: number, v: number): number {
     const wedge = this.#wedge;
     if (this.#isTriangles) {
