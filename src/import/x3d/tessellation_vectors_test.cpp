@@ -1,5 +1,5 @@
-// vectors/tessellation: input and output of what C++ and TypeScript both tessellate. web/src/tessellate/vectors.test.ts
-// reads the same files, and writes them anew where IMGEO_REWRITE_GOLDEN is set.
+// vectors/tessellation: input and output of what C++ and TypeScript both tessellate.
+// web/src/tessellate/tessellation.test.ts reads the same files, and writes them anew where IMGEO_REWRITE_GOLDEN is set.
 #include "base/error.h"
 #include "base/file.h"
 #include "base/testing.h"

@@ -6,9 +6,8 @@ import type { GeometryDescription, Warning } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import { elevationGrid } from "../tessellate/elevationGrid.ts";
-import type { Surface } from "../tessellate/elevationGrid.ts";
 import { extrusion } from "../tessellate/extrusion.ts";
-import type { Corner, VertexArrays, VertexData } from "../tessellate/faces.ts";
+import type { Corner, Surface, VertexArrays, VertexData } from "../tessellate/faces.ts";
 import {
   vertexArraysOf,
   fansOf,

@@ -12,9 +12,8 @@ const maxCorners = 512;
 
 /**
  * Cuts a polygon of n corners into n - 2 triangles and returns their corners as indices into `ring`, three for each
- * triangle.
- * A convex polygon becomes a fan about its first corner, and so does one without area. Polygons that cross themselves
- * still give n - 2 triangles.
+ * triangle. A convex polygon becomes a fan about its first corner, and so does one without area. Polygons that cross
+ * themselves still give n - 2 triangles.
  */
 export function triangulate(ring: readonly Vec3[]): number[] {
   const normal = newellNormal(ring);
@@ -94,7 +93,7 @@ function clipEars(polygon: readonly Point[]): number[] {
     }
     triangles.push(cornerAt(index + remaining.length - 1), cornerAt(index), cornerAt(index + 1));
     remaining.splice(index, 1);
-    index = (index + 1) % remaining.length; // skips a corner: clipping neighbors one after the other would make needles
+    index = (index + 1) % remaining.length; // skips a corner: clipping neighbours in turn would make needles
     rejectedCount = 0;
   }
   return triangles;

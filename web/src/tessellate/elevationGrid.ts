@@ -1,13 +1,7 @@
 // X3D's ElevationGrid (ISO/IEC 19775-1, 13.3.4): heights over a grid in x and z become quadrilaterals. The vertices
 // and faces are those of src/import/x3d: vectors/tessellation/elevationGrid.json tests both.
 
-import type { Corner, VertexData } from "./faces.ts";
-
-/** A tessellated surface: attribute values, and polygons whose corners index them. */
-export interface Surface {
-  readonly data: VertexData;
-  readonly faces: readonly (readonly Corner[])[];
-}
+import type { Corner, Surface, VertexData } from "./faces.ts";
 
 /** The fields of an ElevationGrid node. */
 export interface ElevationGridFields {

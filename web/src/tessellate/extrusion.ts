@@ -1,8 +1,7 @@
 // X3D's Extrusion (ISO/IEC 19775-1, 13.3.5): sweeps a cross-section along a spine. src/import/x3d/extrusion.cpp makes
 // the same vertices and faces: vectors/tessellation/extrusion.json tests both.
 
-import type { Surface } from "./elevationGrid.ts";
-import type { Corner } from "./faces.ts";
+import type { Corner, Surface } from "./faces.ts";
 import type { Vec3 } from "./vectors.ts";
 import { cross, dot, minus, rotated, unit } from "./vectors.ts";
 

@@ -26,6 +26,12 @@ export interface Corner {
   readonly color: number;
 }
 
+/** A tessellated surface: attribute values, and polygons whose corners index them. */
+export interface Surface {
+  readonly data: VertexData;
+  readonly faces: readonly (readonly Corner[])[];
+}
+
 export interface VertexArrays {
   readonly primitive: "triangles" | "lines" | "points";
   /** One vertex for each corner, drawn in order, without an index. */
@@ -36,7 +42,10 @@ export interface VertexArrays {
   readonly colorComponents: 3 | 4;
 }
 
-/** Cuts each polygon into a fan about its first corner, which is correct for convex polygons, and returns the triangles' corners. */
+/**
+ * Cuts each polygon into a fan about its first corner, which is correct for convex polygons, and returns the triangles'
+ * corners.
+ */
 export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
   return faces.flatMap((face) =>
     face.slice(2).flatMap((corner, i) => {

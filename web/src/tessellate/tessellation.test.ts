@@ -7,10 +7,11 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { triangulate } from "./earClipping.ts";
-import type { ElevationGridFields, Surface } from "./elevationGrid.ts";
+import type { ElevationGridFields } from "./elevationGrid.ts";
 import { elevationGrid } from "./elevationGrid.ts";
 import type { ExtrusionFields } from "./extrusion.ts";
 import { extrusion } from "./extrusion.ts";
+import type { Surface } from "./faces.ts";
 import { withCreasedNormals } from "./faces.ts";
 import type { Vec3 } from "./vectors.ts";
 
