@@ -1,5 +1,5 @@
-// Which files of a geometry a view needs, and with which priority (paper section 5.4). Byte planes too fine to be seen
-// are not needed.
+// Computes which files of a geometry a view needs, and their priorities (paper section 5.4). Byte planes too fine to be
+// seen are not needed.
 
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { boxAround, isUnbounded } from "../document/geometry.ts";

@@ -118,7 +118,8 @@ describe("a geometry that several shapes use", () => {
     assert.equal(aborted(), 0);
     secondJoin.cancel();
     assert.equal(aborted(), 2);
-    const thirdJoin = deliveries.join(geometry, makeRecorder().listener); // requests the geometry again, and leaves before any stage
+    // A third listener requests the geometry again, and leaves before any stage.
+    const thirdJoin = deliveries.join(geometry, makeRecorder().listener);
     requestAll();
     thirdJoin.cancel();
     await new Promise((resolve) => setTimeout(resolve, 5));

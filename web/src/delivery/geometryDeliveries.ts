@@ -6,6 +6,7 @@ import type { GeometryDescription } from "../document/description.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
+import { Members } from "./members.ts";
 import type { Transfer } from "./progress.ts";
 import type { ResourcePool } from "./resourcePool.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
@@ -15,10 +16,7 @@ export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhau
 
 interface SharedDelivery {
   readonly delivery: Delivery;
-  /** Number of joined members. */
-  memberCount: number;
-  /** Listeners of the members that have received the stages and errors from before they joined. */
-  readonly listeners: Set<DeliveryListener>;
+  readonly members: Members<DeliveryListener>;
   /** The present stages and all errors, for members that join later. */
   readonly stages: Map<number, Stage>;
   readonly errors: DeliveryError[];
@@ -39,15 +37,18 @@ export class GeometryDeliveries {
   join(geometry: GeometryDescription, listener: DeliveryListener): JoinedDelivery {
     const shared = this.#shared.get(geometry) ?? this.#start(geometry);
     const { delivery } = shared;
-    let isCancelled = false;
-    shared.memberCount += 1;
-    queueMicrotask(() => {
-      if (isCancelled) return;
-      shared.listeners.add(listener);
-      for (const [patch, stage] of shared.stages) listener.onStage(patch, stage);
-      for (const error of shared.errors) listener.onError(error);
-      if (delivery.isSettled) listener.onSettled();
-    });
+    const cancel = shared.members.join(
+      listener,
+      () => {
+        for (const [patch, stage] of shared.stages) listener.onStage(patch, stage);
+        for (const error of shared.errors) listener.onError(error);
+        if (delivery.isSettled) listener.onSettled();
+      },
+      () => {
+        this.#shared.delete(geometry);
+        delivery.cancel();
+      },
+    );
     return {
       get transfers() {
         return delivery.transfers;
@@ -58,15 +59,7 @@ export class GeometryDeliveries {
       get isExhausted() {
         return delivery.isExhausted;
       },
-      cancel: () => {
-        if (isCancelled) return;
-        isCancelled = true;
-        shared.listeners.delete(listener);
-        shared.memberCount -= 1;
-        if (shared.memberCount > 0) return;
-        this.#shared.delete(geometry);
-        delivery.cancel();
-      },
+      cancel,
     };
   }
 
@@ -99,24 +92,24 @@ export class GeometryDeliveries {
   }
 
   #start(geometry: GeometryDescription): SharedDelivery {
-    const listeners = new Set<DeliveryListener>();
+    const members = new Members<DeliveryListener>();
     const stages = new Map<number, Stage>();
     const errors: DeliveryError[] = [];
     const delivery = deliverGeometry(geometry, this.#pool, {
       onStage(patch, stage) {
         if (stage === undefined) stages.delete(patch);
         else stages.set(patch, stage);
-        for (const listener of listeners) listener.onStage(patch, stage);
+        for (const listener of members) listener.onStage(patch, stage);
       },
       onError(error) {
         errors.push(error);
-        for (const listener of listeners) listener.onError(error);
+        for (const listener of members) listener.onError(error);
       },
       onSettled() {
-        for (const listener of listeners) listener.onSettled();
+        for (const listener of members) listener.onSettled();
       },
     });
-    const shared: SharedDelivery = { delivery, memberCount: 0, listeners, stages, errors };
+    const shared: SharedDelivery = { delivery, members, stages, errors };
     this.#shared.set(geometry, shared);
     return shared;
   }

@@ -1,7 +1,6 @@
 // Delivers the stages of one geometry: requests the files of its patches in the order that the scene sets, turns them
-// into stages, and reports files that fail. A patch whose file fails has the stages that its
-// other files allow. Files that the GPU budget has no
-// room for are evicted, and can be requested again.
+// into stages, and reports files that fail. A patch whose file fails has the stages that its other files allow. Files
+// that the GPU budget has no room for are evicted, and can be requested again.
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
@@ -41,8 +40,8 @@ export interface Delivery {
   /** The GPU memory that files require or hold: a list for each patch, in the order in which files become useful. */
   budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[];
   /**
-   * Requests the files that have a priority, updates the priorities of those that are being loaded, and aborts those without.
-   * Ready files stay; but if `granted` is given, files of a budget request that is not in it are evicted.
+   * Requests the files that have a priority, updates the priorities of those that are being loaded, and aborts those
+   * without. Ready files stay; but if `granted` is given, files of a budget request that is not in it are evicted.
    */
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
   /** Aborts and frees everything. The listener is not called again; its stages must no longer be drawn. */
@@ -64,7 +63,7 @@ interface TrackedFile {
 
 interface PatchState {
   readonly index: number;
-  /** The stage that the listener was given last. */
+  /** The stage that the listener received last. */
   stage: Stage | undefined;
   readonly builder: StageBuilder;
   /** In the order in which they become useful. */

@@ -9,7 +9,7 @@ import type { ContentTarget } from "./resourcePool.ts";
 export const attributeRoles = ["coord", "index", ...vertexRoles, "value"] as const;
 export type AttributeRole = (typeof attributeRoles)[number];
 
-/** What a file holds of a patch: a base mesh that stands in for it, all of it, or one attribute. */
+/** What a file holds of a patch: a base mesh that stands in for it, the whole patch, or one attribute. */
 export const fileRoles = ["base", "patch", ...attributeRoles] as const;
 export type FileRole = (typeof fileRoles)[number];
 
@@ -39,8 +39,8 @@ export function cornerCountOf({ draws }: Pick<PatchDescription, "draws">): numbe
 type FileSizes = Pick<PatchFile, "expectedBytes" | "storedBytes">;
 
 /**
- * The files of a patch that has one or more for each attribute; `sizesOf` estimates one that holds `elementCount`
- * elements.
+ * The files of a patch that has one or more for each attribute; `sizesOf` estimates the sizes of a file with
+ * `elementCount` elements.
  */
 export function attributeFilesOf(
   patch: PatchDescription,

@@ -23,8 +23,8 @@ export type Content =
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
- * The form that a file is decoded to: a texture, its own bytes, or either, as the GPU allows; a texture image; or all patches, or
- * all base meshes, that it holds, which a job decodes.
+ * The form that a file is decoded to: a texture, its own bytes, or either, as the GPU allows; a texture image; or all
+ * patches or base meshes that it holds, which a job decodes.
  */
 export type ContentTarget =
   | { readonly kind: "texture" | "bytes" | "either" }

@@ -6,6 +6,7 @@ import type { SamplingDescription, TextureDescription } from "../document/descri
 import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
+import { Members } from "./members.ts";
 import { bytesPerTexel } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
 import type { ResourceHandle, TextureImage, ResourcePool } from "./resourcePool.ts";
@@ -50,8 +51,7 @@ interface SharedTexture {
   readonly sampling: SamplingDescription;
   /** The preview, if there is one, before the full image. */
   readonly files: readonly TextureFile[];
-  readonly listeners: Set<TextureListener>;
-  memberCount: number;
+  readonly members: Members<TextureListener>;
   displayed: TextureImage | undefined;
   error: DeliveryError | undefined;
 }
@@ -81,15 +81,18 @@ export class TextureDeliveries {
     const key = textureKeyOf(texture);
     const shared = this.#shared.get(key) ?? sharedOf(texture);
     this.#shared.set(key, shared);
-    shared.memberCount += 1;
-    let isCancelled = false;
-    queueMicrotask(() => {
-      if (isCancelled) return;
-      shared.listeners.add(listener);
-      if (shared.displayed !== undefined) listener.onTextureImage(shared.displayed);
-      if (shared.error !== undefined) listener.onError(shared.error);
-      if (isSettled(shared) && !shared.files.every(({ state }) => state === "absent")) listener.onSettled();
-    });
+    const cancel = shared.members.join(
+      listener,
+      () => {
+        if (shared.displayed !== undefined) listener.onTextureImage(shared.displayed);
+        if (shared.error !== undefined) listener.onError(shared.error);
+        if (isSettled(shared) && !shared.files.every(({ state }) => state === "absent")) listener.onSettled();
+      },
+      () => {
+        this.#shared.delete(key);
+        for (const file of shared.files) release(file);
+      },
+    );
     return {
       get transfers() {
         return transfersOf(shared);
@@ -97,15 +100,7 @@ export class TextureDeliveries {
       get isSettled() {
         return isSettled(shared);
       },
-      cancel: () => {
-        if (isCancelled) return;
-        isCancelled = true;
-        shared.listeners.delete(listener);
-        shared.memberCount -= 1;
-        if (shared.memberCount > 0) return;
-        this.#shared.delete(key);
-        for (const file of shared.files) release(file);
-      },
+      cancel,
     };
   }
 
@@ -194,10 +189,10 @@ export class TextureDeliveries {
       file.state = "failed";
       if (file.chunk === "texture") {
         shared.error = asDeliveryError(error, file.url);
-        for (const listener of shared.listeners) listener.onError(shared.error);
+        for (const listener of shared.members) listener.onError(shared.error);
       }
     }
-    if (isSettled(shared)) for (const listener of shared.listeners) listener.onSettled();
+    if (isSettled(shared)) for (const listener of shared.members) listener.onSettled();
   }
 }
 
@@ -213,8 +208,7 @@ function sharedOf({ url, preview, sampling }: TextureDescription): SharedTexture
   });
   return {
     sampling,
-    listeners: new Set(),
-    memberCount: 0,
+    members: new Members(),
     displayed: undefined,
     error: undefined,
     files: [...(preview === "" ? [] : [makeFile("preview", preview)]), makeFile("texture", url)],
@@ -238,7 +232,7 @@ function updateDisplayed(shared: SharedTexture, without: readonly TextureFile[] 
   const best = shared.files.findLast((file) => file.image !== undefined && !without.includes(file))?.image;
   if (best === shared.displayed) return;
   shared.displayed = best;
-  for (const listener of shared.listeners) listener.onTextureImage(best);
+  for (const listener of shared.members) listener.onTextureImage(best);
 }
 
 function release(file: TextureFile): void {

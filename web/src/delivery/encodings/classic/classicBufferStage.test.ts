@@ -81,7 +81,7 @@ describe("images that are decoded on the CPU", () => {
     }
   });
 
-  test("replace slopes and positions of a grid together, whichever job ends first", async () => {
+  test("replace normals and positions of a grid together, whichever job ends first", async () => {
     const files = ["a.png", "b.png"].map((_, plane) =>
       pngWithTexels(8, 8, 3, (n, channel) => (plane ? 40 * n * n : 9 * n + 70 * channel) % 256),
     );
@@ -112,7 +112,7 @@ describe("images that are decoded on the CPU", () => {
       }
       const stage = builder.stage() ?? assert.fail("no stage");
       builder.sweep();
-      assert.equal(site.arrays.size, 3, "only index, positions and slopes are stored");
+      assert.equal(site.arrays.size, 3, "only index, positions and normals are stored");
       return [
         stage.kind === "buffers" &&
           [stage.coord, stage.attributes.normal, stage.index].map((stored) => site.arrayOf(stored)),
@@ -121,7 +121,7 @@ describe("images that are decoded on the CPU", () => {
     assert.deepEqual(await arraysAfter([1, 0]), await arraysAfter([0, 1]));
   });
 
-  test("name the wrong file, whichever file triggered its decoding", async () => {
+  test("report the damaged file, whichever file triggered its decoding", async () => {
     const site = siteOf({ ...files(), "i0.png": pngWithTexels(256, 4, 3, () => 255) });
     const { stages, errors, settled } = record(
       geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`),

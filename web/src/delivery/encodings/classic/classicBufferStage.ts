@@ -17,7 +17,7 @@ import { asDeliveryError } from "../../deliveryError.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
-import { firstTexelOf, normalFormatOf } from "./classicFormat.ts";
+import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
 import type { Content } from "../../resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
@@ -55,7 +55,7 @@ class AvailableArrays {
   coordHeader: PngHeader | undefined;
   coord: GpuVertices | undefined;
   coordPlaneCount = 0;
-  drawn: IndexedDraws | undefined;
+  indexedDraws: IndexedDraws | undefined;
   attributes: Partial<Record<VertexRole, GpuVertices>> = {};
   /** Normals computed from the slope of a grid without stored normals. */
   slopeNormals: GpuVertices | undefined;
@@ -126,8 +126,8 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   clear(): void {
-    const { drawn, coord, attributes, slopeNormals, value } = this.#available;
-    this.#uploads.retire(drawn?.index, coord, ...Object.values(attributes), slopeNormals, value);
+    const { indexedDraws, coord, attributes, slopeNormals, value } = this.#available;
+    this.#uploads.retire(indexedDraws?.index, coord, ...Object.values(attributes), slopeNormals, value);
     this.#available = new AvailableArrays();
   }
 
@@ -141,14 +141,14 @@ class BufferStageBuilder implements StageBuilder {
     if (coord === undefined) return undefined;
     const normalFormat = attributes.normal ? normalFormatOf(this.#geometry) : ({ kind: "vector" } as const);
     const name = attainedStageName(this.#patch, {
-      index: available.drawn,
+      index: available.indexedDraws,
       attributes,
       coord: Array.from({ length: available.coordPlaneCount }),
       value: value ? this.#patch.value : [],
     });
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
-    const { index, draws } = (name === "points" ? undefined : available.drawn) ?? points;
+    const { index, draws } = (name === "points" ? undefined : available.indexedDraws) ?? points;
     return {
       kind: "buffers",
       vertexCount: count,
@@ -165,13 +165,7 @@ class BufferStageBuilder implements StageBuilder {
   /** Decodes the byte planes from the most significant on, as far as they are available. */
   async #decodeCoords(available: AvailableArrays, signal: AbortSignal): Promise<void> {
     const header = available.coordHeader;
-    const missing = Array.from(
-      { length: this.#patch.coord.length },
-      (_, plane) => available.coordPlanes[plane],
-    ).indexOf(undefined);
-    const planes = available.coordPlanes
-      .slice(0, missing < 0 ? undefined : missing)
-      .filter((plane) => plane !== undefined);
+    const planes = leadingPlanes(available.coordPlanes);
     if (header === undefined || planes.length <= available.coordPlaneCount) return;
     const planeCount = this.#patch.coord.length;
     const job = {
@@ -194,13 +188,13 @@ class BufferStageBuilder implements StageBuilder {
             },
             signal,
           );
-    const drawn = await this.#drawsWithoutFile(available, arrays.index, signal);
+    const indexedDraws = await this.#drawsWithoutFile(available, arrays.index, signal);
     const slopeNormals = arrays.normal && (await this.#uploads.storeVertices(arrays.normal, signal));
     const coord = await this.#uploads.storeVertices(arrays.coord, signal);
-    // Jobs of fewer and of more planes may end in any order. Coordinates and the
-    // normals computed from them are replaced together.
-    if (available.drawn === undefined) available.drawn = drawn;
-    else this.#uploads.retire(drawn?.index);
+    // Jobs of fewer and of more planes may end in any order. Coordinates and the normals computed from them are
+    // replaced together.
+    if (available.indexedDraws === undefined) available.indexedDraws = indexedDraws;
+    else this.#uploads.retire(indexedDraws?.index);
     if (planes.length <= available.coordPlaneCount) {
       this.#uploads.retire(coord, slopeNormals);
       return;
@@ -236,14 +230,14 @@ class BufferStageBuilder implements StageBuilder {
     gridIndex: IndexArray | undefined,
     signal: AbortSignal,
   ): Promise<IndexedDraws | undefined> {
-    if (available.drawn !== undefined || this.#patch.index !== undefined) return undefined;
+    if (available.indexedDraws !== undefined || this.#patch.index !== undefined) return undefined;
     const { index, draws } = gridIndex
       ? { index: gridIndex, draws: drawRangesOf(this.#patch) }
       : withoutStrips(undefined, drawRangesOf(this.#patch));
     return { index: index && (await this.#uploads.storeIndex(index, signal)), draws };
   }
 
-  /** Waits for the first coordinate image: the index names columns and rows of it. */
+  /** Decodes the index once the first coordinate image is available, whose columns and rows it names. */
   async #decodeIndex(available: AvailableArrays, signal: AbortSignal): Promise<void> {
     const file = available.waitingIndex;
     const header = available.coordHeader;
@@ -264,7 +258,7 @@ class BufferStageBuilder implements StageBuilder {
         },
         signal,
       );
-      available.drawn = { index: await this.#uploads.storeIndex(drawn.index, signal), draws: drawn.draws };
+      available.indexedDraws = { index: await this.#uploads.storeIndex(drawn.index, signal), draws: drawn.draws };
     } catch (error) {
       if (signal.aborted) {
         available.waitingIndex = file; // the coordinates were aborted, not the index

@@ -29,7 +29,7 @@ const bytesPerElement: Readonly<Record<AttributeRole, number>> = {
   value: 0.7,
 };
 
-/** Texels of an image as `imgeo convert` writes it: records in a power of two of rows of 256. */
+/** Texels of an image as `imgeo convert` writes it: records in rows of 256, whose number is a power of two. */
 function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, elementCount: number): number {
   if (role === "index") return Math.ceil(elementCount / implicitWidth) * implicitWidth;
   return 256 * 2 ** Math.ceil(Math.log2(Math.max(1, elementCount / 256)));

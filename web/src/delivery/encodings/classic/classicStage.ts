@@ -1,5 +1,5 @@
-// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Shaders read images
-// that are on the GPU; workers decode images that are still files (classicBufferStage.ts).
+// Stages of SIG classic: images of index, coordinate bytes, normals and colours. Shaders read images that are on the
+// GPU; workers decode images that are still files (classicBufferStage.ts).
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";
@@ -11,7 +11,7 @@ import type { GeometryDescription, PatchDescription } from "../../../document/de
 import { missingBytesMidpoint } from "../../../document/dequantization.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
-import { firstTexelOf, normalFormatOf } from "./classicFormat.ts";
+import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
@@ -156,13 +156,6 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       };
     },
   };
-}
-
-/** The available planes before the first missing one: a plane is useful only together with all above it. */
-function leadingPlanes(planes: readonly (TexelRange | undefined)[]): TexelRange[] {
-  const dense = Array.from(planes); // `indexOf` skips the holes of a sparse array
-  const missing = dense.indexOf(undefined);
-  return dense.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
 }
 
 function texelCountOf(image: DecodedImage): number {

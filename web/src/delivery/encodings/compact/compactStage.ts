@@ -99,7 +99,7 @@ export function compactStageBuilder(
   };
 }
 
-/** The patch, or the base mesh, of a file that a reference names. */
+/** The patch or base mesh that a reference names, of those decoded from its file. */
 function patchAt<Decoded>(decoded: readonly Decoded[], reference: Reference): Decoded {
   const patchIndex = "patchIndex" in reference ? reference.patchIndex : 0;
   const patch = decoded[patchIndex];
