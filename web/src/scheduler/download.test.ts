@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { DownloadOptions, DownloadState } from "./download.ts";
+import type { DownloadListener, DownloadOptions, DownloadState } from "./download.ts";
 import { downloadInSlot, RequestError } from "./download.ts";
 import { optionsWithFetch, decoded, listener, ok, unanswered, subject, url } from "./download.testing.ts";
 import { maxRetryAfterMs, retryDelayMs } from "./retry.ts";
@@ -9,6 +9,10 @@ import { slotCountFor, http1SlotCount, http2SlotCount } from "./downloadSlots.ts
 
 describe("a download", () => {
   const { signal } = new AbortController();
+
+  /** Downloads the file as the only job of a scheduler; resolves with the number of its bytes. */
+  const downloadAlone = (options: DownloadOptions, events: Partial<DownloadListener> = {}) =>
+    downloadInSlot(new Scheduler(1), subject, url, signal, options, { ...listener, ...events }, decoded);
 
   /** A server that answers with each status in turn, then always with the last one. */
   function inTurn(...codes: number[]): { options: DownloadOptions; requestCount: () => number } {
@@ -30,14 +34,14 @@ describe("a download", () => {
 
   test("is tried again after a network error and after 5xx", async () => {
     const { options, requestCount } = inTurn(0, 503, 200);
-    assert.equal(await downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded), 5);
+    assert.equal(await downloadAlone(options), 5);
     assert.equal(requestCount(), 3);
   });
 
   test("gives up after the last retry", async () => {
     const { options, requestCount } = inTurn(503);
     await assert.rejects(
-      downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
+      downloadAlone(options),
       (error) => error instanceof RequestError && error.kind === "http" && error.status === 503 && error.url === url,
     );
     assert.equal(requestCount(), 3);
@@ -54,7 +58,7 @@ describe("a download", () => {
         return options.fetch(input, init);
       },
     };
-    await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, timed, listener, decoded));
+    await assert.rejects(downloadAlone(timed));
     const [first = 0, second = 0, third = 0] = times;
     // Timers may be late, and early by the fraction of a millisecond that they round away.
     assert.ok(second - first > 19 && third - second > 39, `${second - first} and ${third - second} ms`);
@@ -72,7 +76,7 @@ describe("a download", () => {
       },
     };
     await assert.rejects(
-      downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
+      downloadAlone(options),
       (error) => error instanceof RequestError && error.kind === "timeout" && error.url === url,
     );
     assert.equal(requestCount, 2);
@@ -81,7 +85,7 @@ describe("a download", () => {
   for (const code of [404, 410, 416]) {
     test(`is not tried again after ${code}`, async () => {
       const { options, requestCount } = inTurn(code);
-      await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded));
+      await assert.rejects(downloadAlone(options));
       assert.equal(requestCount(), 1);
     });
   }
@@ -99,15 +103,7 @@ describe("a download", () => {
   test("reports its state", async () => {
     const states: DownloadState[] = [];
     const { options } = inTurn(503, 200);
-    await downloadInSlot(
-      new Scheduler(1),
-      subject,
-      url,
-      signal,
-      options,
-      { ...listener, onState: (state) => states.push(state) },
-      decoded,
-    );
+    await downloadAlone(options, { onState: (state) => states.push(state) });
     assert.deepEqual(states, ["waiting", "loading", "retrying", "waiting", "loading"]);
   });
 
@@ -124,7 +120,7 @@ describe("a download", () => {
       }),
       retries: 1,
     };
-    await downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded);
+    await downloadAlone(options);
     const [first = 0, second = 0] = times;
     assert.ok(second - first >= 950, `${second - first} ms`);
   });
@@ -158,15 +154,7 @@ describe("a download", () => {
       },
     });
     const options = optionsWithFetch(() => Promise.resolve(new Response(body, { headers: { "content-length": "7" } })));
-    await downloadInSlot(
-      new Scheduler(1),
-      subject,
-      url,
-      signal,
-      options,
-      { ...listener, onBytes: (loaded, total) => counts.push([loaded, total]) },
-      decoded,
-    );
+    await downloadAlone(options, { onBytes: (loaded, total) => counts.push([loaded, total]) });
     assert.deepEqual(counts, [
       [0, 7],
       [3, 7],
@@ -179,15 +167,7 @@ describe("a download", () => {
     const options = optionsWithFetch(() =>
       Promise.resolve(new Response("bytes", { headers: { "content-length": "3", "content-encoding": "br" } })),
     );
-    await downloadInSlot(
-      new Scheduler(1),
-      subject,
-      url,
-      signal,
-      options,
-      { ...listener, onBytes: (_, total) => totals.add(total) },
-      decoded,
-    );
+    await downloadAlone(options, { onBytes: (_, total) => totals.add(total) });
     assert.deepEqual(Array.from(totals), [undefined]);
   });
 });

@@ -29,7 +29,7 @@ describe("the priority of a request", () => {
     assert.equal(new Set(values).size, values.length);
   });
 
-  test("loads coarse data of objects of about the same size before fine data of any", () => {
+  test("prefers coarse data of all objects of about the same size to fine data of any", () => {
     const patches = [60, 150, 400, 800].map((pixels) => viewOf(pixels));
     const minCoordPriority = Math.min(...patches.map((view) => priorityOf(1, chunk("coord"), view)));
     const maxIndexPriority = Math.max(...patches.map((view) => priorityOf(1, chunk("index"), view)));

@@ -119,7 +119,7 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
     ),
 };
 
-/** The number of free slots: that of jobs which run at the same time. */
+/** The number of free slots: as many jobs start together. */
 async function freeSlots(scheduler: Scheduler): Promise<number> {
   const aborter = new AbortController();
   let started = 0;

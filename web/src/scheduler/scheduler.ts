@@ -4,7 +4,7 @@
 import type { Prioritized } from "./priorityQueue.ts";
 import { PriorityQueue } from "./priorityQueue.ts";
 
-/** Stops when `signal` aborts. Its slot becomes free when the promise settles. */
+/** A job stops when `signal` aborts. Its slot becomes free when the promise settles. */
 export type Job<Result> = (signal: AbortSignal) => Promise<Result>;
 
 interface WaitingJob extends Prioritized {

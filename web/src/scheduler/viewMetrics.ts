@@ -1,4 +1,4 @@
-// A bounding sphere on the screen: whether it is in view, its size, and its resolution. Matrices are 16 numbers in
+// Computes whether a bounding sphere is in view, its size in pixels, and the pixels per unit there. Matrices are 16 numbers in
 // column-major order, as WebGL has them; there is no dependency on a camera class.
 
 export type Point = readonly [number, number, number];

@@ -21,7 +21,7 @@ export interface WorkerPoolOptions {
   readonly runOnMainThread: (message: JobMessage) => Promise<unknown>;
   /** Loads what `runOnMainThread` needs, before it is called. */
   readonly prepareMainThread: () => void;
-  /** An idle worker ends after this time. */
+  /** Milliseconds after which an idle worker is ended. */
   readonly idleMs: number;
 }
 
@@ -135,7 +135,7 @@ export class WorkerPool {
 
   #tryStart(): PoolWorker | undefined {
     try {
-      return this.#start(this.#options.start());
+      return this.#add(this.#options.start());
     } catch {
       this.#canStart = false;
       return undefined;
@@ -149,7 +149,7 @@ export class WorkerPool {
     }, this.#options.idleMs);
   }
 
-  #start(worker: JobWorker): PoolWorker {
+  #add(worker: JobWorker): PoolWorker {
     const poolWorker: PoolWorker = { worker, job: undefined, idleTimer: undefined };
     this.#workers.add(poolWorker);
     worker.onmessage = ({ data }) => {
