@@ -71,7 +71,7 @@ function pack(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas {
   return { width, height: Math.max(top + rowHeight, 1), texelsPerEm, cells };
 }
 
-/** The data: URL that `drawGlyphAtlas` reads. Only the URL depends on `edition`, which changes when a font has loaded. */
+/** The data: URL that `drawGlyphAtlas` reads. `edition` changes only the URL: it counts how often the font has loaded. */
 export function glyphAtlasUrl(
   { width, height, texelsPerEm, cells }: GlyphAtlas,
   { family, isBold, isItalic }: Font,

@@ -2,6 +2,7 @@
 
 import { distanceField } from "./distanceField.ts";
 
+/** The largest edge of an atlas that glyphAtlas.ts packs. */
 const maxEdge = 2048;
 
 /**

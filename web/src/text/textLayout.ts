@@ -49,8 +49,8 @@ export interface PositionedRun {
 }
 
 /**
- * Positions all runs. `lengths` has one entry a string. All lengths are in em; a length of 0 keeps the natural length, a
- * `maxExtent` of 0 sets no limit.
+ * Positions all runs. `lengths` has an entry for each string. All lengths are in em; a length of 0 keeps the natural
+ * length, a `maxExtent` of 0 sets no limit.
  */
 export function layOut(
   strings: readonly string[],
@@ -59,10 +59,14 @@ export function layOut(
   style: TextStyle,
   measure: MeasureRun,
 ): PositionedRun[] {
+  const stretches: Stretches = (natural) => stretchesOf(natural, lengths, maxExtent);
   return style.horizontal
-    ? layOutLines(strings, lengths, maxExtent, style, measure)
-    : layOutColumns(strings, lengths, maxExtent, style, measure);
+    ? layOutLines(strings, style, measure, stretches)
+    : layOutColumns(strings, style, measure, stretches);
 }
+
+/** Gives the scale of each string along its direction, from the natural lengths. */
+type Stretches = (natural: readonly number[]) => number[];
 
 /**
  * The scale of each string along its direction. Where the longest exceeds `maxExtent`, all strings shrink by the same
@@ -86,21 +90,15 @@ function alignmentOffset(alignment: Alignment, extent: number, beginsAtZero: boo
 
 function layOutLines(
   strings: readonly string[],
-  lengths: readonly number[],
-  maxExtent: number,
-  style: TextStyle,
+  { font, spacing, leftToRight, topToBottom, major, minor }: TextStyle,
   measure: MeasureRun,
+  stretches: Stretches,
 ): PositionedRun[] {
-  const { font, spacing, leftToRight, topToBottom, major, minor } = style;
   const lines = strings.map((string) => (leftToRight ? string : graphemesOf(string).reverse().join("")));
   const metrics = lines.map((line) => measure(font, line));
   const [first] = metrics;
   if (first === undefined) return [];
-  const stretched = stretchesOf(
-    metrics.map(({ advance }) => advance),
-    lengths,
-    maxExtent,
-  );
+  const scales = stretches(metrics.map(({ advance }) => advance));
   const { ascent, descent } = first;
   const height = (lines.length - 1) * spacing + ascent + descent;
   // The position of the lower edge of the lowest line.
@@ -108,7 +106,7 @@ function layOutLines(
     minor === "FIRST" ? -(topToBottom ? height - ascent : descent) : alignmentOffset(minor, height, !topToBottom);
   return lines.map((text, i) => {
     const { advance } = metrics[i] ?? first;
-    const stretchX = stretched[i] ?? 1;
+    const stretchX = scales[i] ?? 1;
     const countBelow = topToBottom ? lines.length - 1 - i : i;
     return {
       text,
@@ -124,22 +122,16 @@ function layOutLines(
 /** Each glyph occupies a square of one em. */
 function layOutColumns(
   strings: readonly string[],
-  lengths: readonly number[],
-  maxExtent: number,
-  style: TextStyle,
+  { font, spacing, leftToRight, topToBottom, major, minor }: TextStyle,
   measure: MeasureRun,
+  stretches: Stretches,
 ): PositionedRun[] {
-  const { font, spacing, leftToRight, topToBottom, major, minor } = style;
   const columns = strings.map(graphemesOf);
-  const stretched = stretchesOf(
-    columns.map(({ length }) => length),
-    lengths,
-    maxExtent,
-  );
+  const scales = stretches(columns.map(({ length }) => length));
   const width = (columns.length - 1) * spacing + 1;
   const left = alignmentOffset(minor, width, leftToRight);
   return columns.flatMap((graphemes, i) => {
-    const stretchY = stretched[i] ?? 1;
+    const stretchY = scales[i] ?? 1;
     const bottom = alignmentOffset(major, graphemes.length * stretchY, !topToBottom);
     const countBefore = leftToRight ? i : columns.length - 1 - i;
     return graphemes.map((text, k) => {
