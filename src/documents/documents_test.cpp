@@ -125,7 +125,7 @@ Rotation randomRotation(Random& random) {
 Appearance randomAppearance(Random& random, std::size_t textures) {
   Appearance appearance;
   if (random.oneIn(2))
-    appearance.name = "look_" + std::to_string(random.bits());
+    appearance.name = "appearance_" + std::to_string(random.bits());
   switch (random.below(3)) {
   case 0:
     appearance.material = Material{
@@ -755,8 +755,8 @@ TEST(Documents, WriteSharedNodesOnce) {
   };
   EXPECT_EQ(countOf("<Shape DEF=\"shared\""), 1u);
   EXPECT_EQ(countOf("<Shape USE=\"shared\""), 3u);
-  EXPECT_EQ(countOf("<Appearance DEF=\"look\""), 1u);
-  EXPECT_EQ(countOf("<Appearance USE=\"look\""), 1u);
+  EXPECT_EQ(countOf("<Appearance DEF=\"appearance\""), 1u);
+  EXPECT_EQ(countOf("<Appearance USE=\"appearance\""), 1u);
   EXPECT_EQ(countOf("<ImageGeometry DEF=\"geometry\""), 1u);
   EXPECT_EQ(countOf("<ImageGeometry USE=\"geometry\""), 1u);
   EXPECT_EQ(countOf("<GeometryPatch "), 1u);

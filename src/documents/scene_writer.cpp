@@ -94,7 +94,7 @@ void SceneWriter::chooseNames() {
   }
   for (std::size_t i = 0; i < appearanceUses.size(); ++i)
     if (appearanceUses[i] > 0)
-      appearanceNames_[i] = defNames_.take(requestedName(graph.appearances[i].name, appearanceUses[i], "look"));
+      appearanceNames_[i] = defNames_.take(requestedName(graph.appearances[i].name, appearanceUses[i], "appearance"));
   for (std::size_t i = 0; i < textureUses.size(); ++i)
     textureNames_[i] = textureUses[i] < 2 ? "" : defNames_.take(requestedName(graph.textures[i].name, 2, "texture"));
   for (std::size_t i = 0; i < geometryUses.size(); ++i)

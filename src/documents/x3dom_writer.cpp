@@ -42,7 +42,7 @@ private:
     if (shape.appearance) { // the appearance needs a DEF, which all patches but the first USE
       std::string& name = appearanceNames(isEmissive(geometry.patches[0]))[*shape.appearance];
       if (name.empty())
-        name = defNames_.take(names.empty() ? "look" : names[0].value + "-look");
+        name = defNames_.take(names.empty() ? "appearance" : names[0].value + "-appearance");
     }
     const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
     writer_.open(group);

@@ -110,8 +110,8 @@ TEST(X3domWriter, GivesTheGroupTheNameAndItsShapesOneAppearance) {
   for (const SceneDocument& document : {imageDocument(), arrayDocument()}) {
     const std::string text = x3domElement(document, 0, DocumentKind::file);
     EXPECT_EQ(countOf(text, "<Group DEF=\"statue\""), 1u);
-    EXPECT_EQ(countOf(text, "<Appearance DEF=\"statue-look\">"), 1u);
-    EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look\">"), 1u);
+    EXPECT_EQ(countOf(text, "<Appearance DEF=\"statue-appearance\">"), 1u);
+    EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-appearance\">"), 1u);
     EXPECT_EQ(countOf(text, "<Shape DEF=\"base\""), 1u);
     EXPECT_EQ(countOf(text, "<Material "), 3u);
   }
@@ -119,11 +119,11 @@ TEST(X3domWriter, GivesTheGroupTheNameAndItsShapesOneAppearance) {
 
 TEST(X3domWriter, AvoidsNamesOfShapes) {
   SceneDocument document = imageDocument();
-  document.graph.nodes[1].name = "statue-look";
+  document.graph.nodes[1].name = "statue-appearance";
   document.graph.nodes[2].name = "exactTexels";
   const std::string text = x3domElement(document, 0, DocumentKind::file);
-  EXPECT_EQ(countOf(text, "DEF=\"statue-look\""), 1u);
-  EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look_2\">"), 1u);
+  EXPECT_EQ(countOf(text, "DEF=\"statue-appearance\""), 1u);
+  EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-appearance_2\">"), 1u);
   EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels_2\""), 1u);
 }
 

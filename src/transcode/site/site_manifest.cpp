@@ -18,14 +18,13 @@ Value valueNamed(const std::array<Value, count>& values, const std::string& name
   for (const Value value : values)
     if (nameOf(value) == name)
       return value;
-  throw Error(ErrorKind::malformed, location, "says \"" + name + "\", which is nothing we know");
+  throw Error(ErrorKind::malformed, location, "has the unknown value \"" + name + "\"");
 }
 
 Encoding encodingNamed(const std::string& container, const std::string& profile, const std::string& location) {
   const EncodingRow* row = findEncoding(container, profile);
   if (row == nullptr)
-    throw Error(ErrorKind::malformed, location,
-                "says \"" + container + "\" and \"" + profile + "\", which is nothing we know");
+    throw Error(ErrorKind::malformed, location, "has the unknown encoding \"" + container + "\" \"" + profile + "\"");
   return row->encoding;
 }
 
@@ -82,7 +81,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});
     return manifest;
   } catch (const nlohmann::json::exception&) {
-    throw Error(ErrorKind::malformed, name, "is not the marker of a site");
+    throw Error(ErrorKind::malformed, name, "is not the manifest of a site");
   }
 }
 
