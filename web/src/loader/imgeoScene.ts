@@ -1,7 +1,7 @@
 // A scene as an Object3D, to which objects are added and refined while files arrive.
 
 import type { Box3, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
-import { Group, Sphere, Vector2, Vector4 } from "three";
+import { Group, Sphere } from "three";
 import type { RunJob } from "../decode/jobs.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
@@ -9,9 +9,7 @@ import { noProgress, progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { makeLightUniforms } from "../render/lights/sceneLights.ts";
 import { defaultPointSize } from "../render/stages/stageUniforms.ts";
-import { GeometryPool } from "../render/stages/geometryPool.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
 import { Throttle } from "../viewer/throttle.ts";
@@ -19,6 +17,7 @@ import { progressIntervalMs } from "../viewer/viewerCore.ts";
 import { UploadThrottle } from "./uploadThrottle.ts";
 import type { MaterialMaker, SceneShadowOptions } from "./standardMaterials.ts";
 import { makeStandardMaterials } from "./standardMaterials.ts";
+import { appShapeContext } from "./appShapeContext.ts";
 import { ArrayBuffers } from "./arrayBuffers.ts";
 import { BitmapTextures, maxTextureSize } from "./bitmapTextures.ts";
 import { SceneContents } from "./sceneContents.ts";
@@ -93,20 +92,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     });
     this.#contents = new SceneContents(
       { x3d, url, urlOf, pool },
-      {
-        materialFactory: makeStandardMaterials(makeMaterial, shadowOptionsOf(this)),
-        geometries: new GeometryPool(buffers),
-        buffers,
-        textures,
-        batches: undefined,
-        drawing: { asPoints: false },
-        shared: {
-          pixelRatio: { value: 1 },
-          viewport: { value: new Vector4() },
-          depthRange: { value: new Vector2() },
-          ...makeLightUniforms(),
-        },
-      },
+      appShapeContext(makeStandardMaterials(makeMaterial, shadowOptionsOf(this)), buffers, textures),
       {
         onChange: () => {
           this.dispatchEvent({ type: "change" });

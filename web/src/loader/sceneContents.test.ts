@@ -1,23 +1,13 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import {
-  BufferAttribute,
-  InterleavedBuffer,
-  type LOD,
-  type Object3D,
-  PerspectiveCamera,
-  Vector2,
-  Vector3,
-  Vector4,
-} from "three";
+import { BufferAttribute, InterleavedBuffer, type LOD, type Object3D, PerspectiveCamera, Vector3 } from "three";
 import { arrayTypeOf } from "../stage/elementType.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import type { GpuArray } from "../stage/stage.ts";
 import { deferredFile, siteOf, shortDelay, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
-import { makeLightUniforms } from "../render/lights/sceneLights.ts";
-import { GeometryPool } from "../render/stages/geometryPool.ts";
+import { appShapeContext } from "./appShapeContext.ts";
 import { makeStandardMaterials, standardMaterialOf } from "./standardMaterials.ts";
 import { SceneContents } from "./sceneContents.ts";
 
@@ -43,28 +33,19 @@ function appOf(markup: string, files: Record<string, Answer>) {
       urlOf: (url) => new URL(url, "https://site/").href,
       pool,
     },
-    {
-      materialFactory: makeStandardMaterials(standardMaterialOf, {
+    appShapeContext(
+      makeStandardMaterials(standardMaterialOf, {
         castShadow: false,
         receiveShadow: false,
         sphere: undefined as never,
       }),
-      geometries: new GeometryPool(buffers),
       buffers,
-      textures: {
+      {
         textureOf: () => {
           throw new RangeError("there are none");
         },
       },
-      batches: undefined,
-      drawing: { asPoints: false },
-      shared: {
-        pixelRatio: { value: 1 },
-        viewport: { value: new Vector4() },
-        depthRange: { value: new Vector2() },
-        ...makeLightUniforms(),
-      },
-    },
+    ),
     {
       onChange: () => undefined,
       onError: (error) => {
