@@ -1,4 +1,5 @@
-# Sourced by every script: sets strict mode, changes to the repository's root, and defines functions for messages and steps.
+# Sourced by every script: sets strict mode, changes to the repository's root, and defines functions for messages and
+# steps.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -20,7 +20,7 @@ function colorsOf(hexes: string): Vec3[] {
 }
 
 const colorMap: FieldType<readonly Vec3[]> = {
-  name: `map of colours (${Object.keys(namedMaps).join(", ")}, or 2 to ${maxMapColors} colours)`,
+  name: `color map (${Object.keys(namedMaps).join(", ")}, or 2 to ${maxMapColors} colors)`,
   parse(text) {
     const known = namedMaps[text.trim().toLowerCase()];
     if (known !== undefined) return colorsOf(known);

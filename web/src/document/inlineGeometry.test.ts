@@ -88,7 +88,8 @@ describe("geometry in the document", () => {
       '<TriangleSet><Coordinate point="0 0 0 1 0 0 1 1 0 0 0 0 1 1 0 0 1 0"/></TriangleSet>',
     ]) {
       const { positions, normals } = trianglesOf(markup);
-      // Reversed polygons begin at another corner, so the triangles differ: compare the volumes between them and a point behind.
+      // Reversed polygons begin at another corner, so their triangles differ: compare the volumes between the triangles
+      // and a point behind them.
       const raised = (numbers: readonly number[]) =>
         volumeOf(numbers.map((value, i) => (i % 3 === 2 ? value + 1 : value)));
       assert.equal(positions.length, twoTriangles.length, markup);
@@ -104,9 +105,11 @@ describe("geometry in the document", () => {
     );
   });
 
-  test("cuts concave polygons and caps within their outline", () => {
+  test("triangulates concave polygons and caps within their outline", () => {
     const hook = "0 0 0 3 0 0 3 1 0 1 1 0 1 3 0 0 3 0"; // of area 5; the triangles of a fan about its corner 4 cover 9
-    const prism = (positions: number[]) => volumeOf(positions.map((value, i) => (i % 3 === 2 ? value + 3 : value)));
+    // The volume of a pyramid of height 3 is the area of its base.
+    const signedAreaOf = (positions: number[]) =>
+      volumeOf(positions.map((value, i) => (i % 3 === 2 ? value + 3 : value)));
     const faces = (convex: boolean) =>
       `<IndexedFaceSet convex="${convex}" coordIndex="4 5 0 1 2 3"><Coordinate point="${hook}"/></IndexedFaceSet>`;
     const areaOf = (positions: number[]) =>
@@ -114,7 +117,7 @@ describe("geometry in the document", () => {
         const [ax = 0, ay = 0, , bx = 0, by = 0, , cx = 0, cy = 0] = positions.slice(9 * i, 9 * i + 9);
         return Math.abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2;
       }).reduce((sum, area) => sum + area, 0);
-    assert.ok(Math.abs(prism(trianglesOf(faces(false)).positions) - 5) < 1e-6);
+    assert.ok(Math.abs(signedAreaOf(trianglesOf(faces(false)).positions) - 5) < 1e-6);
     assert.ok(Math.abs(areaOf(trianglesOf(faces(false)).positions) - 5) < 1e-6);
     assert.ok(areaOf(trianglesOf(faces(true)).positions) > 6, "a fan overlaps itself");
     const { positions } = trianglesOf('<Extrusion convex="false" crossSection="0 0 0 3 1 3 1 1 3 1 3 0 0 0"/>');

@@ -103,7 +103,7 @@ export class SceneLod extends LOD {
     return isReady;
   }
 
-  /** The level to display until the required one is ready: the one displayed now, or else the nearest that is loaded. */
+  /** The level to display until the required one is ready: the one displayed now, or else the nearest loaded one. */
   #substituteLevel(): number | undefined {
     const { levels } = this;
     const rank = (index: number) => (index === this.#displayedLevel ? -1 : Math.abs(index - this.#level));

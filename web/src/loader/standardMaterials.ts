@@ -31,8 +31,8 @@ import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
 /**
  * Makes the material of a shape from X3D's. `shading`: "smooth" by normals, "flat" by the surface's slope, "unlit" for
- * points and lines, "distance" for points that stand in for a surface. May return any built-in material of three.js but ShaderMaterials; each call must
- * make a new one. Called for each stage of a patch.
+ * points and lines, "distance" for points that stand in for a surface. May return any built-in material of three.js but
+ * ShaderMaterials; each call must make a new one. Called for each stage of a patch.
  */
 export type MaterialMaker = (material: MaterialDescription, shading: Shading) => Material;
 
