@@ -90,7 +90,7 @@ const knownOnlyToTheConverter = new Set(Object.values(notInRuntimeTable).flat())
 /** Whether a documented X3D type is the one that the runtime reads with the type named `runtimeType`. */
 function isTypeOf(documentedType: string, runtimeType: string): boolean {
   if (runtimeType.startsWith("priority")) return documentedType === "SFFloat";
-  if (runtimeType.startsWith("map of colours")) return documentedType === "SFString";
+  if (runtimeType.startsWith("color map")) return documentedType === "SFString";
   if (runtimeType === "SFString" && documentedType === "URL") return true;
   // The runtime reads lists of vectors as one list of numbers.
   if (runtimeType === "MFFloat") return /^MF(Float|Vec2f|Vec3f|Color|Rotation)$/.test(documentedType);
