@@ -50,7 +50,7 @@ const angle: ValueType<number> = {
 };
 
 const radius: ValueType<RadiusSetting> = {
-  form: "a length such as 2m, or a share such as 105%",
+  form: "a length such as 2m, or a percentage such as 105%",
   parse(text) {
     const [, value, unit] = /^([\d.]+(?:e[-+]?\d+)?)(m|cm|mm|%)$/i.exec(text.trim()) ?? [];
     const amount = Number(value);

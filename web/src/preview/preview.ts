@@ -92,9 +92,10 @@ export class Preview {
       ...bases.fetch(url),
     }));
     this.downloaded = Promise.all(files.map(({ downloaded }) => downloaded)).catch(() => undefined);
+    // If a file fails, the runtime requests it again and reports the error.
     this.#load(files).catch(() => {
       this.end();
-    }); // the runtime requests the file again and reports the error
+    });
   }
 
   /** Whether all files have been downloaded and the preview will be drawn as soon as they are decoded. */

@@ -108,9 +108,9 @@ void main() {
     X3dMaterial material = X3dMaterial(color * vertexColor, specular, shininess, vec3(ambientIntensity), metallic, roughness);
     ReflectedLight reflected = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     vec3 normal = facingNormal();
-    vec3 eye = normalize(towardsEye);
-    ${lights.map((kind, i) => `directX3d(${kind}Light(${i}, -towardsEye), -towardsEye, normal, eye, vec3(0.0), material, reflected);`).join("\n    ")}
-    ambientX3d(ambientLight, -towardsEye, normal, eye, vec3(0.0), material, reflected);
+    vec3 viewDirection = normalize(towardsEye);
+    ${lights.map((kind, i) => `directX3d(${kind}Light(${i}, -towardsEye), -towardsEye, normal, viewDirection, vec3(0.0), material, reflected);`).join("\n    ")}
+    ambientX3d(ambientLight, -towardsEye, normal, viewDirection, vec3(0.0), material, reflected);
     vec3 radiance = reflected.directDiffuse + reflected.directSpecular + reflected.indirectDiffuse + reflected.indirectSpecular + emissive;
   #endif
   pixel = vec4(clamp(exposure * radiance, 0.0, 1.0), 1.0);

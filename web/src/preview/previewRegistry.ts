@@ -1,5 +1,5 @@
 // What the previews of a page hand over to the runtime. This file imports only
-// types of theirs, so that the runtime can be bundled without their code.
+// their types, so that the runtime can be bundled without their code.
 
 import type { PrefetchedBases } from "./prefetchedBases.ts";
 import type { Preview } from "./preview.ts";

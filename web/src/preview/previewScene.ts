@@ -1,6 +1,6 @@
 // The scene of a preview: the bases of a document's shapes with their transforms, solid
-// materials and lights. A preview equals the runtime's picture of the bases:
-// only the runtime displays scenes with any other feature.
+// materials and lights. A preview equals the runtime's picture of the bases, so
+// scenes with any other feature have none.
 
 import type { Matrix4, Sphere } from "three";
 import type {

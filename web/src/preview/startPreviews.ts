@@ -7,7 +7,7 @@ import { registerPrefetchedBases, registerPreview } from "./previewRegistry.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
 import { isNearViewport } from "../element/visibility.ts";
 
-/** Each preview needs a WebGL context beside the runtime's. Browsers grant a page 16, on phones 8. */
+/** Each preview needs a WebGL context beside the runtime's. Browsers grant a page 16 contexts, on phones 8. */
 const maxPreviews = 3;
 
 /** Starts previews of scenes that are in the viewport and have bases. */

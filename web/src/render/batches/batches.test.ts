@@ -61,7 +61,7 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   };
 }
 
-/** The first coordinate of its first vertex. */
+/** The first coordinate of a stage's first vertex. */
 function first({ coord }: BufferStage): number {
   return arrays.get(coord.bytes)?.[0] ?? 0;
 }
@@ -137,9 +137,11 @@ class Scene {
     this.#camera.updateMatrixWorld();
   }
 
-  record({ instanceIndex: number }: Member): number[] {
+  record({ instanceIndex }: Member): number[] {
     const numbers = this.#table?.().image.data as Float32Array;
-    return Array.from(numbers.subarray(number * 4 * texelsPerInstance, (number + 1) * 4 * texelsPerInstance));
+    return Array.from(
+      numbers.subarray(4 * texelsPerInstance * instanceIndex, 4 * texelsPerInstance * (instanceIndex + 1)),
+    );
   }
 }
 
@@ -479,7 +481,7 @@ describe("blended draws", () => {
     );
   }
 
-  /** One instance per triangle, or per instance. */
+  /** The instance index of each triangle of a merged mesh, or of each instance of an instanced draw. */
   function instancesDrawnBy(call: DrawnObject): number[] {
     const { geometry } = call;
     if (geometry instanceof InstancedBufferGeometry) return instancesIn(call);

@@ -23,7 +23,7 @@ const merged: DrawModes = { opaque: "merged", blended: "merged" };
 /** Blended draws must be in batches, since only batches are sorted with one another. */
 const opaqueAlone: DrawModes = { opaque: "alone", blended: "instanced" };
 
-/** Scenes with fewer instances are drawn one by one, with double-precision matrices. */
+/** In scenes with fewer instances, each is drawn alone, with a double-precision matrix. */
 export const minInstances = 16;
 /** A geometry is merged if all its instances together have at most this many vertices. */
 export const maxMergedVertices = 16384;

@@ -21,7 +21,7 @@ export class InstanceTable {
   #used = 0;
   readonly #changedRows = new Set<number>();
   /** The last texture that three.js has uploaded. */
-  #sent: DataTexture | undefined;
+  #uploaded: DataTexture | undefined;
 
   constructor() {
     this.uniform = { value: this.#newTexture() };
@@ -63,7 +63,7 @@ export class InstanceTable {
     if (this.#changedRows.size === 0) return;
     const texture = this.uniform.value;
     // A new texture is uploaded as a whole.
-    if (this.#sent === texture)
+    if (this.#uploaded === texture)
       for (const row of this.#changedRows) texture.addUpdateRange(row * numbersPerRow, numbersPerRow);
     texture.needsUpdate = true;
     this.#changedRows.clear();
@@ -97,7 +97,7 @@ export class InstanceTable {
     );
     texture.needsUpdate = true;
     texture.onUpdate = () => {
-      this.#sent = texture;
+      this.#uploaded = texture;
     };
     return texture;
   }

@@ -15,11 +15,11 @@ export interface SceneLightUniforms {
   /** Attenuation of each point and spot light, indexed by its `decay` (lightFalloff.ts). Never empty. */
   readonly attenuations: { value: Vector3[] };
   /**
-   * Per light the first and the last scope number that it reaches, and its ambient light where it does not reach every
-   * scope. Point lights, then spot lights, then directional lights, then two entries that reach everything. Empty
-   * where all lights are global.
+   * For each light, the first and the last scope number that it reaches: point lights, then spot lights, then
+   * directional lights, then two entries that reach everything. Empty where all lights are global.
    */
   readonly lightScopeRanges: { value: Vector2[] };
+  /** In the same order, the ambient light of lights that do not reach every scope; black for the others. */
   readonly scopedAmbients: { value: Vector3[] };
 }
 
@@ -90,6 +90,7 @@ function setScopeRanges(
   }
 }
 
+/** The shader compares scope numbers as floats, which are exact up to here. */
 const maxScopeNumber = 2 ** 24;
 
 function scopeRangeOf({ value, last }: LightScope): Vector2 {

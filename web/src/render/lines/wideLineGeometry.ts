@@ -1,5 +1,5 @@
-// Geometry of wide lines: one instance per line. In image stages the shader finds both ends by
-// their index. In buffer stages both ends are attributes of the instance: the vertices are read
+// Makes the geometry of wide lines: one instance per line. In image stages the shader finds both ends
+// by their index. In buffer stages both ends are attributes of the instance: the vertices are read
 // back once and written out line by line, because instanced attributes cannot be indexed.
 
 import {
@@ -54,7 +54,7 @@ export function repeatedLines(lines: InstancedBufferGeometry, times: number): In
 export class LineRecords {
   readonly #columns: readonly Column[];
 
-  /** `stage`: one of the stages to come, which all have the same `layoutOf` key. */
+  /** `stage`: any of the stages that will be added, which all have the same `layoutOf` key. */
   constructor(stage: BufferStage) {
     this.#columns = columnsOf(stage);
   }
@@ -71,7 +71,7 @@ export class LineRecords {
 
   /**
    * Attributes of the line's begin have their usual names; those of its end have the suffix `End`. They share memory
-   * with the records: valid until the next `add`.
+   * with the records, and are valid until the next `add`.
    */
   setOn(geometry: InstancedBufferGeometry): void {
     for (const { name, components, isNormalized, elementsPerVertex, data } of this.#columns) {
@@ -87,11 +87,11 @@ export class LineRecords {
 
 /** The vertex indices of the begin and the end of each line, alternately. */
 function endsOf(stage: BufferStage, range: DrawRange, buffers: BufferProvider): Uint32Array {
-  const numbers = indicesOf(stage, [range], buffers);
+  const indices = indicesOf(stage, [range], buffers);
   const step = lineStepOf(range);
   return Uint32Array.from(
     { length: 2 * lineCountOf(range) },
-    (_, end) => numbers[Math.floor(end / 2) * step + (end % 2)] ?? 0,
+    (_, end) => indices[Math.floor(end / 2) * step + (end % 2)] ?? 0,
   );
 }
 

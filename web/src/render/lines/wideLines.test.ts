@@ -55,7 +55,7 @@ function endsOf(
     count: geometry.instanceCount,
     begins: firsts("position"),
     ends: firsts("positionEnd"),
-    colors: firsts("colorEnd").map((share) => Math.round(255 * share)),
+    colors: firsts("colorEnd").map((value) => Math.round(255 * value)),
   };
 }
 

@@ -9,19 +9,19 @@ export const depthShadingDefine = "SHADE_BY_DEPTH";
 const declarations = /* glsl */ `
 #ifdef ${depthShadingDefine}
   uniform vec2 depthRange;
-  varying float vDepthShare;
+  varying float vDepthFraction;
 #endif
 `;
 const vertexChunk = /* glsl */ `
 #include <fog_vertex>
 #ifdef ${depthShadingDefine}
-  vDepthShare = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
+  vDepthFraction = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
 #endif
 `;
 const fragmentChunk = /* glsl */ `
 #include <color_fragment>
 #ifdef ${depthShadingDefine}
-  diffuseColor.rgb *= 1.0 - 0.75 * smoothstep(0.15, 0.85, vDepthShare);
+  diffuseColor.rgb *= 1.0 - 0.75 * smoothstep(0.15, 0.85, vDepthFraction);
 #endif
 `;
 

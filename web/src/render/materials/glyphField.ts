@@ -19,9 +19,9 @@ const glyphsChunk = /* glsl */ `
     vec2 texelsOfPixel = fwidth(vMapUv) * vec2(textureSize(map, 0));
     float softness = clamp(length(texelsOfPixel) * ${(Math.SQRT1_2 / (2 * fieldSpread)).toFixed(6)}, 1e-4, 1.0);
     float field = texture2D(map, vMapUv).a;
-    float share = clamp((field - 0.5) / softness + 0.5, 0.0, 1.0);
-    if (share == 0.0) discard;
-    diffuseColor.a *= share / field; // the map has already multiplied it by the field
+    float coverage = clamp((field - 0.5) / softness + 0.5, 0.0, 1.0);
+    if (coverage == 0.0) discard;
+    diffuseColor.a *= coverage / field; // the map has already multiplied it by the field
   #else
     // Always true; a plain discard lets compilers drop the whole shader, and WebGL then draws nothing.
     if (diffuseColor.a >= 0.0) discard;

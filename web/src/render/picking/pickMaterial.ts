@@ -15,7 +15,7 @@ import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
 import { imageVerticesDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
 import { followViewport, wideLinesDefine } from "../shaders/wideLineChunk.ts";
-import { isLine } from "../primitives/primitives.ts";
+import { cornersOf } from "../primitives/primitives.ts";
 
 /**
  * Offset of each field in the 32-bit words of a pixel. Normals are zero where there are none. The three words of
@@ -23,6 +23,7 @@ import { isLine } from "../primitives/primitives.ts";
  */
 export const pickedWordOffsets = {
   pickId: 0,
+  /** The index of the primitive in its draw. */
   element: 1,
   vertex: 2,
   depth: 3,
@@ -182,7 +183,7 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
     side,
     glslVersion: GLSL3,
     defines: {
-      PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine(request) ? 2 : 3,
+      PRIMITIVE_CORNERS: cornersOf(request),
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
       ...vertexDefinesOf(request, hasNormals),
       ...primitiveDefinesOf(primitive),

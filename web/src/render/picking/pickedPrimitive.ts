@@ -24,7 +24,7 @@ export function primitiveIn(
   point: Vector3,
   positionOf: PositionOf,
 ): PickedPrimitive | undefined {
-  const { corners, step } = layoutOf(primitive);
+  const { corners, step } = cornersAndStepOf(primitive);
   let found: PickedPrimitive | undefined;
   let minDistance = Infinity;
   for (let at = corners - 1; at < index.length; at += step) {
@@ -40,7 +40,7 @@ export function primitiveIn(
 
 /** The primitive whose last corner is element `last` of a draw without an index. */
 export function primitiveEndingAt(last: number, range: DrawRange): PickedPrimitive {
-  const { corners, step } = layoutOf(range.primitive);
+  const { corners, step } = cornersAndStepOf(range.primitive);
   return primitiveAt((last - corners + 1) / step, range, undefined);
 }
 
@@ -50,13 +50,13 @@ export function primitiveAt(
   { primitive, first }: DrawRange,
   index: IndexArray | undefined,
 ): PickedPrimitive {
-  const { corners, step } = layoutOf(primitive);
+  const { corners, step } = cornersAndStepOf(primitive);
   const vertexAt = (corner: number) => (index ? (index[number * step + corner] ?? 0) : first + number * step + corner);
   return { number, vertices: Array.from({ length: corners }, (_, corner) => vertexAt(corner)) };
 }
 
 /** Corners per primitive, and the number of elements from the start of one primitive to the next. */
-function layoutOf(primitive: DrawRange["primitive"]): { corners: number; step: number } {
+function cornersAndStepOf(primitive: DrawRange["primitive"]): { corners: number; step: number } {
   switch (primitive) {
     case "points":
       return { corners: 1, step: 1 };

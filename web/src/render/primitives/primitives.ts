@@ -3,7 +3,7 @@
 import type { DrawRange } from "../../stage/stage.ts";
 
 /** Number of vertices per primitive. */
-export function cornersOf({ primitive }: DrawRange): 1 | 2 | 3 {
+export function cornersOf({ primitive }: Pick<DrawRange, "primitive">): 1 | 2 | 3 {
   return primitive === "points" ? 1 : primitive === "lines" || primitive === "lineStrip" ? 2 : 3;
 }
 

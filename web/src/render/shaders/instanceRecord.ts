@@ -8,25 +8,28 @@ export const instancesDefine = "INSTANCES";
 /** Defined in shaders that test light scopes (lights/lightScopes.ts). */
 export const scopedLightsDefine = "SCOPED_LIGHTS";
 
-/** Added to an instance index: draw only back faces, or only front faces. */
+/** Flags that are added to an instance index, so that only back faces or only front faces are drawn. */
 export const backFaces = 2 ** 31;
 export const frontFaces = 2 ** 30;
 
-/**
- * Offset of each field in a record, in floats: the three rows of the matrix from stored coordinates; the lattice step,
- * and 1 + the light scope's number or 0 where the instance is invisible; origin and extent of texture coordinates; the
- * material (diffuse and opacity; specular and shininess, or metallic and roughness; emissive and ambient intensity);
- * the range of the colour map; the width of lines; the value of a stored 0 and of a step.
- */
+/** Offset of each field in a record, in floats. */
 export const instanceFields = {
+  /** Three rows of the matrix from stored coordinates. */
   matrix: 0,
+  /** The lattice step. */
   step: 12,
+  /** 1 + the light scope's number; 0 if the instance is invisible. */
   visibleInScope: 15,
+  /** Origin and extent of texture coordinates. */
   texCoordFrame: 16,
+  /** Diffuse and opacity; specular and shininess, or metallic and roughness; emissive and ambient intensity. */
   material: 20,
+  /** The range of the colour map. */
   mapRange: 32,
   lineWidth: 34,
+  /** The value of a stored 0. */
   valueMin: 36,
+  /** The difference between two stored values. */
   valueStep: 40,
 } as const;
 export const texelsPerInstance = 11;

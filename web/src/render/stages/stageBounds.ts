@@ -1,4 +1,4 @@
-// Bounds of a stage in stored coordinates.
+// Computes the bounds of a stage in stored coordinates.
 
 import { Box3, Sphere, Vector3 } from "three";
 import type { GeometryDescription, PatchDescription } from "../../document/description.ts";
