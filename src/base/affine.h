@@ -20,9 +20,9 @@ struct Affine3d {
   friend bool operator==(const Affine3d&, const Affine3d&) = default;
 };
 
-/// The map of normals that belongs to `a`, up to their lengths: the cofactor matrix, which exists for singular matrices
-/// too.
-inline Affine3d normalMapOf(const Affine3d& a) {
+/// The matrix that maps the normals of a surface when `a` maps its points. It keeps no lengths: it is the cofactor
+/// matrix, which exists for singular matrices too, with the sign of the determinant.
+inline Affine3d normalMatrixOf(const Affine3d& a) {
   const double sign = a.determinant() < 0 ? -1 : 1;
   return {cross(a.y, a.z) * sign, cross(a.z, a.x) * sign, cross(a.x, a.y) * sign, {}};
 }

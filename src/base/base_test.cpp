@@ -75,7 +75,7 @@ TEST(File, NamesThePathAndTheReasonItCannotBeRead) {
   EXPECT_THROW(readFile(directory.path()), Error);
 }
 
-TEST(File, IsRemovedAfterAFailedWrite) {
+TEST(File, ThrowsIfItCannotBeWrittenAndKeepsDevices) {
   const TemporaryDirectory directory;
   EXPECT_THROW(writeFile(directory.path() / "no-such-folder" / "file", {}), Error);
   if (std::filesystem::exists("/dev/full")) {
@@ -132,7 +132,7 @@ TEST(ParallelFor, RethrowsAnExceptionOfABody) {
                std::runtime_error);
 }
 
-TEST(Bytes, KeepTheirByteOrder) {
+TEST(Bytes, StoreAndLoadScalarsInTheStatedByteOrder) {
   Bytes bytes;
   appendLittle<std::uint32_t>(bytes, 0x01020304u);
   appendBig<std::uint16_t>(bytes, 0x0506u);

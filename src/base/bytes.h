@@ -43,9 +43,7 @@ template <typename T> T loadLittle(const std::uint8_t* at) {
   return std::endian::native == std::endian::little ? value : byteSwap(value);
 }
 template <typename T> T loadBig(const std::uint8_t* at) {
-  T value;
-  std::memcpy(&value, at, sizeof(T));
-  return std::endian::native == std::endian::big ? value : byteSwap(value);
+  return byteSwap(loadLittle<T>(at));
 }
 
 /// Appends a scalar in the stated order.
@@ -57,11 +55,7 @@ template <typename T> void appendLittle(Bytes& out, T value) {
   std::memcpy(out.data() + at, &value, sizeof(T));
 }
 template <typename T> void appendBig(Bytes& out, T value) {
-  if (std::endian::native != std::endian::big)
-    value = byteSwap(value);
-  const std::size_t at = out.size();
-  out.resize(at + sizeof(T));
-  std::memcpy(out.data() + at, &value, sizeof(T));
+  appendLittle(out, byteSwap(value));
 }
 
 } // namespace imgeo

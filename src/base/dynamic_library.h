@@ -15,7 +15,7 @@ namespace imgeo {
 ///   };
 class DynamicLibrary {
 public:
-  /// `name` is the library's soname. Throws Error{io} naming it where it cannot be loaded.
+  /// `name` is the library's soname. Throws Error{io}, which names the library, if it cannot be loaded.
   explicit DynamicLibrary(const char* name);
 
 protected:
@@ -25,7 +25,7 @@ protected:
     template <typename Function> operator Function*() const { return std::bit_cast<Function*>(address); }
   };
 
-  /// Throws Error{io} naming the library where it has no such function.
+  /// Throws Error{io}, which names the library, if it has no such function.
   Symbol find(const char* function) const;
 
 private:

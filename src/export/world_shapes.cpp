@@ -9,9 +9,9 @@ namespace imgeo {
 Mesh transformed(Mesh mesh, const Affine3d& world) {
   for (Vec3f& position : mesh.positions)
     position = Vec3f(world.point(Vec3d(position)));
-  const Affine3d normalMap = normalMapOf(world);
+  const Affine3d normalMatrix = normalMatrixOf(world);
   for (Vec3f& normal : mesh.normals) {
-    const Vec3d direction = normalMap.direction(Vec3d(normal));
+    const Vec3d direction = normalMatrix.direction(Vec3d(normal));
     const double size = length(direction);
     normal = size > 0 ? Vec3f(direction * (1 / size)) : Vec3f{0, 0, 1};
   }

@@ -88,7 +88,7 @@ TEST(NormalMap, KeepsNormalsPerpendicularToTheirSurface) {
   for (int i = 0; i < 200; ++i) {
     const Affine3d map = randomMap(random);
     const Vec3d a = randomVector(random), b = randomVector(random);
-    const Vec3d normal = normalMapOf(map).direction(cross(a, b));
+    const Vec3d normal = normalMatrixOf(map).direction(cross(a, b));
     EXPECT_NEAR(dot(normal, map.direction(a)), 0, 1e-9);
     EXPECT_NEAR(dot(normal, map.direction(b)), 0, 1e-9);
     // The normal stays on the same side of the surface, even under reflections.
