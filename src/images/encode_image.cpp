@@ -63,7 +63,7 @@ Bytes encodeWebp(const Raster& raster, int quality) {
 Bytes encodeLosslessWebp(const Raster& raster) {
   WebPConfig config;
   require(WebPConfigInit(&config) && WebPConfigLosslessPreset(&config, 6));
-  config.exact = 1; // also where alpha is 0: data maps keep numbers there
+  config.exact = 1; // keeps the colours of pixels whose alpha is 0: data maps store numbers there
   return encoded(raster, config);
 }
 
@@ -84,7 +84,7 @@ Bytes encodeAvif(const Raster& raster, int quality) {
   rgb.pixels = const_cast<std::uint8_t*>(raster.pixels.data()); // only read
   rgb.rowBytes = 4 * raster.width;
   require(avif.imageRGBToYUV(image.get(), &rgb) == AVIF_RESULT_OK);
-  // As libavif 1.0 maps quality to AV1's quantizers.
+  // libavif 1.0 maps quality to AV1's quantizers in this way.
   const int quantizer = ((100 - quality) * AVIF_QUANTIZER_WORST_QUALITY + 50) / 100;
   encoder->minQuantizer = encoder->maxQuantizer = quantizer;
   encoder->minQuantizerAlpha = encoder->maxQuantizerAlpha = quantizer;

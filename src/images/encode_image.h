@@ -9,7 +9,7 @@ namespace imgeo {
 /// WebP, lossy; `quality` 0 .. 100.
 Bytes encodeWebp(const Raster& raster, int quality);
 
-/// Lossless WebP; decoding restores every byte, also under an alpha of 0.
+/// Lossless WebP; decoding restores every byte, also of pixels whose alpha is 0.
 Bytes encodeLosslessWebp(const Raster& raster);
 
 /// AVIF with 4:2:0 chroma subsampling; `quality` 0 .. 100.

@@ -76,7 +76,7 @@ std::string imageType(ByteSpan bytes) {
   return isTga(bytes) ? ".tga" : "";
 }
 
-bool isShownByBrowsers(std::string_view type) {
+bool isWebImageType(std::string_view type) {
   static constexpr std::array types{".png", ".jpg", ".webp", ".avif", ".gif"};
   return std::ranges::find(types, type) != types.end();
 }

@@ -44,16 +44,16 @@ TEST(ImageType, IsRecognisedByTheFirstBytes) {
     EXPECT_EQ(imageType(asBytes(other)), "") << other;
 }
 
-TEST(DecodeRaster, ReadsWhatBrowsersDoNotShow) {
-  const Raster clear = testRaster(9, 5, true);
-  EXPECT_EQ(decodeRaster(tgaOf(clear), "a.tga"), clear);
+TEST(DecodeRaster, ReadsTypesThatBrowsersDoNotShow) {
+  const Raster transparent = testRaster(9, 5, true);
+  EXPECT_EQ(decodeRaster(tgaOf(transparent), "a.tga"), transparent);
   const Raster gray = decodeRaster(asBytes("P2\n2 1\n255\n7 200\n"), "a.pnm");
   EXPECT_EQ(gray, rasterOf(2, 1, {7, 7, 7, 255, 200, 200, 200, 255}));
 }
 
-TEST(DecodeRaster, RestoresLosslessWebpExactlyAlsoUnderZeroAlpha) {
-  for (const bool isClear : {false, true}) {
-    const Raster raster = testRaster(17, 11, isClear);
+TEST(DecodeRaster, RestoresLosslessWebpExactlyAlsoWhereAlphaIsZero) {
+  for (const bool isTransparent : {false, true}) {
+    const Raster raster = testRaster(17, 11, isTransparent);
     EXPECT_EQ(decodeRaster(encodeLosslessWebp(raster), "a.webp"), raster);
   }
 }
@@ -114,7 +114,7 @@ TEST(Downscaled, KeepsDirectionsAtUnitLength) {
 }
 
 TEST(Downscaled, WeighsPixelsByTheirCoveredArea) {
-  // 3 -> 2: each covers one and a half.
+  // Each of the two pixels covers one and a half of the three.
   const Raster raster = rasterOf(3, 1, {30, 0, 0, 255, 60, 0, 0, 255, 90, 0, 0, 255});
   EXPECT_EQ(downscaled(raster, {2, 1}, PixelContent::numbers), rasterOf(2, 1, {40, 0, 0, 255, 80, 0, 0, 255}));
 }

@@ -14,7 +14,7 @@ struct Raster {
   friend bool operator==(const Raster&, const Raster&) = default;
 };
 
-/// The largest images that are decoded have 8192 x 8192 pixels.
+/// Images with more pixels, or with a longer edge, are not decoded. 2^26 pixels are 8192 x 8192.
 inline constexpr std::uint64_t maxRasterPixels = std::uint64_t{1} << 26;
 inline constexpr std::uint32_t maxRasterEdge = 16383; ///< the limit of WebP
 

@@ -19,8 +19,8 @@ float encodedOf(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-std::uint8_t byteOf(float share) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255));
+std::uint8_t byteOf(float fraction) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(fraction, 0.0f, 1.0f) * 255));
 }
 
 /// Converts pixels between bytes and numbers whose mean is meaningful.
@@ -28,10 +28,10 @@ class Averaging {
 public:
   explicit Averaging(PixelContent content) : content_(content) {
     for (std::size_t byte = 0; byte < values_.size(); ++byte) {
-      const float share = static_cast<float>(byte) / 255;
-      values_[byte] = content == PixelContent::color        ? linearOf(share)
-                      : content == PixelContent::directions ? 2 * share - 1
-                                                            : share;
+      const float fraction = static_cast<float>(byte) / 255;
+      values_[byte] = content == PixelContent::color        ? linearOf(fraction)
+                      : content == PixelContent::directions ? 2 * fraction - 1
+                                                            : fraction;
     }
   }
 

@@ -5,13 +5,13 @@
 
 namespace imgeo::testing {
 
-/// Every pixel differs from its neighbours; alpha rises from row to row where `isClear`.
-inline Raster testRaster(std::uint32_t width, std::uint32_t height, bool isClear = false) {
+/// Every pixel differs from its neighbours; alpha rises from row to row if `isTransparent`.
+inline Raster testRaster(std::uint32_t width, std::uint32_t height, bool isTransparent = false) {
   Raster raster{width, height, {}};
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x)
       for (const std::uint32_t value :
-           {7 * x + y, 5 * y + 3 * x * x, 255 - 2 * x - y, isClear ? 255 * y / height : 255})
+           {7 * x + y, 5 * y + 3 * x * x, 255 - 2 * x - y, isTransparent ? 255 * y / height : 255})
         raster.pixels.push_back(static_cast<std::uint8_t>(value));
   return raster;
 }

@@ -91,7 +91,7 @@ public:
     try {
       fromPixels(decodeRaster(image_.bytes, image_.url.empty() ? "an embedded image" : image_.url), result);
     } catch (const Error& error) {
-      if (isShownByBrowsers(type_)) {
+      if (isWebImageType(type_)) {
         result.file = {image_.bytes, type_};
         result.warning = asksForChange() ? error.what() : "";
       } else {
@@ -109,7 +109,7 @@ private:
            image_.bytes.size() >= minPreviewedBytes;
   }
   bool needsPixels() const {
-    return !isShownByBrowsers(type_) || asksForChange() || (isDecodable(type_) && needsPreview());
+    return !isWebImageType(type_) || asksForChange() || (isDecodable(type_) && needsPreview());
   }
   PixelContent content() const {
     return use_.isNormal ? PixelContent::directions : use_.isData ? PixelContent::numbers : PixelContent::color;
@@ -122,7 +122,7 @@ private:
     result.isResized = size.width != own.width || size.height != own.height;
     if (result.isResized)
       raster = downscaled(raster, size, content());
-    const bool mustChange = result.isResized || !isShownByBrowsers(type_);
+    const bool mustChange = result.isResized || !isWebImageType(type_);
     if (mustChange || requested.format != TextureFormat::keep) {
       result.file = encoded(raster);
       result.isReencoded = mustChange || result.file.bytes.size() < image_.bytes.size();
