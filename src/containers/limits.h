@@ -1,6 +1,6 @@
 #pragma once
-// Sizes that readers refuse. Otherwise no reader allocates more memory than its input
-// bytes can stand for.
+// Limits that encoders keep and readers check. With them no reader allocates more memory than its input bytes can
+// stand for.
 
 #include <cstdint>
 

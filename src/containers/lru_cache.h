@@ -1,5 +1,5 @@
 #pragma once
-// A cache of the most recently used values by url.
+// An LRU cache of values by url.
 
 #include <algorithm>
 #include <list>
@@ -12,7 +12,7 @@ namespace imgeo {
 
 /// Keeps the four most recently used values. Safe to call from any thread: several callers of one url wait for the
 /// first, which makes the value.
-template <typename Value> class Recent {
+template <typename Value> class LruCache {
 public:
   /// The value of a url: the cached one, or else make(url). Passes on exceptions of `make`.
   template <typename Make> std::shared_ptr<const Value> get(const std::string& url, Make make) {

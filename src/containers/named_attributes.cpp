@@ -27,8 +27,8 @@ struct Values {
   }
 };
 
-/// The smallest number of bytes that holds every whole number of the range; `maxBytes` if none does or the values are
-/// not whole.
+/// The smallest number of bytes that holds every whole number of the range; 1 if all values are equal; otherwise
+/// `maxBytes` if no smaller number is enough or the values are not whole.
 std::uint32_t bytesFor(const Values& values, std::uint32_t maxBytes) {
   if (values.max == values.min)
     return 1;
@@ -75,19 +75,18 @@ std::uint32_t storeNumber(float value, const AttributeDescription& attribute, st
   const double size = attribute.size[component];
   if (!(size > 0))
     return 0;
-  const double share = (double{value} - attribute.min[component]) / size;
-  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * maximumOf(attribute.bytes)));
+  const double fraction = (double{value} - attribute.min[component]) / size;
+  return static_cast<std::uint32_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * maximumOf(attribute.bytes)));
 }
 
 float loadNumber(std::uint32_t stored, const AttributeDescription& attribute, std::uint32_t component) {
   return static_cast<float>(attribute.min[component] + attribute.size[component] * stored / maximumOf(attribute.bytes));
 }
 
-double numberBound(Encoding encoding, const AttributeDescription& attribute, std::uint32_t component) {
+double numberErrorBound(Encoding encoding, const AttributeDescription& attribute, std::uint32_t component) {
   if (hasElementTypes(encoding))
     return 0;
   const double low = attribute.min[component], size = attribute.size[component];
-  // What single precision adds.
   const double rounding = std::max(std::abs(low), std::abs(low + size)) * std::numeric_limits<float>::epsilon();
   return size / maximumOf(attribute.bytes) / 2 + rounding;
 }
@@ -96,12 +95,12 @@ void checkAttributes(const PatchDescription& patch, const GeometryDescription& g
   const std::size_t count = geometry.attributes.size();
   bool fits = patch.attributes.size() == count;
   for (std::size_t a = 0; fits && a < count; ++a)
-    fits = patch.attributes[a].size() == filesOf(geometry.encoding, geometry.attributes[a]);
+    fits = patch.attributes[a].size() == fileCountOf(geometry.encoding, geometry.attributes[a]);
   if (!fits)
     throw Error(ErrorKind::malformed, "", "a patch has not as many files of attributes as its geometry needs");
 }
 
-std::size_t filesOf(Encoding encoding, const AttributeDescription& attribute) {
+std::size_t fileCountOf(Encoding encoding, const AttributeDescription& attribute) {
   return hasElementTypes(encoding) ? 1 : attribute.bytes;
 }
 

@@ -14,10 +14,10 @@ std::uint32_t storeNumber(float value, const AttributeDescription& attribute, st
 float loadNumber(std::uint32_t stored, const AttributeDescription& attribute, std::uint32_t component);
 
 /// The maximum error of a stored number.
-double numberBound(Encoding encoding, const AttributeDescription& attribute, std::uint32_t component);
+double numberErrorBound(Encoding encoding, const AttributeDescription& attribute, std::uint32_t component);
 
 /// The number of files that hold an attribute of a patch.
-std::size_t filesOf(Encoding encoding, const AttributeDescription& attribute);
+std::size_t fileCountOf(Encoding encoding, const AttributeDescription& attribute);
 
 /// Throws Error{malformed} unless a patch has the files of every attribute of its geometry.
 void checkAttributes(const PatchDescription& patch, const GeometryDescription& geometry);

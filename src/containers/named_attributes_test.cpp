@@ -57,9 +57,9 @@ TEST(NamedAttributes, AreQuantisedOverTheirRange) {
   const AttributeDescription described = describe(mesh, options).attributes.at(0);
   EXPECT_EQ(described.min, std::vector<double>{-1.5});
   EXPECT_EQ(described.size, std::vector<double>{4});
-  EXPECT_NEAR(numberBound(Encoding::classic, described, 0), 2.0 / 255, 1e-6);
+  EXPECT_NEAR(numberErrorBound(Encoding::classic, described, 0), 2.0 / 255, 1e-6);
   EXPECT_NE(readBack(mesh, options).values[2], 0.3f);
-  EXPECT_NEAR(readBack(mesh, options).values[2], 0.3f, numberBound(Encoding::classic, described, 0));
+  EXPECT_NEAR(readBack(mesh, options).values[2], 0.3f, numberErrorBound(Encoding::classic, described, 0));
 }
 
 TEST(NamedAttributes, AreRefusedIfFilesAreMissingOrHoldNaN) {

@@ -14,7 +14,7 @@ constexpr std::size_t paletteSize = 256;
 constexpr std::uint32_t cellBits = 9; ///< normals are gathered in octahedral cells of about 0.3 degrees
 constexpr int rounds = 24;
 
-/// Normals that share an octahedral cell: their sum and how many they are.
+/// Normals that share an octahedral cell: their sum, and the index of the direction nearest to it.
 struct Cell {
   Vec3d sum;
   std::size_t nearest = 0;
@@ -65,8 +65,7 @@ void assignNearest(std::vector<Cell>& cells, const std::vector<Vec3d>& direction
   parallelFor(cells.size(), [&](std::size_t i) { cells[i].nearest = nearestOf(directions, cells[i].sum); });
 }
 
-/// Moves every direction to the mean of its cells; one that has none moves onto
-/// the cell that its direction serves worst.
+/// Moves every direction to the mean of its cells; a direction without cells moves to the cell with the largest error.
 void moveToMeans(std::vector<Cell>& cells, std::vector<Vec3d>& directions) {
   std::vector<Vec3d> sums(directions.size());
   for (const Cell& cell : cells)
@@ -85,8 +84,8 @@ void moveToMeans(std::vector<Cell>& cells, std::vector<Vec3d>& directions) {
   }
 }
 
-/// Along a Morton curve over the unfolded octahedron.
-void sortByNeighbourhood(std::vector<Vec3d>& directions) {
+/// Sorts directions along a Morton curve over the unfolded octahedron.
+void sortAlongMortonCurve(std::vector<Vec3d>& directions) {
   const auto key = [](Vec3d direction) {
     const Vec2<std::uint32_t> code = octahedralFromUnit(Vec3f(direction), 8);
     std::uint32_t morton = 0;
@@ -114,7 +113,7 @@ NormalPalette normalPalette(std::span<const Vec3f> normals) {
     assignNearest(cells, directions);
     moveToMeans(cells, directions);
   }
-  sortByNeighbourhood(directions);
+  sortAlongMortonCurve(directions);
   for (std::size_t i = 0; i < paletteSize; ++i)
     palette.colors[i] = colorOf(directions[i]);
   palette.indices.resize(normals.size());

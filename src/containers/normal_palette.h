@@ -1,7 +1,7 @@
 #pragma once
-// Normals through a palette of 256 directions, stored as the colour table of an
-// image: an option that the 2012 paper left unexplored (7.1). The browser expands the
-// table, so that readers get an ordinary RGB normal image.
+// Quantises normals to a palette of 256 directions, which is stored as the colour table of an image: an option that
+// the 2012 paper left unexplored (7.1). The browser expands the table, so that readers get an ordinary RGB normal
+// image.
 
 #include "base/vec.h"
 

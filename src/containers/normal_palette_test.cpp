@@ -35,7 +35,8 @@ double meanErrorDegrees(const std::vector<Vec3f>& normals, const NormalPalette& 
 
 TEST(NormalPalette, CoversEvenlyDistributedNormals) {
   const std::vector<Vec3f> normals = randomNormals(20000, {1, 1, 1});
-  // A disc of 1/256 of the sphere has a radius of 7.2 degrees and a mean distance of 2/3 of it.
+  // A disc of 1/256 of the sphere has a radius of 7.2 degrees; the mean distance of its points from the centre is 2/3
+  // of that.
   EXPECT_LT(meanErrorDegrees(normals, normalPalette(normals)), 5.2);
 }
 

@@ -10,12 +10,12 @@ namespace imgeo {
 /// the three components of the vector.
 bool isPair(NormalEncoding encoding);
 
-/// The two numbers of a unit vector, each of `bits` bits, and back. `encoding` is a pair.
+/// Converts a unit vector to two numbers of `bits` bits each, and back. `isPair(encoding)` holds.
 Vec2<std::uint32_t> storeNormal(Vec3f unit, NormalEncoding encoding, std::uint32_t bits);
 Vec3f loadNormal(Vec2<std::uint32_t> stored, NormalEncoding encoding, std::uint32_t bits);
 
 /// The maximum angle, in radians, between a unit normal and its stored value. 0 for palettes and compact, whose
-/// encoders measure it: EncodedPatch::normalError.
+/// encoders state it: EncodedPatch::normalError.
 double normalErrorBound(const GeometryDescription& geometry);
 
 } // namespace imgeo

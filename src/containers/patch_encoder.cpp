@@ -45,7 +45,7 @@ ElementCounts drawnElements(const std::vector<Draw>& draws) {
   return counts;
 }
 
-/// Encodes a patch as the only one of a file that could be shared.
+/// Encodes a patch alone into a file that several patches could share.
 EncodedPatch encodeAlone(const FileSharing& sharing, Patch patch, const GeometryDescription& geometry,
                          const EncodeOptions& options) {
   std::unique_ptr<PreparedPatch> prepared = sharing.prepare(std::move(patch), geometry, options);

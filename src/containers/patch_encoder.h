@@ -16,8 +16,8 @@ namespace imgeo {
 /// Options of convert that an encoding needs, with every default filled in.
 struct EncodeOptions {
   Encoding encoding = Encoding::classic;
-  /// Bits of a stored component. SIG: 8. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); octahedral 8 or
-  /// 16, spherical 8, and those of 8 only beside coordinates of 9 .. 16 bits.
+  /// Bits of a stored component. Classic: 8. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); for octahedral normals 8 or
+  /// 16, for spherical ones 8. These two have 8 bits only beside coordinates of 9 .. 16 bits.
   std::uint32_t normalBits = 8;
   int effort = 5; ///< 0 fastest .. 9 smallest
   Target target = Target::web;
@@ -30,7 +30,7 @@ struct EncodeOptions {
   bool indexed = true;                            ///< false: vertices are repeated wherever they are drawn
 };
 
-/// A file as it will lie in the site, unnamed yet.
+/// A file of a site, before it has a name.
 struct EncodedFile {
   Role role = Role::coord;
   std::string extension; ///< ".png", ".bin"
@@ -40,7 +40,7 @@ struct EncodedFile {
 /// Index of a file in EncodedPatch::files.
 enum class FileIndex : std::uint32_t {};
 
-/// What describeWithUrls makes a Reference of, once the file has a url.
+/// A reference to a file that has no url yet. describeWithUrls turns it into a Reference.
 struct FileReference {
   Role role = Role::coord;
   FileIndex file{};
@@ -52,15 +52,15 @@ struct FileReference {
 struct EncodedPatch {
   PatchDescription description; ///< without references
   std::vector<EncodedFile> files{};
-  std::vector<FileReference> references{}; ///< in the order in which byte planes follow one another
+  std::vector<FileReference> references{}; ///< byte planes of an attribute: most significant first
   ElementCounts elements{};                ///< drawn elements; triangles that only join strips are not counted
-  /// Largest angle between a normal and what is stored of it, in radians: measured for
-  /// palettes and derived normals, a bound in compact. 0: see normalErrorBound.
+  /// Largest angle between a normal and its stored value, in radians: measured for palettes and derived normals, a
+  /// bound for octahedral normals in compact. 0: see normalErrorBound.
   double normalError = 0;
 };
 
-/// The geometry node's own fields for a mesh about to be encoded (no patches
-/// yet). Throws Error{unsupported} for texture coordinates that X3DOM cannot hold.
+/// The geometry node's own fields for a mesh, before its patches are encoded. Throws Error{unsupported} for texture
+/// coordinates that X3DOM cannot hold.
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
 
 /// Encodes a patch by the fields of its node. Deterministic. `patch` is one of the mesh that was described, and has no

@@ -42,7 +42,7 @@ void expectEqualWithinSteps(const NamedAttribute& decoded, const NamedAttribute&
   for (std::size_t i = 0; i < source.values.size(); ++i) {
     const auto component = static_cast<std::uint32_t>(i % source.components);
     ASSERT_NEAR(decoded.values[i], source.values[i],
-                numberBound(geometry.encoding, geometry.attributes[attributeIndex], component));
+                numberErrorBound(geometry.encoding, geometry.attributes[attributeIndex], component));
   }
 }
 
@@ -74,7 +74,7 @@ void expectEqualWithinSteps(const Encoded& encoded) {
 
 constexpr std::uint32_t everyPrecision[] = {8, 10, 12, 16, 20, 24, 32};
 
-/// Options for every normal encoding that coordinates of so many bits allow.
+/// Options for every normal encoding that coordinates of `bits` bits allow.
 std::vector<EncodeOptions> everyNormalEncoding(std::uint32_t bits) {
   const auto options = [](Encoding encoding, NormalEncoding normals, std::uint32_t normalBits) {
     return EncodeOptions{encoding, normalBits, 1, Target::web, normals};
@@ -146,7 +146,7 @@ TEST(Containers, DecodeEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
         }
 }
 
-/// BG options for every coordinate type, layout and normal encoding that holds coordinates of so many bits.
+/// BG options for every coordinate type, layout and normal encoding that can hold coordinates of `bits` bits.
 std::vector<EncodeOptions> everyArray(std::uint32_t bits) {
   std::vector<EncodeOptions> all;
   for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
@@ -348,7 +348,7 @@ TEST(Containers, RefuseSwappedBytePlanes) {
 }
 
 /// The kind of the Error that decoding throws.
-ErrorKind kindOfDecoding(const Encoded& encoded) {
+ErrorKind decodingErrorKind(const Encoded& encoded) {
   try {
     encoded.decoded();
   } catch (const Error& error) {
@@ -377,14 +377,14 @@ protected:
   PatchDescription& patch = encoded.description;
 };
 
-TEST_P(HostilePatch, WithAMissingFileIsAnInputError) {
+TEST_P(HostilePatch, WithAMissingFileIsAnIoError) {
   patch.vertexAttributes[VertexRole::normal]->url = "missing";
-  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::io);
+  EXPECT_EQ(decodingErrorKind(encoded), ErrorKind::io);
 }
 
 TEST_P(HostilePatch, WithIndicesBeyondItsVerticesIsMalformed) {
   patch.vertexCount -= 1;
-  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(encoded), ErrorKind::malformed);
 }
 
 TEST_P(HostilePatch, WithMoreVerticesThanItsFilesHoldIsRefused) {
@@ -412,14 +412,14 @@ TEST_P(HostilePatch, WhoseSizeOverflowsSixtyFourBitsIsRefused) {
 
 TEST_P(HostilePatch, WithoutDrawsIsMalformed) {
   patch.draws.clear();
-  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(encoded), ErrorKind::malformed);
   patch.index.reset();
-  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(encoded), ErrorKind::malformed);
 }
 
 TEST_P(HostilePatch, WithoutCoordinatesIsMalformed) {
   patch.coord.clear();
-  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(encoded), ErrorKind::malformed);
 }
 
 TEST_P(HostilePatch, ThatBeginsBeyondTheEndOfItsFilesIsRefused) {
@@ -436,7 +436,7 @@ TEST_P(HostilePatch, WithSwappedFilesIsRefused) {
 
 TEST_P(HostilePatch, OutsideItsStatedBoxIsMalformed) {
   patch.box.max.x -= 0.1;
-  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(encoded), ErrorKind::malformed);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryEncoding, HostilePatch, ::testing::Values(Encoding::classic, Encoding::bg),

@@ -19,14 +19,14 @@ struct PatchLocation {
   friend bool operator==(const PatchLocation&, const PatchLocation&) = default;
 };
 
-/// Elements of an array (bg).
+/// The records of an array (bg).
 struct ByteLocation {
   std::uint32_t byteOffset = 0; ///< of the first record
   std::uint32_t byteStride = 0; ///< from one record to the next; 0: tightly packed
   friend bool operator==(const ByteLocation&, const ByteLocation&) = default;
 };
 
-/// Which of them a reference has follows from the encoding of its geometry: EncodingRow::location.
+/// The encoding of a geometry determines which of these its references have: EncodingRow::location.
 using FileLocation = std::variant<TexelLocation, PatchLocation, ByteLocation>;
 
 struct Reference {

@@ -15,7 +15,7 @@ class PreparedPatch {
 public:
   virtual ~PreparedPatch() = default;
   virtual std::size_t elementCount() const = 0;
-  /// What documents say of a patch, without its reference.
+  /// The description of the patch in documents, without its reference.
   virtual PatchDescription describe(const GeometryDescription& geometry) const = 0;
 };
 
@@ -35,7 +35,7 @@ public:
   virtual void add(std::unique_ptr<PreparedPatch> patch) = 0;
   /// Encodes the patches. Deterministic. Throws Error{limit} for more than an image holds.
   virtual EncodedSharedFile encode(int effort) const = 0;
-  /// Encodes base meshes; the same otherwise.
+  /// Encodes the base meshes in the same way.
   virtual EncodedFile encodeBases() const = 0;
 };
 

@@ -12,12 +12,12 @@
 
 namespace imgeo {
 
-double texCoordShare(float value, float min, float size) {
+double texCoordFraction(float value, float min, float size) {
   return size > 0 ? (double{value} - min) / size : 0;
 }
 
 std::uint16_t storeTexCoord(float value, float min, float size) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(texCoordShare(value, min, size), 0.0, 1.0) * 65535));
+  return static_cast<std::uint16_t>(std::lround(std::clamp(texCoordFraction(value, min, size), 0.0, 1.0) * 65535));
 }
 
 float loadTexCoord(std::uint16_t stored, float min, float size) {

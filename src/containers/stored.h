@@ -1,6 +1,5 @@
 #pragma once
-// Stored values that encodings share, and checks that their readers share:
-// docs/formats/nodes.md, "Stored values".
+// What encodings share: stored values (docs/formats/nodes.md), descriptions of patches, and checks of readers.
 
 #include "containers/patch_encoder.h"
 
@@ -10,9 +9,9 @@
 namespace imgeo {
 
 /// A texture coordinate as a fraction, 0 .. 1, of the box that begins at `min`; 0 if the box has no extent.
-double texCoordShare(float value, float min, float size);
+double texCoordFraction(float value, float min, float size);
 
-/// That fraction in 16 bits, and back.
+/// Converts a texture coordinate to that fraction in 16 bits, and back.
 std::uint16_t storeTexCoord(float value, float min, float size);
 float loadTexCoord(std::uint16_t stored, float min, float size);
 

@@ -95,8 +95,8 @@ DecodeFields decodeFields(const GeometryDescription& geometry) {
   const StoredCoords stored = storedCoords(geometry.encoding, geometry.coordType, lattice.bits);
   const Vec3d unit = lattice.stretch * std::ldexp(lattice.step, -static_cast<int>(stored.shift));
   const Vec3d zero = lattice.origin - unit * static_cast<double>(stored.bias), size = unit * stored.maximum;
-  const bool isCornered = !hasElementTypes(geometry.encoding) || isUnsigned(geometry.coordType);
-  return {isCornered ? zero + size * 0.5 : zero, size};
+  const bool isZeroAtCorner = !hasElementTypes(geometry.encoding) || isUnsigned(geometry.coordType);
+  return {isZeroAtCorner ? zero + size * 0.5 : zero, size};
 }
 
 Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType type, std::uint32_t bits) {
@@ -108,8 +108,8 @@ Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType typ
     return lattice;
   }
   const StoredCoords stored = storedCoords(encoding, type, bits);
-  const bool isCornered = !hasElementTypes(encoding) || isUnsigned(type);
-  const Vec3d zero = isCornered ? fields.position - fields.size * 0.5 : fields.position;
+  const bool isZeroAtCorner = !hasElementTypes(encoding) || isUnsigned(type);
+  const Vec3d zero = isZeroAtCorner ? fields.position - fields.size * 0.5 : fields.position;
   return {zero + fields.size * (static_cast<double>(stored.bias) / stored.maximum),
           std::ldexp(longest / stored.maximum, static_cast<int>(stored.shift)),
           bits,
@@ -118,8 +118,8 @@ Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType typ
 
 namespace {
 
-/// With all digits of a double these numbers would be a sixth of the compressed document of a scene with thousands of
-/// shapes. Lattices of more than 24 bits stay exact.
+/// Rounds origin and step to few decimal digits: with all digits of a double they would be a sixth of the compressed
+/// document of a scene with thousands of shapes. Lattices of more than 24 bits stay exact.
 Lattice inFewDigits(Lattice lattice, double edge) {
   constexpr std::uint32_t maxBits = 24;
   if (lattice.bits > maxBits || !(edge > 0))

@@ -15,15 +15,14 @@ std::uint32_t coordBytes(Encoding encoding, std::uint32_t bits);
 /// The unsigned element type of 1, 2 or 4 bytes.
 ElementType unsignedTypeOf(std::uint32_t bytes);
 
-/// The lattice bits that stand for Float32 coordinates which are the source's own numbers; our readers round them to a
-/// lattice of so many bits.
+/// A lattice of 32 bits marks Float32 coordinates as the source's own numbers. Our readers round them to that lattice.
 inline constexpr std::uint32_t sourceBits = 32;
 
 /// The bits of packed coordinates if a node states no positionBits.
 inline constexpr std::uint32_t packedPositionBits = 16;
 
-/// Whether a type can store coordinates of a lattice of so many bits, at least 8: integers up to their own bits,
-/// Float32 up to 24 bits, or sourceBits.
+/// Whether a type can store the coordinates of a lattice of `bits` bits, at least 8: integer types store up to their
+/// own bits, Float32 up to 24, or sourceBits.
 bool holdsLattice(ElementType type, std::uint32_t bits);
 
 /// Stored integers of lattice coordinates q: (q << shift) + bias. Unsigned integers are shifted left to fill their
@@ -33,7 +32,7 @@ struct StoredCoords {
   std::uint32_t shift = 0;
   std::int64_t bias = 0;
   double maximum = 1;        ///< the integer that X3DOM puts at the far end of `size`
-  std::uint32_t largest = 0; ///< q, 2^bits - 1
+  std::uint32_t largest = 0; ///< the largest q, 2^bits - 1
 };
 
 /// `type` is an integer type; encodings without element types ignore it.
@@ -46,7 +45,7 @@ inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
 std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& location);
 
 /// The lattice point nearest to a Float32 position. Throws Error{malformed} with
-/// `location` for a position that lies outside by more than rounding. The lattice is that of a cube.
+/// `location` for a position that lies outside by more than rounding. The lattice covers a cube.
 Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location);
 
 /// The `position` and `size` fields of a node.
@@ -55,9 +54,10 @@ struct DecodeFields {
 };
 DecodeFields decodeFields(const GeometryDescription& geometry);
 
-/// The lattice of a node; inverse of decodeFields but for rounding of the last bits. `size` has no negative edge and a
-/// positive one; `type` can store `bits`. The lattice of Float32 coordinates is a cube, for sourceBits one twice as
-/// large, so that it contains vertices that other programs wrote slightly outside of the box.
+/// The lattice of a node; inverse of decodeFields except for rounding of the last bits. No edge of `size` is negative,
+/// one at least is positive; `type` can store `bits`. The lattice of Float32 coordinates covers a cube over the longest
+/// edge; for sourceBits the cube is twice as large, so that it contains vertices that other programs wrote slightly
+/// outside of the box.
 Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType type, std::uint32_t bits);
 
 /// The lattice on which a mesh is encoded: that of its box, moved and stretched by at most 1/1024 of a step, so that

@@ -101,8 +101,8 @@ TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
 }
 
 TEST(LatticeFor, HasOriginAndStepWithFewDecimalDigits) {
-  // Single precision of 0.1, 2.01 and 5.505. The last is rounded more coarsely than to 1/1024 of a step. `far` has a
-  // step below the resolution of single precision.
+  // 0.1, 2.01 and 5.505 in single precision. The last differs from 5.505 by more than 1/1024 of a step, so it keeps
+  // more digits. `far` has a step below the resolution of single precision.
   Box3d box;
   box.add({0.1f, 0, 5.505f});
   box.add({0.1 + 2.01f, 1, 6});

@@ -36,7 +36,8 @@ Vec3d fold(Vec2<double> p) {
   return normalised(v);
 }
 
-double toGrid(std::uint32_t encoded, std::uint32_t last) {
+/// The coordinate of a grid point, -1 .. 1.
+double gridCoordinate(std::uint32_t encoded, std::uint32_t last) {
   return 2.0 * std::min(encoded, last) / last - 1.0;
 }
 
@@ -57,7 +58,7 @@ Vec2<std::uint32_t> octahedralFromUnit(Vec3f unit, std::uint32_t bits) {
   for (std::uint32_t dy = 0; dy < 2; ++dy) {
     for (std::uint32_t dx = 0; dx < 2; ++dx) {
       const Vec2<std::uint32_t> tried{std::min(corner.x + dx, last), std::min(corner.y + dy, last)};
-      const double cosine = dot(fold({toGrid(tried.x, last), toGrid(tried.y, last)}), direction);
+      const double cosine = dot(fold({gridCoordinate(tried.x, last), gridCoordinate(tried.y, last)}), direction);
       if (cosine > bestCosine) {
         bestCosine = cosine;
         best = tried;
@@ -70,7 +71,7 @@ Vec2<std::uint32_t> octahedralFromUnit(Vec3f unit, std::uint32_t bits) {
 Vec3f unitFromOctahedral(Vec2<std::uint32_t> encoded, std::uint32_t bits) {
   assert(bits >= 2 && bits <= 16);
   const std::uint32_t last = (1u << bits) - 2;
-  return Vec3f(fold({toGrid(encoded.x, last), toGrid(encoded.y, last)}));
+  return Vec3f(fold({gridCoordinate(encoded.x, last), gridCoordinate(encoded.y, last)}));
 }
 
 Vec2<std::uint32_t> sphericalFromUnit(Vec3f unit, std::uint32_t bits) {

@@ -41,7 +41,7 @@ TEST(Octahedral, KeepsTheAxesExactly) {
     EXPECT_EQ(angleBetween(unitFromOctahedral(octahedralFromUnit(axis, 8), 8), axis), 0);
 }
 
-TEST(Octahedral, DecodesEveryCodeToADirectionThatEncodesEqual) {
+TEST(Octahedral, DecodesEveryCodeToADirectionThatItKeeps) {
   for (std::uint32_t x = 0; x <= 254; ++x)
     for (std::uint32_t y = 0; y <= 254; ++y) {
       const Vec3f v = unitFromOctahedral({x, y}, 8);

@@ -106,7 +106,7 @@ GeometryDescription randomGeometry(Random& random) {
   for (PatchDescription& patch : geometry.patches)
     for (const AttributeDescription& attribute : geometry.attributes) {
       patch.attributes.emplace_back();
-      for (std::size_t file = filesOf(geometry.encoding, attribute); file > 0; --file)
+      for (std::size_t file = fileCountOf(geometry.encoding, attribute); file > 0; --file)
         patch.attributes.back().push_back(randomReference(random, geometry.encoding));
     }
   if (geometry.encoding == Encoding::bg && byteSizeOf(geometry.coordType) == 2 && random.oneIn(3)) {

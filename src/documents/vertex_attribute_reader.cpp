@@ -59,11 +59,11 @@ std::vector<std::vector<Reference>> referencesByAttribute(const FieldReader& fie
   std::vector<std::vector<Reference>> grouped;
   std::size_t usedCount = 0;
   for (const AttributeDescription& attribute : attributes) {
-    const std::size_t count = std::min(filesOf(encoding, attribute), references.size() - usedCount);
+    const std::size_t count = std::min(fileCountOf(encoding, attribute), references.size() - usedCount);
     const auto first = references.begin() + static_cast<std::ptrdiff_t>(usedCount);
     grouped.emplace_back(first, first + static_cast<std::ptrdiff_t>(count));
     usedCount += count;
-    if (count != filesOf(encoding, attribute))
+    if (count != fileCountOf(encoding, attribute))
       fields.fail(ErrorKind::malformed, "attrib names fewer files than the attributes need");
   }
   if (usedCount != references.size())

@@ -31,8 +31,8 @@ public:
 
   /// Throws Error{truncated} unless the file holds records 0 .. count - 1. Call it before reading them.
   void require(std::uint64_t count) const {
-    // Interleaved records begin before this attribute, and all are whole. Products of numbers that the document
-    // states could overflow.
+    // Interleaved records begin before this attribute, and all are whole. The check divides, since products of numbers
+    // that the document states could overflow.
     const std::uint64_t begin = byteOffset_ - byteOffset_ % stride_;
     if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
       throw Error(ErrorKind::truncated, location_,
@@ -148,8 +148,8 @@ std::vector<Vec2f> decodeTexCoords(const Records& records, std::uint32_t count, 
 
 std::vector<Rgba8> decodeColors(const Records& records, std::uint32_t count, std::uint32_t components) {
   const auto byte = [&](std::uint32_t n, std::uint32_t component) {
-    const double share = records.realAt(n, component);
-    return static_cast<std::uint8_t>(std::lround(255 * (share >= 0 ? std::min(share, 1.0) : 0)));
+    const double fraction = records.realAt(n, component);
+    return static_cast<std::uint8_t>(std::lround(255 * (fraction >= 0 ? std::min(fraction, 1.0) : 0)));
   };
   std::vector<Rgba8> colors;
   for (std::uint32_t n = 0; n < count; ++n)

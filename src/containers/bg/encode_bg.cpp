@@ -24,11 +24,11 @@ void appendInteger(Bytes& out, ElementType type, std::int64_t value) {
   }
 }
 
-/// Appends a fraction of 1: integers hold the nearest multiple of 1 / maximum of the type, floats the fraction itself.
-void appendShare(Bytes& out, ElementType type, double share) {
+/// Appends a fraction: an integer type stores its product with the type's maximum, rounded; Float32 stores it as it is.
+void appendFraction(Bytes& out, ElementType type, double fraction) {
   if (type == ElementType::float32)
-    return appendLittle(out, static_cast<float>(share));
-  const double clamped = std::clamp(share, isUnsigned(type) ? 0.0 : -1.0, 1.0);
+    return appendLittle(out, static_cast<float>(fraction));
+  const double clamped = std::clamp(fraction, isUnsigned(type) ? 0.0 : -1.0, 1.0);
   appendInteger(out, type, std::llround(clamped * maximumOf(type)));
 }
 
@@ -97,7 +97,7 @@ Column normalColumn(const IndexedPatch& patch, const GeometryDescription& geomet
       continue;
     }
     for (int axis = 0; axis < 3; ++axis)
-      appendShare(column.bytes, type, normal[axis]);
+      appendFraction(column.bytes, type, normal[axis]);
     if (isPadded)
       appendInteger(column.bytes, type, 0);
   }
@@ -110,8 +110,8 @@ Column texCoordColumn(const IndexedPatch& patch, const GeometryDescription& geom
   Column column{Role::texCoord, {}, 2 * byteSizeOf(type), false};
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
   for (const Vec2f& texCoord : patch.texCoords) {
-    appendShare(column.bytes, type, texCoordShare(texCoord.x, min.x, size.x));
-    appendShare(column.bytes, type, texCoordShare(texCoord.y, min.y, size.y));
+    appendFraction(column.bytes, type, texCoordFraction(texCoord.x, min.x, size.x));
+    appendFraction(column.bytes, type, texCoordFraction(texCoord.y, min.y, size.y));
   }
   return column;
 }
@@ -123,7 +123,7 @@ Column colorColumn(const IndexedPatch& patch, const GeometryDescription& geometr
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
   for (const Rgba8& color : patch.colors)
     for (const std::uint8_t channel : {color.r, color.g, color.b, color.a})
-      appendShare(column.bytes, type, channel / 255.0);
+      appendFraction(column.bytes, type, channel / 255.0);
   return column;
 }
 

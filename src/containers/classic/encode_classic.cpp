@@ -44,7 +44,7 @@ ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records, Targe
   return size;
 }
 
-/// Indices of three bytes: no image that readers accept has more texels.
+/// Stores three bytes of each index. They are enough: no image that readers accept has more than 2^24 texels.
 Image wideIndexImage(const IndexedPatch& patch, ImageSize size) {
   return imageOf(size, 3, patch.indices.size(), [&](std::size_t n, std::uint8_t* out) {
     for (std::uint32_t byte = 0; byte < 3; ++byte)
@@ -117,14 +117,15 @@ Image attributeImage(const NamedAttribute& attribute, const AttributeDescription
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target) {
   EncodedPatch encoded{.description = describePatch(patch, geometry)};
   const ImageSize records = recordImageSizeOf(patch, target);
-  const ImageSize running = implicitMeshSizeOf(patch, records, target);
-  encoded.description.implicitMeshSize = {running.columns, running.rows};
+  const ImageSize implicitMeshSize = implicitMeshSizeOf(patch, records, target);
+  encoded.description.implicitMeshSize = {implicitMeshSize.columns, implicitMeshSize.rows};
   const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, geometry.lattice.bits);
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
-    images.push_back({Role::index, geometry.indexType == ElementType::uint32 ? wideIndexImage(patch, running)
-                                                                             : indexImage(patch, running, records)});
+    images.push_back({Role::index, geometry.indexType == ElementType::uint32
+                                       ? wideIndexImage(patch, implicitMeshSize)
+                                       : indexImage(patch, implicitMeshSize, records)});
   for (std::uint32_t plane = coordBytes(Encoding::classic, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
   for (const VertexRole role : vertexRoles)

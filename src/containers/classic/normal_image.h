@@ -8,7 +8,7 @@
 namespace imgeo {
 
 /// Makes the image of a patch's normals. RGB and palette images have the size of record images. Images of pairs are
-/// gray; the upper half holds the first numbers. Texels behind the last record repeat it. Throws Error{limit} for pairs
+/// gray; the upper half holds the first numbers. Texels after the last record repeat it. Throws Error{limit} for pairs
 /// of more records than half of the largest image holds.
 Image normalImage(const IndexedPatch& patch, NormalEncoding encoding, ImageSize records);
 

@@ -14,10 +14,10 @@ namespace imgeo {
 namespace {
 
 /// Residual steps in a mean edge: rounding moves a vertex by less than simplification did.
-constexpr double stepsAnEdge = 16;
+constexpr double stepsPerEdge = 16;
 
-/// Texture coordinate steps in a mean edge of the texture: simplification places edges no more precisely.
-constexpr double stepsATextureEdge = 8;
+/// Texture coordinate steps in a mean edge in the texture: simplification moves edges by more than a step.
+constexpr double stepsPerTextureEdge = 8;
 
 /// The mean length of the edges of triangles; lengthOf(a, b) measures the edge between two corners.
 template <typename LengthOf> double meanEdge(const BaseMesh& base, LengthOf lengthOf) {
@@ -27,23 +27,23 @@ template <typename LengthOf> double meanEdge(const BaseMesh& base, LengthOf leng
   return sum / static_cast<double>(base.corners.size());
 }
 
-/// The residual shift with stepsAnEdge steps in a mean edge.
+/// The residual shift with stepsPerEdge steps in a mean edge.
 std::uint32_t residualShiftFor(const BaseMesh& base, std::uint32_t positionBits) {
   const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
     return length(Vec3d(base.cornerPosition(b)) - Vec3d(base.cornerPosition(a)));
   });
-  const double steps = edge / stepsAnEdge;
+  const double steps = edge / stepsPerEdge;
   const auto shift = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(steps)));
   return std::min(shift == 0 ? 0 : shift - 1, positionBits - 1);
 }
 
-/// The smallest number of bits, at most `maxBits`, with stepsATextureEdge steps in a mean edge.
+/// The smallest number of bits, at most `maxBits`, with stepsPerTextureEdge steps in a mean edge.
 std::uint32_t texCoordBitsFor(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t maxBits) {
   const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
     const Vec2f from = base.texCoords[base.corners[a]], to = base.texCoords[base.corners[b]];
     return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
   });
-  const double steps = stepsATextureEdge * std::max(geometry.texCoordSize.x, geometry.texCoordSize.y) / edge;
+  const double steps = stepsPerTextureEdge * std::max(geometry.texCoordSize.x, geometry.texCoordSize.y) / edge;
   std::uint32_t bits = 1;
   while (bits < maxBits && std::ldexp(1.0, static_cast<int>(bits)) < steps)
     ++bits;
@@ -52,25 +52,25 @@ std::uint32_t texCoordBitsFor(const BaseMesh& base, const GeometryDescription& g
 
 /// The smallest number of bits that tells 256 values apart over the range that a base mesh uses.
 std::uint32_t bitsFor(const NamedAttribute& named, const AttributeDescription& description) {
-  double share = 0;
+  double fraction = 0;
   for (std::uint32_t c = 0; c < named.components && description.size[c] > 0; ++c) {
     double min = named.values[c], max = min;
     for (std::size_t i = c; i < named.values.size(); i += named.components) {
       min = std::min(min, double{named.values[i]});
       max = std::max(max, double{named.values[i]});
     }
-    share = std::max(share, (max - min) / description.size[c]);
+    fraction = std::max(fraction, (max - min) / description.size[c]);
   }
   std::uint32_t bits = 8;
-  while (bits < 8 * description.bytes && std::ldexp(share, static_cast<int>(bits)) < 256)
+  while (bits < 8 * description.bytes && std::ldexp(fraction, static_cast<int>(bits)) < 256)
     ++bits;
   return bits;
 }
 
 } // namespace
 
-compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescription& geometry,
-                                     std::uint32_t texCoordBits, std::uint32_t colorBits) {
+compact::CompactPatch quantiseBase(const BaseMesh& base, const GeometryDescription& geometry,
+                                   std::uint32_t texCoordBits, std::uint32_t colorBits) {
   compact::CompactPatch patch;
   patch.positionBits = geometry.lattice.bits;
   patch.positions = base.positions;

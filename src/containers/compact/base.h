@@ -11,9 +11,9 @@ namespace imgeo {
 
 /// Quantises a base mesh. Decoding returns its elements in another order, and moves positions that only one segment has
 /// by a small fraction of an edge. Texture coordinates get at most `texCoordBits` bits, and fewer if coarser steps are
-/// small beside the edges in the texture; further attributes get the bits that tell 256 values apart.
-compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescription& geometry,
-                                     std::uint32_t texCoordBits, std::uint32_t colorBits);
+/// small compared with the edges in the texture; further attributes get enough bits to tell 256 values apart.
+compact::CompactPatch quantiseBase(const BaseMesh& base, const GeometryDescription& geometry,
+                                   std::uint32_t texCoordBits, std::uint32_t colorBits);
 
 /// Encodes base meshes into one file, in this order; encodeCompact has the limits. Deterministic. Throws Error{limit}
 /// for more than an image holds.

@@ -40,7 +40,7 @@ EncodedBase encoded(Mesh mesh, std::uint32_t maxWedges) {
   result.geometry = describe(result.patched, options);
   result.geometry.patches.resize(result.patched.patches.size());
   result.geometry.base = Reference{"base.png", PatchLocation{}};
-  result.bases = {baseInIntegers(result.base, result.geometry, 12, 8)};
+  result.bases = {quantiseBase(result.base, result.geometry, 12, 8)};
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 namespace imgeo::compact {
 
+/// The first model of each symbol in the stream of an attribute.
 namespace attributeModels {
 inline constexpr std::size_t repeat = 0, choice = repeat + 1, exact = choice + 24, flip = exact + 2, first = flip + 1,
                              second = first + numberModels, count = second + 93 * numberModels;

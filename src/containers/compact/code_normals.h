@@ -1,6 +1,6 @@
 #pragma once
-// Normals as residuals to the normal of the decoded surface, in integers, so that all
-// decoders return the same bits: docs/formats/compact.md, "Normals".
+// Encodes and decodes normals as residuals to the normals of the decoded surface, in integers, so that all decoders
+// return the same bits: docs/formats/compact.md, "Normals".
 
 #include "containers/compact/code_attributes.h"
 
@@ -35,6 +35,7 @@ inline OctahedronPoint octahedronPoint(const Vec3i64& direction, std::int64_t ra
   return point;
 }
 
+/// The three coordinates of a point.
 inline Value valueOf(const OctahedronPoint& point, std::int64_t radius) {
   const std::int64_t rest = radius - std::abs(point.atU) - std::abs(point.atV);
   Value value;
@@ -44,14 +45,15 @@ inline Value valueOf(const OctahedronPoint& point, std::int64_t radius) {
   return value;
 }
 
-/// The largest angle, in radians, between a direction and the point that stands for
-/// it: half a step off on two axes and so a whole one on the third moves a point of
-/// a face by sqrt(3 / 2) steps, seen from 1 / sqrt(3) of the radius away.
+/// The largest angle, in radians, between a direction and its rounded point. An error of half a step on two axes, and
+/// so of a whole step on the third, moves the point by sqrt(3 / 2) steps; its distance from the origin is at least
+/// radius / sqrt(3).
 inline double octahedronErrorBound(std::uint32_t bits) {
   return std::sqrt(4.5) / ((1 << (bits - 1)) - 1) * 1.001 + 1e-6;
 }
 
-/// The sums of the triangle normals around each of the first `limit` wedges, including wedges that repeat it.
+/// The sums of the triangle normals around each of the first `limit` wedges. The triangles of a wedge that repeats an
+/// earlier one are added to the earlier one.
 inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& repeats, bool isUniform,
                                std::uint32_t limit) {
   const Wedges& wedges = surface.wedges;

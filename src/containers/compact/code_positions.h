@@ -10,6 +10,7 @@
 
 namespace imgeo::compact {
 
+/// The first model of each symbol in the stream.
 namespace positionModels {
 inline constexpr std::size_t choice = 0, first = choice + std::size_t{8} * 16 * 4, second = first + 16 * numberModels,
                              third = second + 31 * numberModels, count = third + 31 * numberModels, lone = count,
@@ -28,7 +29,7 @@ struct VertexContext {
   std::array<int, 3> order{0, 1, 2}; ///< of the axes
   Coordinates normal{};              ///< of the surface
 
-  /// Axes on the grid come first; of the others the dominant axis of the surface normal comes last.
+  /// Sets the order of the axes: those on the grid first; of the others, the dominant axis of the surface normal last.
   void setOrder(const Slope& slope) {
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -48,15 +49,15 @@ struct VertexContext {
 /// Residuals of a base that have coarser steps than the lattice.
 struct CoarseResiduals {
   std::uint32_t shift = 0;
-  const std::vector<bool>* isExact = nullptr; ///< per vertex, where there is a shift
+  const std::vector<bool>* isExact = nullptr; ///< per vertex; used only if `shift` > 0
 
   std::uint32_t shiftOf(std::uint32_t vertex) const { return shift > 0 && !(*isExact)[vertex] ? shift : 0; }
 };
 
 template <typename Coder> class PositionCoder {
 public:
-  /// Encoders pass the positions and get those that decoders will get; decoders pass room for them. All arguments are
-  /// kept by reference.
+  /// `positions` are the vertices' positions for an encoder, which replaces them by those that decoders return; a
+  /// decoder fills them. Arguments that are passed by reference must outlive the PositionCoder.
   PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits, const std::optional<Grid>& grid,
                 std::uint32_t normalShift, CoarseResiduals residuals, std::vector<Vec3u>& positions)
       : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1), grid_(grid),

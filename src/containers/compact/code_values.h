@@ -47,7 +47,7 @@ struct EdgeFrame {
 
 template <typename Coder> class ValueCoder {
 public:
-  /// Encoders pass the values, decoders room for them.
+  /// `values` are the source of an encoder; a decoder fills them.
   ValueCoder(Coder& coder, const Surface& surface, const AttributeType& type, std::vector<Value>& values)
       : coder_(coder), surface_(surface), type_(type), maximum_((1 << type.bits) - 1), values_(values) {}
 
@@ -119,7 +119,7 @@ private:
     return value;
   }
 
-  /// Lays the triangle out in its own shape on both sides of its edge in texture space.
+  /// Adds two candidates: the triangle keeps its shape in texture space, on one side of its edge or on the other.
   void addSides(Guesses& guesses, std::uint32_t wedge, std::uint32_t a, std::uint32_t b) const {
     const auto positionOf = [&](std::uint32_t w) { return surface_.positions[surface_.wedges.vertex[w]]; };
     const EdgeFrame frame(positionOf(a), positionOf(b), positionOf(wedge));
@@ -138,7 +138,7 @@ private:
     }
   }
 
-  /// The candidate of the parallelogram, if the attribute continues across the triangle's first edge.
+  /// Adds the candidate of the parallelogram if the attribute continues across the triangle's first edge.
   void addParallelogram(Guesses& guesses, std::uint32_t corner, std::uint32_t a, std::uint32_t b) const {
     if (corner % 3 != 2)
       return;

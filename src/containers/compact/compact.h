@@ -4,7 +4,7 @@
 
 #include "containers/compact/compact_patch.h"
 #include "containers/encodings.h"
-#include "containers/recent.h"
+#include "containers/lru_cache.h"
 
 #include <span>
 
@@ -19,7 +19,7 @@ void resolveCompactOptions(ConvertOptions& options);
 /// How patches and base meshes share files.
 extern const FileSharing compactSharing;
 
-/// Quantises a patch by the fields of its node. Every wedge of a point cloud is a point.
+/// Quantises a patch by the fields of its node. Every wedge of a point cloud becomes a point.
 compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry, const EncodeOptions& options);
 
 /// The description of a quantised patch, without its reference.
@@ -50,8 +50,8 @@ private:
   std::shared_ptr<const Patches> patchesOf(const std::string& url);
 
   FetchFile fetch_;
-  Recent<Patches> patches_;
-  Recent<std::vector<AttributeTypes>> types_; ///< per patch
+  LruCache<Patches> patches_;
+  LruCache<std::vector<AttributeTypes>> types_; ///< per patch
 };
 
 } // namespace imgeo

@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// With as many attributes each as a patch may have, a header still holds them.
+/// A header has room for so many kinds of patches even if each has as many attributes as a patch may have.
 constexpr std::size_t maxPatchKinds = compact::maxFileAttributes / compact::maxAttributes;
 
 class PreparedCompactPatch final : public PreparedPatch {
@@ -84,8 +84,7 @@ std::unique_ptr<PreparedPatch> prepareCompact(Patch patch, const GeometryDescrip
 
 std::unique_ptr<PreparedPatch> prepareCompactBase(const BaseMesh& base, const GeometryDescription& geometry,
                                                   const EncodeOptions& options) {
-  return std::make_unique<PreparedCompactPatch>(
-      baseInIntegers(base, geometry, options.texCoordBits, options.colorBits));
+  return std::make_unique<PreparedCompactPatch>(quantiseBase(base, geometry, options.texCoordBits, options.colorBits));
 }
 
 std::unique_ptr<SharedFile> makeCompactFile() {

@@ -60,7 +60,7 @@ struct Attribute {
   friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
-/// Planes perpendicular to the axes on which most vertices lie, as those of isosurfaces do. The coordinate of plane i
+/// Planes perpendicular to the axes. Most vertices lie on them, as those of isosurfaces do. The coordinate of plane i
 /// of an axis is round(origin + i * step), where `origin` and `step` are in 1/65536 lattice steps.
 struct Grid {
   Vec3u origin, step;

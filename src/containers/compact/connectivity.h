@@ -27,10 +27,10 @@ struct Connectivity {
 
   // Triangles only; `none`: there is no such corner or vertex.
   std::vector<std::uint32_t> across;  ///< per triangle: the corner opposite its first edge in the neighbour
-  std::vector<std::uint32_t> closing; ///< per triangle: the same for the second edge that it closes
+  std::vector<std::uint32_t> closing; ///< per triangle: the same for its second edge on the boundary, if it has one
   std::vector<std::uint32_t> ahead;   ///< per vertex: the next vertex on the boundary when it was introduced
   std::vector<std::uint32_t> behind;  ///< per vertex: the previous vertex on the boundary at that time
-  std::vector<std::uint32_t> second;  ///< per vertex: the corner opposite the edge on its other side
+  std::vector<std::uint32_t> second;  ///< per vertex: the corner opposite the edge of a second parallelogram
 
   std::vector<std::uint32_t> from; ///< lines only, per vertex: the other end of the line that introduced it
 };

@@ -13,9 +13,17 @@
 
 namespace imgeo::compact {
 
-/// The triangle across an edge of the boundary.
-enum class Step : std::uint8_t { make, close, back, hole, join, reuse };
+/// The triangle across an edge of the boundary, by its third vertex.
+enum class Step : std::uint8_t {
+  make,  ///< a new vertex
+  close, ///< the vertex of the next node
+  back,  ///< the vertex of the node before the edge
+  hole,  ///< there is no triangle
+  join,  ///< the vertex of a later node
+  reuse, ///< any other known vertex
+};
 
+/// The first model of each symbol in the stream.
 namespace conquestModels {
 inline constexpr std::size_t degreeContexts = std::size_t{12} * 12 * 8;
 inline constexpr std::size_t make = 0, close = make + degreeContexts, back = close + degreeContexts,
@@ -27,7 +35,7 @@ inline constexpr std::size_t make = 0, close = make + degreeContexts, back = clo
 struct Node {
   std::uint32_t vertex = 0;
   std::uint32_t previous = none, next = none;
-  std::uint32_t apex = none; ///< the corner opposite its edge, in the triangle behind
+  std::uint32_t apex = none; ///< the corner opposite its edge, in the triangle that has been coded
 
   bool isAlive() const { return previous != none || next != none; }
 };
@@ -229,8 +237,8 @@ private:
     nodes_[k].apex = firstCorner() + 1;
   }
 
-  /// A triangle with a node elsewhere: its loop splits, or two become one. The node
-  /// stands for what follows it, a new one for what came before.
+  /// A triangle with the vertex of a later node: its loop splits, or two loops become one. The node keeps what follows
+  /// it; a new node of the same vertex takes over what came before.
   void join(const Gate& gate) {
     const auto [k, p, next, behind] = gate;
     std::uint32_t target = k + 1;

@@ -1,6 +1,6 @@
 #pragma once
-// Finds a triangle at a directed edge that has not been taken: in constant time if vertices
-// have few triangles, and in logarithmic time if many triangles share a vertex or an edge.
+// Finds, at a directed edge, a triangle that has not been taken: in constant time if vertices have few triangles, in
+// logarithmic time if many triangles share a vertex or an edge.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,7 +20,8 @@ public:
   /// `vertices` are the corners of triangles, below `vertexCount`. Triangles with two equal corners are left out.
   EdgeTable(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)
       : begins_(vertexCount + 2), taken_(vertices.size() / 3) {
-    // The sum of counts at index vertex + 2 is the begin of the next vertex's edges; filling moves it to their end.
+    // Counts go to index vertex + 2. After summing, begins_[vertex + 1] is where the edges of the vertex begin; filling
+    // moves it to their end.
     visitEdges(vertices, [&](std::uint32_t from, const Edge&) { ++begins_[from + 2]; });
     for (std::size_t vertex = 2; vertex < begins_.size(); ++vertex)
       begins_[vertex] += begins_[vertex - 1];
@@ -69,7 +70,7 @@ private:
     }
   }
 
-  /// The edges from -> to, in the source's order.
+  /// Sorts edges of one vertex by their end, edges with the same end in the source's order.
   static bool before(const Edge& a, const Edge& b) { return a.to != b.to ? a.to < b.to : a.corner < b.corner; }
 
   /// Searches a sorted range. Taken triangles of one edge are skipped only once.

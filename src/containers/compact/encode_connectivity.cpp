@@ -69,7 +69,7 @@ private:
     sourceCorner_.insert(sourceCorner_.end(), {corner, after(corner), before(corner)});
   }
 
-  /// A live node of the target vertex behind the pivot. Only the latest nodes of a vertex are searched, so that time
+  /// A live node of the target vertex after the pivot. Only the latest nodes of a vertex are searched, so that time
   /// stays linear; every choice is valid.
   std::uint32_t findNode(const Gate& gate, const std::vector<Node>& nodes) const {
     std::uint32_t node = latestNodes_[targetVertex_];
@@ -83,7 +83,7 @@ private:
   EdgeTable edges_;
   std::vector<std::uint32_t> numbers_;                  ///< source vertex -> number
   std::vector<std::uint32_t> sources_;                  ///< number -> source vertex
-  std::vector<std::uint32_t> latestNodes_, olderNodes_; ///< lists of nodes, one a vertex
+  std::vector<std::uint32_t> latestNodes_, olderNodes_; ///< linked lists of nodes, one for each vertex
   std::uint32_t nextRoot_, lowestRoot_ = 0;
   std::uint32_t targetSource_ = none, targetVertex_ = none, targetNode_ = none;
   std::vector<std::uint32_t>& sourceCorner_;

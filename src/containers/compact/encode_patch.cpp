@@ -20,8 +20,8 @@ struct Ordered {
   std::vector<std::uint32_t> sourceVertex; ///< vertex -> vertex of the source
 };
 
-/// Chooses one of `count` first triangles of a patch. They lead to different orders, none of which is the smallest for
-/// all patches.
+/// One of `count` attempts to encode a patch, each with its own first triangle and so its own order. No attempt is the
+/// smallest for all patches.
 struct Attempt {
   std::uint32_t number = 0, count = 1;
 
@@ -117,7 +117,7 @@ struct CodedPatch {
   }
 };
 
-/// Patches with fewer points do not gain the 24 bytes of a grid.
+/// In patches with fewer points a grid saves less than its own 24 bytes.
 constexpr std::size_t minGridPoints = 64;
 
 std::optional<Grid> gridOf(const CompactPatch& patch) {

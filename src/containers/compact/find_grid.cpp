@@ -14,11 +14,12 @@ struct Line {
   std::int64_t coordinate = 0, number = 0;
 };
 
+/// The grid lines of one axis.
 struct Axis {
   double origin = 0, step = 0; ///< in lattice steps
 };
 
-/// Closer lines would save almost nothing.
+/// In lattice steps. Closer lines would save almost nothing.
 constexpr std::int64_t minStep = 16;
 constexpr std::size_t minLineCount = 4;
 
@@ -56,7 +57,7 @@ std::int64_t numberLines(std::vector<Line>& lines) {
 }
 
 /// The least-squares fit of coordinates over grid indices.
-Axis fittedTo(const std::vector<Line>& lines) {
+Axis leastSquaresFit(const std::vector<Line>& lines) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const Line& line : lines) {
     const auto x = static_cast<double>(line.number), y = static_cast<double>(line.coordinate);
@@ -67,7 +68,7 @@ Axis fittedTo(const std::vector<Line>& lines) {
 }
 
 /// The origin and step for which every line rounds to its coordinate; `fitted` if there are none.
-Axis exact(const std::vector<Line>& lines, const Axis& fitted) {
+Axis exactFit(const std::vector<Line>& lines, const Axis& fitted) {
   double minPossibleStep = 0, maxPossibleStep = INFINITY;
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
@@ -92,14 +93,14 @@ std::optional<Axis> findAxis(std::span<const Vec3u> positions, int axis) {
   std::vector<Line> lines = popularCoordinates(positions, axis);
   if (lines.size() < minLineCount || lines.size() > 65536 / minStep || numberLines(lines) == 0)
     return std::nullopt;
-  const Axis fitted = fittedTo(lines);
+  const Axis fitted = leastSquaresFit(lines);
   if (!(fitted.step >= minStep))
     return std::nullopt;
   std::erase_if(lines, [&](const Line& line) {
     return std::abs(fitted.origin + fitted.step * static_cast<double>(line.number) -
                     static_cast<double>(line.coordinate)) > 0.75;
   });
-  return lines.size() < minLineCount ? fitted : exact(lines, fitted);
+  return lines.size() < minLineCount ? fitted : exactFit(lines, fitted);
 }
 
 } // namespace

@@ -35,12 +35,12 @@ inline constexpr std::uint32_t maxFilePatches = 65536, maxFileTypes = 256, maxFi
 
 void appendHeader(Bytes& out, const FileHeader& header);
 
-/// Reads the header of a payload and the offset of its first stream; checks that all streams lie within the payload.
-/// Throws Error{truncated, malformed, unsupported, limit}.
 struct ParsedHeader {
   FileHeader header;
-  std::size_t streamsByteOffset = 0;
+  std::size_t streamsByteOffset = 0; ///< of the first stream
 };
+/// Reads the header of a payload and checks that all streams lie within the payload. Throws Error{truncated, malformed,
+/// unsupported, limit} with `location`.
 ParsedHeader readHeader(ByteSpan payload, const std::string& location);
 
 } // namespace imgeo::compact

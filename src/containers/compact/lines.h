@@ -6,7 +6,7 @@
 
 namespace imgeo::compact {
 
-/// The models of lines. They follow the models of triangles in the same stream.
+/// The first model of each symbol of lines. They follow the models of triangles in the same stream.
 namespace lineModelOffsets {
 inline constexpr std::size_t chain = conquestModels::count, old = chain + 1, vertex = old + 2,
                              count = vertex + numberModels;

@@ -27,7 +27,7 @@ EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort);
 /// limited. Throws Error naming `location`.
 std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& location);
 
-/// The types of the attributes of each patch, from the header alone. Throws Error naming `location`.
+/// The types of the attributes of each patch. Reads only the header and the sizes. Throws Error naming `location`.
 std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& location);
 
 } // namespace imgeo::compact

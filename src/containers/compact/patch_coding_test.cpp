@@ -238,8 +238,8 @@ TEST(Compact, TakesHardlyMoreBytesForNoiseThanAPlainList) {
         CompactPatch patch = testing::tangle(topology, 20'000, 20'000, 20'000, bits);
         for (std::size_t i = 0; i < attributes; ++i)
           testing::addRandom(patch, noise[i], static_cast<std::uint32_t>(i));
-        const double share = 8 * static_cast<double>(bytesOf(patch).size()) / plainBitsOf(patch);
-        EXPECT_LT(share, topology == Topology::points ? 1.11 : 0.97)
+        const double ratio = 8 * static_cast<double>(bytesOf(patch).size()) / plainBitsOf(patch);
+        EXPECT_LT(ratio, topology == Topology::points ? 1.11 : 0.97)
             << static_cast<int>(topology) << " of " << bits << " bits, " << attributes;
         if (bits == 16)
           expectDecodesEqual(patch);

@@ -34,13 +34,14 @@ template <typename T> int dominantAxis(const Vec3<T>& v) {
 
 struct Candidates {
   std::array<Vec3i64, 4> positions;
-  std::uint32_t count = 0, set = 0;
+  std::uint32_t count = 0;
+  std::uint32_t set = 0; ///< which candidates there are besides the first, as bits
 
   void add(const Vec3i64& position, std::uint32_t flag) {
     positions[count++] = position;
     set += flag;
   }
-  /// The distance of the first two candidates as a context; 0: there is only one.
+  /// A context from the distance between the first two candidates; 0: there is only one.
   std::uint32_t agreement() const {
     return count == 1 ? 0 : 1 + std::min(14u, lengthInBits(largestComponent(positions[1] - positions[0])));
   }
@@ -88,7 +89,7 @@ public:
       sums_[i][axis] = wrap(bits(sums_[i][axis]) + bits(normal[axis]));
   }
 
-  /// The cross product of two edges of a triangle, shifted right before.
+  /// The cross product of two edges of a triangle, whose components are shifted right first.
   Vec3<std::int32_t> normalOf(const Vec3u& a, const Vec3u& b, const Vec3u& c) const {
     const auto edge = [&](const Vec3u& to) {
       const auto component = [&](int axis) { return bits(static_cast<std::int32_t>(to[axis] - a[axis]) >> shift_); };

@@ -28,13 +28,13 @@ Value quantiseNormal(const Vec3f& normal, std::uint32_t bits) {
   return valueOf(octahedronPoint(direction, radius), radius);
 }
 
-std::int32_t quantiseShare(double share, std::uint32_t bits) {
+std::int32_t quantiseFraction(double fraction, std::uint32_t bits) {
   const double steps = static_cast<double>((1u << bits) - 1);
-  return static_cast<std::int32_t>(std::clamp(share, 0.0, 1.0) * steps + 0.5);
+  return static_cast<std::int32_t>(std::clamp(fraction, 0.0, 1.0) * steps + 0.5);
 }
 
-/// Quantises a component over its range.
-double shareOf(const Attribute& attribute, std::size_t wedge, std::uint32_t i) {
+/// A quantised component as a fraction of its range.
+double fractionOf(const Attribute& attribute, std::size_t wedge, std::uint32_t i) {
   return attribute.values[wedge][i] / static_cast<double>((1u << attribute.type.bits) - 1);
 }
 
@@ -98,7 +98,7 @@ Patch separatePoints(const Patch& patch) {
   return points;
 }
 
-/// The corners of lines along trails (prepare/trails.h).
+/// The corners of lines along trails (prepare/line_strips.h).
 std::vector<std::uint32_t> alongTrails(const Patch& patch) {
   std::vector<std::uint32_t> corners;
   for (const std::uint32_t corner : findLineStrips(patch.corners, patch.wedgeCount()).corners)
@@ -119,18 +119,18 @@ Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryD
   const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
   Attribute attribute{typeOf(AttributeKind::texCoord, 2, bits), {}};
   for (const Vec2f& texCoord : texCoords)
-    attribute.values.push_back({{quantiseShare(texCoordShare(texCoord.x, min.x, size.x), bits),
-                                 quantiseShare(texCoordShare(texCoord.y, min.y, size.y), bits)}});
+    attribute.values.push_back({{quantiseFraction(texCoordFraction(texCoord.x, min.x, size.x), bits),
+                                 quantiseFraction(texCoordFraction(texCoord.y, min.y, size.y), bits)}});
   return attribute;
 }
 
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits) {
   Attribute attribute{typeOf(AttributeKind::color, components, bits), {}};
   for (const Rgba8& color : colors) {
-    Value value{{quantiseShare(color.r / 255.0, bits), quantiseShare(color.g / 255.0, bits),
-                 quantiseShare(color.b / 255.0, bits)}};
+    Value value{{quantiseFraction(color.r / 255.0, bits), quantiseFraction(color.g / 255.0, bits),
+                 quantiseFraction(color.b / 255.0, bits)}};
     if (components == 4)
-      value[3] = quantiseShare(color.a / 255.0, bits);
+      value[3] = quantiseFraction(color.a / 255.0, bits);
     attribute.values.push_back(value);
   }
   return attribute;
@@ -144,7 +144,7 @@ Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription
     for (std::uint32_t i = 0; i < named.components; ++i) {
       const std::uint32_t stored = storeNumber(named.values[wedge * named.components + i], description, i);
       value[i] = bits == whole ? static_cast<std::int32_t>(stored)
-                               : quantiseShare(stored / static_cast<double>((1u << whole) - 1), bits);
+                               : quantiseFraction(stored / static_cast<double>((1u << whole) - 1), bits);
     }
     attribute.values.push_back(value);
   }
@@ -179,7 +179,7 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
         break;
       case AttributeKind::texCoord: {
         const auto at = [&](std::uint32_t i, float min, float size) {
-          return static_cast<float>(min + size * shareOf(attribute, wedge, i));
+          return static_cast<float>(min + size * fractionOf(attribute, wedge, i));
         };
         vertices.texCoords.push_back({at(0, geometry.texCoordMin.x, geometry.texCoordSize.x),
                                       at(1, geometry.texCoordMin.y, geometry.texCoordSize.y)});
@@ -187,7 +187,7 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
       }
       case AttributeKind::color: {
         const auto at = [&](std::uint32_t i) {
-          return static_cast<std::uint8_t>(shareOf(attribute, wedge, i) * 255 + 0.5);
+          return static_cast<std::uint8_t>(fractionOf(attribute, wedge, i) * 255 + 0.5);
         };
         vertices.colors.push_back({at(0), at(1), at(2), attribute.type.components == 4 ? at(3) : std::uint8_t{255}});
         break;

@@ -1,6 +1,6 @@
 #pragma once
-// Decodes what range_encoder.h encodes. Safe for untrusted bytes: behind the end of a
-// stream it reads zeros, and `finish` throws.
+// Decodes what range_encoder.h encodes. Safe for untrusted bytes: past the end of a stream it reads zeros, and `finish`
+// throws.
 
 #include "base/bytes.h"
 #include "base/error.h"
@@ -40,11 +40,11 @@ public:
 
   /// Reads `count` (0 .. 30) raw bits.
   std::uint32_t raw(std::uint32_t count, std::uint32_t = 0) {
-    for (; held_ < count; held_ += 8)
-      hold_ |= std::uint64_t{end_ > 0 ? bytes_[--end_] : underrun()} << held_;
-    const auto value = static_cast<std::uint32_t>(hold_ & ((std::uint64_t{1} << count) - 1));
-    hold_ >>= count;
-    held_ -= count;
+    for (; rawBitCount_ < count; rawBitCount_ += 8)
+      rawBits_ |= std::uint64_t{end_ > 0 ? bytes_[--end_] : underrun()} << rawBitCount_;
+    const auto value = static_cast<std::uint32_t>(rawBits_ & ((std::uint64_t{1} << count) - 1));
+    rawBits_ >>= count;
+    rawBitCount_ -= count;
     return value;
   }
 
@@ -71,8 +71,8 @@ private:
   ByteSpan bytes_;
   std::size_t at_ = 0, end_, underrun_ = 0;
   std::uint32_t code_ = 0, range_ = 0xffffff;
-  std::uint64_t hold_ = 0;
-  std::uint32_t held_ = 0;
+  std::uint64_t rawBits_ = 0;
+  std::uint32_t rawBitCount_ = 0;
   const std::string& location_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Adaptive bits to the front of a stream, raw bits to its back: Martin, "Range
-// encoding", 1979, binary and with carries; the two ends as in Opus (RFC 6716).
+// Writes adaptive bits from the front of a stream and raw bits from its back. The coder is that of Martin, "Range
+// encoding", 1979, binary and with carries; the two ends are as in Opus (RFC 6716).
 
 #include "base/bytes.h"
 #include "containers/compact/models.h"
@@ -47,9 +47,9 @@ public:
   /// Writes the `count` (0 .. 30) lowest bits of a value and returns it.
   std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
     assert(count <= 30 && value >> count == 0);
-    hold_ |= std::uint64_t{value} << held_;
-    held_ += count;
-    if (held_ >= 32)
+    rawBits_ |= std::uint64_t{value} << rawBitCount_;
+    rawBitCount_ += count;
+    if (rawBitCount_ >= 32)
       for (int i = 0; i < 4; ++i)
         shiftOutRaw();
     return value;
@@ -62,7 +62,7 @@ public:
     flush();
     interval_ = {interval_.low << 24, 0, 24}; // the rest of the interval
     flush();
-    while (held_ > 0)
+    while (rawBitCount_ > 0)
       shiftOutRaw();
     front_.insert(front_.end(), back_.rbegin(), back_.rend());
     return std::move(front_);
@@ -112,16 +112,16 @@ private:
   }
 
   void shiftOutRaw() {
-    back_.push_back(static_cast<std::uint8_t>(hold_));
-    hold_ >>= 8;
-    held_ -= std::min(held_, 8u);
+    back_.push_back(static_cast<std::uint8_t>(rawBits_));
+    rawBits_ >>= 8;
+    rawBitCount_ -= std::min(rawBitCount_, 8u);
   }
 
   Models models_;
   Bytes front_, back_;
   Interval interval_;
-  std::uint64_t hold_ = 0;
-  std::uint32_t held_ = 0;
+  std::uint64_t rawBits_ = 0;
+  std::uint32_t rawBitCount_ = 0;
 };
 
 /// The binary logarithm of a number of up to 31 bits, in 1/65536. Each bit of the fraction is 1 if the square of the

@@ -63,7 +63,7 @@ inline Bytes wedgeOfAnotherVertex() {
         codeNumber(connectivity, lineModelOffsets::vertex, 1 - end);
     }
   }
-  for (int vertex = 0; vertex < 2; ++vertex) // both in the middle of the lattice of the lattice
+  for (int vertex = 0; vertex < 2; ++vertex) // both in the middle of the lattice
     for (const std::size_t models : {positionModels::first, positionModels::second, positionModels::third})
       codeSigned(positions, models, 0);
   wedges.bit(wedgeModels::split, true);

@@ -6,6 +6,7 @@
 
 namespace imgeo::compact {
 
+/// The first model of each symbol in the stream.
 namespace segmentModels {
 inline constexpr std::size_t same = 0, other = same + 4, segment = other + 4, count = segment + numberModels;
 }

@@ -18,7 +18,7 @@ struct PatchSizes {
   bool hasSeams() const { return wedgeCount > vertexCount; }
 };
 
-/// The sums over patches, which have a limit for a file.
+/// The sums over the patches of a file, which are limited.
 struct SizeSums {
   std::uint64_t vertices = 0, wedges = 0, elements = 0;
 
@@ -30,6 +30,7 @@ struct SizeSums {
   bool fits() const { return vertices <= maxPatchCount && wedges <= maxPatchCount && elements <= maxPatchCount; }
 };
 
+/// The first model of each symbol in the stream.
 namespace sizeModels {
 inline constexpr std::size_t type = 0, vertices = type + numberModels, seams = vertices + numberModels,
                              elements = seams + numberModels, shift = elements + numberModels,

@@ -7,6 +7,7 @@
 
 namespace imgeo::compact {
 
+/// The first model of each symbol in the stream.
 namespace wedgeModels {
 inline constexpr std::size_t split = 0, same = split + 3, made = same + 9, step = made + 3, wedge = step + 16,
                              count = wedge + numberModels;
@@ -49,7 +50,7 @@ public:
         wedge = make(corner);
         isSplit_[vertex] = coder_.bit(wedgeModels::split + splits, isSplit_[vertex]);
       } else if (!isSplit_[vertex]) {
-        // All its corners have the same wedge.
+        // All corners of the vertex have the same wedge.
       } else if (const std::uint32_t guess = guessAt(corner); codeIsSame(corner, guess, differing)) {
         wedge = guess;
       } else {
@@ -155,9 +156,9 @@ private:
   Wedges out_;
   std::vector<std::uint32_t> ring_; ///< per wedge: the next wedge of its vertex, in a circle
   std::vector<std::uint32_t> start_, made_,
-      latest_;                         ///< per vertex: its first, newest and latest wedge
-  std::vector<std::uint32_t> extra_;   ///< per vertex: wedges beyond the first
-  std::vector<bool> isSplit_;          ///< per vertex: it has several wedges
+      latest_;                       ///< per vertex: its first wedge, the one made last, that of its last coded corner
+  std::vector<std::uint32_t> extra_; ///< per vertex: wedges beyond the first
+  std::vector<bool> isSplit_;        ///< per vertex: it has several wedges
   std::vector<std::uint32_t> numbers_; ///< source wedge -> wedge
 };
 

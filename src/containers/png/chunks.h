@@ -18,7 +18,7 @@ struct PngChunks {
 };
 
 /// Reads the chunks; the result refers to `png`. Each edge is 1 .. maxImageEdge; all checksums are right. Safe for
-/// untrusted bytes. Throws Error (truncated, malformed, unsupported, limit) with `location`.
+/// untrusted bytes. Throws Error{truncated, malformed, unsupported, limit} with `location`.
 PngChunks readPngChunks(ByteSpan png, const std::string& location);
 
 } // namespace imgeo

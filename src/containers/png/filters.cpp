@@ -97,8 +97,8 @@ Bytes filterRows(const Image& image, RowFilter filter) {
 bool unfilterRows(ByteSpan filtered, Image& image) {
   const std::size_t rowBytes = std::size_t{image.width} * image.channels;
   image.pixels.resize(rowBytes * image.height);
-  const Bytes nothing(rowBytes);
-  const std::uint8_t* above = nothing.data();
+  const Bytes zeros(rowBytes);
+  const std::uint8_t* above = zeros.data();
   for (std::size_t y = 0; y < image.height; ++y) {
     const std::uint8_t* row = &filtered[y * (rowBytes + 1)];
     std::uint8_t* out = &image.pixels[y * rowBytes];

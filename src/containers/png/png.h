@@ -27,12 +27,10 @@ Bytes encodePng(const Image& image, int effort);
 /// Writes a PNG without filters or compression, for pixels that are compressed data already.
 Bytes encodePlainPng(const Image& image);
 
-/// Reads a PNG of 8 bits a channel, gray, RGB, RGBA or of a palette without
-/// transparency, which comes back expanded to RGB; not interlaced, with edges of
-/// at most maxImageEdge; ancillary chunks are skipped, sample values
-/// never altered. The file must end where its IEND chunk does and all its check
-/// sums must hold. Safe for untrusted bytes. Throws Error (truncated, malformed,
-/// unsupported, limit) with `location`.
+/// Reads a PNG of 8 bits a channel: gray, RGB, RGBA, or a palette without transparency, which is expanded to RGB. The
+/// PNG must not be interlaced, its edges are at most maxImageEdge, all checksums are right, and no bytes follow IEND.
+/// Ancillary chunks are skipped; sample values are never altered. Safe for untrusted bytes. Throws Error{truncated,
+/// malformed, unsupported, limit} with `location`.
 Image decodePng(ByteSpan bytes, const std::string& location);
 
 } // namespace imgeo

@@ -31,8 +31,8 @@ std::uint32_t crcOf(ByteSpan bytes) {
   return ~crc;
 }
 
-/// A PNG with these fields in its header, whose data is that of one gray pixel.
-Bytes headerOnly(std::uint32_t width, std::uint32_t height, std::uint8_t depth, std::uint8_t colorType) {
+/// A PNG of one gray pixel whose header states these fields instead.
+Bytes withHeader(std::uint32_t width, std::uint32_t height, std::uint8_t depth, std::uint8_t colorType) {
   Bytes png = encodePng({1, 1, 1, {7}}, 0);
   Bytes size, sum;
   appendBig(size, width);
@@ -57,7 +57,7 @@ Bytes withChunk(Bytes png, std::string_view type, const Bytes& data) {
   return png;
 }
 
-ErrorKind kindOfDecoding(const Bytes& png) {
+ErrorKind decodingErrorKind(const Bytes& png) {
   try {
     decodePng(png, "x.png");
   } catch (const Error& error) {
@@ -94,15 +94,16 @@ TEST(Png, WithAPaletteDecodesToRgb) {
 
 TEST(Png, WithPixelsBeyondItsPaletteIsMalformed) {
   const Image image{2, 1, 1, {0, 3}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
-  EXPECT_EQ(kindOfDecoding(encodePng(image, 5)), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(encodePng(image, 5)), ErrorKind::malformed);
 }
 
 TEST(Png, WithATransparentPaletteIsUnsupported) {
-  EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {0}, {1, 2, 3}}, 5), "tRNS", {128})), ErrorKind::unsupported);
+  EXPECT_EQ(decodingErrorKind(withChunk(encodePng({1, 1, 1, {0}, {1, 2, 3}}, 5), "tRNS", {128})),
+            ErrorKind::unsupported);
 }
 
 TEST(Png, WithATransparentGrayIsUnsupported) {
-  EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {7}}, 5), "tRNS", {0, 7})), ErrorKind::unsupported);
+  EXPECT_EQ(decodingErrorKind(withChunk(encodePng({1, 1, 1, {7}}, 5), "tRNS", {0, 7})), ErrorKind::unsupported);
 }
 
 TEST(Png, IsReadDespiteTextChunks) {
@@ -115,7 +116,7 @@ TEST(Png, IsReadDespiteTextChunks) {
 TEST(Png, WithUnknownCriticalChunksOrSeparatedDataIsMalformed) {
   const Bytes png = encodePng({1, 1, 1, {7}}, 5);
   for (const char* type : {"ABCD", "IHDR"})
-    EXPECT_EQ(kindOfDecoding(withChunk(png, type, {})), ErrorKind::malformed) << type;
+    EXPECT_EQ(decodingErrorKind(withChunk(png, type, {})), ErrorKind::malformed) << type;
   EXPECT_EQ(decodePng(withChunk(png, "IDAT", {}), "x.png").pixels, Bytes{7}); // adjacent IDAT chunks
   Bytes apart = withChunk(png, "IDAT", {}); // with a text between the first and the second
   const std::size_t second = asText(apart).find("IDAT", asText(apart).find("IDAT") + 4) - 4;
@@ -123,7 +124,7 @@ TEST(Png, WithUnknownCriticalChunksOrSeparatedDataIsMalformed) {
   const std::size_t begin = asText(text).find("tEXt") - 4;
   apart.insert(apart.begin() + static_cast<std::ptrdiff_t>(second), text.begin() + static_cast<std::ptrdiff_t>(begin),
                text.begin() + static_cast<std::ptrdiff_t>(begin + 15));
-  EXPECT_EQ(kindOfDecoding(apart), ErrorKind::malformed);
+  EXPECT_EQ(decodingErrorKind(apart), ErrorKind::malformed);
 }
 
 TEST(Png, HasThreeChunks) {
@@ -169,16 +170,16 @@ TEST(Png, IsRefusedIfBytesFollowIt) {
 }
 
 TEST(Png, WithPixelsOtherThanEightBitGrayRgbRgbaOrPaletteIsUnsupported) {
-  EXPECT_EQ(decodePng(headerOnly(1, 1, 8, 0), "x.png").pixels, Bytes{7}); // checks headerOnly
-  EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 16, 0)), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 8, 4)), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 1, 0)), ErrorKind::unsupported);
+  EXPECT_EQ(decodePng(withHeader(1, 1, 8, 0), "x.png").pixels, Bytes{7}); // checks withHeader
+  EXPECT_EQ(decodingErrorKind(withHeader(1, 1, 16, 0)), ErrorKind::unsupported);
+  EXPECT_EQ(decodingErrorKind(withHeader(1, 1, 8, 4)), ErrorKind::unsupported);
+  EXPECT_EQ(decodingErrorKind(withHeader(1, 1, 1, 0)), ErrorKind::unsupported);
 }
 
 TEST(Png, WithASizeBeyondItsBytesIsRefusedBeforeAllocation) {
-  EXPECT_EQ(kindOfDecoding(headerOnly(4096, 4096, 8, 6)), ErrorKind::truncated);
-  EXPECT_EQ(kindOfDecoding(headerOnly(4097, 1, 8, 0)), ErrorKind::limit);
-  EXPECT_EQ(kindOfDecoding(headerOnly(0x7fffffff, 0x7fffffff, 8, 0)), ErrorKind::limit);
+  EXPECT_EQ(decodingErrorKind(withHeader(4096, 4096, 8, 6)), ErrorKind::truncated);
+  EXPECT_EQ(decodingErrorKind(withHeader(4097, 1, 8, 0)), ErrorKind::limit);
+  EXPECT_EQ(decodingErrorKind(withHeader(0x7fffffff, 0x7fffffff, 8, 0)), ErrorKind::limit);
 }
 
 TEST(AdaptiveFilters, KeepTheSmallestDifferences) {

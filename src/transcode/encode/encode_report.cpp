@@ -18,7 +18,7 @@ void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescript
     const bool isTyped = hasElementTypes(geometry.encoding);
     report->bits = std::max(report->bits, isTyped ? 32 : 8 * attribute.bytes);
     for (std::uint32_t c = 0; c < attribute.components; ++c)
-      report->error = std::max(report->error, numberBound(geometry.encoding, attribute, c));
+      report->error = std::max(report->error, numberErrorBound(geometry.encoding, attribute, c));
   }
 }
 

@@ -49,7 +49,7 @@ std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription
   std::map<std::string, std::vector<double>> bounds;
   for (const AttributeDescription& attribute : geometry.attributes)
     for (std::uint32_t c = 0; c < attribute.components; ++c)
-      bounds[attribute.name].push_back(numberBound(geometry.encoding, attribute, c));
+      bounds[attribute.name].push_back(numberErrorBound(geometry.encoding, attribute, c));
   return bounds;
 }
 
