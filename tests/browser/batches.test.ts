@@ -221,7 +221,7 @@ test("transparent panes take few draw calls, and are blended from back to front 
       ),
   );
   const isImage = (pane: (typeof panes)[number]) => panes.indexOf(pane) % 3 === 2;
-  const turns = panes
+  const alternations = panes
     .toSorted((a, b) => a.z - b.z)
     .filter((pane, n, all) => n === 0 || isImage(pane) !== isImage(all[n - 1]!)).length;
   await withPage(site, {}, async (view) => {
@@ -233,7 +233,7 @@ test("transparent panes take few draw calls, and are blended from back to front 
         });
       const picture = await view.picture();
       savePicture(`panes${side}`, picture);
-      assert.ok((await drawsOfFrame(view)) <= turns + 2, `${await drawsOfFrame(view)} draws`);
+      assert.ok((await drawsOfFrame(view)) <= alternations + 2, `${await drawsOfFrame(view)} draws`);
       let compared = 0;
       for (let n = 0; n < 400; ++n) {
         const at: Point = [(n % 20) / 4 - 2.4, Math.floor(n / 20) / 10 - 0.87];

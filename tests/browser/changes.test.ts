@@ -1,5 +1,5 @@
-// Tests that changes of the document change the picture, which then is exactly that of a page written so from the
-// start.
+// Tests that changes of the document change the picture, which then equals that of a page that had the same content
+// from the start.
 
 import assert from "node:assert/strict";
 import { cpSync } from "node:fs";
@@ -154,7 +154,7 @@ describe("a change of the document changes the picture", () => {
   ] as const) {
     test(`${what}, each at once, and all together as if the page had been written so`, async () => {
       await withTransform(async (view) => {
-        const asked = view.server.requests.length;
+        const requestCount = view.server.requests.length;
         let before = await view.picture();
         for (const [name, change] of Object.entries(changes)) {
           await view.page.evaluate(change);
@@ -162,7 +162,7 @@ describe("a change of the document changes the picture", () => {
           assert.ok(difference(before, after).mean > 0.5, `${name}: nothing has changed`);
           before = after;
         }
-        assert.equal(view.server.requests.length, asked, "files were requested again");
+        assert.equal(view.server.requests.length, requestCount, "files were requested again");
         assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), {
           mean: 0.001,
         });
@@ -172,7 +172,7 @@ describe("a change of the document changes the picture", () => {
 
   test("that hides shapes and makes them visible again", async () => {
     await withTransform(async (view) => {
-      const asked = view.server.requests.length;
+      const requestCount = view.server.requests.length;
       const shown = await view.picture();
       for (const [name, [hide, show]] of Object.entries(waysToHide)) {
         await view.page.evaluate(hide);
@@ -184,7 +184,7 @@ describe("a change of the document changes the picture", () => {
         await view.page.evaluate(show);
         assertSamePicture(`shown again ${name}`, await view.picture(), shown, { mean: 0 });
       }
-      assert.equal(view.server.requests.length, asked, "files were requested again");
+      assert.equal(view.server.requests.length, requestCount, "files were requested again");
     });
   });
 
@@ -255,9 +255,9 @@ describe("a change of the document changes the picture", () => {
         view.server.requestsOf(/^\/other\//).every(({ state }) => state === "aborted"),
       );
       await settle(view.page);
-      const asked = view.server.requestsOf(/^\/other\//).length;
+      const requestCount = view.server.requestsOf(/^\/other\//).length;
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
-      assert.equal(view.server.requestsOf(/^\/other\//).length, asked);
+      assert.equal(view.server.requestsOf(/^\/other\//).length, requestCount);
       assert.deepEqual(await view.events("error"), []);
     });
   });

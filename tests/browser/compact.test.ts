@@ -185,19 +185,19 @@ describe("patches of compact", () => {
         );
     await withPage(site(), { server: (server) => server.when(/^\/$/, { replace: near }) }, async (view) => {
       await view.promise("complete");
-      const asked = view.requestedPaths.filter((path) => path === base || patches.includes(path));
-      assert.equal(asked[0], base);
-      assert.deepEqual(new Set(asked.slice(1)), new Set(patches));
+      const requested = view.requestedPaths.filter((path) => path === base || patches.includes(path));
+      assert.equal(requested[0], base);
+      assert.deepEqual(new Set(requested.slice(1)), new Set(patches));
       const seen = await view.page.evaluate(() =>
         Array.from(document.querySelectorAll("geometrypatch"), (patch) => {
           const [x = 0, y = 0, z = 0] = (patch.getAttribute("bboxCenter") ?? "").split(" ").map(Number);
           return { url: patch.getAttribute("data") ?? "", away: Math.hypot(x - 2.2, y, z - 1.2) };
         }),
       );
-      const nearest = seen.reduce((best, one) => (one.away < best.away ? one : best));
+      const nearest = seen.reduce((a, b) => (b.away < a.away ? b : a));
       assert.ok(
-        asked.indexOf(nearest.url) <= Math.ceil(patches.length / 2),
-        `${nearest.url} is number ${asked.indexOf(nearest.url)}`,
+        requested.indexOf(nearest.url) <= Math.ceil(patches.length / 2),
+        `${nearest.url} is number ${requested.indexOf(nearest.url)}`,
       );
     });
   });

@@ -54,7 +54,7 @@ async function withFault(
   const options = {
     server: (server: View["server"]): void => {
       server.when(/^\/$/, { replace: twoShapes });
-      server.when((asked) => asked === path, behaviour);
+      server.when((requestedPath) => requestedPath === path, behaviour);
     },
     expectedErrors: /Failed to load resource|imgeo/,
   };
@@ -88,11 +88,11 @@ async function assertReported(view: View, url: string): Promise<void> {
   const resources = await view.page.evaluate(
     () => (document.querySelector("#bad") as unknown as { resources: ResourceEntry[] }).resources,
   );
-  for (const { url: each, state, error, tries, loadedBytes, totalBytes } of resources) {
-    const isIt = url.endsWith(each.replace(/^\.?\//, ""));
-    assert.deepEqual([state, error !== null], isIt ? ["failed", true] : ["ready", false], each);
-    assert.equal(tries, view.server.requests.filter(({ path }) => path === `/${each}`).length, each);
-    assert.equal(loadedBytes, totalBytes, each);
+  for (const { url: resourceUrl, state, error, tries, loadedBytes, totalBytes } of resources) {
+    const isDamaged = url.endsWith(resourceUrl.replace(/^\.?\//, ""));
+    assert.deepEqual([state, error !== null], isDamaged ? ["failed", true] : ["ready", false], resourceUrl);
+    assert.equal(tries, view.server.requests.filter(({ path }) => path === `/${resourceUrl}`).length, resourceUrl);
+    assert.equal(loadedBytes, totalBytes, resourceUrl);
   }
   assert.ok(resources.length > 1);
   assert.equal((await view.events("load", "shape#good")).length, 1);

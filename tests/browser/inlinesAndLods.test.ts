@@ -80,8 +80,11 @@ test("inlined documents and levels of detail are fetched, displayed, picked and 
     await view.promise("complete");
     const near = colorsOf(await view.picture());
     assert.ok(near.red > 5000 && near.green > 5000 && near.blue === 0, JSON.stringify(near));
-    const asked = geometryRequests(view);
-    assert.ok(asked > 0 && asked <= 4, `${asked} requests: only files of the red wall are expected`);
+    const requestCount = geometryRequests(view);
+    assert.ok(
+      requestCount > 0 && requestCount <= 4,
+      `${requestCount} requests: only files of the red wall are expected`,
+    );
     assert.equal(
       await page.evaluate(() => document.querySelectorAll("x3d shape").length),
       2,
@@ -99,7 +102,7 @@ test("inlined documents and levels of detail are fetched, displayed, picked and 
     await page.evaluate(() => {
       document.querySelector("viewpoint")?.setAttribute("position", "0 0 20");
     });
-    await until("the other level is requested", () => geometryRequests(view) > asked);
+    await until("the other level is requested", () => geometryRequests(view) > requestCount);
     await view.promise("complete");
     const far = colorsOf(await view.picture());
     assert.ok(far.red > 1000 && far.green === 0 && far.blue > 1000, JSON.stringify(far));

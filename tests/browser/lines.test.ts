@@ -67,7 +67,7 @@ const properties = (attributes: string): string =>
   `<Appearance><Material emissiveColor="1 1 1"></Material><LineProperties ${attributes}></LineProperties></Appearance>`;
 const wide = properties(`linewidthScaleFactor="${width}"`);
 
-const ways: string[][] = [
+const optionLists: string[][] = [
   ["--profile", "classic"],
   ["--profile", "classic", "--primitives", "strips"],
   ["--profile", "classic", "--index", "off"],
@@ -92,9 +92,9 @@ function zigzags(sites: readonly string[]): string {
     )}</Shape>`,
   );
   // One is mirrored, and one is rotated out of the plane.
-  const turns = shapes.map((_, n) => (n === 1 ? 'scale="-1 1 1"' : n === 3 ? 'scale="1 1 -3"' : ""));
+  const transforms = shapes.map((_, n) => (n === 1 ? 'scale="-1 1 1"' : n === 3 ? 'scale="1 1 -3"' : ""));
   return shapes
-    .map((shape, n) => `<Transform translation="${positionOf(n).join(" ")} 0" ${turns[n]!}>${shape}</Transform>`)
+    .map((shape, n) => `<Transform translation="${positionOf(n).join(" ")} 0" ${transforms[n]!}>${shape}</Transform>`)
     .join("\n");
 }
 
@@ -124,7 +124,7 @@ const others = (): string => `
   ])}</Shape>`;
 
 const scale = (pictureSize.height * ratio) / 2 / Math.tan(0.7854 / 2);
-/** Widths in device pixels. */
+/** Projects a point at a distance from the camera to device pixels. */
 function onScreen([x, y]: Pair, distance = viewDistance): Pair {
   return [
     (pictureSize.width * ratio) / 2 + (x * scale) / distance,
@@ -151,7 +151,7 @@ function segments(): Segment[] {
     [255, 255, 255],
     [255, 255, 255],
   ];
-  const zigzagged = Array.from({ length: ways.length + 2 }, (_, n) => {
+  const zigzagged = Array.from({ length: optionLists.length + 2 }, (_, n) => {
     const [x, y] = positionOf(n);
     const at = corners.map(([u, v]) => onScreen([x + (n === 1 ? -u : u), y + v]));
     return at
@@ -172,15 +172,16 @@ function segments(): Segment[] {
 const colorAt = ({ data, channels, width }: Picture, x: number, y: number): Color =>
   [0, 1, 2].map((channel) => data[(y * width + x) * channels + channel]!) as Color;
 
-/** Rows with dashed and thin lines only. */
-const isTheirs = (y: number): boolean => [-2.4, -2.8, -3.1].some((row) => Math.abs(y - onScreen([0, row])[1]) < 7);
+/** Whether a row of pixels has only dashed and thin lines. */
+const isRowOfThinLines = (y: number): boolean =>
+  [-2.4, -2.8, -3.1].some((row) => Math.abs(y - onScreen([0, row])[1]) < 7);
 
 /** Compares a third of the pixels, except those on borders of lines. */
 function assertDrawn(picture: Picture, drawn: readonly Segment[]): void {
   let lit = 0;
   for (let y = 0; y < picture.height; ++y) {
     for (let x = y % 3; x < picture.width; x += 3) {
-      if (isTheirs(y)) continue;
+      if (isRowOfThinLines(y)) continue;
       const here = drawn.map((segment) => ({ segment, ...nearest(segment, [x + 0.5, y + 0.5]) }));
       if (here.some(({ segment, away }) => Math.abs(away - segment.width / 2) < 1)) continue;
       const within = here.filter(({ segment, away }) => away < segment.width / 2);
@@ -235,7 +236,7 @@ const hitAt = (view: View, [x, y]: Pair): Promise<boolean> =>
 
 describe("wide lines", () => {
   test("cover all points within half their width, from every container, clipped at the camera and dashed, and are hit there", async () => {
-    const sites = ways.map((way) => siteOf(zigzag(), ...way));
+    const sites = optionLists.map((options) => siteOf(zigzag(), ...options));
     const directory = sceneOf(
       "lines-wide",
       Object.fromEntries(sites.map((site, n) => [`z${n}`, site])),
@@ -281,7 +282,7 @@ function assertDashes(picture: Picture): void {
 
 /** Picks slightly inside and outside of the borders of one segment of each zigzag. */
 async function assertHit(view: View, drawn: readonly Segment[]): Promise<void> {
-  for (let n = 0; n < ways.length + 2; ++n) {
+  for (let n = 0; n < optionLists.length + 2; ++n) {
     const { from, to, width: across } = drawn[n * (corners.length - 1) + (n % (corners.length - 1))]!;
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
     const middle = 0.5;
@@ -290,8 +291,8 @@ async function assertHit(view: View, drawn: readonly Segment[]): Promise<void> {
       from[1] + middle * (to[1] - from[1]) + ((to[0] - from[0]) / length) * pixels,
     ];
     for (const side of [-1, 1]) {
-      assert.ok(await hitAt(view, beside(side * (across / 2 - 2))), `hit within at ${beside(0).join()}`);
-      assert.ok(!(await hitAt(view, beside(side * (across / 2 + 2)))), `hit without at ${beside(0).join()}`);
+      assert.ok(await hitAt(view, beside(side * (across / 2 - 2))), `not hit inside at ${beside(0).join()}`);
+      assert.ok(!(await hitAt(view, beside(side * (across / 2 + 2)))), `hit outside at ${beside(0).join()}`);
     }
   }
 }

@@ -59,7 +59,7 @@ async function draw(
   what: AppRequest["what"],
   castShadow = true,
 ): Promise<Picture> {
-  await page.evaluate((asked) => window.app.draw(asked), { light, what, castShadow });
+  await page.evaluate((request) => window.app.draw(request), { light, what, castShadow });
   return decodePng(await page.screenshot());
 }
 
@@ -245,14 +245,14 @@ describe("the loader keeps three's conventions", () => {
     const site = classic();
     const [, index] = filesOf(site);
     await withApp(site, { expectedErrors: /404/ }, async ({ page, server }) => {
-      const mend = server.when((path) => path.endsWith(index!), { status: 404 });
+      const restore = server.when((path) => path.endsWith(index!), { status: 404 });
       const partly = await page.evaluate(() => window.app.log("scene.x3d"));
       assert.deepEqual(
         partly.filter((line) => line.startsWith("error")),
         [`error ${index!}`],
       );
       assert.ok(partly.includes("onLoad") && partly.includes("complete"));
-      mend();
+      restore();
       server.when(isGeometry, { status: 404 });
       const none = await page.evaluate(() => window.app.log("scene.x3d"));
       assert.match(none.find((line) => line.startsWith("onError")) ?? "", /404/);
@@ -470,10 +470,10 @@ test("documents of Inlines load with the scene, and levels of a LOD when cameras
     assert.equal(colorAt(await seen(), 300, 50), "green");
 
     // A loaded level is displayed in the first frame that needs it.
-    const asked = server.requestsOf(/./).length;
+    const requestCount = server.requestsOf(/./).length;
     assert.equal(await drawFrom(15), 1);
     assert.equal(await drawFrom(9), 0);
-    assert.equal(server.requestsOf(/./).length, asked);
+    assert.equal(server.requestsOf(/./).length, requestCount);
   });
 });
 

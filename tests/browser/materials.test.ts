@@ -74,9 +74,9 @@ describe("a material of X3D 4", () => {
         );
       });
       await view.promise("complete", "#box");
-      const asked = view.server.requests.length;
+      const requestCount = view.server.requests.length;
       assertColor(await colorOf(view, '<Material diffuseColor="0 1 0"></Material>'), [255, 0, 255], "the box");
-      assert.equal(view.server.requests.length, asked);
+      assert.equal(view.server.requests.length, requestCount);
     });
   });
 

@@ -20,7 +20,7 @@ interface Memory {
 function recordMemory(): void {
   const memory: Memory = { seen: [], gpuBytes: 0, maxGpuBytes: 0 };
   Object.assign(window, { memory });
-  const see = (data: unknown): void => {
+  const recordArray = (data: unknown): void => {
     if (ArrayBuffer.isView(data))
       memory.seen.push({ bytes: data.byteLength, array: new WeakRef(data.buffer as ArrayBuffer) });
   };
@@ -34,36 +34,37 @@ function recordMemory(): void {
     };
   };
   const sizes = new Map<unknown, number>();
-  const take = (object: unknown, bytes: number): void => {
+  const setSize = (object: unknown, bytes: number): void => {
     memory.gpuBytes += bytes - (sizes.get(object) ?? 0);
     sizes.set(object, bytes);
     memory.maxGpuBytes = Math.max(memory.maxGpuBytes, memory.gpuBytes);
   };
-  const bound: Record<number, number> = {
+  const bindings: Record<number, number> = {
     [gl.COPY_WRITE_BUFFER]: 0x8f37,
     [gl.ARRAY_BUFFER]: gl.ARRAY_BUFFER_BINDING,
     [gl.ELEMENT_ARRAY_BUFFER]: gl.ELEMENT_ARRAY_BUFFER_BINDING,
   };
   after("bufferSubData", (_, [, , data]) => {
-    see(data);
+    recordArray(data);
   });
   after("bufferData", (context, [target, data]) => {
-    see(data);
-    const binding = bound[target as number];
+    recordArray(data);
+    const binding = bindings[target as number];
     if (binding)
-      take(context.getParameter(binding), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
+      setSize(context.getParameter(binding), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
   });
   after("texStorage2D", (context, [target, , , width, height]) => {
-    if (target === gl.TEXTURE_2D) take(context.getParameter(gl.TEXTURE_BINDING_2D), Number(width) * Number(height) * 4);
+    if (target === gl.TEXTURE_2D)
+      setSize(context.getParameter(gl.TEXTURE_BINDING_2D), Number(width) * Number(height) * 4);
   });
   for (const name of ["deleteBuffer", "deleteTexture"])
     after(name, (_, [object]) => {
-      if (sizes.has(object)) take(object, 0);
+      if (sizes.has(object)) setSize(object, 0);
     });
   window.Blob = class extends Blob {
     constructor(parts: BlobPart[] = [], options?: BlobPropertyBag) {
       super(parts, options);
-      parts.forEach(see);
+      parts.forEach(recordArray);
     }
   };
 }
@@ -194,7 +195,7 @@ describe("a budget", () => {
   }
 });
 
-test("a large image is uploaded in strips", async () => {
+test("a large image is uploaded in bands of rows", async () => {
   const before = (): void => {
     const uploads: number[] = [];
     (window as unknown as { uploads: number[] }).uploads = uploads;

@@ -43,7 +43,7 @@ async function pictureFrom(viewpoint: string): Promise<Picture> {
 }
 
 /** The picture without the menus, which are displayed over the scene. */
-async function bare(view: View): Promise<Picture> {
+async function pictureWithoutMenus(view: View): Promise<Picture> {
   await view.page.evaluate(() => {
     document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".controls")!.style.opacity = "0";
   });
@@ -76,46 +76,50 @@ const waysToBind: Record<string, (view: View) => Promise<void>> = {
   },
 };
 
-describe("a viewpoint is chosen by", () => {
+describe("a viewpoint", () => {
   for (const [name, bind] of Object.entries(waysToBind)) {
-    test(`${name}, and unbound again`, async () => {
+    test(`is bound by ${name}, and unbound again`, async () => {
       await withScene(threeViews(), {}, async (view) => {
-        const start = await bare(view);
+        const start = await pictureWithoutMenus(view);
         await bind(view);
-        assertSamePicture(`viewpoint by ${name}`, await bare(view), await pictureFrom(side), { mean: 0.001 });
+        assertSamePicture(`viewpoint by ${name}`, await pictureWithoutMenus(view), await pictureFrom(side), {
+          mean: 0.001,
+        });
         assert.equal(await view.page.getByRole("combobox").inputValue(), "Side");
         assert.deepEqual(await boundNames(view), ["Side"]);
         await view.page.evaluate(() => {
           document.querySelector("#side")!.setAttribute("set_bind", "false");
         });
-        assertSamePicture(`unbound after ${name}`, await bare(view), start, { mean: 0.001 });
+        assertSamePicture(`unbound after ${name}`, await pictureWithoutMenus(view), start, { mean: 0.001 });
         assert.deepEqual(await boundNames(view), ["Start"]);
       });
     });
   }
 
-  test("set_bind in the document", async () => {
+  test("is bound by set_bind in the document", async () => {
     const site = siteWith("bound", above.replace("description", 'set_bind="true" description') + side);
     await withScene(site, {}, async (view) => {
-      assertSamePicture("bound from the start", await bare(view), await pictureFrom(above), { mean: 0.001 });
+      assertSamePicture("bound from the start", await pictureWithoutMenus(view), await pictureFrom(above), {
+        mean: 0.001,
+      });
     });
   });
 
-  test("the removal of the bound viewpoint", async () => {
+  test("gives way to the first viewpoint when it is removed", async () => {
     await withScene(threeViews(), {}, async (view) => {
-      const start = await bare(view);
+      const start = await pictureWithoutMenus(view);
       await view.page.evaluate(() => {
         document.querySelector("#above")!.setAttribute("set_bind", "true");
       });
       await view.page.evaluate(() => {
         document.querySelector("#above")!.remove();
       });
-      assertSamePicture("removed viewpoint", await bare(view), start, { mean: 0.001 });
+      assertSamePicture("removed viewpoint", await pictureWithoutMenus(view), start, { mean: 0.001 });
       assert.equal(await view.page.getByRole("option").count(), 2);
     });
   });
 
-  test("no menu if there is only one viewpoint", async () => {
+  test("has no menu if it is the only one", async () => {
     await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async ({ page }) => {
       assert.equal(await page.getByRole("combobox").count(), 0);
     });
@@ -132,17 +136,17 @@ describe("a viewpoint is chosen by", () => {
 });
 
 describe("the transition to a viewpoint", () => {
-  const travel = async (view: View): Promise<{ frames: number; picture: Picture }> => {
+  const bindSide = async (view: View): Promise<{ frames: number; picture: Picture }> => {
     await settle(view.page);
     const before = (await viewEvents(view, "camera-change")).length;
     await waysToBind.set_bind!(view);
-    const picture = await bare(view);
+    const picture = await pictureWithoutMenus(view);
     return { frames: (await viewEvents(view, "camera-change")).length - before, picture };
   };
 
   test("is an animation that ends at the viewpoint", async () => {
     await withScene(threeViews(), { motion: true }, async (view) => {
-      const { frames, picture } = await travel(view);
+      const { frames, picture } = await bindSide(view);
       assert.ok(frames > 3, `${frames} frames`);
       assertSamePicture("end of a transition", picture, await pictureFrom(side), { mean: 0.001 });
     });
@@ -150,11 +154,11 @@ describe("the transition to a viewpoint", () => {
 
   test("is skipped with reduced motion and with TELEPORT", async () => {
     await withScene(threeViews(), {}, async (view) => {
-      assert.equal((await travel(view)).frames, 1);
+      assert.equal((await bindSide(view)).frames, 1);
     });
     const teleporting = siteWith("teleport", above + side, '<NavigationInfo transitionType="TELEPORT">');
     await withScene(teleporting, { motion: true }, async (view) => {
-      assert.equal((await travel(view)).frames, 1);
+      assert.equal((await bindSide(view)).frames, 1);
     });
   });
 });
@@ -191,8 +195,7 @@ describe("walking and flying", () => {
     });
   });
 
-  /** The camera's orbit. */
-  async function radiusAnd({ page }: View): Promise<{ theta: number; phi: number; radius: number }> {
+  async function orbitOf({ page }: View): Promise<{ theta: number; phi: number; radius: number }> {
     return page.evaluate(() => {
       const { theta, phi, radius } = document.querySelector<ViewElement>("x3d")!.getCameraOrbit();
       return { theta, phi, radius };
@@ -201,9 +204,9 @@ describe("walking and flying", () => {
 
   test("dragging turns the camera, and its position stays", async () => {
     await withScene(walking(), {}, async (view) => {
-      const before = await radiusAnd(view);
+      const before = await orbitOf(view);
       await drag(view, 80, 0);
-      const after = await radiusAnd(view);
+      const after = await orbitOf(view);
       assert.ok(Math.abs(after.radius - before.radius) < 1e-6);
       // Turning to the left is like an orbit to the right around a center ahead.
       assert.ok(after.theta > before.theta + 0.05, `${before.theta} to ${after.theta}`);
@@ -259,16 +262,16 @@ describe("walking and flying", () => {
       await focusView(view);
       await view.page.keyboard.press("e");
       assert.equal(await list.inputValue(), "Examine");
-      await until("it is announced", async () => (await spoken(view)).includes("Examining"));
+      await until("it is announced", async () => (await announcement(view)).includes("Examining"));
       await list.selectOption("Fly");
-      await until("it is announced", async () => (await spoken(view)).includes("Flying"));
+      await until("it is announced", async () => (await announcement(view)).includes("Flying"));
     });
   });
 
   test("walking by keyboard moves the camera, and R resets it", async () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
-      const start = await bare(view);
+      const start = await pictureWithoutMenus(view);
       for (const key of [
         "ArrowUp",
         "ArrowRight",
@@ -283,12 +286,13 @@ describe("walking and flying", () => {
         "w",
         "ArrowDown",
       ]) {
-        const before = await bare(view);
+        const before = await pictureWithoutMenus(view);
         await hold(view, key);
-        if (!/^[efwr]$/.test(key)) assert.ok(difference(before, await bare(view)).mean > 0.2, `${key} does nothing`);
+        if (!/^[efwr]$/.test(key))
+          assert.ok(difference(before, await pictureWithoutMenus(view)).mean > 0.2, `${key} does nothing`);
       }
       await view.page.keyboard.press("r");
-      assertSamePicture("back from a walk", await bare(view), start, { mean: 0.001 });
+      assertSamePicture("back from a walk", await pictureWithoutMenus(view), start, { mean: 0.001 });
     });
   });
 
@@ -304,7 +308,7 @@ describe("walking and flying", () => {
   }
 });
 
-async function spoken({ page }: View): Promise<string> {
+async function announcement({ page }: View): Promise<string> {
   return page.evaluate(
     () => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("[role=status]")!.textContent,
   );
@@ -369,7 +373,7 @@ describe("navigation types that a document does not allow", () => {
       siteWith("none", above + side, '<NavigationInfo type="NONE">'),
       { hasTouch: true },
       async (view) => {
-        const start = await bare(view);
+        const start = await pictureWithoutMenus(view);
         await drag(view, 90, 40);
         await view.page.mouse.wheel(0, 240);
         await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]); // two fingers would zoom the page
@@ -377,9 +381,9 @@ describe("navigation types that a document does not allow", () => {
           document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus();
         });
         for (const key of ["ArrowLeft", "+", "r", "a", "w", "Escape"]) await view.page.keyboard.press(key);
-        assertSamePicture("NONE", await bare(view), start, { mean: 0 });
+        assertSamePicture("NONE", await pictureWithoutMenus(view), start, { mean: 0 });
         await waysToBind.set_bind!(view);
-        assertSamePicture("NONE, bound", await bare(view), await pictureFrom(side), { mean: 0.001 });
+        assertSamePicture("NONE, bound", await pictureWithoutMenus(view), await pictureFrom(side), { mean: 0.001 });
       },
     );
   });

@@ -20,8 +20,8 @@ function filesOf(ranks: (rank: number) => boolean): (path: string) => boolean {
 /** Asserts one first-image, then refine with rising stages, then one load. */
 async function assertCorrectEvents(view: View): Promise<void> {
   for (const target of ["x3d", "shape"]) {
-    const types = (await view.events("first-image", target)).length;
-    assert.equal(types, 1, `${types} first images of ${target}`);
+    const firstImageCount = (await view.events("first-image", target)).length;
+    assert.equal(firstImageCount, 1, `${firstImageCount} first images of ${target}`);
     assert.equal((await view.events("load", target)).length, 1);
     const own = (await view.observed()).events.filter((event) => event.target === target && event.type !== "progress");
     assert.equal(own[0]?.type, "first-image");
@@ -58,11 +58,11 @@ describe("a slow host", () => {
 
   test("that is busy for a second gets another request after Retry-After", async () => {
     const server = (server: View["server"]): void => {
-      const busy = server.when(
+      const recover = server.when(
         filesOf((rank) => rank === 2),
         { status: 503, headers: { "Retry-After": "1" } },
       );
-      setTimeout(busy, 1000);
+      setTimeout(recover, 1000);
     };
     await withPage(site(), { server, expectedErrors: /503/ }, async (view) => {
       await view.promise("complete");
@@ -114,9 +114,9 @@ describe("a lost WebGL context", () => {
       const before = await view.picture();
       await view.page.evaluate(lose);
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
-      const asked = view.server.requests.length;
+      const requestCount = view.server.requests.length;
       await view.page.evaluate(restore);
-      await until("the files are requested again", () => view.server.requests.length > asked);
+      await until("the files are requested again", () => view.server.requests.length > requestCount);
       await until("the picture is back", async () => {
         await settle(view.page);
         const statistics = await view.page.evaluate(() => {
@@ -172,11 +172,11 @@ test("ten thousand shapes are all displayed except one whose files are missing, 
     await view.promise("complete", "x3d", 120);
     await settle(view.page);
     const { loaded, failed, draws } = await view.page.evaluate(() => {
-      const of = (eventType: string) =>
+      const targetsOf = (eventType: string) =>
         window.observed.events.filter(({ type, target }) => type === eventType && target !== "x3d");
       return {
-        loaded: of("load").length,
-        failed: of("error").map(({ target }) => target),
+        loaded: targetsOf("load").length,
+        failed: targetsOf("error").map(({ target }) => target),
         draws: window.observed.draws,
       };
     });

@@ -7,7 +7,7 @@ export interface ObservedEvent {
   target: string;
   bubbles: boolean;
   detail: Record<string, unknown>;
-  /** Milliseconds since the page began. */
+  /** Milliseconds since navigation. */
   at: number;
 }
 

@@ -1,5 +1,5 @@
-// The preview: it is the picture that the runtime then draws of the same base, it
-// follows the document, and the change to the runtime is not visible.
+// Tests the preview: it equals the picture that the runtime draws of the same base, it follows the document, and the
+// change to the runtime is not visible.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -12,15 +12,15 @@ const knot = (): string => siteOfGenerated("trefoil", "--profile", "classic", "-
 const ball = (): string => siteOfGenerated("sphere", "--profile", "classic", "--patch-vertices", "2000");
 
 /** The knot on the left and the ball on the right, about 6 and 2 wide. */
-function twoShapes(viewpoint: string, { knotIs = "", ballIs = "", x3dIs = "" } = {}): string {
+function twoShapes(viewpoint: string, { knotAttributes = "", ballAttributes = "", x3dAttributes = "" } = {}): string {
   const scene = `<Viewpoint ${viewpoint}></Viewpoint>
-    <Transform translation="-30 0 0">${shapeIn(knot(), "knot", `id="knot" ${knotIs}`)}</Transform>
-    <Transform translation="30 0 0">${shapeIn(ball(), "ball", `id="ball" ${ballIs}`)}</Transform>`;
+    <Transform translation="-30 0 0">${shapeIn(knot(), "knot", `id="knot" ${knotAttributes}`)}</Transform>
+    <Transform translation="30 0 0">${shapeIn(ball(), "ball", `id="ball" ${ballAttributes}`)}</Transform>`;
   const name = createHash("sha256")
-    .update(scene + x3dIs)
+    .update(scene + x3dAttributes)
     .digest("hex")
     .slice(0, 12);
-  return sceneOf(`priority-${name}`, { knot: knot(), ball: ball() }, scene, x3dIs);
+  return sceneOf(`priority-${name}`, { knot: knot(), ball: ball() }, scene, x3dAttributes);
 }
 
 const atKnot = 'position="-30 0 12"';
@@ -28,7 +28,7 @@ const atBall = 'position="30 0 6"';
 const atBoth = 'position="0 0 80" fieldOfView="1"';
 
 /** The requested files of both shapes, in order: "knot0" is a first byte of the knot, "ball2" normals of the ball. */
-function order(view: View): string[] {
+function requestedNames(view: View): string[] {
   const ranks = new Map([...ranksIn(knot(), "knot"), ...ranksIn(ball(), "ball")]);
   return view.requestedPaths
     .filter((url) => ranks.has(url))
@@ -45,23 +45,23 @@ function assertBefore(names: string[], early: (name: string) => boolean, late: (
   assert.ok(names.findLastIndex(early) < names.findIndex(late), names.join(" "));
 }
 
-async function orderOf(directory: string): Promise<string[]> {
+async function requestOrderOf(directory: string): Promise<string[]> {
   let names: string[] = [];
   await withPage(directory, {}, async (view) => {
     await view.promise("complete");
-    names = order(view);
+    names = requestedNames(view);
   });
   return names;
 }
 
 describe("the order of requests", () => {
   test("follows the camera: visible shapes come first", async () => {
-    assertBefore(await orderOf(twoShapes(atKnot)), isOf("knot"), isOf("ball"));
-    assertBefore(await orderOf(twoShapes(atBall)), isOf("ball"), isOf("knot"));
+    assertBefore(await requestOrderOf(twoShapes(atKnot)), isOf("knot"), isOf("ball"));
+    assertBefore(await requestOrderOf(twoShapes(atBall)), isOf("ball"), isOf("knot"));
   });
 
   test("loads the first bytes of both visible shapes before further bytes, the larger shape first", async () => {
-    const names = await orderOf(twoShapes(atBoth));
+    const names = await requestOrderOf(twoShapes(atBoth));
     for (const rank of ["0", "1", "2"]) {
       assertBefore(
         names,
@@ -77,12 +77,12 @@ describe("the order of requests", () => {
   });
 
   test("follows the author: by shape", async () => {
-    const names = await orderOf(twoShapes(atBoth, { ballIs: 'priority="1000"' }));
+    const names = await requestOrderOf(twoShapes(atBoth, { ballAttributes: 'priority="1000"' }));
     assertBefore(names, isOf("ball"), isOf("knot"));
   });
 
   test("follows the author: by chunk type", async () => {
-    const names = await orderOf(twoShapes(atBoth, { x3dIs: 'chunkPriority="normal: 100000"' }));
+    const names = await requestOrderOf(twoShapes(atBoth, { x3dAttributes: 'chunkPriority="normal: 100000"' }));
     assertBefore(
       names,
       (name) => name.endsWith("2"),
@@ -110,12 +110,12 @@ describe("the order of requests", () => {
         twoShapes(atKnot),
         { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) },
         async (view) => {
-          await until("all slots are taken", () => order(view).length === 6);
+          await until("all slots are taken", () => requestedNames(view).length === 6);
           await view.page.evaluate(change);
           await settle(view.page);
           open();
           await view.promise("complete");
-          const names = order(view);
+          const names = requestedNames(view);
           assert.ok(names.slice(0, 6).every(isOf("knot")), names.join(" "));
           assertBefore(names.slice(6), isOf("ball"), isOf("knot"));
         },
@@ -129,7 +129,7 @@ describe("the order of requests", () => {
       twoShapes(atBoth),
       { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) },
       async (view) => {
-        await until("all slots are taken", () => order(view).length === 6);
+        await until("all slots are taken", () => requestedNames(view).length === 6);
         await view.page.locator("imgeo-view canvas").focus();
         // Moves the scene to the left until only the ball is visible.
         for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
@@ -138,7 +138,7 @@ describe("the order of requests", () => {
         await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
         open();
         await view.promise("complete");
-        assertBefore(order(view).slice(6), isOf("ball"), isOf("knot"));
+        assertBefore(requestedNames(view).slice(6), isOf("ball"), isOf("knot"));
       },
     );
   });
@@ -146,9 +146,9 @@ describe("the order of requests", () => {
 
 describe("a shape that is hidden", () => {
   test("is not requested, and does not delay the scene's load", async () => {
-    await withPage(twoShapes(atBoth, { ballIs: 'visible="false"' }), {}, async (view) => {
+    await withPage(twoShapes(atBoth, { ballAttributes: 'visible="false"' }), {}, async (view) => {
       await view.promise("complete");
-      assert.ok(!order(view).some(isOf("ball")), order(view).join(" "));
+      assert.ok(!requestedNames(view).some(isOf("ball")), requestedNames(view).join(" "));
       assert.deepEqual(await view.events("progress", "shape#ball"), []);
 
       await view.page.evaluate(() => {
@@ -156,7 +156,7 @@ describe("a shape that is hidden", () => {
       });
       await view.promise("complete", "#ball");
       await view.promise("complete");
-      assert.ok(order(view).some(isOf("ball")));
+      assert.ok(requestedNames(view).some(isOf("ball")));
       assert.equal((await view.events("load", "x3d")).length, 2);
     });
   });
@@ -181,7 +181,7 @@ describe("a shape that is hidden", () => {
 });
 
 describe("a byte whose effect is invisible", () => {
-  const secondBytes = (view: View): number => order(view).filter((name) => name === "knot4").length;
+  const secondBytes = (view: View): number => requestedNames(view).filter((name) => name === "knot4").length;
 
   test("is not requested, the scene is complete without it, and it is requested when the camera comes near", async () => {
     await withPage(twoShapes('position="-30 0 900"'), {}, async (view) => {

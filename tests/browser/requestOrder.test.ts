@@ -1,5 +1,5 @@
 // Tests that near patches are requested first (paper section 5.4): the hall is one mesh that consists of patches,
-// displayed from either of its ends, once over HTTP/2, which allows more requests at a time.
+// displayed from either of its ends, once as if over HTTP/2, which allows more requests at a time.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -46,8 +46,8 @@ const cameras: readonly Camera[] = [
   },
 ];
 
-/** Self-contained: the test's server supports only HTTP/1.1. */
-const pretend: Readonly<Record<string, () => void>> = {
+/** Functions that make a page believe in a protocol, since the tests' server supports only HTTP/1.1; self-contained. */
+const pretendProtocol: Readonly<Record<string, () => void>> = {
   h2: () => {
     Object.defineProperty(PerformanceResourceTiming.prototype, "nextHopProtocol", { get: () => "h2" });
   },
@@ -128,26 +128,26 @@ test("patches of a hall that are largest on the screen are requested first, and 
     const { closed, open } = gate();
     const server = (server: View["server"]): void =>
       void server.when((path) => patches.has(path.slice(1)), { hold: closed });
-    await withPage(site, { server, before: pretend[camera.protocol]! }, async (view) => {
+    await withPage(site, { server, before: pretendProtocol[camera.protocol]! }, async (view) => {
       const count = (): number => view.requestedPaths.filter((url) => patches.has(url)).length;
       await until("all slots are taken", () => count() >= camera.slots);
       assert.equal(count(), camera.slots, `${name}: concurrent requests over ${camera.protocol}`);
       open();
       await view.promise("complete", "x3d", 60);
-      const asked = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
-      assert.equal(asked.length, patches.size);
-      assert.ok(asked.length >= 20, `${asked.length} patches`);
+      const requested = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
+      assert.equal(requested.length, patches.size);
+      assert.ok(requested.length >= 20, `${requested.length} patches`);
       // 0.5 is half the height of the view, 0.8 more than half its diagonal.
       const isBehind = ({ angles: [nearest] }: SeenPatch): boolean => nearest > 0.8;
-      const isBefore = ({ angles: [nearest] }: SeenPatch): boolean => nearest < 0.3;
-      assertLargestFirst(asked.filter(isBefore), name);
-      assertLargestFirst(asked.filter(isBehind), name);
-      assert.ok(asked.some(isBehind), "there are patches behind the camera");
+      const isAhead = ({ angles: [nearest] }: SeenPatch): boolean => nearest < 0.3;
+      assertLargestFirst(requested.filter(isAhead), name);
+      assertLargestFirst(requested.filter(isBehind), name);
+      assert.ok(requested.some(isBehind), "there are patches behind the camera");
       assert.ok(
-        asked.findLastIndex(isBefore) < asked.findIndex(isBehind),
+        requested.findLastIndex(isAhead) < requested.findIndex(isBehind),
         `${name}: patches behind the camera were requested early`,
       );
-      const first = asked.slice(0, asked.length / 4);
+      const first = requested.slice(0, requested.length / 4);
       middles.push(first.reduce((sum, { x }) => sum + x, 0) / first.length);
     });
   }

@@ -28,7 +28,7 @@ function site(): string {
   );
 }
 
-/** The names of the shapes that are displayed at the positions of some of them. */
+/** The ids of the shapes that are displayed at the grid positions `numbers`, shifted by `offset` along x. */
 async function shapesAt({ page }: View, numbers: readonly number[], offset = 0): Promise<(string | undefined)[]> {
   await settle(page);
   const pixels = numbers.map(
@@ -81,8 +81,8 @@ test("shapes of one file load with one request, and each follows its element", a
 });
 
 test("a file that is missing is an error of each shape that shares it", async () => {
-  const server = (own: View["server"]): void => {
-    own.when(/geometry/, { status: 404 });
+  const server = (server: View["server"]): void => {
+    server.when(/geometry/, { status: 404 });
   };
   await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
     await until("all have got an error", async () => (await view.events("error", "x3d")).length === count);

@@ -28,7 +28,7 @@ function pathsOf(site: string, ranks: (rank: number) => boolean): string[] {
 }
 
 /** Waits until the shapes display the content of these files. */
-async function arrived(view: View, paths: string[]): Promise<void> {
+async function untilReady(view: View, paths: string[]): Promise<void> {
   await until("every file that is not held has arrived", async () => {
     const states = await view.page.evaluate(() =>
       Array.from(document.querySelectorAll("x3d shape"), (shape) =>
@@ -63,7 +63,7 @@ describe("the first coordinate byte", () => {
     const { closed, open } = gate();
     await withPage(site(), { server: holding(site(), (rank) => rank > 3, closed) }, async (view) => {
       await view.promise("firstImage");
-      await arrived(
+      await untilReady(
         view,
         pathsOf(site(), (rank) => rank <= 3),
       );
@@ -81,8 +81,8 @@ describe("the first coordinate byte", () => {
       assert.ok(difference(blank, coarse).mean > 1, "the coarse stage is not drawn");
       assert.ok(difference(coarse, final).mean > 0.02, "the last bytes do not change the picture");
       const shapes = [coarse, final].map((picture) => silhouette(withoutBar(picture), withoutBar(blank)));
-      const apart = silhouetteDifference(shapes[0]!, shapes[1]!);
-      assert.ok(apart < 0.03, `silhouettes differ in ${(apart * 100).toFixed(1)} % of the pixels`);
+      const differingShare = silhouetteDifference(shapes[0]!, shapes[1]!);
+      assert.ok(differingShare < 0.03, `silhouettes differ in ${(differingShare * 100).toFixed(1)} % of the pixels`);
     });
   });
 
@@ -98,16 +98,16 @@ describe("the first coordinate byte", () => {
       await view.promise("firstImage");
       const points = silhouette(withoutBar(await view.picture()), withoutBar(blank));
       sendIndex();
-      await arrived(
+      await untilReady(
         view,
         pathsOf(site(), (rank) => rank === 1),
       );
       const surface = silhouette(withoutBar(await view.picture()), withoutBar(blank));
-      const covered = (mask: Uint8Array): number => mask.reduce((sum, pixel) => sum + pixel, 0);
-      assert.ok(covered(points) > 500, `${covered(points)} pixels of points`);
+      const pixelCount = (mask: Uint8Array): number => mask.reduce((sum, pixel) => sum + pixel, 0);
+      assert.ok(pixelCount(points) > 500, `${pixelCount(points)} pixels of points`);
       assert.ok(
-        covered(surface) > 1.2 * covered(points),
-        `${covered(points)} pixels of points, ${covered(surface)} of surface`,
+        pixelCount(surface) > 1.2 * pixelCount(points),
+        `${pixelCount(points)} pixels of points, ${pixelCount(surface)} of surface`,
       );
     });
   });
@@ -156,7 +156,7 @@ describe("borders between patches are watertight", () => {
         server.when(/^\/$/, { replace: (html) => change(html.toString()) });
       };
       await withPage(site(), { server }, async (view) => {
-        await arrived(
+        await untilReady(
           view,
           pathsOf(site(), (rank) => rank <= 3),
         );
@@ -182,7 +182,7 @@ describe("borders between patches are watertight", () => {
       return encodePng({ ...image, data: image.data.fill(0) });
     };
     const server = (server: TestServer): void => {
-      server.when((asked) => asked === path, { replace: flattened });
+      server.when((requestedPath) => requestedPath === path, { replace: flattened });
       server.when(/^\/$/, { replace: (html) => fromInside(html.toString()) });
     };
     await withPage(site(), { server }, async (view) => {
@@ -202,11 +202,11 @@ describe("files are requested", () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const ranks = ranksOfFiles(pageOf(site()));
-      const asked = view.server.requests.map(({ path }) => path.slice(1)).filter((path) => ranks.has(path));
-      assert.deepEqual([...asked].sort(), [...ranks.keys()].sort());
+      const requested = view.server.requests.map(({ path }) => path.slice(1)).filter((path) => ranks.has(path));
+      assert.deepEqual([...requested].sort(), [...ranks.keys()].sort());
       // Requests sent at the same time over several connections may arrive in any order.
       const connections = 6;
-      const order = asked.map((path) => ranks.get(path)!);
+      const order = requested.map((path) => ranks.get(path)!);
       order.forEach((rank, index) => {
         const late = order.findIndex((other, later) => later >= index + connections && other < rank);
         assert.equal(late, -1, `rank ${rank} was requested well before rank ${order[late]}: ${order.join(" ")}`);

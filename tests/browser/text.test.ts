@@ -26,7 +26,7 @@ interface Line {
 }
 
 /** The picture of these lines drawn into a 2D canvas. */
-async function written(page: Page, lines: readonly Line[]): Promise<Picture> {
+async function canvasPicture(page: Page, lines: readonly Line[]): Promise<Picture> {
   const png = await page.evaluate(
     async ({ lines, pixelsPerUnit, width, height }) => {
       const canvas = document.createElement("canvas");
@@ -97,7 +97,7 @@ describe("a text", () => {
       { server: prepare },
       async ({ page, promise, picture }) => {
         await promise("complete");
-        const [shown, expected] = [await picture(), await written(page, lines)];
+        const [shown, expected] = [await picture(), await canvasPicture(page, lines)];
         // Both have edges one pixel wide. The mean difference is 0.65, and 10 if glyphs are at other positions.
         assertSamePicture("text", shown, expected, { mean: 1 });
         const hit = (x: number, y: number): Promise<string | undefined> =>
@@ -129,7 +129,7 @@ describe("a text", () => {
             text: line.text === "Hall" ? "Foyer" : line.text,
             size: line.text === "near by" ? 0.9 : line.size,
           }));
-        assertSamePicture("text-changed", await picture(), await written(page, changed), { mean: 0.6 });
+        assertSamePicture("text-changed", await picture(), await canvasPicture(page, changed), { mean: 0.6 });
 
         await page.evaluate(() => {
           document.fonts.add(new FontFace("Late", "url(/late.woff2)"));
@@ -149,14 +149,14 @@ describe("a text", () => {
           await font;
         });
         await promise("complete", "#bold");
-        const writtenIn = (font: string): Promise<Picture> =>
-          written(
+        const canvasPictureWith = (font: string): Promise<Picture> =>
+          canvasPicture(
             page,
             changed.map((line) => (line.text === "near by" ? { ...line, font } : line)),
           );
         const withFont = await picture();
-        assertSamePicture("text-font-loaded", withFont, await writtenIn('SIZE "Late"'), { mean: 0.6 });
-        assert.ok(difference(withFont, await writtenIn("SIZE sans-serif")).mean > 0.6);
+        assertSamePicture("text-font-loaded", withFont, await canvasPictureWith('SIZE "Late"'), { mean: 0.6 });
+        assert.ok(difference(withFont, await canvasPictureWith("SIZE sans-serif")).mean > 0.6);
       },
     );
   });

@@ -50,7 +50,7 @@ describe("a Transform applies to positions and normals", () => {
       test(`${name}, ${container}`, async () => {
         const site = siteOfGenerated("trefoil-colors", "--profile", "classic", "--container", container);
         const page = withShapes(pageOf(site), markup);
-        const seen = await finalPicture(variantOf(site, "placed", () => page));
+        const seen = await finalPicture(variantOf(site, "transformed", () => page));
         const expected = await referencePicture(page, transformedPatches(decodeSite(site), matrix));
         assertSamePicture(`${name} ${container}`, seen, expected, boundsOfQuantised);
       });
@@ -135,7 +135,7 @@ describe("USE of", () => {
           await view.page.evaluate(() => {
             document.querySelector("#second")!.remove();
           });
-          assert.ok(difference(await view.picture(), expected).mean > 0.5, "the second is still visible");
+          assert.ok(difference(await view.picture(), expected).mean > 0.5, "the second instance is still visible");
           if (name === "an Appearance" || name === "a Material") return; // these cases have two geometries
           const { live: alone } = await view.observed();
           assert.deepEqual({ ...live, programs: 0 }, { ...alone, programs: 0 });

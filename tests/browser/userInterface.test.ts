@@ -37,7 +37,7 @@ async function orbitOf({ page }: View): Promise<{ theta: number; phi: number; ra
   });
 }
 
-function near(actual: number, expected: number, tolerance = 1e-6): void {
+function assertNear(actual: number, expected: number, tolerance = 1e-6): void {
   assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
 }
 
@@ -48,19 +48,19 @@ describe("attributes of <x3d>", () => {
       {},
       async (view) => {
         const { theta, phi, radius } = await orbitOf(view);
-        near(theta, Math.PI / 6);
-        near(phi, Math.PI / 3);
-        near(radius, 9);
+        assertNear(theta, Math.PI / 6);
+        assertNear(phi, Math.PI / 3);
+        assertNear(radius, 9);
         await focusView(view);
         await view.page.keyboard.press("ArrowLeft");
         assert.ok(Math.abs((await orbitOf(view)).theta - theta) > 0.01);
         await view.page.keyboard.press("r");
-        near((await orbitOf(view)).theta, theta);
+        assertNear((await orbitOf(view)).theta, theta);
         await view.page.evaluate(() => {
           document.querySelector("x3d")!.setAttribute("camera-orbit", "-1rad auto auto");
         });
         await settle(view.page);
-        near((await orbitOf(view)).theta, -1);
+        assertNear((await orbitOf(view)).theta, -1);
         const text = await view.page.evaluate(() =>
           String(document.querySelector<ViewElement>("x3d")!.getCameraOrbit()),
         );
@@ -75,7 +75,7 @@ describe("attributes of <x3d>", () => {
       {},
       async (view) => {
         await drag(view, 0, -300);
-        near((await orbitOf(view)).phi, (80 * Math.PI) / 180);
+        assertNear((await orbitOf(view)).phi, (80 * Math.PI) / 180);
         const { radius } = await orbitOf(view);
         for (let i = 0; i < 9; ++i) await view.page.mouse.wheel(0, -240);
         await settle(view.page);
@@ -136,7 +136,7 @@ describe("attributes of <x3d>", () => {
     });
   });
 
-  test("leave fingers to a page that scrolls, until the view is engaged", async () => {
+  test("leave touch gestures to a page that scrolls, until the view has the focus", async () => {
     const touchAction = (view: View): Promise<string> =>
       view.page.evaluate(
         () => getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction,
@@ -175,12 +175,12 @@ describe("attributes of <x3d>", () => {
         document.querySelector("x3d")!.setAttribute("exposure", "0.5");
       });
       const after = await view.picture();
-      // The sky is no light that reaches the scene; it stays.
+      // The exposure does not change the sky.
       const isScene = (at: number): boolean => before.data[at] !== before.data[at % before.channels];
       const ratios = Array.from(after.data, (byte, at) => (isScene(at) ? byte / before.data[at]! : NaN))
         .filter((ratio) => !Number.isNaN(ratio))
         .sort((a, b) => a - b);
-      near(ratios[Math.floor(ratios.length / 2)]!, 0.5, 0.01);
+      assertNear(ratios[Math.floor(ratios.length / 2)]!, 0.5, 0.01);
       await view.page.evaluate(() => {
         document.querySelector("x3d")!.removeAttribute("exposure");
       });
@@ -189,7 +189,7 @@ describe("attributes of <x3d>", () => {
   });
 });
 
-describe("turning by itself", () => {
+describe("auto-rotation", () => {
   const attributes = 'auto-rotate auto-rotate-delay="50" rotation-per-second="90deg"';
 
   test("begins after the delay, pauses while the user moves the camera, and stops on pause()", async () => {
@@ -369,8 +369,8 @@ describe("hotspots", () => {
       const [sideways, away] = [-1.5 * Math.sin(angle), 10 - 1.5 * Math.cos(angle)];
       const focal = center.y / Math.tan(Math.PI / 8);
       const [x, y] = await middle();
-      near(x, center.x + (focal * sideways) / away, 0.6);
-      near(y, center.y, 0.6);
+      assertNear(x, center.x + (focal * sideways) / away, 0.6);
+      assertNear(y, center.y, 0.6);
     });
   });
 
@@ -443,7 +443,7 @@ describe("hotspots", () => {
 
   test("follow their elements, without a new reading of the scene", async () => {
     await withScene(site(), {}, async (view) => {
-      const asked = view.server.requests.length;
+      const requestCount = view.server.requests.length;
       await view.page.evaluate(() => {
         document.querySelector("#front")!.setAttribute("data-position", "0 2 0");
         const added = document.querySelector("#back")!.cloneNode(true) as Element;
@@ -464,7 +464,7 @@ describe("hotspots", () => {
           () => document.querySelector("imgeo-view")!.shadowRoot!.querySelectorAll(".hotspots > div").length === 2,
         ),
       );
-      assert.equal(view.server.requests.length, asked);
+      assert.equal(view.server.requests.length, requestCount);
     });
   });
 });

@@ -16,7 +16,7 @@ const mesh = withNumbers(trefoil());
 const { height, away_0: x, away_1: y, away_2: z } = mesh.numbers as Record<string, Float32Array>;
 const away = Float32Array.from(x!, (_, i) => Math.hypot(x![i]!, y![i]!, z![i]!));
 
-const keeping = (...options: string[]): string =>
+const siteKeepingAll = (...options: string[]): string =>
   siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", ...options);
 const withFields =
   (fields: string): Server =>
@@ -47,20 +47,20 @@ const ends: [Color, Color] = [
 const colorMap = `colorMap="${ends.join(", ").replaceAll(",", " ")}"`;
 
 describe("a shape coloured by an attribute", () => {
-  const ways: [what: string, options: string[], fields?: string][] = [
-    ["out of patches of compact", ["--patch-vertices", "1000", "--normal-bits", "10"]],
-    ["out of two byte planes", ["--profile", "classic"]],
+  const cases: [what: string, options: string[], fields?: string][] = [
+    ["stored in patches of compact", ["--patch-vertices", "1000", "--normal-bits", "10"]],
+    ["stored in two byte planes", ["--profile", "classic"]],
     [
-      "in one byte plane and many patches of strips",
+      "stored in one byte plane, in many patches of strips",
       ["--attribute-bits", "8", "--patch-vertices", "1000", "--primitives", "strips"],
     ],
-    ["out of three byte planes, without an index", ["--attribute-bits", "24", "--index", "off"]],
-    ["out of three byte planes, in workers", ["--profile", "classic", "--attribute-bits", "24"], "cpu"],
-    ["out of arrays", ["--container", "bg"]],
+    ["stored in three byte planes, without an index", ["--attribute-bits", "24", "--index", "off"]],
+    ["stored in three byte planes, decoded in workers", ["--profile", "classic", "--attribute-bits", "24"], "cpu"],
+    ["stored in arrays", ["--container", "bg"]],
   ];
-  for (const [what, options, decode] of ways) {
+  for (const [what, options, decode] of cases) {
     test(`${what} has the colours of its values`, async () => {
-      const site = keeping(...options);
+      const site = siteKeepingAll(...options);
       const expected = await expectedPicture(site, height!, spread, ends);
       const server: Server = (server) =>
         void server.when(/^\/$/, {
@@ -78,7 +78,7 @@ describe("a shape coloured by an attribute", () => {
   }
 
   test("of three components has the colours of its length, and follows changes of the document at once", async () => {
-    const site = keeping("--attribute-bits", "24", "--normal-bits", "10");
+    const site = siteKeepingAll("--attribute-bits", "24", "--normal-bits", "10");
     await withPage(site, { server: withFields(`colorBy="away" colorMap="gray" colorRange="0.5 4"`) }, async (view) => {
       await view.promise("complete");
       const first = await view.picture();
@@ -88,7 +88,7 @@ describe("a shape coloured by an attribute", () => {
         await expectedPicture(site, away, [0.5, 4], [black, white]),
         boundsOfInput,
       );
-      const asked = view.requestedPaths.length;
+      const requestCount = view.requestedPaths.length;
       await view.page.evaluate(() => {
         const shape = document.querySelector("shape")!;
         shape.setAttribute("colorMap", "1 1 1 0 0 0");
@@ -101,7 +101,7 @@ describe("a shape coloured by an attribute", () => {
         await expectedPicture(site, away, [0, 5], [white, black]),
         boundsOfInput,
       );
-      assert.equal(view.requestedPaths.length, asked, "files were requested again");
+      assert.equal(view.requestedPaths.length, requestCount, "files were requested again");
       assert.ok(!isWithin(difference(first, second), boundsOfInput));
       await view.page.evaluate(() => {
         document.querySelector("shape")!.setAttribute("colorBy", "height");
@@ -126,7 +126,10 @@ describe("a shape coloured by an attribute", () => {
 
   test("without colorBy has the picture of a shape without attributes, which are not requested", async () => {
     const pictures: Picture[] = [];
-    for (const site of [keeping("--profile", "classic"), siteOfGenerated("trefoil-numbers", "--profile", "classic")]) {
+    for (const site of [
+      siteKeepingAll("--profile", "classic"),
+      siteOfGenerated("trefoil-numbers", "--profile", "classic"),
+    ]) {
       await withPage(site, {}, async (view) => {
         await view.promise("complete");
         pictures.push(await view.picture());

@@ -228,15 +228,15 @@ test("programs are compiled while the first files are loading", async () => {
 
 test("a shape without a box in the document is framed when its vertices have loaded", async () => {
   const whole = siteOfGenerated("trefoil", "--container", "bg", "--coord-type", "float32");
-  const unplaced = (page: string): string => page.replace(/<Viewpoint[^>]*><\/Viewpoint>/i, "");
-  const unbounded = (page: string): string => unplaced(page).replaceAll(/\sbbox(Center|Size)="[^"]*"/gi, "");
+  const withoutViewpoint = (page: string): string => page.replace(/<Viewpoint[^>]*><\/Viewpoint>/i, "");
+  const withoutBoxes = (page: string): string => withoutViewpoint(page).replaceAll(/\sbbox(Center|Size)="[^"]*"/gi, "");
   const pictures: Picture[] = [];
-  for (const [name, change] of Object.entries({ unplaced, unbounded })) {
+  for (const [name, change] of Object.entries({ withoutViewpoint, withoutBoxes })) {
     await withPage(variantOf(whole, name, change), {}, async (view) => {
       await view.promise("complete");
       pictures.push(await view.picture());
     });
   }
   assert.ok(covered(pictures[0]!) > 20_000);
-  assertSamePicture("unbounded", pictures[1]!, pictures[0]!, { mean: 0.1 });
+  assertSamePicture("without boxes", pictures[1]!, pictures[0]!, { mean: 0.1 });
 });

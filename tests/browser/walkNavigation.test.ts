@@ -69,7 +69,7 @@ async function holdUntil(view: View, key: string, what: string, isThere: (eye: E
   return eyeIn(view);
 }
 
-const near = (actual: number, expected: number, tolerance: number, what: string): void => {
+const assertNear = (actual: number, expected: number, tolerance: number, what: string): void => {
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);
 };
 
@@ -78,10 +78,10 @@ test("WALK leads into the hall, down its stairs and up to the stage, and not thr
     await view.promise("complete");
     await focusView(view);
     const door = await eyeIn(view);
-    near(door.z, back + 2.5, 1e-6, "the viewpoint before the door");
+    assertNear(door.z, back + 2.5, 1e-6, "the viewpoint before the door");
     const front = await holdUntil(view, "ArrowUp", "the camera is before the stage", ({ y, z }) => z < 1.9 && y < 1.65);
-    near(front.z, 1.5 + 0.25, 0.15, "before the stage");
-    near(front.y, 1.6, 0.05, "on the floor before the stage");
+    assertNear(front.z, 1.5 + 0.25, 0.15, "before the stage");
+    assertNear(front.y, 1.6, 0.05, "on the floor before the stage");
 
     const eyes = await view.page.evaluate(() => (window as unknown as { eyes: Eye[] }).eyes);
     const walked = eyes.filter(({ z }) => z < back - 0.3);
@@ -101,8 +101,8 @@ test("WALK leads into the hall, down its stairs and up to the stage, and not thr
       "the camera is on the stage, before the wall",
       ({ y, z }) => z < -3.6 && y > 2.45,
     );
-    near(wall.y, 0.9 + 1.6, 0.05, "on the stage");
-    near(wall.z, -4 + 0.25, 0.1, "before the wall");
+    assertNear(wall.y, 0.9 + 1.6, 0.05, "on the stage");
+    assertNear(wall.z, -4 + 0.25, 0.1, "before the wall");
 
     const framesOfTen = (): Promise<number> =>
       view.page.evaluate(async () => {
