@@ -1,12 +1,11 @@
 // Size and time at each effort of the PNG encoder, for all images of SIG classic in fan order: bytes by kind of image,
-// and processor seconds on one thread, the better of two runs. Prints the table of docs/decisions/png-effort.md.
+// and processor seconds on one thread, the shorter time of two runs. Prints the table of docs/decisions/png-effort.md.
 //
 //   build/bench/effort MODEL...
 
 #include "base/parallel.h"
 #include "bench/models.h"
 #include "containers/container_reader.h"
-#include "prepare/primitives.h"
 
 #include <algorithm>
 #include <ctime>
@@ -17,7 +16,7 @@ namespace {
 
 struct Measured {
   double seconds = 0;
-  std::size_t index = 0, high = 0, low = 0, other = 0;
+  bench::ImageBytes bytes;
 };
 
 Measured measure(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry, int effort) {
@@ -25,17 +24,8 @@ Measured measure(const std::vector<IndexedPatch>& patches, const GeometryDescrip
   options.effort = effort;
   Measured measured;
   const std::clock_t start = std::clock();
-  for (const IndexedPatch& patch : patches) {
-    std::size_t coordImages = 0;
-    for (const EncodedFile& file : encodePatch(patch, geometry, options).files) {
-      const bool isCoord = file.role == Role::coord;
-      (file.role == Role::index ? measured.index
-       : !isCoord               ? measured.other
-       : coordImages == 0       ? measured.high
-                                : measured.low) += file.bytes.size();
-      coordImages += isCoord;
-    }
-  }
+  for (const IndexedPatch& patch : patches)
+    measured.bytes.add(encodePatch(patch, geometry, options));
   measured.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return measured;
 }
@@ -44,17 +34,15 @@ void printTable(const std::string& path) {
   bench::visitSurfaces(path, [&](const Mesh& mesh) {
     const PatchedMesh patched = bench::patchesOf(mesh);
     const GeometryDescription geometry = describe(patched, {});
-    std::vector<IndexedPatch> patches;
-    for (const Patch& patch : patched.patches)
-      patches.push_back(asTriangles(patch));
+    const std::vector<IndexedPatch> patches = bench::patchesInFanOrder(patched);
     fmt::print("\n| {}, --effort | s | index | coord high | coord low | normal | all |\n"
                "|---|--:|--:|--:|--:|--:|--:|\n",
                std::filesystem::path(path).filename().string());
     for (int effort = 0; effort <= 9; ++effort) {
       Measured m = measure(patches, geometry, effort);
       m.seconds = std::min(m.seconds, measure(patches, geometry, effort).seconds);
-      fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} |\n", effort, m.seconds, m.index, m.high, m.low, m.other,
-                 m.index + m.high + m.low + m.other);
+      fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} |\n", effort, m.seconds, m.bytes.index, m.bytes.high,
+                 m.bytes.low, m.bytes.other, m.bytes.all());
       std::fflush(stdout);
     }
   });

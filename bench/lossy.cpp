@@ -184,9 +184,7 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
   const EncodeOptions options{.encoding = Encoding::classic, .normalBits = 8, .effort = 9};
   const GeometryDescription geometry = describe(patched, options);
   const double diagonal = length(boxOf(mesh).size());
-  std::vector<IndexedPatch> exact;
-  for (const Patch& patch : patched.patches)
-    exact.push_back(asTriangles(patch));
+  const std::vector<IndexedPatch> exact = bench::patchesInFanOrder(patched);
 
   fmt::print("\n{}: {} triangles\n\n", model.filename().string(), mesh.elementCount());
   fmt::print("| coordinate images | bytes | of lossless | RMS error, % of diagonal | largest | vertices off by "

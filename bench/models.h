@@ -1,10 +1,12 @@
 #pragma once
-// Shared by the benchmarks of models: command line, reading of meshes, and error handling of main.
+// Shared by the benchmarks of models: command line, reading of meshes, sizes of images, and error handling of main.
 
 #include "base/error.h"
+#include "containers/patch_encoder.h"
 #include "import/import.h"
 #include "prepare/normals.h"
 #include "prepare/patches.h"
+#include "prepare/primitives.h"
 #include "prepare/weld.h"
 
 #include <fmt/format.h>
@@ -53,6 +55,33 @@ template <typename Visit> void visitSurfaces(const std::string& model, Visit vis
 inline PatchedMesh patchesOf(const Mesh& mesh) {
   return cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
 }
+
+/// The patches of a mesh as triangles in fan order.
+inline std::vector<IndexedPatch> patchesInFanOrder(const PatchedMesh& mesh) {
+  std::vector<IndexedPatch> patches;
+  for (const Patch& patch : mesh.patches)
+    patches.push_back(asTriangles(patch));
+  return patches;
+}
+
+/// Bytes of images of SIG classic.
+struct ImageBytes {
+  std::size_t index = 0;
+  std::size_t high = 0; ///< first coordinate images
+  std::size_t low = 0;  ///< further coordinate images
+  std::size_t other = 0;
+
+  std::size_t all() const { return index + high + low + other; }
+
+  void add(const EncodedPatch& patch) {
+    bool isHigh = true;
+    for (const EncodedFile& file : patch.files) {
+      const bool isCoord = file.role == Role::coord;
+      (file.role == Role::index ? index : !isCoord ? other : isHigh ? high : low) += file.bytes.size();
+      isHigh = isHigh && !isCoord;
+    }
+  }
+};
 
 /// For main: calls body(); the exit code is that of an Error, whose sentence is printed.
 template <typename Body> int run(Body body) {

@@ -125,9 +125,7 @@ void printTable(const std::string& path) {
   };
   bench::visitSurfaces(path, [&](const Mesh& mesh) {
     const PatchedMesh patched = bench::patchesOf(mesh);
-    std::vector<IndexedPatch> patches;
-    for (const Patch& patch : patched.patches)
-      patches.push_back(asTriangles(patch));
+    const std::vector<IndexedPatch> patches = bench::patchesInFanOrder(patched);
     fmt::print("\n{}: {} vertices, {} patches\n\n", std::filesystem::path(path).filename().string(), mesh.wedgeCount(),
                patches.size());
     fmt::print("| normals | bytes | bits/vertex | of rgb | mean error, degrees | largest | bound |\n"

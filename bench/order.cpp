@@ -72,7 +72,8 @@ std::size_t minStripIndices(const Patch& patch) {
 
 struct Measured {
   double seconds = 0; ///< of processor time
-  std::size_t indices = 0, index = 0, high = 0, low = 0, other = 0;
+  std::size_t indices = 0;
+  bench::ImageBytes bytes;
 };
 
 Measured measure(const PatchedMesh& mesh, const Order& order, const EncodeOptions& options) {
@@ -85,16 +86,7 @@ Measured measure(const PatchedMesh& mesh, const Order& order, const EncodeOption
     if (drawnTriangles(arranged) != drawnTriangles(asInSource(patch)))
       throw Error(ErrorKind::malformed, order.name, "draws other triangles than the source has");
     measured.indices += arranged.indices.size();
-    bool isHigh = true;
-    for (const EncodedFile& file : encodePatch(arranged, geometry, options).files) {
-      const bool isCoord = file.role == Role::coord;
-      (file.role == Role::index ? measured.index
-       : !isCoord               ? measured.other
-       : isHigh                 ? measured.high
-                                : measured.low) += file.bytes.size();
-      if (isCoord)
-        isHigh = false;
-    }
+    measured.bytes.add(encodePatch(arranged, geometry, options));
   }
   return measured;
 }
@@ -111,10 +103,10 @@ void printTable(const std::string& path, const EncodeOptions& options) {
                "bytes/triangle |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const Order& order : orders) {
       const Measured m = measure(patches, order, options);
-      const std::size_t all = m.index + m.high + m.low + m.other;
+      const bench::ImageBytes& bytes = m.bytes;
       fmt::print("| {} | {:.2f} | {:.3f} | {} | {} | {} | {} | {} | {:.3f} |\n", order.name, m.seconds,
-                 static_cast<double>(m.indices) / triangles, m.index, m.high, m.low, m.other, all,
-                 static_cast<double>(all) / triangles);
+                 static_cast<double>(m.indices) / triangles, bytes.index, bytes.high, bytes.low, bytes.other,
+                 bytes.all(), static_cast<double>(bytes.all()) / triangles);
       std::fflush(stdout);
     }
     std::size_t minimum = 0;

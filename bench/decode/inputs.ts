@@ -1,4 +1,4 @@
-// The same mesh in the formats that the decoders read: 16-bit positions, 8-bit normals.
+// Writes a mesh in the formats that the decoders read, each with 16-bit positions and 8-bit normals.
 
 import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
