@@ -1,5 +1,5 @@
 // Compares the texts made from the flag table with golden files, so that a change to them
-// is seen in review. IMGEO_REWRITE_GOLDENS=1 rewrites them.
+// is seen in review. IMGEO_REWRITE_GOLDEN=1 rewrites them.
 
 #include "run.h"
 
@@ -14,7 +14,7 @@ void expectGolden(const std::string& name, const std::vector<std::string>& words
   const Outcome outcome = run(words);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string file = std::string(IMGEO_GOLDENS) + "/" + name;
-  if (std::getenv("IMGEO_REWRITE_GOLDENS"))
+  if (std::getenv("IMGEO_REWRITE_GOLDEN"))
     write(file, outcome.out);
   EXPECT_EQ(outcome.out, textOf(file)) << file;
 }
