@@ -55,7 +55,7 @@ export function readAppearance(
   warnings: Warning[],
 ): AppearanceDescription {
   const children =
-    element === undefined ? [] : childrenOf(element).flatMap((child) => firstTextureOf(child, childrenOf, warnings));
+    element === undefined ? [] : childrenOf(element).flatMap((child) => singleTextureFor(child, childrenOf, warnings));
   const childNamed = (name: string) => children.find((child) => lowerNameOf(child) === name);
   const material = children.find((child) => lowerNameOf(child) in textureFields);
   const points = childNamed("pointproperties");
@@ -94,9 +94,9 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
 }
 
 /**
- * The first texture of a MultiTexture, which X3D 4 replaces by the materials' texture fields; other elements unchanged.
+ * Replaces a MultiTexture by its first texture: X3D 4 has the materials' texture fields instead. Other elements stay.
  */
-function firstTextureOf(child: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
+function singleTextureFor(child: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
   if (lowerNameOf(child) !== "multitexture") return [child];
   warnings.push({ element: child, message: "only the first texture of a <MultiTexture> is shown" });
   return childrenOf(child).filter(isTexture).slice(0, 1);

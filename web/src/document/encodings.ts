@@ -74,7 +74,7 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
     attributeFileCount: () => 1,
     attributeBits: () => undefined,
     referenceOf(url, fragment) {
-      // X3DOM's "file.bin+S" names a file that is really called so, with stride S.
+      // In X3DOM's "file.bin+S", "+S" gives the stride and is a part of the file's name.
       if (fragment === undefined) return { url, byteOffset: 0, byteStride: numberIn(/\+(\d+)$/.exec(url)?.[1]) };
       const [offset, stride] = fragment.split("+");
       return { url, byteOffset: numberIn(offset), byteStride: numberIn(stride) };

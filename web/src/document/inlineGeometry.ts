@@ -90,9 +90,10 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
     readRuns = runReaders[name],
     readSurface = surfaces[name];
   if (!readSolid && !readRuns && !readSurface) return undefined;
-  const solid = readSolid?.(element, warnings);
-  const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
-  if (solid) return geometryOfArrays(vertexArraysOf("triangles", solid.data, fansOf(solid.faces)), fields.solid);
+  const solidMesh = readSolid?.(element, warnings);
+  const fields = readFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings);
+  if (solidMesh)
+    return geometryOfArrays(vertexArraysOf("triangles", solidMesh.data, fansOf(solidMesh.faces)), fields.solid);
   const childData = vertexDataOf(element, resolve, warnings);
   const surface = readSurface?.(element, childData, warnings);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });

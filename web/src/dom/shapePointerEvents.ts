@@ -151,7 +151,7 @@ class ShapePointerEvents {
     if (!this.#isPicking) void this.#processMoves();
   }
 
-  /** Stops an event at the view whose copy is dispatched at a shape later. */
+  /** Stops an event of which a shape gets a copy later. */
   suppress(native: MouseEvent): void {
     if (!this.#press || this.#press.isPrevented || native.buttons === 0) native.stopPropagation();
   }

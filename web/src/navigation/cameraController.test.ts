@@ -81,7 +81,7 @@ describe("the binding stack", () => {
   });
 });
 
-describe("the types of navigation", () => {
+describe("the allowed navigation types", () => {
   for (const [names, first, allowed] of [
     [["EXAMINE", "ANY"], "examine", ["examine", "walk", "fly"]],
     [["WALK"], "walk", ["walk"]],
@@ -92,7 +92,7 @@ describe("the types of navigation", () => {
     [["SWIM"], "examine", ["examine", "walk", "fly"]],
     [[], "examine", ["examine", "walk", "fly"]],
   ] as const) {
-    test(`${names.join(" ")}: ${first} of ${allowed.join(", ")}`, () => {
+    test(`of "${names.join(" ")}" are ${allowed.join(", ")}, and the initial one is ${first}`, () => {
       const types = navigationTypesOf(names);
       assert.deepEqual([types.first, types.allowed], [first, allowed]);
     });
@@ -208,7 +208,7 @@ describe("the controller", () => {
     assert.equal(controller.isMoving, false);
   });
 
-  test("moves there at once where the document requires it or the user prefers reduced motion", () => {
+  test("moves to a bound viewpoint at once where the document requires it or the user prefers reduced motion", () => {
     const { controller: teleporting } = controllerFor({ transitionType: ["TELEPORT"] });
     const { controller: reduced } = controllerFor();
     reduced.isInstant = true;

@@ -69,7 +69,7 @@ describe("a viewpoint", () => {
   const poseOf = (changes: Partial<ViewpointDescription>, sceneFromViewpoint = new Matrix4()) =>
     poseOfViewpoint({ viewpoint: { ...fields, ...changes }, sceneFromViewpoint });
 
-  test("shows all of a field with its own aspect ratio in a view of any shape", () => {
+  test("shows all of a field of view with an aspect ratio in a canvas of any shape", () => {
     for (const [aspect, width, height] of [
       [1.5, 1.5, 1],
       [4 / 3, 1.5, 1.125],

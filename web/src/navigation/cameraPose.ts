@@ -131,8 +131,8 @@ export interface Lens {
 }
 
 /**
- * The lens for a view of `aspect` (width / height) onto a scene inside `sphere`. A camera inside the
- * sphere need not see surfaces nearer than `clearance`.
+ * The lens for a view of `aspect` (width / height) onto a scene inside `sphere`. A camera inside the sphere need not
+ * see surfaces nearer than `clearance`.
  */
 export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: number): Lens {
   const aspectRatio = pose.aspectRatio ?? 1;
