@@ -40,7 +40,7 @@ export function recordFrames(options: RecordOptions): void {
   const recording: Recording = { complete: 0, frames: [], columns: 0 };
   window.recording = recording;
   const pixelStep = 2;
-  const recorded = new Set<Context>();
+  const scheduled = new Set<Context>();
   let hasModel = false;
 
   const complete = (): void => {
@@ -68,11 +68,11 @@ export function recordFrames(options: RecordOptions): void {
   const onDraw = (gl: Context, count: number): void => {
     if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // offscreen
     hasModel ||= count >= options.minModelVertices;
-    if (recorded.has(gl)) return;
-    recorded.add(gl);
+    if (scheduled.has(gl)) return;
+    scheduled.add(gl);
     // After all draws of the frame have been issued, and before the browser presents it.
     queueMicrotask(() => {
-      recorded.delete(gl);
+      scheduled.delete(gl);
       if (options.takesPictures && isVisible(gl)) takePicture(gl);
       if (hasModel && !options.announcesCompletion && recording.complete === 0) complete();
     });
