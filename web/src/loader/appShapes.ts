@@ -11,7 +11,7 @@ import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking/picker.ts";
 import type { ShapeInstanceListener } from "../render/shapes/sceneGroups.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
-import { ShapeChanges } from "../render/shapes/shapeChanges.ts";
+import { ShapeChangeRecorder } from "../render/shapes/shapeChanges.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { ShapeObject } from "../render/shapes/shapeObject.ts";
 import { isVisibleInScene } from "../render/shapes/visibility.ts";
@@ -102,7 +102,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
   readonly #listener: AppShapesListener;
   readonly #objects = new Map<SceneElement, InstancedObject>();
   readonly #elementOf = new WeakMap<object, SceneElement>();
-  #changes = new ShapeChanges();
+  #changes = new ShapeChangeRecorder();
 
   constructor(context: ShapeContext, deliveries: SceneDeliveries, listener: AppShapesListener) {
     super();
@@ -135,7 +135,7 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
   /** Returns the changes since the last call. */
   takeChanges(): SceneChanges {
     const { shapes, instances } = this.#changes;
-    this.#changes = new ShapeChanges();
+    this.#changes = new ShapeChangeRecorder();
     const mergedShapes = Array.from(shapes.values(), (shape) => ({ ...shape, visible: this.#isVisible(shape) }));
     return { shapes: new Map(mergedShapes.map((shape) => [shape.element, shape])), removed: [], instances };
   }

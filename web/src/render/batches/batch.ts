@@ -17,7 +17,7 @@ export interface BatchedDraw {
   /** All ranges have the same primitive. A draw that is not merged has one range. */
   readonly ranges: readonly DrawRange[];
   readonly isMerged: boolean;
-  /** Drawn in depth order, the farthest first. */
+  /** Whether it blends, and is drawn in depth order, the farthest first. */
   readonly isBlended: boolean;
   /** Number of vertices of the stage; used if the draw is merged. */
   readonly vertexCount: number;

@@ -106,13 +106,13 @@ function makeMaterial(
       ]);
     if (hasLightScopes(shared)) addLightScopes(shader);
   };
-  // All materials have the same `onBeforeCompile` text, so programs are shared.
+  // `onBeforeCompile` edits the shaders of all materials alike, so equal keys let three.js share programs.
   material.customProgramCacheKey = () => (hasLightScopes(shared) ? "imgeo, scoped lights" : "imgeo");
   applyAppearance(material, appearance, colors, surfaceTextures);
   return material;
 }
 
-/** Textures are multiplied with the material's colours (X3D 4). */
+/** Textures are multiplied by the material's colours (X3D 4). */
 function applyAppearance(
   material: Material,
   appearance: AppearanceDescription,
@@ -137,17 +137,17 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
   return mode === "MASK" ? cutoff : 0;
 }
 
-function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitParameters): void {
+function applyLit(material: LitMaterial, description: MaterialDescription, parameters: LitParameters): void {
   setKind(material, description.kind);
   const { lit } = material.userData;
-  setColor(material.color, numbers.color);
-  setColor(material.specular, numbers.specular);
-  material.shininess = numbers.shininess;
+  setColor(material.color, parameters.color);
+  setColor(material.specular, parameters.specular);
+  material.shininess = parameters.shininess;
   setColor(material.emissive, description.emissiveColor);
   if (lit === undefined) return;
-  lit.ambientIntensity.value = numbers.ambientIntensity;
-  lit.metallic.value = numbers.metallic;
-  lit.roughness.value = numbers.roughness;
+  lit.ambientIntensity.value = parameters.ambientIntensity;
+  lit.metallic.value = parameters.metallic;
+  lit.roughness.value = parameters.roughness;
 }
 
 /** The #defines of each kind of material. */
@@ -158,7 +158,7 @@ const kindDefines: Readonly<Record<MaterialDescription["kind"], readonly string[
 };
 const allKindDefines = Object.values(kindDefines).flat();
 
-/** Updates the #defines; three.js compiles another program where the kind has changed. */
+/** Updates the #defines; three.js compiles another program if the kind has changed. */
 function setKind(material: LitMaterial, kind: MaterialDescription["kind"]): void {
   const defines = material.defines ?? {};
   const kindNames = kindDefines[kind];

@@ -23,7 +23,7 @@ import type { BoundedGroup } from "./sceneGroups.ts";
 import { SceneGroups } from "./sceneGroups.ts";
 import type { SceneLightUniforms } from "../lights/sceneLights.ts";
 import type { SceneChanges } from "./shapeChanges.ts";
-import { ShapeChanges } from "./shapeChanges.ts";
+import { ShapeChangeRecorder } from "./shapeChanges.ts";
 import type { ShapeContext } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
 import { isVisibleInScene } from "./visibility.ts";
@@ -47,7 +47,7 @@ export class SceneShapes {
   readonly #graph: SceneGroups;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #plan = new BatchingPlan();
-  #changes = new ShapeChanges();
+  #changes = new ShapeChangeRecorder();
   /** Shapes whose document does not state their bounds, so that their vertices determine them. */
   readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
@@ -143,7 +143,7 @@ export class SceneShapes {
   /** Applies the changes that the groups have reported since the last call. */
   #applyChanges(): SceneChanges {
     const changes = this.#changes;
-    this.#changes = new ShapeChanges();
+    this.#changes = new ShapeChangeRecorder();
     const shapes = new Map<SceneElement, ShapeDescription>();
     const removed: SceneElement[] = [];
     for (const [element, shape] of changes.shapes) {

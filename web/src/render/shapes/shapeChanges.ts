@@ -14,7 +14,8 @@ export interface SceneChanges {
   readonly instances: ReadonlyMap<NodeInstance, ShapeInstance | undefined>;
 }
 
-export class ShapeChanges {
+/** Records the changes from which SceneChanges are made. */
+export class ShapeChangeRecorder {
   /** The last descriptions of changed shapes, including shapes that have been removed. */
   readonly shapes = new Map<SceneElement, ShapeDescription>();
   readonly instances = new Map<NodeInstance, ShapeInstance | undefined>();

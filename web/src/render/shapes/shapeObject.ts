@@ -35,7 +35,7 @@ export interface ShapeContext extends Pick<
   readonly drawing: { asPoints: boolean };
 }
 
-/** In CSS pixels; the size limit of GPUs. */
+/** In CSS pixels; about the largest point that GPUs draw. */
 const maxPointSize = 1024;
 
 interface DisplayedPatch {

@@ -1,4 +1,4 @@
-// Vertex and index arrays on the GPU. Large ones are uploaded in steps, so that no single step
+// Stores vertex and index arrays on the GPU. Large ones are uploaded in steps, so that no single step
 // delays a frame, and JavaScript keeps no copy. Small ones stay in JavaScript until a draw uses
 // them as buffers: many never are, because they are copied into a merged mesh. three.js' own
 // attributes would keep their arrays and delete buffers with the first geometry that is disposed
@@ -52,7 +52,7 @@ export class BufferStore implements BufferProvider {
     };
     if (byteLength <= maxBytesKept) {
       this.#buffers.set(bytes, { array, use });
-      return { bytes, steps: keeping(byteLength) };
+      return { bytes, steps: deferredUpload(byteLength) };
     }
     const buffer = gl.createBuffer();
     this.#buffers.set(bytes, buffer);
@@ -131,7 +131,7 @@ export class BufferStore implements BufferProvider {
 }
 
 /** Accounts for the step that is taken later, when a draw needs the buffer. */
-function* keeping(byteLength: number): Generator<number, void, void> {
+function* deferredUpload(byteLength: number): Generator<number, void, void> {
   yield byteLength;
 }
 
