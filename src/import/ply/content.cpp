@@ -1,7 +1,7 @@
 #include "import/ply/content.h"
 
+#include "import/ply/chunks.h"
 #include "import/ply/faces.h"
-#include "import/ply/lines.h"
 #include "import/ply/records.h"
 #include "import/ply/vertices.h"
 
@@ -52,7 +52,7 @@ void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint
     std::array<std::uint32_t, 2> edge{};
     for (const PlyProperty& property : element.properties)
       if (property.name == "vertex1" || property.name == "vertex2")
-        edge[property.name == "vertex2"] = records.vertexNumber(property.type, vertexCount);
+        edge[property.name == "vertex2"] = records.vertexIndex(property.type, vertexCount);
       else
         records.skip(property);
     content.edges.insert(content.edges.end(), edge.begin(), edge.end());
@@ -78,7 +78,7 @@ template <typename Cursor>
 PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept) {
   PlyContent content;
   PlyRecords<Cursor> records(Cursor(bytes, name, header.bodyOffset));
-  [[maybe_unused]] PlyLineReader lines(bytes, name);
+  [[maybe_unused]] PlyChunkReader chunkReader(bytes, name);
   const PlyElement* vertices = header.find("vertex");
   if (!vertices)
     records.fail(ErrorKind::malformed, "the header has no element 'vertex'");
@@ -87,10 +87,10 @@ PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::strin
 
   for (const PlyElement& element : header.elements) {
     if constexpr (std::is_same_v<Cursor, AsciiPlyCursor>)
-      if (lines.read(records.cursor(), element, content,
-                     [&](AsciiPlyRecords& chunkRecords, const PlyElement& chunk, PlyContent& chunkContent) {
-                       readElement(chunkRecords, chunk, vertices->count, kept, chunkContent);
-                     }))
+      if (chunkReader.read(records.cursor(), element, content,
+                           [&](AsciiPlyRecords& chunkRecords, const PlyElement& chunk, PlyContent& chunkContent) {
+                             readElement(chunkRecords, chunk, vertices->count, kept, chunkContent);
+                           }))
         continue;
     readElement(records, element, vertices->count, kept, content);
   }

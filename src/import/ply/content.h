@@ -19,11 +19,11 @@ struct PlyContent {
   std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
   std::vector<std::uint32_t> edges;   ///< two vertex indices each
 
-  std::vector<std::string> namedAttributes; ///< names in the file, kept or not
+  std::vector<std::string> namedAttributes; ///< names of further attributes, kept or not
   std::vector<std::string> ignored;         ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
   std::uint64_t facesTooSmall = 0;          ///< left out: fewer than three corners
   std::uint64_t colorsClamped = 0;          ///< colour channels outside the range of their type
-  std::uint64_t trailingBytes = 0;          ///< behind the last element
+  std::uint64_t trailingBytes = 0;          ///< after the last element
   double maxRounding = 0;                   ///< the largest rounding error of double-precision coordinates
 
   void noteIgnored(const PlyElement& element, const PlyProperty& property);
@@ -34,7 +34,7 @@ private:
   void append(const PlyContent& chunk);
 };
 
-/// Reads all elements behind `header`. Safe for untrusted bytes; throws Error
+/// Reads all elements after `header`. Safe for untrusted bytes; throws Error
 /// (truncated, malformed, limit) naming the record and its line or byte.
 PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
                           const AttributeChoice& kept);

@@ -15,20 +15,20 @@ namespace imgeo {
 /// The record that a cursor is in, for messages.
 struct PlyRecord {
   const PlyElement* element = nullptr;
-  std::uint64_t number = 0;
+  std::uint64_t index = 0;
 
-  std::string name() const { return fmt::format("{} {} of {}", element->name, number + 1, element->count); }
+  std::string name() const { return fmt::format("{} {} of {}", element->name, index + 1, element->count); }
 };
 
 /// Every record begins on a line of its own and may span several. Further words on its last line are an error, so that
-/// a missing value is reported near its position and does not shift all values behind it.
+/// a missing value is reported near its position and does not shift all values after it.
 class AsciiPlyCursor {
 public:
   AsciiPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : scanner_(bytes, name, from) {}
 
   /// Bytes of the shortest value: a digit and a separator.
   static std::size_t minSize(PlyType) { return 2; }
-  /// The separator behind the last value of a file may be missing.
+  /// The separator after the last value of a file may be missing.
   static constexpr std::size_t optionalEndBytes = 1;
   std::size_t bytesLeft() const { return scanner_.bytesLeft(); }
   /// Valid between records: the byte at which the line of the next record begins.
@@ -41,7 +41,7 @@ public:
   void endRecord() {
     scanner_.skipBlanks();
     if (!scanner_.atLineEnd())
-      fail(ErrorKind::malformed, "this line ends " + record_.name() + " and yet goes on");
+      fail(ErrorKind::malformed, "this line has further words after the end of " + record_.name());
   }
   double scalar(PlyType type) {
     scanner_.skipSpace();

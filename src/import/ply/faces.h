@@ -78,7 +78,7 @@ private:
     return indices->type;
   }
 
-  void checkIndex(double index) const { records_.checkVertexNumber(index, vertexCount_); }
+  void checkIndex(double index) const { records_.checkVertexIndex(index, vertexCount_); }
 
   /// Returns the number of corners added: 0 for a face of fewer than three corners.
   std::size_t addPolygon(std::span<const double> polygon) {

@@ -38,7 +38,7 @@ enum class PlyEncoding : std::uint8_t { ascii, littleEndian, bigEndian };
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements; ///< in the file's order
-  std::size_t bodyOffset = 0;       ///< of the first byte behind the header
+  std::size_t bodyOffset = 0;       ///< of the first byte after the header
 
   const PlyElement* find(std::string_view element) const;
 };

@@ -21,7 +21,7 @@ namespace {
 
 struct Triangles {
   std::vector<std::uint32_t> indices; ///< three per triangle, each an offset in PlyContent::indices
-  std::size_t fans = 0;               ///< concave polygons too large to clip
+  std::size_t fans = 0;               ///< number of concave polygons that were cut as fans: too large for ear clipping
 };
 
 /// Triangulates all polygons. `content.sizes` must not be empty.
@@ -104,7 +104,7 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   return mesh;
 }
 
-/// Adds warnings about content that was left out or changed; uses the counts of `content` only.
+/// Adds warnings about content that was left out or changed. The vertices of `content` may have been moved out before.
 void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, const Box3d& box) {
   if (!content.ignored.empty())
     warnings.push_back(fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
@@ -113,7 +113,7 @@ void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, 
                                    counted(content.trailingBytes, "byte stands", "bytes stand")));
   warnOfColors(warnings, content.colorsClamped);
   warnOfSmallFaces(warnings, content.facesTooSmall);
-  if (content.maxRounding > box.longestEdge() / 131072) // half a step of 16 bits
+  if (content.maxRounding > box.longestEdge() / 131072) // half a step of 16-bit quantisation
     warnings.push_back(fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
                                    content.maxRounding));
 }

@@ -367,11 +367,11 @@ TEST(Ply, RefusesWithOneSentenceAndALocation) {
       {"an unknown keyword", "elements vertex 1\n", "", ErrorKind::malformed, "m.ply:4", "'elements'"},
       {"texture coordinates for two of three", vertex + face + "property list uchar float texcoord\n",
        "0 0 0\n3 0 0 0 4 0 0 1 1\n", ErrorKind::malformed, "m.ply:13", "3 corners"},
-      {"an edge to nowhere", vertex + "element edge 1\nproperty int vertex1\nproperty int vertex2\n", "0 0 0\n0 1\n",
-       ErrorKind::malformed, "m.ply:13", "vertex 1"},
-      {"nothing to see", "element vertex 0\n" + xyzProperties, "", ErrorKind::malformed, "m.ply",
+      {"an edge to a missing vertex", vertex + "element edge 1\nproperty int vertex1\nproperty int vertex2\n",
+       "0 0 0\n0 1\n", ErrorKind::malformed, "m.ply:13", "vertex 1"},
+      {"no vertices at all", "element vertex 0\n" + xyzProperties, "", ErrorKind::malformed, "m.ply",
        "no triangles, lines or points"},
-      {"only edges of faces", vertex + face, "0 0 0\n2 0 0\n", ErrorKind::malformed, "m.ply", "no triangles"},
+      {"only a face of two corners", vertex + face, "0 0 0\n2 0 0\n", ErrorKind::malformed, "m.ply", "no triangles"},
   };
   for (const Refused& refused : cases) {
     SCOPED_TRACE(refused.what);
@@ -467,7 +467,7 @@ TEST(Ply, NamesTheByteInBinaryFiles) {
   mesh.positions[1].y = std::numeric_limits<float>::quiet_NaN();
   const Error nan = errorOf(plyBytes(mesh, style), "m.ply");
   EXPECT_EQ(nan.kind(), ErrorKind::malformed);
-  EXPECT_EQ(nan.location(), fmt::format("m.ply, byte {}", body + 24)); // behind the vertex
+  EXPECT_EQ(nan.location(), fmt::format("m.ply, byte {}", body + 24)); // after the vertex
 }
 
 TEST(Ply, RefusesOtherVersionsAndEncodings) {

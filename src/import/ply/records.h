@@ -1,5 +1,5 @@
 #pragma once
-// The records of a PLY file's elements, over either cursor. Checks counts before allocating.
+// Reads the records of a PLY file's elements with either cursor. Checks counts before allocating.
 
 #include "import/ply/cursor.h"
 
@@ -33,26 +33,26 @@ public:
   }
 
   void checkCount(const PlyElement& element) const {
-    std::size_t record = 0;
+    std::size_t minRecordBytes = 0;
     for (const PlyProperty& property : element.properties)
-      record += Cursor::minSize(property.countType.value_or(property.type));
-    if (record > 0 && element.count > roomLeft() / record)
+      minRecordBytes += Cursor::minSize(property.countType.value_or(property.type));
+    if (minRecordBytes > 0 && element.count > roomLeft() / minRecordBytes)
       fail(ErrorKind::truncated,
            fmt::format("the header promises {} of '{}', at least {} bytes each, but only {} bytes are left",
-                       element.count, element.name, record, bytesLeft()));
+                       element.count, element.name, minRecordBytes, bytesLeft()));
   }
 
   double scalar(PlyType type) { return cursor_.scalar(type); }
 
   /// Reads a vertex index, which must be below `vertexCount` (at most 2^32).
-  std::uint32_t vertexNumber(PlyType type, std::uint64_t vertexCount) {
-    const double number = scalar(type);
-    checkVertexNumber(number, vertexCount);
-    return static_cast<std::uint32_t>(number);
+  std::uint32_t vertexIndex(PlyType type, std::uint64_t vertexCount) {
+    const double index = scalar(type);
+    checkVertexIndex(index, vertexCount);
+    return static_cast<std::uint32_t>(index);
   }
-  void checkVertexNumber(double number, std::uint64_t vertexCount) const {
-    if (!(number >= 0 && number < static_cast<double>(vertexCount)))
-      fail(ErrorKind::malformed, fmt::format("vertex {} is named, but there are only {}", number, vertexCount));
+  void checkVertexIndex(double index, std::uint64_t vertexCount) const {
+    if (!(index >= 0 && index < static_cast<double>(vertexCount)))
+      fail(ErrorKind::malformed, fmt::format("vertex {} is named, but there are only {}", index, vertexCount));
   }
 
   /// Reads a list; the result is valid until the next call.
@@ -64,10 +64,11 @@ public:
 
   void skip(const PlyProperty& property) { cursor_.skip(property.type, property.isList() ? listCount(property) : 1); }
 
-  /// The number of bytes behind the last record, not counting leading white space.
+  /// The number of bytes after the last record, not counting leading white space.
   std::size_t trailingBytes() { return cursor_.trailingBytes(); }
 
 private:
+  /// The bytes that are left, with a separator that the end of the file may lack.
   std::size_t roomLeft() const { return bytesLeft() + Cursor::optionalEndBytes; }
 
   std::size_t listCount(const PlyProperty& property) {

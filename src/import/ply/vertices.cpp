@@ -10,29 +10,29 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, PlySlot>, 22> vertexProperties{
-    {{"x", PlySlot::x},         {"y", PlySlot::y},
-     {"z", PlySlot::z},         {"nx", PlySlot::nx},
-     {"ny", PlySlot::ny},       {"nz", PlySlot::nz},
-     {"u", PlySlot::u},         {"v", PlySlot::v},
-     {"s", PlySlot::u},         {"t", PlySlot::v},
-     {"texture_u", PlySlot::u}, {"texture_v", PlySlot::v},
-     {"texture_s", PlySlot::u}, {"texture_t", PlySlot::v},
-     {"red", PlySlot::red},     {"diffuse_red", PlySlot::red},
-     {"green", PlySlot::green}, {"diffuse_green", PlySlot::green},
-     {"blue", PlySlot::blue},   {"diffuse_blue", PlySlot::blue},
-     {"alpha", PlySlot::alpha}, {"diffuse_alpha", PlySlot::alpha}}};
+constexpr std::array<std::pair<const char*, PlySemantic>, 22> vertexProperties{
+    {{"x", PlySemantic::x},         {"y", PlySemantic::y},
+     {"z", PlySemantic::z},         {"nx", PlySemantic::nx},
+     {"ny", PlySemantic::ny},       {"nz", PlySemantic::nz},
+     {"u", PlySemantic::u},         {"v", PlySemantic::v},
+     {"s", PlySemantic::u},         {"t", PlySemantic::v},
+     {"texture_u", PlySemantic::u}, {"texture_v", PlySemantic::v},
+     {"texture_s", PlySemantic::u}, {"texture_t", PlySemantic::v},
+     {"red", PlySemantic::red},     {"diffuse_red", PlySemantic::red},
+     {"green", PlySemantic::green}, {"diffuse_green", PlySemantic::green},
+     {"blue", PlySemantic::blue},   {"diffuse_blue", PlySemantic::blue},
+     {"alpha", PlySemantic::alpha}, {"diffuse_alpha", PlySemantic::alpha}}};
 
-constexpr std::size_t indexOf(PlySlot slot) {
-  return static_cast<std::size_t>(slot);
+constexpr std::size_t indexOf(PlySemantic semantic) {
+  return static_cast<std::size_t>(semantic);
 }
 
-PlySlot slotOf(const PlyProperty& property) {
+PlySemantic semanticOf(const PlyProperty& property) {
   if (!property.isList())
-    for (const auto& [name, slot] : vertexProperties)
+    for (const auto& [name, semantic] : vertexProperties)
       if (property.name == name)
-        return slot;
-  return PlySlot::unknown;
+        return semantic;
+  return PlySemantic::unknown;
 }
 
 /// "scale" for "scale_1" and component 1; empty for a name that does not end in "_1".
@@ -51,30 +51,30 @@ bool isPlain(const std::string& name) {
 PlyVertexReader::PlyVertexReader(const PlyElement& element, const AttributeChoice& kept, PlyContent& content)
     : element_(element), content_(content) {
   for (const PlyProperty& property : element.properties) {
-    PlySlot slot = slotOf(property);
-    if (present_[indexOf(slot)])
-      slot = PlySlot::unknown; // a second property of the same meaning, as u beside s
-    slots_.push_back(slot);
-    if (slot != PlySlot::unknown) {
-      present_[indexOf(slot)] = true;
-      types_[indexOf(slot)] = property.type;
+    PlySemantic semantic = semanticOf(property);
+    if (present_[indexOf(semantic)])
+      semantic = PlySemantic::unknown; // a second property of the same meaning, as u beside s
+    semantics_.push_back(semantic);
+    if (semantic != PlySemantic::unknown) {
+      present_[indexOf(semantic)] = true;
+      types_[indexOf(semantic)] = property.type;
     }
   }
   chooseNamed(kept);
-  for (std::size_t p = 0; p < slots_.size(); ++p)
-    if (slots_[p] == PlySlot::unknown && (named_.empty() || named_[p] == nullptr))
+  for (std::size_t p = 0; p < semantics_.size(); ++p)
+    if (semantics_[p] == PlySemantic::unknown && (named_.empty() || named_[p] == nullptr))
       content.noteIgnored(element, element.properties[p]);
-  hasNormal_ = has(PlySlot::nx, PlySlot::nz);
-  hasTexCoord_ = has(PlySlot::u, PlySlot::v);
-  hasColor_ = has(PlySlot::red, PlySlot::blue);
-  hasAlpha_ = has(PlySlot::alpha, PlySlot::alpha);
+  hasNormal_ = has(PlySemantic::nx, PlySemantic::nz);
+  hasTexCoord_ = has(PlySemantic::u, PlySemantic::v);
+  hasColor_ = has(PlySemantic::red, PlySemantic::blue);
+  hasAlpha_ = has(PlySemantic::alpha, PlySemantic::alpha);
   isDouble_ = std::ranges::any_of(std::span(types_).first(3), [](PlyType type) { return type == PlyType::float64; });
 }
 
 void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
   const std::vector<PlyProperty>& properties = element_.properties;
   const auto isFree = [&](std::size_t p) {
-    return slots_[p] == PlySlot::unknown && !properties[p].isList() && isPlain(properties[p].name);
+    return semantics_[p] == PlySemantic::unknown && !properties[p].isList() && isPlain(properties[p].name);
   };
   std::vector<NamedAttribute>& attributes = content_.attributes.namedAttributes;
   std::vector<std::size_t> attributeOf(properties.size(), properties.size());
@@ -104,11 +104,11 @@ void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
     named_.push_back(attribute < attributes.size() ? &attributes[attribute] : nullptr);
 }
 
-bool PlyVertexReader::has(PlySlot first, PlySlot last) const {
+bool PlyVertexReader::has(PlySemantic first, PlySemantic last) const {
   return std::all_of(&present_[indexOf(first)], &present_[indexOf(last)] + 1, [](bool there) { return there; });
 }
 
-bool PlyVertexReader::isFinite(PlySlot first, PlySlot last) const {
+bool PlyVertexReader::isFinite(PlySemantic first, PlySemantic last) const {
   return std::all_of(&values_[indexOf(first)], &values_[indexOf(last)] + 1,
                      [](double value) { return std::isfinite(static_cast<float>(value)); });
 }
@@ -125,10 +125,10 @@ void PlyVertexReader::reserve() {
 }
 
 /// Colour channels of 16 bits range over 0 .. 65,535, floating-point ones over 0 .. 1, all others over 0 .. 255.
-std::uint8_t PlyVertexReader::channel(PlySlot slot) {
-  const PlyType type = types_[indexOf(slot)];
+std::uint8_t PlyVertexReader::channel(PlySemantic semantic) {
+  const PlyType type = types_[indexOf(semantic)];
   const double scale = type == PlyType::uint16 ? 1 / 257.0 : isInteger(type) ? 1 : 255;
-  const double scaled = value(slot) * scale;
+  const double scaled = value(semantic) * scale;
   if (scaled >= 0 && scaled < 255.5)
     return static_cast<std::uint8_t>(std::lround(scaled));
   ++content_.colorsClamped;
@@ -136,29 +136,30 @@ std::uint8_t PlyVertexReader::channel(PlySlot slot) {
 }
 
 void PlyVertexReader::noteRounding() {
-  for (const PlySlot slot : {PlySlot::x, PlySlot::y, PlySlot::z}) {
-    const double rounded = static_cast<float>(value(slot));
-    content_.maxRounding = std::max(content_.maxRounding, std::abs(value(slot) - rounded));
+  for (const PlySemantic semantic : {PlySemantic::x, PlySemantic::y, PlySemantic::z}) {
+    const double rounded = static_cast<float>(value(semantic));
+    content_.maxRounding = std::max(content_.maxRounding, std::abs(value(semantic) - rounded));
   }
 }
 
 const char* PlyVertexReader::addVertex() {
-  const auto f = [&](PlySlot slot) { return static_cast<float>(value(slot)); };
-  if (!isFinite(PlySlot::x, PlySlot::z))
+  const auto f = [&](PlySemantic semantic) { return static_cast<float>(value(semantic)); };
+  if (!isFinite(PlySemantic::x, PlySemantic::z))
     return "a coordinate is not a number or beyond single precision";
-  content_.positions.push_back({f(PlySlot::x), f(PlySlot::y), f(PlySlot::z)});
+  content_.positions.push_back({f(PlySemantic::x), f(PlySemantic::y), f(PlySemantic::z)});
   if (isDouble_)
     noteRounding();
   if (hasNormal_)
-    content_.attributes.normals.push_back({f(PlySlot::nx), f(PlySlot::ny), f(PlySlot::nz)});
+    content_.attributes.normals.push_back({f(PlySemantic::nx), f(PlySemantic::ny), f(PlySemantic::nz)});
   if (hasTexCoord_) {
-    if (!isFinite(PlySlot::u, PlySlot::v))
+    if (!isFinite(PlySemantic::u, PlySemantic::v))
       return "a texture coordinate is not a number";
-    content_.attributes.texCoords.push_back({f(PlySlot::u), f(PlySlot::v)});
+    content_.attributes.texCoords.push_back({f(PlySemantic::u), f(PlySemantic::v)});
   }
   if (hasColor_) {
-    const std::uint8_t red = channel(PlySlot::red), green = channel(PlySlot::green), blue = channel(PlySlot::blue);
-    const std::uint8_t alpha = hasAlpha_ ? channel(PlySlot::alpha) : 255;
+    const std::uint8_t red = channel(PlySemantic::red), green = channel(PlySemantic::green),
+                       blue = channel(PlySemantic::blue);
+    const std::uint8_t alpha = hasAlpha_ ? channel(PlySemantic::alpha) : 255;
     content_.attributes.colors.push_back({red, green, blue, alpha});
     if (alpha < 255)
       content_.attributes.colorComponents = 4;

@@ -1,4 +1,4 @@
-#include "import/ply/lines.h"
+#include "import/ply/chunks.h"
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -48,14 +48,14 @@ std::size_t LineIndex::beginOf(std::uint64_t line) const {
   return at;
 }
 
-const LineIndex& PlyLineReader::lines() {
+const LineIndex& PlyChunkReader::lines() {
   if (!lines_)
     lines_.emplace(asText(bytes_));
   return *lines_;
 }
 
-bool PlyLineReader::read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content,
-                         const ReadPlyElement& read) {
+bool PlyChunkReader::read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content,
+                          const ReadPlyElement& read) {
   if (element.count < 2 * recordsPerChunk || element.properties.empty() || element.count > cursor.bytesLeft())
     return false;
   const std::uint64_t first = lines().lineAt(cursor.beginOfLine());

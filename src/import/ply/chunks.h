@@ -1,5 +1,5 @@
 #pragma once
-// Parallel reading of elements of PLY text files that have one record a line, as most files do.
+// Reads elements of PLY text files in parallel chunks where every line holds one record, as in most files.
 
 #include "import/ply/content.h"
 #include "import/ply/records.h"
@@ -20,7 +20,7 @@ public:
 
   /// The number of lines that end before a byte.
   std::uint64_t lineAt(std::size_t offset) const;
-  /// The byte at which a line (counted from 0) begins; the text's size for lines behind the last.
+  /// The byte at which a line (counted from 0) begins; the text's size for lines after the last.
   std::size_t beginOf(std::uint64_t line) const;
 
 private:
@@ -34,13 +34,13 @@ using AsciiPlyRecords = PlyRecords<AsciiPlyCursor>;
 using ReadPlyElement = std::function<void(AsciiPlyRecords&, const PlyElement&, PlyContent&)>;
 
 /// Reads elements of a PLY text file in chunks on all threads, where every line holds exactly one record.
-class PlyLineReader {
+class PlyChunkReader {
 public:
   /// `bytes` and `name` must outlive the reader.
-  PlyLineReader(ByteSpan bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  PlyChunkReader(ByteSpan bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   /// Reads the records of `element`, which begin at the cursor, by calling `read` for each chunk on any thread. Appends
-  /// what one call of `read` for all records would append, and moves the cursor behind them. Returns false, with
+  /// what one call of `read` for all records would append, and moves the cursor after them. Returns false, with
   /// nothing changed, where the records are few, are not one a line, or contain an error; the caller then reads them
   /// serially and reports the error.
   bool read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content, const ReadPlyElement& read);
