@@ -17,7 +17,7 @@ std::size_t unpackedLimit(std::size_t packed);
 
 bool isGzip(ByteSpan bytes);
 
-/// Unpacks all members of a gzip file; zero bytes behind the last are padding. Safe for untrusted bytes: allocates at
+/// Unpacks all members of a gzip file; zero bytes after the last are padding. Safe for untrusted bytes: allocates at
 /// most `unpackedLimit`. Throws Error (malformed, limit) naming `name` and the byte.
 Bytes gunzip(ByteSpan bytes, const std::string& name);
 

@@ -20,7 +20,7 @@ Bytes joined(Bytes a, const Bytes& b) {
   return a;
 }
 
-Bytes countingBytes(std::size_t size) {
+Bytes sampleBytes(std::size_t size) {
   Bytes bytes(size);
   for (std::size_t i = 0; i < size; ++i)
     bytes[i] = static_cast<std::uint8_t>(i * i >> 7);
@@ -29,11 +29,11 @@ Bytes countingBytes(std::size_t size) {
 
 TEST(Gzip, UnpacksWhatWasPacked) {
   for (const std::size_t size : {0u, 1u, 1000u, 300000u})
-    EXPECT_EQ(gunzip(gzip(countingBytes(size)), "m.gz"), countingBytes(size));
+    EXPECT_EQ(gunzip(gzip(sampleBytes(size)), "m.gz"), sampleBytes(size));
 }
 
 TEST(Gzip, UnpacksAllMembersAndIgnoresPadding) {
-  const Bytes a = countingBytes(100000), b = countingBytes(5), none;
+  const Bytes a = sampleBytes(100000), b = sampleBytes(5), none;
   Bytes packed = joined(joined(gzip(a), gzip(none)), gzip(b));
   EXPECT_EQ(gunzip(packed, "m.gz"), joined(a, b));
   packed.resize(packed.size() + 500, 0);
@@ -41,17 +41,17 @@ TEST(Gzip, UnpacksAllMembersAndIgnoresPadding) {
 }
 
 TEST(Gzip, EveryProperPrefixIsRefused) {
-  const Bytes packed = gzip(countingBytes(3000));
+  const Bytes packed = gzip(sampleBytes(3000));
   for (std::size_t size = 1; size < packed.size(); ++size)
     EXPECT_THROW(gunzip(ByteSpan(packed).first(size), "m.gz"), Error) << size;
 }
 
 TEST(Gzip, NamesTheByteOfDamageAndOfTrailingData) {
-  Bytes damaged = gzip(countingBytes(3000));
-  damaged[damaged.size() - 6] ^= 1; // its check sum
+  Bytes damaged = gzip(sampleBytes(3000));
+  damaged[damaged.size() - 6] ^= 1; // its checksum
   EXPECT_EQ(errorOf(damaged, "m.ply.gz").kind(), ErrorKind::malformed);
   EXPECT_EQ(errorOf(damaged, "m.ply.gz").location(), "m.ply.gz, byte 0");
-  const Bytes packed = gzip(countingBytes(3000));
+  const Bytes packed = gzip(sampleBytes(3000));
   EXPECT_EQ(errorOf(joined(packed, {'P', 'K'}), "m.ply.gz").location(),
             "m.ply.gz, byte " + std::to_string(packed.size()));
 }
@@ -59,7 +59,7 @@ TEST(Gzip, NamesTheByteOfDamageAndOfTrailingData) {
 TEST(Gzip, RefusesABomb) {
   const Bytes bomb = gzip(Bytes(unlimitedRatioBytes + 1));
   EXPECT_EQ(errorOf(bomb, "bomb.ply.gz").kind(), ErrorKind::limit);
-  Bytes lie = gzip(countingBytes(1000)); // its last field states 4 GiB
+  Bytes lie = gzip(sampleBytes(1000)); // its last field states 4 GiB
   std::fill(lie.end() - 4, lie.end(), std::uint8_t{0xff});
   EXPECT_EQ(errorOf(lie, "lie.ply.gz").kind(), ErrorKind::malformed);
 }

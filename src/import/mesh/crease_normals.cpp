@@ -18,7 +18,7 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> indexOfBits;
   for (const Vec3f& p : mesh.positions) {
     const std::array bits{std::bit_cast<std::uint32_t>(p.x + 0), std::bit_cast<std::uint32_t>(p.y + 0),
-                          std::bit_cast<std::uint32_t>(p.z + 0)}; // -0 is 0
+                          std::bit_cast<std::uint32_t>(p.z + 0)}; // + 0 makes -0 equal 0
     const auto [found, isNew] = indexOfBits.try_emplace(bits, static_cast<std::uint32_t>(data.positions.size()));
     if (isNew)
       data.positions.push_back(p);

@@ -5,8 +5,9 @@
 
 namespace imgeo {
 
-/// Returns the mesh, which must have no normals and no further attributes, with normals: smooth across edges of at most
-/// `creaseAngle` radians, sharp across others. Merges equal positions, since files may repeat the vertices of an edge.
+/// Returns a copy of the mesh with normals: smooth across edges of at most `creaseAngle` radians, sharp across others.
+/// The mesh must have triangles, no normals and no further attributes. Merges equal positions, since files may repeat
+/// the vertices of an edge.
 Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle);
 
 } // namespace imgeo

@@ -16,7 +16,7 @@ namespace {
 using Vec2d = Vec2<double>;
 
 /// Twice the signed area of a triangle; positive if it is counter-clockwise.
-double area(Vec2d a, Vec2d b, Vec2d c) {
+double twiceArea(Vec2d a, Vec2d b, Vec2d c) {
   return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
 }
 
@@ -47,18 +47,18 @@ std::vector<Vec2d> project(std::span<const Vec3f> ring, Vec3d normal) {
 bool isConvex(std::span<const Vec2d> flat) {
   const std::size_t n = flat.size();
   for (std::size_t i = 0; i < n; ++i)
-    if (area(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) < 0)
+    if (twiceArea(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) < 0)
       return false;
   // All corners of a star polygon are convex too; its fan has negative areas.
   for (std::size_t i = 1; i + 1 < n; ++i)
-    if (area(flat[0], flat[i], flat[i + 1]) < 0)
+    if (twiceArea(flat[0], flat[i], flat[i + 1]) < 0)
       return false;
   return true;
 }
 
 /// Whether p lies in a counter-clockwise triangle or on its border.
 bool inside(Vec2d p, Vec2d a, Vec2d b, Vec2d c) {
-  return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
+  return twiceArea(a, b, p) >= 0 && twiceArea(b, c, p) >= 0 && twiceArea(c, a, p) >= 0;
 }
 
 class EarClipper {
@@ -90,7 +90,7 @@ public:
 private:
   std::uint32_t corner(std::size_t at) const { return remaining_[at % remaining_.size()]; }
   double turn(std::size_t at) const {
-    return area(flat_[corner(at + remaining_.size() - 1)], flat_[corner(at)], flat_[corner(at + 1)]);
+    return twiceArea(flat_[corner(at + remaining_.size() - 1)], flat_[corner(at)], flat_[corner(at + 1)]);
   }
   bool isEar(std::size_t at) const {
     const std::size_t n = remaining_.size();

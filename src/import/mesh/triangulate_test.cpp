@@ -13,7 +13,7 @@ using Ring = std::vector<Vec3f>;
 
 /// Twice the vector area of a polygon. The triangles of every triangulation have the same sum of vector areas; the sum
 /// of their lengths is the same only where no triangle has the opposite orientation.
-Vec3d areaOf(const Ring& ring) {
+Vec3d twiceAreaOf(const Ring& ring) {
   Vec3d sum;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i)
     sum += cross(Vec3d(ring[i]) - Vec3d(ring[0]), Vec3d(ring[i + 1]) - Vec3d(ring[0]));
@@ -33,8 +33,8 @@ void expectCovered(const Ring& ring) {
   const std::vector<std::uint32_t> triangles = cut(ring);
   double summed = 0;
   for (std::size_t at = 0; at < triangles.size(); at += 3)
-    summed += length(areaOf({ring[triangles[at]], ring[triangles[at + 1]], ring[triangles[at + 2]]}));
-  EXPECT_NEAR(summed, length(areaOf(ring)), 1e-5 * length(areaOf(ring)));
+    summed += length(twiceAreaOf({ring[triangles[at]], ring[triangles[at + 1]], ring[triangles[at + 2]]}));
+  EXPECT_NEAR(summed, length(twiceAreaOf(ring)), 1e-5 * length(twiceAreaOf(ring)));
 }
 
 /// A polygon around the origin whose radius changes from corner to corner, in a

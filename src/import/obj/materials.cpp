@@ -13,10 +13,10 @@ namespace imgeo {
 
 namespace {
 
-/// Statements without an equivalent in X3D's materials.
+/// Statements that are skipped without a warning.
 const std::set<std::string_view> ignoredStatements{"Ka", "illum", "Tf", "Ni", "sharpness"};
 
-float unit(float value) {
+float saturate(float value) {
   return value > 0 ? std::min(value, 1.0f) : 0.0f;
 }
 
@@ -25,10 +25,10 @@ Vec3f readColor(TextScanner& scanner) {
   const float red = scanner.float32("a colour");
   scanner.skipBlanks();
   if (scanner.atLineEnd())
-    return {unit(red), unit(red), unit(red)};
+    return {saturate(red), saturate(red), saturate(red)};
   const float green = scanner.float32("a colour");
   scanner.skipBlanks();
-  return {unit(red), unit(green), unit(scanner.float32("a colour"))};
+  return {saturate(red), saturate(green), saturate(scanner.float32("a colour"))};
 }
 
 float readNumber(TextScanner& scanner) {
@@ -73,12 +73,12 @@ void ObjMaterials::readFile(const std::string& file) {
       line.skipBlanks();
       definition = &definitions_[std::string(line.restOfLine())];
     } else if (definition && !line.atLineEnd()) {
-      readLine(scanner, *definition);
+      readStatement(scanner, *definition);
     }
   }
 }
 
-void ObjMaterials::readLine(TextScanner& scanner, Definition& definition) {
+void ObjMaterials::readStatement(TextScanner& scanner, Definition& definition) {
   static const std::map<std::string_view, TextureRole> maps{
       {"map_Kd", TextureRole::color},     {"map_Ks", TextureRole::specular}, {"map_Ke", TextureRole::emissive},
       {"map_Ns", TextureRole::shininess}, {"norm", TextureRole::normal},     {"map_Ka", TextureRole::ambient}};
@@ -93,24 +93,24 @@ void ObjMaterials::readLine(TextScanner& scanner, Definition& definition) {
   else if (keyword == "Ke")
     material.emissiveColor = readColor(scanner);
   else if (keyword == "Ns")
-    material.shininess = unit(readNumber(scanner) / 128);
+    material.shininess = saturate(readNumber(scanner) / 128);
   else if (keyword == "d")
-    material.transparency = 1 - unit(readNumber(scanner));
+    material.transparency = 1 - saturate(readNumber(scanner));
   else if (keyword == "Tr")
-    material.transparency = unit(readNumber(scanner));
+    material.transparency = saturate(readNumber(scanner));
   else if (keyword == "Pm")
-    definition.metallic = unit(readNumber(scanner));
+    definition.metallic = saturate(readNumber(scanner));
   else if (keyword == "Pr")
-    definition.roughness = unit(readNumber(scanner));
+    definition.roughness = saturate(readNumber(scanner));
   else if (const auto map = maps.find(keyword); map != maps.end())
     definition.maps.push_back(readMap(scanner, map->second));
   else if (!ignoredStatements.contains(keyword))
-    others_.insert(asPrintable(keyword));
+    skippedKeywords_.insert(asPrintable(keyword));
 }
 
 /// "-s u v w -o u v w -clamp on file name.png": options, then the rest of the line.
-ObjMaterials::Map ObjMaterials::readMap(TextScanner& scanner, TextureRole role) {
-  Map map;
+ObjMaterials::TextureMap ObjMaterials::readMap(TextScanner& scanner, TextureRole role) {
+  TextureMap map;
   map.role = role;
   const auto readPair = [&](Vec2f& pair) {
     float* numbers[] = {&pair.x, &pair.y};
@@ -170,7 +170,7 @@ Appearance ObjMaterials::appearanceOf(const std::string& name, const Definition&
     physical.roughness = definition.roughness.value_or(0.5f);
     appearance.material = physical;
   }
-  for (const Map& map : definition.maps) {
+  for (const TextureMap& map : definition.maps) {
     const auto hasRole = [&](const TextureUse& use) { return use.role == map.role; };
     const std::optional<std::size_t> image = this->image(map.file);
     if (!image || std::ranges::any_of(appearance.textures, hasRole))
@@ -208,8 +208,9 @@ std::vector<std::string> ObjMaterials::omissions() const {
 }
 
 void ObjMaterials::addWarnings(std::vector<std::string>& warnings) const {
-  if (!others_.empty())
-    warnings.push_back(fmt::format("Statements of MTL files that imgeo does not read: {}.", fmt::join(others_, ", ")));
+  if (!skippedKeywords_.empty())
+    warnings.push_back(
+        fmt::format("Statements of MTL files that imgeo does not read: {}.", fmt::join(skippedKeywords_, ", ")));
 }
 
 } // namespace imgeo

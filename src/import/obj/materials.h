@@ -31,22 +31,22 @@ public:
   void addWarnings(std::vector<std::string>& warnings) const;
 
 private:
-  struct Map {
+  struct TextureMap {
     TextureRole role = TextureRole::color;
     std::string file;
     TextureTransform transform;
     bool clamps = false;
-    friend bool operator==(const Map&, const Map&) = default;
+    friend bool operator==(const TextureMap&, const TextureMap&) = default;
   };
   struct Definition {
     Material material;
     std::optional<float> metallic, roughness; ///< present in physically based materials
-    std::vector<Map> maps;
+    std::vector<TextureMap> maps;
   };
 
   void readFile(const std::string& file);
-  void readLine(TextScanner& scanner, Definition& definition);
-  static Map readMap(TextScanner& scanner, TextureRole role);
+  void readStatement(TextScanner& scanner, Definition& definition);
+  static TextureMap readMap(TextScanner& scanner, TextureRole role);
   Appearance appearanceOf(const std::string& name, const Definition& definition);
   std::optional<std::size_t> image(const std::string& file);
 
@@ -56,7 +56,7 @@ private:
   std::map<std::string, std::optional<std::size_t>> appearances_;
   SourceImages images_;
   std::vector<std::string> missingLibraries_;
-  std::set<std::string> undefined_, others_;
+  std::set<std::string> undefined_, skippedKeywords_; ///< names of materials; keywords of statements
 };
 
 } // namespace imgeo

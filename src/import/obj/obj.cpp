@@ -27,7 +27,7 @@ namespace {
 
 /// Bounds corners and vertices to 32 bits, since each takes at least two bytes.
 constexpr std::uint64_t maxObjBytes = std::uint64_t{8} << 30;
-constexpr std::size_t maxNamedKeywords = 8;
+constexpr std::size_t maxNamedKeywords = 8; // in the warning about skipped statements
 
 class ObjReader {
 public:
@@ -37,7 +37,7 @@ public:
   Imported read() {
     for (; !scanner_.atEnd(); scanner_.skipLine()) {
       scanner_.skipBlanks();
-      readLine(scanner_.word());
+      readStatement(scanner_.word());
     }
     std::erase_if(content_.objects,
                   [](const ObjObject& object) { return object.triangles.empty() && object.lines.empty(); });
@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  void readLine(std::string_view keyword) {
+  void readStatement(std::string_view keyword) {
     if (keyword.empty() || keyword.front() == '#')
       return;
     if (keyword == "v")
@@ -68,13 +68,13 @@ private:
     else if (keyword == "l")
       readLineElement();
     else if (keyword == "p")
-      ++points_;
+      ++pointStatements_;
     else if (keyword == "usemtl")
       useMaterial(std::string(scanner_.restOfLine()));
     else if (keyword == "mtllib")
       libraries_.emplace_back(scanner_.restOfLine());
-    else if (keyword != "g" && keyword != "s" && others_.size() < maxNamedKeywords)
-      others_.insert(asPrintable(keyword));
+    else if (keyword != "g" && keyword != "s" && skippedKeywords_.size() < maxNamedKeywords)
+      skippedKeywords_.insert(asPrintable(keyword));
   }
 
   void beginObject(std::string name) {
@@ -112,7 +112,7 @@ private:
       scanner_.fail(ErrorKind::malformed, fmt::format("{} is not a number or beyond single precision", what));
   }
 
-  /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha behind b is ignored.
+  /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha after b is ignored.
   void readVertex() {
     std::array<float, 7> n{};
     const std::size_t count = readNumbers(n, 3);
@@ -149,7 +149,7 @@ private:
     unusableNormals_ += !makeUnit(content_.normals.back());
   }
 
-  /// Reads an index: counted from 1, or from the end where negative. Refers to earlier statements only.
+  /// Reads an index, which counts from 1, or from the end where negative; it can refer to earlier statements only.
   std::uint32_t readIndex(std::size_t count, const char* what) {
     const std::int64_t number = scanner_.integer("an index");
     const std::int64_t all = static_cast<std::int64_t>(count);
@@ -199,11 +199,11 @@ private:
     } else if (polygon_.size() == 3) {
       object.insert(object.end(), polygon_.begin(), polygon_.end());
     } else {
-      ring_.clear(), local_.clear();
+      ring_.clear(), ringTriangles_.clear();
       for (const ObjCorner& corner : polygon_)
         ring_.push_back(content_.positions[corner.position]);
-      fans_ += !triangulate(ring_, local_);
-      for (const std::uint32_t index : local_)
+      fans_ += !triangulate(ring_, ringTriangles_);
+      for (const std::uint32_t index : ringTriangles_)
         object.push_back(polygon_[index]);
     }
   }
@@ -221,9 +221,9 @@ private:
       addObject(std::span(first, last), builder, materials, imported.scene);
       first = last;
     }
-    if (builder.partlyNormals > 0)
+    if (builder.partialNormals > 0)
       imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
-                                              counted(builder.partlyNormals, "object were", "objects were")));
+                                              counted(builder.partialNormals, "object were", "objects were")));
     addOmissions(imported.warnings, materials.omissions(), isStrict_, fileName_);
     materials.addWarnings(imported.warnings);
   }
@@ -268,12 +268,12 @@ private:
     if (linesTooShort_ > 0)
       warnings.push_back(
           fmt::format("{} left out: fewer than two corners.", counted(linesTooShort_, "line was", "lines were")));
-    if (points_ > 0 && !content_.objects.empty())
+    if (pointStatements_ > 0 && !content_.objects.empty())
       warnings.push_back(fmt::format("Points of the OBJ file, which has faces or lines, are not carried over ({}).",
-                                     counted(points_, "statement", "statements")));
-    if (!others_.empty())
+                                     counted(pointStatements_, "statement", "statements")));
+    if (!skippedKeywords_.empty())
       warnings.push_back(
-          fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(others_, ", ")));
+          fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(skippedKeywords_, ", ")));
     warnOfColors(warnings, colorsClamped_);
     warnOfNormals(warnings, unusableNormals_);
     warnOfSmallFaces(warnings, facesTooSmall_);
@@ -283,16 +283,17 @@ private:
   TextScanner scanner_;
   const std::string& fileName_;
   ObjContent content_{{}, {}, {}, {}, {ObjObject{}}}; ///< statements before the first "o" form an object without a name
-  std::vector<ObjCorner> polygon_;
-  std::vector<Vec3f> ring_;
-  std::vector<std::uint32_t> local_;
+  std::vector<ObjCorner> polygon_;                    ///< the corners of the current face or polyline
+  std::vector<Vec3f> ring_;                           ///< the positions of polygon_
+  std::vector<std::uint32_t> ringTriangles_;          ///< its triangles, as indices into polygon_
   const References& references_;
   bool isStrict_;
   std::size_t current_ = 0;                             ///< the subset that elements are added to
   std::map<std::string, std::size_t> subsets_{{"", 0}}; ///< subsets of the current object by material
   std::vector<std::string> libraries_;
-  std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0, unusableNormals_ = 0;
-  std::set<std::string> others_; ///< some of the keywords that were skipped
+  std::size_t linesTooShort_ = 0, pointStatements_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
+              unusableNormals_ = 0;
+  std::set<std::string> skippedKeywords_; ///< at most maxNamedKeywords of them
 };
 
 } // namespace

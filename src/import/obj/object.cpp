@@ -24,7 +24,7 @@ Mesh ObjMeshBuilder::build(const ObjObject& object, Topology topology) {
   hasTexCoords_ = std::ranges::any_of(corners, [](const ObjCorner& c) { return c.texCoord != none; });
   const auto normals = std::ranges::count_if(corners, [](const ObjCorner& c) { return c.normal != none; });
   hasNormals_ = static_cast<std::size_t>(normals) == corners.size();
-  partlyNormals += normals > 0 && !hasNormals_;
+  partialNormals += normals > 0 && !hasNormals_;
   firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear(), overflowWedges_.clear();
 
   if (isOnlyMesh_)

@@ -46,14 +46,14 @@ public:
   /// coordinates where any corner has one.
   Mesh build(const ObjObject& object, Topology topology);
 
-  std::size_t partlyNormals = 0; ///< objects whose normals were left out: some corners have none
+  std::size_t partialNormals = 0; ///< number of objects whose normals were left out, since some corners have none
 
 private:
   void addAllPositions(Mesh& mesh);
   std::uint32_t wedge(Mesh& mesh, const ObjCorner& corner);
 
   const ObjContent& content_;
-  std::vector<std::uint32_t> localPosition_; ///< by position in the file; none: not in this mesh
+  std::vector<std::uint32_t> localPosition_; ///< index in the mesh by position of the file; none: not in the mesh yet
   bool isOnlyMesh_ = false, hasTexCoords_ = false, hasNormals_ = false;
   std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< linked lists of the wedges of each local position
   std::vector<ObjCorner> wedgeKeys_;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t headerBytes = 80, prefixBytes = 84, facetBytes = 50;
 constexpr std::size_t facetNormalBytes = 12, facetAttributeOffset = 48;
-/// ASCII files have no zero byte. The facet count of a binary file with fewer than 2^24 facets has one, within these
-/// bytes.
+/// The bytes in which a zero byte shows that a file is binary: the facet count of fewer than 2^24 facets has one, ASCII
+/// files have none.
 constexpr std::size_t sniffedBytes = 512;
 
 bool equalsIgnoringCase(std::string_view a, std::string_view lower) {
@@ -92,7 +92,7 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
   return imported;
 }
 
-/// Reads the coordinates behind the word "vertex".
+/// Reads the coordinates after the word "vertex".
 Vec3f readVertex(TextScanner& scanner) {
   Vec3f p;
   for (int axis = 0; axis < 3; ++axis) {
@@ -104,7 +104,7 @@ Vec3f readVertex(TextScanner& scanner) {
   return p;
 }
 
-/// Reads facets up to and with the line "endsolid".
+/// Reads facets up to and including the line "endsolid".
 void readSolid(TextScanner& scanner, Mesh& mesh) {
   for (;;) {
     scanner.skipSpace();

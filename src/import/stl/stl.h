@@ -1,6 +1,6 @@
 #pragma once
-// STL, binary and ASCII: each ASCII solid is a shape. Each corner gets a position of its own (prepare/weld joins them);
-// facet normals are not read, since the winding determines them.
+// STL, binary and ASCII: each ASCII solid is a shape. Each corner gets a position of its own (prepare/weld merges equal
+// ones); facet normals are not read, since the winding determines them.
 
 #include "import/import.h"
 

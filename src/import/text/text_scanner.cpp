@@ -22,7 +22,7 @@ double beyondDouble(std::string_view word) {
 }
 
 /// Skips a plus sign, which std::from_chars does not accept.
-const char* behindPlus(const char* at, const char* end) {
+const char* afterPlus(const char* at, const char* end) {
   return end - at > 1 && at[0] == '+' && at[1] != '-' ? at + 1 : at;
 }
 
@@ -80,7 +80,7 @@ std::string_view TextScanner::restOfLine() {
 }
 
 std::int64_t TextScanner::integer(const char* what) {
-  const char* from = behindPlus(at_, end_);
+  const char* from = afterPlus(at_, end_);
   std::int64_t value = 0;
   const auto [to, error] = std::from_chars(from, end_, value);
   if (error != std::errc())
@@ -99,7 +99,7 @@ std::int64_t TextScanner::integerWord(const char* what) {
 }
 
 template <typename T> T TextScanner::number(const char* what) {
-  const char* from = behindPlus(at_, end_);
+  const char* from = afterPlus(at_, end_);
   T value = 0;
   auto [to, error] = std::from_chars(from, end_, value);
   if (error == std::errc::result_out_of_range) {

@@ -10,7 +10,7 @@
 
 namespace imgeo {
 
-/// A word of a file for a message: at most 40 characters, printable ASCII.
+/// A word of a file for a message: its first 40 characters, with ? for each that is not printable ASCII.
 std::string asPrintable(std::string_view word);
 
 class TextScanner {
@@ -68,6 +68,7 @@ public:
 private:
   static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
   static bool isSpace(char c) { return isBlank(c) || c == '\n'; }
+  /// Skips a blank, or a backslash with the line end after it; false at any other backslash.
   bool skipBlank();
   std::string_view peekWord() const;
   template <typename T> T number(const char* what);

@@ -53,7 +53,7 @@ TEST(TextScanner, RefusesWordsThatAreNotNumbers) {
     EXPECT_THROW(float32Of(text), Error) << text;
 }
 
-TEST(TextScanner, ContinuesALineBehindABackslash) {
+TEST(TextScanner, ContinuesALineAfterABackslash) {
   TextScanner scanner(asBytes("a \\\r\n b\\\n c \\d\n"), sourceName);
   for (const char* word : {"a", "b\\"}) {
     scanner.skipBlanks();
@@ -73,7 +73,7 @@ TEST(TextScanner, NamesTheLine) {
   EXPECT_TRUE(scanner.atEnd());
 }
 
-TEST(TextScanner, AbbreviatesWordsToPrintableAscii) {
+TEST(TextScanner, ShortensWordsToPrintableCharacters) {
   EXPECT_EQ(asPrintable("a\x01\xff z"), "a?? z");
   EXPECT_EQ(asPrintable(std::string(1000, 'x')), std::string(40, 'x') + "…");
 }
