@@ -25,19 +25,19 @@ void VrmlElements::requireName(const Token& where, std::string_view name) const 
 
 std::string VrmlElements::define(const std::string& name, const std::string& element) {
   Scope& scope = scopes_.back();
-  const std::size_t times = ++scope.timesGiven[name];
+  const std::size_t times = ++scope.definitionCounts[name];
   std::string uniqueName = times == 1 ? name : fmt::format("{}-{}", name, times);
-  scope.names[name] = {uniqueName, element};
+  scope.definitions[name] = {uniqueName, element};
   return uniqueName;
 }
 
-const VrmlElements::Named* VrmlElements::named(const std::string& name) const {
-  const auto found = scopes_.back().names.find(name);
-  return found == scopes_.back().names.end() ? nullptr : &found->second;
+const VrmlElements::Definition* VrmlElements::definition(const std::string& name) const {
+  const auto found = scopes_.back().definitions.find(name);
+  return found == scopes_.back().definitions.end() ? nullptr : &found->second;
 }
 
 std::string VrmlElements::currentName(const std::string& name) const {
-  const Named* known = named(name);
+  const Definition* known = definition(name);
   return known ? known->name : name;
 }
 

@@ -14,7 +14,7 @@ namespace imgeo::x3d {
 
 class VrmlElements {
 public:
-  /// `tokens` outlive the elements; they give the location of errors.
+  /// `tokens` must outlive the elements; they give the location of errors.
   explicit VrmlElements(const VrmlTokens& tokens) : tokens_(tokens), scopes_(1) {}
 
   pugi::xml_node top() { return elements_.document; }
@@ -23,18 +23,19 @@ public:
 
   /// Appends an element whose text begins at `where`.
   pugi::xml_node add(pugi::xml_node parent, std::string_view element, const Token& where);
-  /// Names of nodes and fields become names of elements and attributes. Throws Error{malformed} for a name that XML
-  /// does not allow.
+  /// Throws Error{malformed} for the name of a node or field that XML does not allow as the name of an element or
+  /// attribute.
   void requireName(const Token& where, std::string_view name) const;
 
-  struct Named {
+  struct Definition {
     std::string name; ///< the name in the result: with a number where an earlier DEF has the same name
     std::string element;
   };
   /// Records the DEF of a node, which hides earlier ones of the same name; returns its name in the result.
   std::string define(const std::string& name, const std::string& element);
   /// The latest DEF of a name; null where there is none.
-  const Named* named(const std::string& name) const;
+  const Definition* definition(const std::string& name) const;
+  /// The name in the result of the latest DEF of a name; the name itself where there is none.
   std::string currentName(const std::string& name) const;
 
   /// The declaration of a prototype; a null node for other words.
@@ -47,8 +48,8 @@ public:
 
 private:
   struct Scope {
-    std::map<std::string, Named, std::less<>> names;
-    std::map<std::string, std::size_t, std::less<>> timesGiven;
+    std::map<std::string, Definition, std::less<>> definitions; ///< the latest by name
+    std::map<std::string, std::size_t, std::less<>> definitionCounts;
     std::map<std::string, pugi::xml_node, std::less<>> prototypes;
   };
 

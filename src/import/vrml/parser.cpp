@@ -1,4 +1,4 @@
-// The syntax of a value shows its type, so that parsing needs no table of nodes.
+// The syntax of a value shows its type, so that parsing needs no table of all fields; names.h has the exceptions.
 #include "import/text/text_scanner.h"
 #include "import/vrml/elements.h"
 #include "import/vrml/names.h"
@@ -42,7 +42,7 @@ public:
   }
 
 private:
-  // Reads the header, "#VRML V2.0 utf8" or "#X3D V3.3 utf8", which the tokenizer skips as a comment.
+  /// Reads the header, "#VRML V2.0 utf8" or "#X3D V3.3 utf8", which the tokenizer skips as a comment.
   void readHeader() {
     pugi::xml_node x3d = elements_.add(elements_.top(), "X3D", tokens_.next());
     const std::string_view line = text_.substr(0, text_.find_first_of("\r\n"));
@@ -91,7 +91,7 @@ private:
     }
   }
 
-  /// Reads an X3D statement about the whole document; false for other words.
+  /// Reads an X3D statement about the whole document; returns false for other words.
   bool readDocumentStatement(const Token& token) {
     const std::string_view word = token.text;
     if (word == "PROFILE") {
@@ -119,13 +119,13 @@ private:
     return true;
   }
 
-  /// IMPORT Inline.name AS own; EXPORT name AS other.
+  /// Reads "IMPORT inline.name AS importedName" or "EXPORT name AS exportedName".
   void readImportOrExport(const Token& token) {
     const bool isImport = token.text == "IMPORT";
     pugi::xml_node element = elements_.add(scene_, token.text, token);
     std::string name = takeWord("a name");
     if (isImport) {
-      const auto [inlined, inner] = split(name, token);
+      const auto [inlined, inner] = splitAtDot(name, token);
       set(element, "inlineDEF", inlined);
       name = inner;
     }
@@ -136,7 +136,7 @@ private:
     }
   }
 
-  std::pair<std::string, std::string> split(const std::string& text, const Token& where) const {
+  std::pair<std::string, std::string> splitAtDot(const std::string& text, const Token& where) const {
     const std::size_t dot = text.find('.');
     if (dot == text.npos)
       tokens_.fail(where, ErrorKind::malformed, fmt::format("\"{}\" has no dot", asPrintable(text)));
@@ -145,10 +145,10 @@ private:
 
   void readRoute(pugi::xml_node parent, const Token& token) {
     pugi::xml_node route = elements_.add(parent, "ROUTE", token);
-    const auto [from, fromField] = split(takeWord("a node's field"), token);
+    const auto [from, fromField] = splitAtDot(takeWord("a node's field"), token);
     if (takeWord("TO") != "TO")
       tokens_.fail(token, ErrorKind::malformed, "the ROUTE that begins here has no TO");
-    const auto [to, toField] = split(takeWord("a node's field"), token);
+    const auto [to, toField] = splitAtDot(takeWord("a node's field"), token);
     set(route, "fromNode", elements_.currentName(from));
     set(route, "fromField", fromField);
     set(route, "toNode", elements_.currentName(to));
@@ -157,7 +157,7 @@ private:
 
   void readUse(pugi::xml_node parent, std::string_view field, const Token& token) {
     const std::string name = takeWord("a name");
-    const VrmlElements::Named* known = elements_.named(name);
+    const VrmlElements::Definition* known = elements_.definition(name);
     pugi::xml_node element = elements_.add(parent, known ? known->element : "Group", token);
     setContainerField(element, field);
     set(element, "USE", known ? known->name : name);
@@ -209,7 +209,7 @@ private:
     readValue({value, "value", "", type == "MFString", isNodesType(type)});
   }
 
-  /// field IS field-of-the-prototype
+  /// Reads "field IS fieldOfPrototype", from IS on.
   void readConnection(pugi::xml_node element, const std::string& field, const Token& where) {
     tokens_.take();
     pugi::xml_node is = element.child("IS");
@@ -220,7 +220,7 @@ private:
     set(connect, "protoField", takeWord("a field of the prototype"));
   }
 
-  /// accessType type name, and a value where it has one.
+  /// Reads "accessType type name", from the type on, and a value where the field has one.
   void readDeclaration(pugi::xml_node parent, const Token& access, bool hasValues) {
     const std::string accessType(accessTypeOf(access.text)), type = takeWord("a type"), name = takeWord("a name");
     pugi::xml_node field = elements_.add(parent, "field", access);
@@ -272,7 +272,7 @@ private:
     elements_.declare(name, declaration);
   }
 
-  /// Numbers, strings, truth values or nodes; one of them, or a list in brackets.
+  /// Reads one number, string, boolean or node, or a list of them in brackets.
   void readValue(const Target& target) {
     if (!tokens_.nextIs(TokenKind::openList))
       return readItems(target, target.isStringList, false);

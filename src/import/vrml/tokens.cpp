@@ -61,7 +61,7 @@ Token VrmlTokens::scan() {
   }
   at_ = std::min(text_.find_first_of(wordEnds, at_), text_.size());
   if (at_ == begin)
-    fail({TokenKind::word, {}, begin}, ErrorKind::malformed, "an apostrophe begins no word of VRML");
+    fail({TokenKind::word, {}, begin}, ErrorKind::malformed, "a word of VRML cannot begin with an apostrophe");
   const std::string_view word = text_.substr(begin, at_ - begin);
   const char first = word[0] == '+' || word[0] == '-' || word[0] == '.' ? word[word.size() > 1] : word[0];
   const bool isNumber = isDigit(first) || (first == '.' && word.size() > 2 && isDigit(word[2]));

@@ -21,13 +21,13 @@ struct Token {
 
 class VrmlTokens {
 public:
-  /// `text` and `name` outlive the tokens.
+  /// `text` and `name` must outlive the tokens.
   VrmlTokens(std::string_view text, const std::string& name);
 
   const Token& next() const { return next_; }
   bool nextIs(TokenKind kind) const { return next_.kind == kind; }
   bool nextIs(std::string_view word) const { return next_.kind == TokenKind::word && next_.text == word; }
-  /// Takes the next token. Throws Error{malformed} where the token behind it is invalid.
+  /// Takes the next token. Throws Error{malformed, truncated} where the token after it is invalid.
   Token take();
   /// Takes the next token, which must be of this kind; `what` names it in errors.
   Token take(TokenKind kind, const char* what);

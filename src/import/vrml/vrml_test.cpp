@@ -74,8 +74,9 @@ TEST(Vrml, KeepsRoutesAndScripts) {
                    "<field accessType='initializeOnly' type='SFFloat' name='k' value='2'/>"
                    "<field accessType='initializeOnly' type='SFNode' name='n'><TimeSensor USE='T'/></field></Script>"
                    "<ROUTE fromNode='T' fromField='time' toNode='S' toField='now'/>");
-  EXPECT_EQ(readVrml(vrml).warnings.at(0), "What moves or answers stays as it is, at rest in imgeo's pages: "
-                                           "ROUTE (1), Script (1), TimeSensor (1).");
+  EXPECT_EQ(readVrml(vrml).warnings.at(0),
+            "Nodes that animate or interact stay as they are, and imgeo's pages do not run them: "
+            "ROUTE (1), Script (1), TimeSensor (1).");
 }
 
 TEST(Vrml, ResolvesARepeatedNameToTheLatestNode) {

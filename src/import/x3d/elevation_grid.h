@@ -14,8 +14,8 @@ struct ElevationGrid {
   std::span<const double> heights; ///< columns * rows of them, row by row
 };
 
-/// Appends its vertices and a quadrilateral for each cell. Adds texture coordinates where `data` has none.
-/// web/src/tessellate/elevationGrid.ts gives the same: vectors/tessellation/elevationGrid.json holds both to that.
+/// Appends the grid's vertices and a quadrilateral for each cell. Adds texture coordinates where `data` has none.
+/// web/src/tessellate/elevationGrid.ts gives the same; vectors/tessellation/elevationGrid.json tests both.
 void addElevationGrid(const ElevationGrid& grid, VertexData& data, Faces& faces);
 
 } // namespace imgeo::x3d

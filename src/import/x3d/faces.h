@@ -32,7 +32,7 @@ struct Faces {
 /// Adds normals by crease angle: the normal of a corner is the normalised sum of the unit normals of those faces around
 /// its position whose normals differ from its own face's by at most `creaseAngle` radians. Faces without area add
 /// nothing; a corner whose sum is zero gets (0, 0, 1).
-/// web/src/tessellate/faces.ts gives the same: vectors/tessellation/creaseNormals.json holds both to that.
+/// web/src/tessellate/faces.ts gives the same; vectors/tessellation/creaseNormals.json tests both.
 void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle);
 
 /// Each distinct combination of indices becomes a wedge; polygons are triangulated. Adds to `fans` the number of

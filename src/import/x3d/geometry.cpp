@@ -18,7 +18,7 @@ namespace {
 using Indices = std::vector<std::int32_t>;
 
 /// Maximum number of vertices of an extrusion, the product of the lengths of two fields.
-constexpr std::size_t maxExtruded = std::size_t{1} << 22;
+constexpr std::size_t maxExtrusionVertices = std::size_t{1} << 22;
 
 /// Reads the vertex data of one geometry node and gives corners their attributes.
 class GeometryReader {
@@ -295,8 +295,8 @@ private:
     readTuples<4>("orientation", extrusion.orientation);
     extrusion.beginCap = source_.boolean(node_, "beginCap", true);
     extrusion.endCap = source_.boolean(node_, "endCap", true);
-    if (extrusion.spine.size() * extrusion.crossSection.size() > maxExtruded)
-      fail(ErrorKind::unsupported, fmt::format("has more than {} vertices", maxExtruded));
+    if (extrusion.spine.size() * extrusion.crossSection.size() > maxExtrusionVertices)
+      fail(ErrorKind::unsupported, fmt::format("has more than {} vertices", maxExtrusionVertices));
     data_ = {};
     extrude(extrusion, data_, faces_);
     hasCreaseAngle_ = true;
@@ -347,7 +347,7 @@ private:
   pugi::xml_node node_;
   VertexData data_;
   Faces faces_;
-  bool hasCreaseAngle_ = false; ///< the node has a creaseAngle field, or flat faces
+  bool hasCreaseAngle_ = false; ///< the node has a creaseAngle field, or flat faces: an angle of 0
 };
 
 } // namespace

@@ -13,7 +13,7 @@ namespace imgeo::x3d {
 
 namespace {
 
-constexpr std::size_t maxExpandedElements = 250'000; // elements
+constexpr std::size_t maxExpandedElements = 250'000;
 constexpr std::size_t maxNesting = 200;
 
 bool isElement(pugi::xml_node node, std::string_view name) {
@@ -45,7 +45,8 @@ std::vector<pugi::xml_node> elementsIn(pugi::xml_node parent) {
 struct Prototype {
   pugi::xml_node declaration;
   const Prototype* enclosing = nullptr; ///< the prototype whose body contains the declaration
-  std::size_t order = std::numeric_limits<std::size_t>::max();
+  std::size_t order =
+      std::numeric_limits<std::size_t>::max(); ///< its number in the order of declarations; max for the document
   std::map<std::string, std::unique_ptr<Prototype>> inner;
 };
 
@@ -66,14 +67,14 @@ private:
     throw Error(ErrorKind::limit, name_, "elements and prototypes are nested too deeply");
   }
 
-  /// Collects DEF names. `counts` is false inside prototype bodies, whose names are not in the scene yet.
-  void noteNames(pugi::xml_node element, std::size_t depth, bool counts) {
+  /// Collects DEF names. `isInScene` is false inside prototype bodies, whose names are not in the scene yet.
+  void noteNames(pugi::xml_node element, std::size_t depth, bool isInScene) {
     if (depth > maxNesting)
       failTooDeep();
-    if (const pugi::xml_attribute def = element.attribute("DEF"); def && counts)
+    if (const pugi::xml_attribute def = element.attribute("DEF"); def && isInScene)
       names_.insert(def.value());
     for (const pugi::xml_node& child : elementsIn(element))
-      noteNames(child, depth + 1, counts && !isElement(element, "ProtoDeclare"));
+      noteNames(child, depth + 1, isInScene && !isElement(element, "ProtoDeclare"));
   }
 
   /// `enclosing`: the prototype whose body contains `parent`.
@@ -146,14 +147,14 @@ private:
   void rename(pugi::xml_node element, std::map<std::string, std::string>& names, std::size_t offset) {
     if (++expandedElements_ > maxExpandedElements)
       throw Error(ErrorKind::limit, name_,
-                  fmt::format("prototypes stand for more than {} elements", maxExpandedElements));
+                  fmt::format("prototypes expand to more than {} elements", maxExpandedElements));
     elements_.offsets[element.internal_object()] = offset;
     if (pugi::xml_attribute def = element.attribute("DEF")) {
-      std::string own = def.value();
-      for (std::size_t& number = numbers_[own]; !names_.insert(own).second;)
-        own = fmt::format("{}-{}", def.value(), ++number + 1);
-      names[def.value()] = own;
-      def.set_value(own.c_str());
+      std::string uniqueName = def.value();
+      for (std::size_t& number = numbers_[uniqueName]; !names_.insert(uniqueName).second;)
+        uniqueName = fmt::format("{}-{}", def.value(), ++number + 1);
+      names[def.value()] = uniqueName;
+      def.set_value(uniqueName.c_str());
     }
     if (pugi::xml_attribute use = element.attribute("USE"))
       if (const auto found = names.find(use.value()); found != names.end())
@@ -191,11 +192,11 @@ private:
     for (const pugi::xml_node& node : elementsIn(value)) {
       if (++expandedElements_ > maxExpandedElements)
         throw Error(ErrorKind::limit, name_,
-                    fmt::format("prototypes stand for more than {} elements", maxExpandedElements));
+                    fmt::format("prototypes expand to more than {} elements", maxExpandedElements));
       pugi::xml_node copy = target.append_copy(node);
       elements_.offsets[copy.internal_object()] = elements_.offsetOf(node);
-      const bool isStated = target == element && field != defaultContainerField(copy.name());
-      if (isStated && !copy.attribute("containerField"))
+      const bool needsContainerField = target == element && field != defaultContainerField(copy.name());
+      if (needsContainerField && !copy.attribute("containerField"))
         copy.append_attribute("containerField") = field;
     }
   }
@@ -206,8 +207,8 @@ private:
   std::size_t order_ = 0;
   PrototypeReport report_;
   pugi::xml_node declarations_;
-  std::set<std::string> names_;
-  std::map<std::string, std::size_t> numbers_;
+  std::set<std::string> names_;                ///< the DEF names in the scene
+  std::map<std::string, std::size_t> numbers_; ///< the last number that was tried as a suffix, by DEF name
   std::size_t expandedElements_ = 0;
 };
 

@@ -12,7 +12,8 @@ namespace imgeo::x3d {
 
 class Source {
 public:
-  /// `elements` were parsed from `text`; `text` and `name` outlive the source. Throws Error{limit} for deep nesting.
+  /// `elements` were parsed from `text`; `text` and `name` must outlive the source. Throws Error{limit} for deep
+  /// nesting.
   Source(Elements elements, std::string_view text, const std::string& name);
 
   /// <X3D>.

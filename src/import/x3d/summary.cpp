@@ -62,7 +62,8 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
   warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
   warnOfElements(warnings, "Geometry that stays as it is and that imgeo's pages do not draw", notDrawn);
   warnOfElements(warnings, "Geometry without faces, lines or points", empty);
-  warnOfElements(warnings, "What moves or answers stays as it is, at rest in imgeo's pages", interactive);
+  warnOfElements(warnings, "Nodes that animate or interact stay as they are, and imgeo's pages do not run them",
+                 interactive);
   if (flatTransforms > 0)
     warnings.push_back(fmt::format("{} by 0: what stands there is flat, or not seen at all.",
                                    counted(flatTransforms, "Transform scales", "Transforms scale")));

@@ -18,7 +18,7 @@ bool isDrawnInPages(std::string_view element);
 bool isInteractive(std::string_view element);
 
 struct Summary {
-  using Counts = std::map<std::string, std::size_t>; ///< by element
+  using Counts = std::map<std::string, std::size_t>; ///< number of nodes by element name
 
   Counts notCopied;   ///< nodes with URLs whose files are not copied
   Counts notDrawn;    ///< geometries that the runtime does not draw

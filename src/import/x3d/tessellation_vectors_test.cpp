@@ -1,5 +1,5 @@
-// vectors/tessellation: input and output of what C++ and TypeScript both tessellate.
-// web/src/tessellate/tessellation.test.ts reads the same files, and writes them anew where IMGEO_REWRITE_GOLDEN is set.
+// Compares tessellations with vectors/tessellation, their inputs and outputs. web/src/tessellate/tessellation.test.ts
+// reads the same files, and rewrites them where IMGEO_REWRITE_GOLDEN is set.
 #include "base/error.h"
 #include "base/file.h"
 #include "base/testing.h"
@@ -130,7 +130,7 @@ TEST(TessellationVectors, MakeElevationGrids) {
   }
 }
 
-TEST(TessellationVectors, RefuseNumbersThatAreNone) {
+TEST(TessellationVectors, RefuseWordsThatAreNotNumbers) {
   for (const std::string node : vectorsOf("refused")) {
     const std::string scene = "<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>";
     EXPECT_EQ(importBytes(asBytes(scene), "a.x3d", {}).warnings.size(), 1u) << node;

@@ -79,15 +79,15 @@ private:
       list.push_back(*node);
   }
 
-  /// Calls `read` and turns its Error into a warning that begins with `otherwise`, except if strict and for
-  /// Error{limit}.
-  template <typename Read> auto attempt(const char* otherwise, const Read& read) -> decltype(read()) {
+  /// Calls `read` and turns its Error into a warning that begins with `consequence`. If strict, and for
+  /// Error{limit}, rethrows it.
+  template <typename Read> auto attempt(const char* consequence, const Read& read) -> decltype(read()) {
     try {
       return read();
     } catch (const Error& error) {
       if (isStrict_ || error.kind() == ErrorKind::limit)
         throw;
-      imported_.warnings.push_back(fmt::format("{}: {}.", otherwise, error.what()));
+      imported_.warnings.push_back(fmt::format("{}: {}.", consequence, error.what()));
       return {};
     }
   }
@@ -115,11 +115,11 @@ private:
       return found->second;
     const pugi::xml_node target = source_.resolved(element);
     const bool isEnclosing = reading_.contains(target.internal_object());
-    if (target && !isEnclosing) // the DEF is inside a converted geometry, or further on in the document
+    if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
       return define(target, readNode(target));
     return attempt("Left out", [&]() -> std::optional<std::size_t> {
       source_.fail(element, ErrorKind::malformed,
-                   fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "what it stands in" : "no DEF"));
+                   fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "a node that contains it" : "no DEF"));
     });
   }
 
@@ -164,22 +164,22 @@ private:
   }
 
   GenericNode genericNodeOf(pugi::xml_node element) {
-    GenericNode other{element.name(), element.text().get(), {}};
-    if (isInteractive(other.element))
-      ++summary_.interactive[other.element];
+    GenericNode node{element.name(), element.text().get(), {}};
+    if (isInteractive(node.element))
+      ++summary_.interactive[node.element];
     const pugi::xml_attribute url = element.attribute("url");
-    if (!url || other.element == "Inline")
-      return other;
-    if (other.element == "ImageTexture")
-      other.image = attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
-    else if (other.element != "Script")
-      ++summary_.notCopied[other.element];
-    return other;
+    if (!url || node.element == "Inline")
+      return node;
+    if (node.element == "ImageTexture")
+      node.image = attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
+    else if (node.element != "Script")
+      ++summary_.notCopied[node.element];
+    return node;
   }
 
   static bool isRemote(const std::string& url) { return url.starts_with("http:") || url.starts_with("https:"); }
 
-  /// The document of the first URL of an Inline that can be read. Empty where other hosts may have it.
+  /// The document of the first URL of an Inline that can be read; empty where a URL of another host precedes it.
   std::optional<Inlines::Document> inlined(pugi::xml_node element) {
     const std::vector<std::string> urls = parseStrings(element.attribute("url").value());
     for (std::size_t i = 0; i < urls.size(); ++i) {
@@ -274,7 +274,7 @@ private:
     return transform;
   }
 
-  /// Reads a Shape whose geometry becomes a mesh; empty for any other.
+  /// Reads a Shape whose geometry becomes a mesh; returns empty for any other.
   std::optional<std::size_t> readShape(pugi::xml_node element) {
     for (const pugi::xml_node& child : element.children()) {
       if (child.type() != pugi::node_element)
@@ -359,8 +359,8 @@ private:
   void addTitle() {
     SceneGraph& graph = imported_.scene.graph;
     for (const std::size_t index : nodesOfDocument(graph, graph.roots))
-      if (const GenericNode* other = std::get_if<GenericNode>(&graph.nodes[index].content))
-        if (other->element == "WorldInfo" && graph.title.empty())
+      if (const GenericNode* node = std::get_if<GenericNode>(&graph.nodes[index].content))
+        if (node->element == "WorldInfo" && graph.title.empty())
           for (const FieldText& field : graph.nodes[index].fields)
             if (field.name == "title")
               graph.title = field.value;
@@ -372,10 +372,10 @@ private:
   std::size_t inlineBytes_;
   Imported imported_;
   Inlines inlines_;
-  std::map<std::string, std::size_t> defined_;
-  std::set<pugi::xml_node_struct*> reading_; ///< elements whose reading has begun but not ended
-  std::map<pugi::xml_node_struct*, std::optional<Shape>> converted_;
-  std::map<std::string, std::size_t> images_;
+  std::map<std::string, std::size_t> defined_;                       ///< nodes by DEF name
+  std::set<pugi::xml_node_struct*> reading_;                         ///< elements whose reading has begun but not ended
+  std::map<pugi::xml_node_struct*, std::optional<Shape>> converted_; ///< by geometry node
+  std::map<std::string, std::size_t> images_;                        ///< by URL
   Summary summary_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// X3D in XML encoding: sets of faces, triangles, lines and points and elevation grids are meshes; every other element
-// is a node that the output keeps as it is. Prototype instances are replaced by their bodies. The file that an Inline
-// names is read too: its nodes are the Inline's children.
+// X3D in XML encoding. The geometry nodes of x3d/geometry.h become meshes; every other element is a node that the
+// output keeps as it is. Prototype instances are expanded (x3d/prototypes.h). The file that an Inline names is read
+// too: its nodes are the Inline's children.
 
 #include "import/import.h"
 #include "import/x3d/elements.h"

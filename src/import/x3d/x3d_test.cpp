@@ -113,7 +113,7 @@ TEST(X3d, HasSharpEdgesBeyondTheCreaseAngle) {
   EXPECT_EQ(smooth.wedgeCount(), 6u);
 }
 
-TEST(X3d, SharesAUsedGeometryAndFindsUsedData) {
+TEST(X3d, SharesGeometryAndFindsCoordinatesByUse) {
   const Imported imported =
       readScene("<Shape DEF='S'><IndexedFaceSet DEF='G' coordIndex='0 1 2'><Coordinate DEF='C' point='0 0 0 "
                 "1 0 0 1 1 0'/>"

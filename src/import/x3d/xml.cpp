@@ -43,7 +43,7 @@ Elements parseXml(std::string_view text, const std::string& name) {
     throw Error(ErrorKind::malformed, locationOf(text, name, static_cast<std::size_t>(result.offset)),
                 std::string("not well-formed: ") + result.description());
   if (std::string_view(elements.root().name()) != "X3D")
-    throw Error(ErrorKind::malformed, name, "is XML, but its element is no X3D");
+    throw Error(ErrorKind::malformed, name, "is XML, but its root element is not X3D");
   return elements;
 }
 
