@@ -47,8 +47,8 @@ bool isFinite(const Affine3d& map) {
 /// A node's name; empty for names that Assimp generates.
 std::string nameOf(const aiString& name) {
   const std::string text = name.C_Str();
-  const bool isMadeUp = text.starts_with('$') || text.starts_with('<') || text == "ROOT" || text == "RootNode";
-  return isMadeUp ? "" : text;
+  const bool isGenerated = text.starts_with('$') || text.starts_with('<') || text == "ROOT" || text == "RootNode";
+  return isGenerated ? "" : text;
 }
 
 /// Reads one aiScene.
@@ -160,13 +160,13 @@ private:
   void addVertices(const aiMesh& source, Mesh& mesh) {
     std::vector<std::uint32_t> local(source.mNumVertices, ~0u);
     for (std::uint32_t& corner : mesh.corners) {
-      std::uint32_t& number = local[corner];
-      if (number == ~0u) {
-        number = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.wedgePositions.push_back(number);
+      std::uint32_t& index = local[corner];
+      if (index == ~0u) {
+        index = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.wedgePositions.push_back(index);
         addVertex(source, corner, mesh);
       }
-      corner = number;
+      corner = index;
     }
     const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
     mesh.colorComponents = isOpaque ? 3 : 4;
@@ -259,7 +259,7 @@ private:
         "meshes have further texture coordinates, which are");
     add(furtherColors_, "mesh has further colours, which are", "meshes have further colours, which are");
     add(otherLights_, "light of a kind that X3D lacks is", "lights of kinds that X3D lacks are");
-    add(lostTransforms_, "transform that is no number is", "transforms that are no numbers are");
+    add(lostTransforms_, "transform that is not finite is", "transforms that are not finite are");
     warnOfNormals(warnings, badNormals_);
     warnOfFans(warnings, fans_);
     addOmissions(warnings, materials_.omissions(), isStrict_, name_);
@@ -271,14 +271,15 @@ private:
   bool isStrict_;
   Imported imported_;
   AssimpMaterials materials_;
-  std::vector<std::vector<std::size_t>> shapesOf_; ///< nodes by mesh
+  std::vector<std::vector<std::size_t>> shapesOf_; ///< shape nodes by mesh
   std::map<std::string, const aiCamera*> cameras_;
   std::map<std::string, const aiLight*> lights_;
   std::size_t skins_ = 0, morphTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
               lostTransforms_ = 0, fans_ = 0, badNormals_ = 0;
 };
 
-/// Keeps a ".gz", unlike source_name.h: no gzipped file is Assimp's.
+/// The last extension in lower case, with its dot. Unlike for extensionOf, that may be ".gz": Assimp reads no gzipped
+/// files.
 std::string lastExtensionOf(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
@@ -290,7 +291,7 @@ struct Release {
   void operator()(aiPropertyStore* properties) const { assimp().releasePropertyStore(properties); }
 };
 
-Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+Imported readInThisProcess(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const References references(options, name);
   SourceFiles files(bytes, name, references);
   const std::unique_ptr<aiPropertyStore, Release> properties(assimp().createPropertyStore());
@@ -323,7 +324,7 @@ bool isReadByAssimp(const std::string& name) {
 
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   refuseZipBomb(bytes, name);
-  return readInChildProcess([&] { return readHere(bytes, name, options); }, name);
+  return readInChildProcess([&] { return readInThisProcess(bytes, name, options); }, name);
 }
 
 } // namespace imgeo

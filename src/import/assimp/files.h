@@ -12,7 +12,7 @@ namespace imgeo {
 
 class SourceFiles {
 public:
-  /// `bytes` are those of the file `name`; both outlive this.
+  /// `bytes` are those of the file `name`. All arguments must outlive this object.
   SourceFiles(ByteSpan bytes, const std::string& name, const References& references);
   SourceFiles(const SourceFiles&) = delete;
   SourceFiles& operator=(const SourceFiles&) = delete;

@@ -23,18 +23,18 @@ constexpr Role roles[] = {
     {aiTextureType_NORMALS, TextureRole::normal},    {aiTextureType_AMBIENT, TextureRole::ambient},
     {aiTextureType_SPECULAR, TextureRole::specular}, {aiTextureType_SHININESS, TextureRole::shininess}};
 
-Vec3f colorOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, Vec3f otherwise) {
+Vec3f colorOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, Vec3f fallback) {
   aiColor4D color;
   if (assimp().getMaterialColor(&material, key, type, index, &color) != aiReturn_SUCCESS)
-    return otherwise;
+    return fallback;
   const auto channel = [](float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 
-float numberOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, float otherwise) {
-  ai_real number = otherwise;
-  const bool isThere = assimp().getMaterialFloats(&material, key, type, index, &number, nullptr) == aiReturn_SUCCESS;
-  return isThere && std::isfinite(number) ? number : otherwise;
+float numberOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, float fallback) {
+  ai_real number = fallback;
+  const bool isPresent = assimp().getMaterialFloats(&material, key, type, index, &number, nullptr) == aiReturn_SUCCESS;
+  return isPresent && std::isfinite(number) ? number : fallback;
 }
 
 Boundary boundaryOf(aiTextureMapMode mode) {

@@ -29,7 +29,7 @@ std::uint32_t sizeOfComponent(const Value& type) {
   case floatType:
     return 4;
   }
-  type.fail(ErrorKind::malformed, "is no type of numbers that glTF has");
+  type.fail(ErrorKind::malformed, "is none of glTF's component types");
 }
 
 struct Shape2d {
@@ -90,11 +90,12 @@ Document::Document(const Json& json, ByteSpan binary, const References& referenc
 
 void Document::spend(const Value& location, std::uint64_t bytes) {
   if (bytes > budget_)
-    location.fail(ErrorKind::limit, "unfolds to more than files of this size hold");
+    location.fail(ErrorKind::limit, "expands to more data than imgeo allows for a file of this size");
   budget_ -= bytes;
 }
 
-ByteSpan Document::within(const Value& value, ByteSpan bytes, std::uint64_t offset, std::uint64_t length) const {
+ByteSpan Document::checkedSubspan(const Value& value, ByteSpan bytes, std::uint64_t offset,
+                                  std::uint64_t length) const {
   if (offset > bytes.size() || length > bytes.size() - offset)
     value.fail(ErrorKind::truncated,
                fmt::format("needs {} bytes from byte {} on, where {} are", length, offset, bytes.size()));
@@ -132,7 +133,7 @@ ByteSpan Document::view(std::size_t index) {
   const std::optional<std::size_t> buffer = value.index("buffer", root_["buffers"]);
   if (!buffer)
     value["buffer"].fail(ErrorKind::malformed, "is missing");
-  return within(value, this->buffer(*buffer), value["byteOffset"].whole(0), value["byteLength"].whole());
+  return checkedSubspan(value, this->buffer(*buffer), value["byteOffset"].whole(0), value["byteLength"].whole());
 }
 
 /// Decompresses a view of EXT_meshopt_compression. The library's decoders are safe for untrusted bytes; their
@@ -141,7 +142,8 @@ Bytes Document::unpacked(const Value& value) {
   const std::optional<std::size_t> index = value.index("buffer", root_["buffers"]);
   if (!index)
     value["buffer"].fail(ErrorKind::malformed, "is missing");
-  const ByteSpan packed = within(value, buffer(*index), value["byteOffset"].whole(0), value["byteLength"].whole());
+  const ByteSpan packed =
+      checkedSubspan(value, buffer(*index), value["byteOffset"].whole(0), value["byteLength"].whole());
   const std::uint64_t stride = value["byteStride"].whole(), count = value["count"].whole();
   const std::string mode = value["mode"].text(), filter = value["filter"].text("NONE");
   const bool isAttributes = mode == "ATTRIBUTES";
@@ -149,7 +151,7 @@ Bytes Document::unpacked(const Value& value) {
                                    : (mode == "TRIANGLES" || mode == "INDICES") && (stride == 2 || stride == 4) &&
                                          (mode == "INDICES" || count % 3 == 0);
   if (!isGood || count > UINT32_MAX)
-    value.fail(ErrorKind::malformed, "describes no data that EXT_meshopt_compression packs");
+    value.fail(ErrorKind::malformed, "has a mode, stride or count that EXT_meshopt_compression does not allow");
   spend(value, count * stride);
   Bytes bytes(count * stride);
   const int failure =
@@ -157,7 +159,7 @@ Bytes Document::unpacked(const Value& value) {
       : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, packed.data(), packed.size())
                             : meshopt_decodeIndexSequence(bytes.data(), count, stride, packed.data(), packed.size());
   if (failure != 0)
-    value.fail(ErrorKind::malformed, "holds no data of EXT_meshopt_compression");
+    value.fail(ErrorKind::malformed, "holds data that EXT_meshopt_compression cannot decode");
   if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
     meshopt_decodeFilterOct(bytes.data(), count, stride);
   else if (filter == "QUATERNION" && stride == 8)
@@ -183,7 +185,7 @@ Accessor Document::accessor(std::size_t index) {
   const std::uint64_t elementSize = std::uint64_t{accessor.components_} * accessor.componentSize_;
   accessor.stride_ = elementSize;
   if (accessor.count_ > UINT32_MAX)
-    value["count"].fail(ErrorKind::limit, "is more than 32 bits count");
+    value["count"].fail(ErrorKind::limit, "does not fit 32 bits");
   const std::optional<std::size_t> viewIndex = value.index("bufferView", root_["bufferViews"]);
   const bool isSparse = value.has("sparse");
   if (viewIndex) {
@@ -195,7 +197,7 @@ Accessor Document::accessor(std::size_t index) {
       viewValue["byteStride"].fail(ErrorKind::malformed, "is less than an element of the accessor takes");
     accessor.stride_ = stride;
     const std::uint64_t bytes = accessor.count_ == 0 ? 0 : (accessor.count_ - 1) * stride + elementSize;
-    accessor.begin_ = within(value, view(*viewIndex), value["byteOffset"].whole(0), bytes).data();
+    accessor.begin_ = checkedSubspan(value, view(*viewIndex), value["byteOffset"].whole(0), bytes).data();
   }
   if (!viewIndex || isSparse) { // an accessor without a view holds zeros
     spend(value, accessor.count_ * elementSize);
@@ -220,7 +222,7 @@ void Document::applySparse(const Value& value, Accessor& accessor) {
       list["bufferView"].fail(ErrorKind::malformed, "is missing");
     if (count > accessor.count_)
       value["count"].fail(ErrorKind::malformed, "is more than the accessor has elements");
-    return within(list, view(*index), list["byteOffset"].whole(0), count * size);
+    return checkedSubspan(list, view(*index), list["byteOffset"].whole(0), count * size);
   };
   const std::uint32_t indexSize = sizeOfComponent(value["indices"]["componentType"]);
   const ByteSpan indices = arrayOf("indices", indexSize), values = arrayOf("values", accessor.stride_);

@@ -41,11 +41,13 @@ private:
 
 class Document {
 public:
-  /// `json` and `binary`, a GLB's second chunk, outlive the document.
+  /// `binary` is the binary chunk of a GLB, or empty; `sourceBytes` is the size of the file. `json`, `binary` and
+  /// `references` must outlive the document.
   Document(const Json& json, ByteSpan binary, const References& references, const std::string& name,
            std::uint64_t sourceBytes);
 
   const Value& root() const { return root_; }
+  /// A top-level array, such as "meshes"; a null value where it is absent.
   Value array(const char* name) const { return root_[name]; }
 
   /// The bytes of a buffer view, decompressed where it uses EXT_meshopt_compression.
@@ -63,7 +65,7 @@ public:
 private:
   const Bytes& buffer(std::size_t index);
   Bytes unpacked(const Value& compression);
-  ByteSpan within(const Value& value, ByteSpan bytes, std::uint64_t offset, std::uint64_t length) const;
+  ByteSpan checkedSubspan(const Value& value, ByteSpan bytes, std::uint64_t offset, std::uint64_t length) const;
   void applySparse(const Value& value, Accessor& accessor);
 
   Value root_;

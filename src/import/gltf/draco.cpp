@@ -18,7 +18,7 @@ std::vector<float> valuesOf(const draco::PointCloud& cloud, const draco::PointAt
   for (draco::PointIndex point(0); point < cloud.num_points(); ++point)
     if (!attribute.ConvertValue<float>(attribute.mapped_index(point), static_cast<std::int8_t>(components),
                                        &values[point.value() * components]))
-      location.fail(ErrorKind::malformed, "holds an attribute of no numbers");
+      location.fail(ErrorKind::malformed, "holds an attribute that is not numeric");
   return values;
 }
 
@@ -56,7 +56,7 @@ PrimitiveData readDraco(Document& document, const Value& primitive, const Value&
     const draco::PointAttribute* attribute =
         id > UINT32_MAX ? nullptr : mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
     if (!attribute || attribute->num_components() == 0)
-      names[name.c_str()].fail(ErrorKind::malformed, "names nothing that Draco's data has");
+      names[name.c_str()].fail(ErrorKind::malformed, "names no attribute of Draco's data");
     const auto components = static_cast<std::uint32_t>(attribute->num_components());
     const auto values = std::make_shared<std::vector<float>>(valuesOf(*mesh, *attribute, compression));
     data.attributes.push_back({name, components, [values, components](std::size_t vertex, std::uint32_t c) {

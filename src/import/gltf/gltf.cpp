@@ -87,9 +87,8 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
       warnings.push_back(fmt::format("{} not carried over{}.", counted(count, singular, plural), why));
   };
   add(root["animations"].size(), "animation is", "animations are");
-  add(nodes.skins, "skin is", "skins are", ": what they move stands as it was modelled");
-  add(primitives.morphTargets, "mesh with morph targets is not moved by them, which are",
-      "meshes with morph targets are not moved by them, which are");
+  add(nodes.skins, "skin is", "skins are", ": skinned meshes stay as they were modelled");
+  add(primitives.morphTargets, "mesh has morph targets, which are", "meshes have morph targets, which are");
   add(nodes.otherScenes, "further scene is", "further scenes are");
   if (!primitives.attributes.empty())
     warnings.push_back(
@@ -100,9 +99,9 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
       extensions.push_back(fmt::format("{} ({})", name, counted(count, "material", "materials")));
   if (!extensions.empty())
     warnings.push_back(fmt::format("Extensions that are not carried over: {}.", fmt::join(extensions, ", ")));
-  add(materials.secondTexCoords, "texture is", "textures are", ": further texture coordinates place them");
+  add(materials.furtherTexCoords, "texture is", "textures are", ": they use further texture coordinates");
   add(materials.skewedTransforms, "texture transform is", "texture transforms are",
-      ": X3D's cannot scale before it turns");
+      ": X3D's cannot scale before it rotates");
   std::ranges::copy(materials.images, std::back_inserter(warnings));
   std::ranges::copy(nodes.damage, std::back_inserter(warnings));
   warnOfNormals(warnings, primitives.badNormals);
@@ -131,7 +130,7 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   MaterialReader materials(document, imported.scene.graph, options.strict);
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);
   nodes.readScene();
-  imported.attributes.assign(primitives.ownAttributes.begin(), primitives.ownAttributes.end());
+  imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
   addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, imported.warnings);
   return imported;

@@ -14,7 +14,7 @@ namespace {
 const std::set<std::string> knownExtensions{"KHR_materials_unlit", "KHR_materials_emissive_strength",
                                             "KHR_materials_pbrSpecularGlossiness"};
 
-float unit(double value) {
+float saturate(double value) {
   return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
 
@@ -28,9 +28,9 @@ Material phongOf(const Value& value) {
   Material material;
   const std::vector<double> diffuse = value["diffuseFactor"].reals(4, {1, 1, 1, 1});
   material.diffuseColor = encodedSrgb({diffuse[0], diffuse[1], diffuse[2]});
-  material.transparency = 1 - unit(diffuse[3]);
+  material.transparency = 1 - saturate(diffuse[3]);
   material.specularColor = encodedSrgb(value["specularFactor"].vec3({1, 1, 1}));
-  material.shininess = unit(value["glossinessFactor"].real(1));
+  material.shininess = saturate(value["glossinessFactor"].real(1));
   return material;
 }
 
@@ -149,7 +149,7 @@ void MaterialReader::addTexture(const Value& info, TextureRole role, Appearance&
     return;
   const Value transform = info["extensions"]["KHR_texture_transform"];
   if (transform["texCoord"].whole(info["texCoord"].whole(0)) != 0) {
-    ++omissions.secondTexCoords;
+    ++omissions.furtherTexCoords;
     return;
   }
   if (const std::optional<std::size_t> texture = this->texture(*index))
@@ -159,7 +159,7 @@ void MaterialReader::addTexture(const Value& info, TextureRole role, Appearance&
 AnyMaterial MaterialReader::materialOf(const Value& value) {
   const Value extensions = value["extensions"], pbr = value["pbrMetallicRoughness"];
   const std::vector<double> base = pbr["baseColorFactor"].reals(4, {1, 1, 1, 1});
-  const float transparency = 1 - unit(base[3]);
+  const float transparency = 1 - saturate(base[3]);
   if (extensions.has("KHR_materials_unlit"))
     return UnlitMaterial{encodedSrgb({base[0], base[1], base[2]}), transparency};
   const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].real(1);
@@ -173,10 +173,10 @@ AnyMaterial MaterialReader::materialOf(const Value& value) {
   material.baseColor = Vec3f(Vec3d{base[0], base[1], base[2]});
   material.transparency = transparency;
   material.emissiveColor = Vec3f(emissive);
-  material.metallic = unit(pbr["metallicFactor"].real(1));
-  material.roughness = unit(pbr["roughnessFactor"].real(1));
+  material.metallic = saturate(pbr["metallicFactor"].real(1));
+  material.roughness = saturate(pbr["roughnessFactor"].real(1));
   material.normalScale = static_cast<float>(value["normalTexture"]["scale"].real(1));
-  material.occlusionStrength = unit(value["occlusionTexture"]["strength"].real(1));
+  material.occlusionStrength = saturate(value["occlusionTexture"]["strength"].real(1));
   return material;
 }
 

@@ -12,7 +12,7 @@ namespace imgeo::gltf {
 
 struct MaterialOmissions {
   std::map<std::string, std::size_t> extensions; ///< number of materials by name of the extension that was left out
-  std::size_t secondTexCoords = 0;               ///< textures that use further texture coordinates
+  std::size_t furtherTexCoords = 0;              ///< textures that use further texture coordinates
   std::size_t skewedTransforms = 0;              ///< texture transforms that X3D cannot express
   std::vector<std::string> images;               ///< one warning for each missing image
 };
@@ -46,7 +46,7 @@ private:
 };
 
 /// The X3D texture transform of an affine map of texture coordinates, with v upwards: matrix (a c; b d) and translation
-/// (x, y). Empty for a map that shears.
+/// (x, y). Empty for a map that shears or maps an axis to zero.
 std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x, double y);
 
 } // namespace imgeo::gltf

@@ -29,7 +29,8 @@ Transform transformOfTrs(Vec3d translation, const std::vector<double>& q, Vec3d 
   return transform;
 }
 
-NodeContent groupUnlessMoved(Transform transform) {
+/// A Transform node, or a Group where the transform is the identity.
+NodeContent transformOrGroup(Transform transform) {
   transform = rounded(transform);
   return transform == Transform{} ? NodeContent(Group{}) : NodeContent(transform);
 }
@@ -101,13 +102,13 @@ void NodeReader::readScene() {
       scene_.graph.roots.push_back(*node);
 }
 
-NodeContent NodeReader::transformOf(const Value& node) const {
+NodeContent NodeReader::contentOf(const Value& node) const {
   if (node.has("matrix")) {
     const std::vector<double> m = node["matrix"].reals(16, {});
     const Affine3d map{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-    return groupUnlessMoved(map == Affine3d{} ? Transform{} : imgeo::transformOf(map));
+    return transformOrGroup(map == Affine3d{} ? Transform{} : imgeo::transformOf(map));
   }
-  return groupUnlessMoved(transformOfTrs(node["translation"].vec3({}), node["rotation"].reals(4, {0, 0, 0, 1}),
+  return transformOrGroup(transformOfTrs(node["translation"].vec3({}), node["rotation"].reals(4, {0, 0, 0, 1}),
                                          node["scale"].vec3({1, 1, 1})));
 }
 
@@ -122,7 +123,7 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   visited_[index] = true;
   Node node;
   node.name = value["name"].text();
-  node.content = transformOf(value);
+  node.content = contentOf(value);
   if (const Transform* transform = std::get_if<Transform>(&node.content))
     scale *= std::cbrt(std::abs(affineOf(*transform).determinant()));
   node.extras = extrasOf(value);
@@ -172,22 +173,22 @@ void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<s
   };
   const std::optional<Accessor> translations = accessor("TRANSLATION", 3), rotations = accessor("ROTATION", 4),
                                 scales = accessor("SCALE", 3);
-  document_.spend(instancing, count.value_or(0) * 512);
+  document_.spend(instancing, count.value_or(0) * 512); // the nodes of the instances
   for (std::size_t i = 0; i < count.value_or(0); ++i) {
-    const auto number = [&](const std::optional<Accessor>& from, std::uint32_t component, double otherwise) {
-      const double value = from ? from->real(i, component) : otherwise;
+    const auto number = [&](const std::optional<Accessor>& from, std::uint32_t component, double fallback) {
+      const double value = from ? from->real(i, component) : fallback;
       if (!std::isfinite(value))
-        instancing.fail(ErrorKind::malformed, fmt::format("instance {} stands nowhere", i));
+        instancing.fail(ErrorKind::malformed, fmt::format("the transform of instance {} is not finite", i));
       return value;
     };
-    const auto vector = [&](const std::optional<Accessor>& from, double otherwise) {
-      return Vec3d{number(from, 0, otherwise), number(from, 1, otherwise), number(from, 2, otherwise)};
+    const auto vector = [&](const std::optional<Accessor>& from, double fallback) {
+      return Vec3d{number(from, 0, fallback), number(from, 1, fallback), number(from, 2, fallback)};
     };
     const Transform transform = transformOfTrs(
         vector(translations, 0),
         {number(rotations, 0, 0), number(rotations, 1, 0), number(rotations, 2, 0), number(rotations, 3, 1)},
         vector(scales, 1));
-    children.push_back(addNode(scene_.graph, {"", groupUnlessMoved(transform), {*shape}, ""}));
+    children.push_back(addNode(scene_.graph, {"", transformOrGroup(transform), {*shape}, ""}));
   }
 }
 

@@ -24,7 +24,7 @@ public:
 private:
   /// `scale`: the scale of the parent's coordinate system relative to the scene.
   std::optional<std::size_t> readNode(std::size_t index, std::size_t depth, double scale);
-  NodeContent transformOf(const Value& node) const;
+  NodeContent contentOf(const Value& node) const;
   void addInstances(const Value& node, std::size_t mesh, std::vector<std::size_t>& children);
   std::optional<std::size_t> meshNode(std::size_t index, const std::string& nodeName);
   std::optional<std::size_t> shapeNode(const Value& primitive, const std::string& name);

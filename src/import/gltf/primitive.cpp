@@ -153,7 +153,7 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
   const auto attribute = [&](const char* name, std::uint32_t minComponents, std::uint32_t maxComponents) {
     const PrimitiveData::Attribute* found = data.find(name);
     if (found && (found->components < minComponents || found->components > maxComponents))
-      primitive["attributes"][name].fail(ErrorKind::malformed, "has a number of components that it cannot have");
+      primitive["attributes"][name].fail(ErrorKind::malformed, "has the wrong number of components");
     return found;
   };
   const auto vec3 = [](const PrimitiveData::Attribute& from, std::uint32_t vertex) {
@@ -204,15 +204,15 @@ void PrimitiveReader::addNamedAttributes(const Value& primitive, const Primitive
     visitAttributeRows([&](const auto& row) { isRead = isRead || name == row.gltfName; });
     if (isRead)
       continue;
-    const bool isOwn = name.starts_with("_") && attribute.components <= 4;
-    const std::string ownName = isOwn ? name.substr(1) : "";
-    if (!ownName.empty())
-      ownAttributes.insert(ownName);
-    if (!isOwn || ownName.empty() || !choice_.has(ownName)) {
+    const bool isFurther = name.starts_with("_") && attribute.components <= 4;
+    const std::string furtherName = isFurther ? name.substr(1) : "";
+    if (!furtherName.empty())
+      furtherAttributes.insert(furtherName);
+    if (!isFurther || furtherName.empty() || !choice_.has(furtherName)) {
       omissions.attributes.insert(name);
       continue;
     }
-    NamedAttribute named{ownName, attribute.components, {}};
+    NamedAttribute named{furtherName, attribute.components, {}};
     for (const std::uint32_t vertex : vertices)
       for (std::uint32_t c = 0; c < attribute.components; ++c) {
         named.values.push_back(static_cast<float>(attribute.number(vertex, c)));

@@ -44,7 +44,7 @@ public:
   Mesh read(const Value& primitive);
 
   PrimitiveOmissions omissions;
-  std::set<std::string> ownAttributes; ///< names of application-specific attributes, kept or not
+  std::set<std::string> furtherAttributes; ///< names of application-specific attributes without "_", kept or not
 
 private:
   PrimitiveData dataOf(const Value& primitive);
@@ -57,7 +57,7 @@ private:
 
   Document& document_;
   const AttributeChoice& choice_;
-  std::vector<std::uint32_t> localVertex_; ///< by vertex of the accessors; all unset between primitives
+  std::vector<std::uint32_t> localVertex_; ///< index in the mesh by vertex of the accessors; unset between primitives
 };
 
 /// Decodes KHR_draco_mesh_compression of a primitive. Throws Error.

@@ -27,7 +27,7 @@ std::vector<Vec3f> cornersOf(const Mesh& mesh) {
   return corners;
 }
 
-/// Points on a line, so that a corner's x is the index of its vertex.
+/// The corners of a primitive of this mode as vertex indices: the x of each vertex is its index.
 std::vector<int> cornersOfMode(int mode) {
   GltfText gltf;
   const std::size_t positions = gltf.addAccessor<float>({0, 0, 0, 1, 5, 0, 2, 0, 0, 3, 5, 0, 4, 0, 0}, "VEC3", 5126);

@@ -130,7 +130,7 @@ std::optional<std::size_t> Value::index(const char* member, const Value& array) 
     return {};
   const std::uint64_t index = value.whole();
   if (index >= array.size())
-    value.fail(ErrorKind::malformed, fmt::format("names {}, of {} there are", index, array.size()));
+    value.fail(ErrorKind::malformed, fmt::format("names element {} of {}", index, array.size()));
   return index;
 }
 
@@ -146,7 +146,7 @@ Json parseJson(std::string_view text, const std::string& name) {
     const auto line = 1 + std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
     throw Error(ErrorKind::malformed, fmt::format("{}:{}", name, line), "its JSON is not well-formed");
   } catch (const Json::exception&) {
-    throw Error(ErrorKind::malformed, name, "its JSON holds a number that no computer counts to");
+    throw Error(ErrorKind::malformed, name, "its JSON holds a number out of range");
   }
 }
 
