@@ -19,13 +19,14 @@ enum class Sniffing {
 struct Format {
   std::string_view name;                          ///< "PLY": in messages
   std::string_view help{};                        ///< names in the command line help; empty: the help does not name it
-  std::span<const std::string_view> extensions{}; ///< in lower case, with their dot; without a ".gz" behind them
+  std::span<const std::string_view> extensions{}; ///< in lower case, with their dot; a final ".gz" is not part of them
   bool (*sniff)(ByteSpan bytes) = nullptr;        ///< recognises the format by its content; null: it has no such mark
   Sniffing sniffing = Sniffing::signature;
-  /// Whether the name's extension stands for the format, where `extensions` cannot list them; null: they do.
+  /// Whether the name's extension is one of the format's, where `extensions` cannot list these; null: it lists them.
   bool (*readsExtension)(const std::string& name) = nullptr;
   /// Reads bytes that are unpacked, not empty and without a byte order mark. `name` stands for the file in messages.
-  /// Keeps the promises of import.h, but for unique names, the title and counting the shape instances.
+  /// Does all that import.h promises, except what importBytes adds: unique names, a title, the limit of shape
+  /// instances.
   Imported (*read)(ByteSpan bytes, const std::string& name, const ImportOptions& options) = nullptr;
 };
 

@@ -61,11 +61,11 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
 }
 
 Imported importFile(const std::filesystem::path& path, const ImportOptions& options) {
-  ImportOptions beside = options;
-  beside.folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code none;
-  beside.inlinedBy.push_back(std::filesystem::weakly_canonical(path, none));
-  return importBytes(readFile(path), path.string(), beside);
+  ImportOptions fileOptions = options;
+  fileOptions.folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  fileOptions.inlinedBy.push_back(std::filesystem::weakly_canonical(path, ignored));
+  return importBytes(readFile(path), path.string(), fileOptions);
 }
 
 } // namespace imgeo

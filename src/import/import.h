@@ -17,7 +17,7 @@
 namespace imgeo {
 
 struct Imported {
-  Scene scene;                         ///< normals only where the file has them
+  Scene scene;                         ///< meshes may have no normals: prepare/normals computes them
   std::vector<std::string> attributes; ///< names of all further vertex attributes of the source, kept or not
   std::string format;                  ///< "PLY", "OBJ", "GLB" ...: for reports
   std::vector<std::string> warnings;   ///< one sentence per kind of content that is not carried over
@@ -26,11 +26,11 @@ struct Imported {
 struct ImportOptions {
   AttributeChoice attributes;     ///< by default none
   std::filesystem::path folder{}; ///< relative URLs are resolved against it; empty: they are refused
-  bool outside = false;           ///< URLs may lead out of the folder
+  bool outside = false;           ///< whether URLs may lead out of `within`
   /// Geometry of an X3D document stays in the document where its text is at most this long. Where the document has more
   /// than 64 KiB of such text, only geometry of at most 256 bytes stays.
   std::size_t inlineBytes = 0;
-  bool strict = false;            ///< damage is an Error, even where the rest could be read
+  bool strict = false;            ///< whether damage is an Error even where the rest could be read
   std::filesystem::path within{}; ///< the folder that URLs may not lead out of; empty: `folder`
   /// The chain of files whose Inlines led to this one, outermost first. Detects a document that inlines itself.
   std::vector<std::filesystem::path> inlinedBy{};

@@ -1,4 +1,4 @@
-// Well-known scans, where the files are present.
+// Tests with well-known scans, skipped where their files are absent.
 #include "import/import.h"
 
 #include <cstdlib>

@@ -76,7 +76,7 @@ Bytes base64Decoded(std::string_view text, const std::string& location) {
       continue;
     const std::int8_t value = values[static_cast<unsigned char>(c)];
     if (value < 0)
-      throw Error(ErrorKind::malformed, location, "base64 data has a character that stands for nothing");
+      throw Error(ErrorKind::malformed, location, "base64 data has an invalid character");
     bits = bits << 6 | static_cast<std::uint32_t>(value);
     count += 6;
     if (count >= 8) {
@@ -92,18 +92,18 @@ fs::path References::fileOf(std::string_view url) const {
     throw Error(ErrorKind::unsupported, sourceName_, fmt::format("refers to \"{}\", {}", shortened(url), why));
   };
   if (hasScheme(url) || url.starts_with("//"))
-    refuse("which is on another host; imgeo reads local files alone");
+    refuse("which is on another host; imgeo reads only local files");
   if (folder_.empty())
     refuse("which can only be found beside a file, not beside standard input");
   const std::string name = percentDecoded(url.substr(0, url.find_first_of("?#")));
   if (name.empty() || name.find('\0') != name.npos)
     refuse("which names no file");
   fs::path file = folder_ / name;
-  std::error_code none;
-  if (!fs::exists(file, none)) // some exporters write % and # without escapes
-    if (const fs::path asWritten = folder_ / std::string(url); fs::exists(asWritten, none))
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) // some exporters write % and # without escapes
+    if (const fs::path asWritten = folder_ / std::string(url); fs::exists(asWritten, ignored))
       file = asWritten;
-  const fs::path folder = fs::weakly_canonical(within_, none), real = fs::weakly_canonical(file, none);
+  const fs::path folder = fs::weakly_canonical(within_, ignored), real = fs::weakly_canonical(file, ignored);
   const bool isInside = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
   if (!isInside && !allowsOutside_)
     refuse("which lies outside of the folder of the source; --outside allows that");
@@ -114,8 +114,8 @@ Bytes References::fetch(std::string_view url) const {
   if (url.starts_with("data:"))
     return dataOf(url, sourceName_);
   const fs::path file = fileOf(url);
-  std::error_code none;
-  if (fs::exists(file, none) && !fs::is_regular_file(file, none))
+  std::error_code ignored;
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
     throw Error(ErrorKind::io, file.string(), "is no file");
   return readFile(file);
 }

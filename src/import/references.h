@@ -1,5 +1,5 @@
 #pragma once
-// Resolves the URLs in a source to local files and data: bytes.
+// Resolves the URLs in a source: to local files, or to the bytes of data: URLs.
 
 #include "base/bytes.h"
 #include "import/import.h"
@@ -34,7 +34,7 @@ private:
 /// "a%20b" -> "a b"; malformed escapes stay as they are.
 std::string percentDecoded(std::string_view text);
 
-/// Decodes base64 (RFC 4648), ignoring blanks and padding. Throws Error{malformed} naming `location`.
+/// Decodes base64 (RFC 4648), ignoring white space and padding. Throws Error{malformed} naming `location`.
 Bytes base64Decoded(std::string_view text, const std::string& location);
 
 } // namespace imgeo

@@ -141,18 +141,18 @@ Imported readInChildProcess(const std::function<Imported()>& read, const std::st
   if (tookTooLong)
     throw Error(ErrorKind::limit, location, fmt::format("reading it took more than {} seconds", limits.seconds));
   if (WIFSIGNALED(status) || answer.empty())
-    throw Error(ErrorKind::malformed, location, "the library that reads its format fails over it");
+    throw Error(ErrorKind::malformed, location, "the library that reads its format crashed or failed");
   switch (static_cast<Outcome>(answer[0])) {
   case Outcome::read:
     return deserialized(ByteSpan(answer).subspan(1));
   case Outcome::refused:
     rethrow(answer);
   case Outcome::outOfMemory:
-    throw Error(ErrorKind::limit, location, "reading it takes more memory than such files are given");
+    throw Error(ErrorKind::limit, location, "reading it takes more memory than the limit");
   case Outcome::failed:
     break;
   }
-  throw Error(ErrorKind::malformed, location, "the library that reads its format fails over it");
+  throw Error(ErrorKind::malformed, location, "the library that reads its format crashed or failed");
 }
 
 } // namespace imgeo

@@ -14,8 +14,9 @@ struct ChildProcessLimits {
   std::uint64_t memoryBytes = std::uint64_t{8} << 30; ///< address space beyond what the parent uses
 };
 
-/// Runs `read` in a child process; returns its result, or throws the Error that it throws. Throws Error{malformed}
-/// naming `location` where the child crashes, Error{limit} where it exceeds a limit.
+/// Runs `read` in a child process; returns its result, or rethrows its Error. Also throws, naming `location`:
+/// Error{malformed} where the child crashes, Error{limit} where it exceeds a limit, Error{io} where no child can be
+/// started.
 Imported readInChildProcess(const std::function<Imported()>& read, const std::string& location,
                             const ChildProcessLimits& limits = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Imported <-> bytes, for the pipe between a process and its child.
+// Converts an Imported to bytes and back, for the pipe between a process and its child.
 
 #include "import/import.h"
 
@@ -7,8 +7,8 @@ namespace imgeo {
 
 Bytes serialized(const Imported& imported);
 
-/// Both processes run the same program, so the layout of plain types is that of memory. Throws std::out_of_range for
-/// bytes that end too early; the bytes are trusted otherwise.
+/// Trivially copyable types are copied as they lie in memory, since both processes run the same program. Throws
+/// std::out_of_range for bytes that end too early; trusts the bytes otherwise.
 Imported deserialized(ByteSpan bytes);
 
 } // namespace imgeo
