@@ -16,12 +16,12 @@ export const noPixels: PixelImage = { width: 0, height: 0, components: 1, pixels
 const maxEdge = 16384;
 
 /** Parses the numbers of an SFImage; undefined where they do not match its size or a pixel exceeds its components. */
-export function pixelImageOf([width, height, count, ...pixels]: readonly number[]): PixelImage | undefined {
+export function pixelImageOf([width, height, componentCount, ...pixels]: readonly number[]): PixelImage | undefined {
   if (width === undefined || height === undefined) return undefined;
   const isEdge = (edge: number) => Number.isInteger(edge) && edge >= 0 && edge <= maxEdge;
   if (!isEdge(width) || !isEdge(height) || width * height !== pixels.length) return undefined;
   if (width * height === 0) return noPixels; // "0 0 0": none
-  const components = ([1, 2, 3, 4] as const).find((possible) => possible === count);
+  const components = ([1, 2, 3, 4] as const).find((possible) => possible === componentCount);
   const end = 256 ** (components ?? 0);
   const isPixel = (pixel: number) => Number.isInteger(pixel) && pixel >= 0 && pixel < end;
   return components && pixels.every(isPixel) ? { width, height, components, pixels } : undefined;

@@ -47,7 +47,7 @@ export interface PageViewerListener {
   onProgress(share: number, stage: StageName | "none"): void;
   /** A frame has been drawn. The events that wait for it follow. */
   onFrame(): void;
-  /** Another viewpoint is bound, another navigation type is in use, or the scene has changed the choice of either. */
+  /** Another viewpoint is bound, another navigation type is in use, or the scene has other ones to choose from. */
   onNavigation(): void;
   /** The scene has been read again and has Anchors, or had some before. */
   onAnchors(anchors: readonly AnchorDescription[]): void;

@@ -19,43 +19,43 @@ export class ArrayBuffers implements BufferProvider {
   readonly #arrays = new WeakMap<GpuArray, StoredArray>();
 
   store(array: ElementArray): GpuArray {
-    const bytes = {
+    const gpuArray = {
       byteLength: array.byteLength,
       close: () => {
-        this.#arrays.delete(bytes);
+        this.#arrays.delete(gpuArray);
       },
     };
-    this.#arrays.set(bytes, { array, records: new Map() });
-    return bytes;
+    this.#arrays.set(gpuArray, { array, records: new Map() });
+    return gpuArray;
   }
 
-  recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
-    const { records } = this.#arrayOf(bytes);
+  recordsOf(gpuArray: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
+    const { records } = this.#arrayOf(gpuArray);
     const key = `${type} ${stride}`;
-    const buffer = records.get(key) ?? new InterleavedBuffer(this.#viewOf(bytes, type), stride);
+    const buffer = records.get(key) ?? new InterleavedBuffer(this.#viewOf(gpuArray, type), stride);
     records.set(key, buffer);
     return buffer;
   }
 
-  indexAttributeOf(bytes: GpuArray, type: ElementType): BufferAttribute {
-    return new BufferAttribute(this.#viewOf(bytes, type), 1);
+  indexAttributeOf(gpuArray: GpuArray, type: ElementType): BufferAttribute {
+    return new BufferAttribute(this.#viewOf(gpuArray, type), 1);
   }
 
-  read(bytes: GpuArray, type: ElementType, first: number, count = Infinity): ElementArray {
-    return this.#viewOf(bytes, type).slice(first, first + count);
+  read(gpuArray: GpuArray, type: ElementType, first: number, count = Infinity): ElementArray {
+    return this.#viewOf(gpuArray, type).slice(first, first + count);
   }
 
   dispose(geometry: BufferGeometry): void {
     geometry.dispose();
   }
 
-  #viewOf(bytes: GpuArray, type: ElementType): ElementArray {
-    const { array } = this.#arrayOf(bytes);
+  #viewOf(gpuArray: GpuArray, type: ElementType): ElementArray {
+    const { array } = this.#arrayOf(gpuArray);
     return new (arrayTypeOf(type))(array.buffer, array.byteOffset, array.byteLength / byteSizeOf(type));
   }
 
-  #arrayOf(bytes: GpuArray): StoredArray {
-    const stored = this.#arrays.get(bytes);
+  #arrayOf(gpuArray: GpuArray): StoredArray {
+    const stored = this.#arrays.get(gpuArray);
     if (stored === undefined) throw new RangeError("the array is closed");
     return stored;
   }

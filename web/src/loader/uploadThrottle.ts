@@ -13,8 +13,8 @@ export class UploadThrottle {
   });
 
   /**
-   * Resolves before a frame that may upload this many more bytes. An array or image larger than the limit waits for a
-   * frame that uploads nothing after it. Rejects with the signal's reason.
+   * Resolves before a frame that may upload this many more bytes. An array or image larger than the limit is the last
+   * upload of its frame. Rejects with the signal's reason.
    */
   waitForFrame(bytes: number, signal: AbortSignal): Promise<void> {
     return this.#queue.run([bytes].values(), signal);

@@ -10,7 +10,7 @@ export interface WorldBox {
 }
 
 const cellsPerSide = 48;
-const rays = 512;
+const rayCount = 512;
 
 /** The samples that a depth camera with y up takes. */
 export function sampleGround(camera: DepthCamera, boxes: readonly WorldBox[]): GroundSamples {
@@ -24,8 +24,8 @@ export function sampleGround(camera: DepthCamera, boxes: readonly WorldBox[]): G
     return highestBelow(boxes, x, eye.y, z) - eye.y;
   });
   const walls: number[] = [];
-  for (let ray = 0; ray < rays; ++ray) {
-    const angle = (2 * Math.PI * (ray + 0.5)) / rays;
+  for (let ray = 0; ray < rayCount; ++ray) {
+    const angle = (2 * Math.PI * (ray + 0.5)) / rayCount;
     const direction = sceneFromCamera(
       { ...camera, eye: new Vector3() },
       new Vector3(Math.sin(angle), 0, Math.cos(angle)),

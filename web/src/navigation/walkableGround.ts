@@ -27,7 +27,7 @@ export class WalkableGround {
   readonly #isReachable: Uint8Array;
   /** x and z of each obstacle point. */
   readonly #obstacles: Float32Array;
-  /** There is no floor below the avatar, so that no edge of a floor stops it. */
+  /** Whether there is no floor below the avatar; then the edges of floors do not stop it. */
   readonly isHovering: boolean;
 
   /** The avatar's eye is at the center of the map, which extends `range` to each side. */
