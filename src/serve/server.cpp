@@ -124,7 +124,7 @@ void Server::State::startSession(tcp::socket socket) {
   sessions.insert(session);
   asio::co_spawn(
       session->executor(), [session] { return session->run(); },
-      [this, session](std::exception_ptr) {
+      [this, session](const std::exception_ptr&) {
         asio::dispatch(acceptor.get_executor(), [this, session] { endSession(session); });
       });
 }

@@ -67,9 +67,12 @@ bool normalSumsFit(const CompactPatch& patch, const std::vector<std::uint32_t>& 
     };
     const Vec3i64 e = edge(1), f = edge(2); // below 2^30 each
     const std::int64_t size = std::max({e.y * f.z + e.z * f.y, e.z * f.x + e.x * f.z, e.x * f.y + e.y * f.x});
-    for (std::size_t i = 0; i < 3; ++i)
-      if ((sums[vertices[corner + i]] += size) >= limit)
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::int64_t& sum = sums[vertices[corner + i]];
+      sum += size;
+      if (sum >= limit)
         return false;
+    }
   }
   return true;
 }

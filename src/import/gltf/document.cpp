@@ -28,8 +28,9 @@ std::uint32_t sizeOfComponent(const Value& type) {
   case unsignedInt:
   case floatType:
     return 4;
+  default:
+    type.fail(ErrorKind::malformed, "is none of glTF's component types");
   }
-  type.fail(ErrorKind::malformed, "is none of glTF's component types");
 }
 
 struct Shape2d {
