@@ -6,6 +6,8 @@ find_package(Threads REQUIRED)
 add_library(imgeo_options INTERFACE)
 target_compile_options(imgeo_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+# A new enumerator (a vertex role, an encoding) must not compile until every switch handles it.
+target_compile_options(imgeo_options INTERFACE -Werror=switch)
 target_include_directories(imgeo_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
 # Encoded bytes must not depend on the machine: the compiler must not fuse multiply and add.
 target_compile_options(imgeo_options INTERFACE -ffp-contract=off)

@@ -84,9 +84,11 @@ std::string zshValue(const Flag& flag) {
     return fmt::format(":{}:_files", flag.name);
   case Value::directory:
     return fmt::format(":{}:_files -/", flag.name);
-  default:
-    return fmt::format(":{}: ", flag.name);
+  case Value::text:
+  case Value::integer:
+    break;
   }
+  return fmt::format(":{}: ", flag.name);
 }
 
 std::string zshScript() {

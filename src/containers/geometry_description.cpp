@@ -18,9 +18,12 @@ const char* nameOf(Role role) {
     return "patch";
   case Role::base:
     return "base";
-  default:
-    return nameOf(*vertexRoleOf(role));
+  case Role::normal:
+  case Role::texCoord:
+  case Role::color:
+    break;
   }
+  return nameOf(*vertexRoleOf(role));
 }
 
 std::optional<VertexRole> vertexRoleOf(Role role) {

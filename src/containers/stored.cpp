@@ -131,7 +131,9 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
   case Role::base:
     assert(false); // a geometry has it, not a patch
     break;
-  default:
+  case Role::normal:
+  case Role::texCoord:
+  case Role::color:
     patch.vertexAttributes[*vertexRoleOf(role)] = reference;
   }
 }

@@ -103,8 +103,10 @@ void addTexture(Json& material, const TextureUse& use, std::size_t index, const 
       info["strength"] = physical->occlusionStrength;
     material["occlusionTexture"] = std::move(info);
     break;
-  default: // glTF has no such texture: ambient, specular, shininess
-    break;
+  case TextureRole::ambient:
+  case TextureRole::specular:
+  case TextureRole::shininess:
+    break; // glTF has no such textures
   }
 }
 

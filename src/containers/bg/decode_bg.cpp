@@ -66,9 +66,13 @@ public:
       return loadLittle<std::int16_t>(at);
     case ElementType::int32:
       return loadLittle<std::int32_t>(at);
-    default:
-      return unsignedAt(record, component);
+    case ElementType::uint8:
+    case ElementType::uint16:
+    case ElementType::uint32:
+    case ElementType::float32:
+      break;
     }
+    return unsignedAt(record, component);
   }
 
   /// An element as shaders read it: integers as fractions of their type's maximum.

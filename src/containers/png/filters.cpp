@@ -26,9 +26,11 @@ template <typename Each> void withPredictor(RowFilter filter, Each each) {
     return each([](int left, int up, int) { return (left + up) / 2; });
   case RowFilter::paeth:
     return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
-  default:
-    return each([](int, int, int) { return 0; });
+  case RowFilter::none:
+  case RowFilter::adaptive: // chosen row by row, so not the filter of a row
+    break;
   }
+  return each([](int, int, int) { return 0; });
 }
 
 /// Filters one row into `out`. `above` is the previous row, or null at the top. The first pixel, which has no left
