@@ -55,10 +55,10 @@ std::string_view pageStylesheet();
 /// Appends the content of `more` to `document`. Returns the roots of `more`, which have no parent yet.
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more);
 
-/// Reads the <X3D> element of an X3D or HTML text. An Inline whose file was written beside the document gets an empty
-/// InlinedDocument, which append() fills. A malformed value of a node that may come from the source (a viewpoint, a
-/// material) is a warning, as in browsers. Safe for untrusted text. Throws Error{malformed, unsupported, limit} with
-/// `name` and the line.
+/// Reads the <X3D> element of an X3D or HTML text. An Inline whose file was written beside the document gets an
+/// InlinedDocument but no children: the caller reads that file and append()s it. A malformed value of a node that may
+/// come from the source (a viewpoint, a material) is a warning, as in browsers. Safe for untrusted text. Throws
+/// Error{malformed, unsupported, limit} with `name` and the line.
 SceneDocument readScene(std::string_view text, const std::string& name);
 
 } // namespace imgeo

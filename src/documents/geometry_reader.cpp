@@ -226,6 +226,7 @@ Encoding encodingOf(const FieldReader& fields) {
   fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");
 }
 
+/// Refers the normals of all patches to the fourth elements of their coordinates (normalAsSphericalCoordinates).
 void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geometry) {
   if (byteSizeOf(geometry.coordType) != 2)
     fields.fail(ErrorKind::unsupported,

@@ -32,8 +32,8 @@ TEST(PageSanitizer, AllowsRelativeUrlsAndUrlsOfHttp) {
   EXPECT_EQ(safeUrls("\"data:,x\""), "");
 }
 
-std::size_t addOther(SceneGraph& graph, const std::string& element, std::vector<FieldText> fields,
-                     std::vector<std::size_t> children = {}, const std::string& text = "") {
+std::size_t addGeneric(SceneGraph& graph, const std::string& element, std::vector<FieldText> fields,
+                       std::vector<std::size_t> children = {}, const std::string& text = "") {
   return addNode(graph, {"", GenericNode{element, text, {}}, std::move(children), "", std::move(fields)});
 }
 
@@ -42,16 +42,16 @@ SceneDocument hostileDocument() {
   SceneDocument document;
   SceneGraph& graph = document.graph;
   graph.isComplete = true;
-  const std::size_t inside = addOther(graph, "Viewpoint", {{"description", "\"><script>alert(1)</script>"}});
+  const std::size_t inside = addGeneric(graph, "Viewpoint", {{"description", "\"><script>alert(1)</script>"}});
   graph.roots = {
-      addOther(graph, "Script", {{"url", "javascript:alert(2)"}}, {}, "alert(3) </script> ]]>"),
-      addOther(graph, "script", {{"src", "http://evil/x.js"}}, {}, "alert(4)"),
-      addOther(graph, "iframe", {{"srcdoc", "<script>alert(5)</script>"}}, {inside}),
-      addOther(graph, "TouchSensor", {{"onclick", "alert(6)"}, {"ONLOAD", "alert(7)"}, {"style", "x:url(//evil)"}}),
-      addOther(graph, "Inline", {{"url", "\"java\tscript:alert(8)\" \"data:text/html,alert(9)\" \"part.x3d\""}}),
-      addOther(graph, "AudioClip", {{"url", "data:audio/wav,alert(10)"}}),
-      addOther(graph, "DirectionalLight", {{"on", "false"}})};
-  graph.head.header = {addOther(graph, "meta", {{"http-equiv", "refresh"}, {"content", "0;url=//evil"}})};
+      addGeneric(graph, "Script", {{"url", "javascript:alert(2)"}}, {}, "alert(3) </script> ]]>"),
+      addGeneric(graph, "script", {{"src", "http://evil/x.js"}}, {}, "alert(4)"),
+      addGeneric(graph, "iframe", {{"srcdoc", "<script>alert(5)</script>"}}, {inside}),
+      addGeneric(graph, "TouchSensor", {{"onclick", "alert(6)"}, {"ONLOAD", "alert(7)"}, {"style", "x:url(//evil)"}}),
+      addGeneric(graph, "Inline", {{"url", "\"java\tscript:alert(8)\" \"data:text/html,alert(9)\" \"part.x3d\""}}),
+      addGeneric(graph, "AudioClip", {{"url", "data:audio/wav,alert(10)"}}),
+      addGeneric(graph, "DirectionalLight", {{"on", "false"}})};
+  graph.head.header = {addGeneric(graph, "meta", {{"http-equiv", "refresh"}, {"content", "0;url=//evil"}})};
   return document;
 }
 
@@ -68,7 +68,7 @@ TEST(PageSanitizer, RemovesActiveContentOfAHostileDocument) {
 
 TEST(PageSanitizer, WritesTheStyleOfFontsAsADataAttribute) {
   SceneDocument document;
-  document.graph.roots = {addOther(document.graph, "FontStyle", {{"style", "BOLD"}, {"size", "2"}})};
+  document.graph.roots = {addGeneric(document.graph, "FontStyle", {{"style", "BOLD"}, {"size", "2"}})};
   EXPECT_NE(writeHtml(document, {"imgeo.js", "imgeo.css"}).find("<FontStyle size=\"2\" data-style=\"BOLD\">"),
             std::string::npos);
   EXPECT_NE(writeX3d(document).find("<FontStyle style=\"BOLD\" size=\"2\">"), std::string::npos);

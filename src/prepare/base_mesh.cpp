@@ -259,7 +259,7 @@ private:
 
 /// Renumbers `indices`, all below `count`, in the order of their first occurrence. Returns the old index of each new
 /// one.
-std::vector<std::uint32_t> compactIndices(std::vector<std::uint32_t>& indices, std::size_t count) {
+std::vector<std::uint32_t> renumberByFirstUse(std::vector<std::uint32_t>& indices, std::size_t count) {
   constexpr std::uint32_t none = UINT32_MAX;
   std::vector<std::uint32_t> newIndices(count, none), kept;
   for (std::uint32_t& index : indices) {
@@ -274,10 +274,10 @@ std::vector<std::uint32_t> compactIndices(std::vector<std::uint32_t>& indices, s
 
 /// Removes wedges and positions that no triangle uses.
 void removeUnused(BaseMesh& base) {
-  const std::vector<std::uint32_t> wedges = compactIndices(base.corners, base.wedgePositions.size());
+  const std::vector<std::uint32_t> wedges = renumberByFirstUse(base.corners, base.wedgePositions.size());
   base.wedgePositions = gather(base.wedgePositions, wedges);
   static_cast<VertexAttributes&>(base) = gather(base, wedges);
-  base.positions = gather(base.positions, compactIndices(base.wedgePositions, base.positions.size()));
+  base.positions = gather(base.positions, renumberByFirstUse(base.wedgePositions, base.positions.size()));
 }
 
 } // namespace

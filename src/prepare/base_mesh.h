@@ -23,10 +23,10 @@ struct BaseMesh : VertexAttributes {
   const Vec3u& cornerPosition(std::size_t corner) const { return positions[wedgePositions[corners[corner]]]; }
 };
 
-/// Simplifies a mesh to about `percent` of its triangles, plus one triangle for each edge that two patches share:
-/// those edges are kept. Returns nothing where a base mesh is not worth its bytes: for points and lines, for fewer
-/// than `minTrianglesForBase` triangles, where it would have more than a fourth of the triangles (patches that are
-/// nearly all border), and where it would have less than half of the area (unconnected triangles).
+/// Simplifies a mesh to about `percent` of its triangles, plus one triangle for each edge that two patches share: those
+/// edges are kept. Returns nothing for 0 percent, and if a base mesh is not worth its bytes: for points and lines, for
+/// fewer than `minTrianglesForBase` triangles, if it would have more than a fourth of the triangles (patches that are
+/// nearly all border), or less than half of the area (unconnected triangles).
 std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent);
 
 /// Minimum number of triangles of a mesh that gets a base mesh. Smaller meshes arrive within a few round trips anyway.

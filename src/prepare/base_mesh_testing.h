@@ -37,7 +37,7 @@ private:
 inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
   Random random(static_cast<std::uint32_t>(patches.size()));
   for (int mixture = 0; mixture < 6; ++mixture) {
-    std::vector<bool> hasArrived;
+    std::vector<bool> hasArrived; // mixture 0 has no patches, mixture 1 all of them
     for (std::size_t segment = 0; segment < patches.size(); ++segment)
       hasArrived.push_back(mixture > 1 ? random.oneIn(2) : mixture == 1);
     EdgeBalance edges;

@@ -191,6 +191,7 @@ private:
     return flips;
   }
 
+  /// Merges two neighbours, unless that breaks the topology or flips a triangle.
   void collapse(std::uint32_t from, std::uint32_t to) {
     if (vertices_[from].isFixed)
       std::swap(from, to);

@@ -87,41 +87,45 @@ std::size_t partitionElements(const ElementTable& table, Elements elements, cons
   std::vector<std::uint64_t> weights(bucketCount);
   for (const std::uint32_t element : elements)
     weights[bucketOf(element)] += table.weights[element];
-  const double requested =
+  const double requestedWeight =
       share * static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
-  std::uint64_t lower = 0;
-  std::size_t border = 0;
-  while (border + 1 < bucketCount && static_cast<double>(lower + weights[border]) <= requested)
-    lower += weights[border++];
+  std::uint64_t firstWeight = 0;
+  std::size_t boundaryBucket = 0;
+  while (boundaryBucket + 1 < bucketCount &&
+         static_cast<double>(firstWeight + weights[boundaryBucket]) <= requestedWeight)
+    firstWeight += weights[boundaryBucket++];
 
-  std::vector<std::uint32_t> onBorder;
-  std::ranges::copy_if(elements, std::back_inserter(onBorder),
-                       [&](std::uint32_t element) { return bucketOf(element) == border; });
-  std::sort(onBorder.begin(), onBorder.end(), before);
-  std::size_t last = 0; // end of the first group in onBorder
-  while (last + 1 < onBorder.size() && static_cast<double>(lower + table.weights[onBorder[last]]) <= requested)
-    lower += table.weights[onBorder[last++]];
-  const bool takesOne = lower == 0; // the first element alone weighs more than the share
-  const std::uint32_t first = onBorder[last];
-  const auto isFirst = [&](std::uint32_t element) {
+  std::vector<std::uint32_t> inBoundaryBucket;
+  std::ranges::copy_if(elements, std::back_inserter(inBoundaryBucket),
+                       [&](std::uint32_t element) { return bucketOf(element) == boundaryBucket; });
+  std::sort(inBoundaryBucket.begin(), inBoundaryBucket.end(), before);
+  std::size_t split = 0; // end of the first group in inBoundaryBucket
+  while (split + 1 < inBoundaryBucket.size() &&
+         static_cast<double>(firstWeight + table.weights[inBoundaryBucket[split]]) <= requestedWeight)
+    firstWeight += table.weights[inBoundaryBucket[split++]];
+  // If the first element alone weighs more than the share, it becomes the first group.
+  const bool takesOne = firstWeight == 0;
+  const std::uint32_t firstOfSecond = inBoundaryBucket[split];
+  const auto isInFirstGroup = [&](std::uint32_t element) {
     const std::size_t bucket = bucketOf(element);
-    return bucket != border ? bucket < border : before(element, first) || (takesOne && element == first);
+    return bucket != boundaryBucket ? bucket < boundaryBucket
+                                    : before(element, firstOfSecond) || (takesOne && element == firstOfSecond);
   };
-  const auto second = std::stable_partition(elements.begin(), elements.end(), isFirst);
-  return static_cast<std::size_t>(second - elements.begin());
+  const auto secondBegin = std::stable_partition(elements.begin(), elements.end(), isInFirstGroup);
+  return static_cast<std::size_t>(secondBegin - elements.begin());
 }
 
 /// Splits a node in two, or returns it alone where it is small enough.
 std::vector<Elements> splitNode(const ElementTable& table, Elements elements, std::size_t maxWedges) {
   const auto ceilDivide = [](std::size_t a, std::size_t b) { return (a + b - 1) / b; };
   const std::size_t cornerCount = elements.size() * cornersPerElement(table.mesh.topology);
-  const std::size_t requested =
+  const std::size_t patchCount =
       std::max(ceilDivide(countWedges(table.mesh, elements), maxWedges), ceilDivide(cornerCount, maxPatchCorners));
-  if (requested <= 1)
+  if (patchCount <= 1)
     return {elements};
   // A node that needs three patches is split at a third, and not in half, so that patches are well filled.
-  const std::size_t first = requested / 2;
-  const double share = static_cast<double>(first) / static_cast<double>(requested);
+  const std::size_t firstPatchCount = patchCount / 2;
+  const double share = static_cast<double>(firstPatchCount) / static_cast<double>(patchCount);
   const std::size_t cut = partitionElements(table, elements, boxOf(table, elements), share);
   return {elements.first(cut), elements.subspan(cut)};
 }
@@ -147,9 +151,9 @@ std::vector<Elements> leavesOf(const ElementTable& table, Elements all, std::siz
 }
 
 /// Numbers distinct values in the order of their first occurrence.
-class Compactor {
+class FirstUseNumbering {
 public:
-  explicit Compactor(std::size_t capacity) : table_(capacity) { kept.reserve(capacity); }
+  explicit FirstUseNumbering(std::size_t capacity) : table_(capacity) { kept.reserve(capacity); }
 
   std::uint32_t numberOf(std::uint32_t value) {
     // A small cache: most values have occurred recently.
@@ -187,7 +191,7 @@ Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements el
   Patch patch;
   patch.topology = mesh.topology;
   patch.corners.reserve(elements.size() * count);
-  Compactor wedges(capacity), positions(capacity);
+  FirstUseNumbering wedges(capacity), positions(capacity);
   for (const std::uint32_t element : elements)
     for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count; ++corner)
       patch.corners.push_back(wedges.numberOf(mesh.corners[corner]));

@@ -103,6 +103,7 @@ std::uint32_t vertexAt(const IndexedPatch& patch, std::size_t drawn) {
   return patch.indices.empty() ? static_cast<std::uint32_t>(drawn) : patch.indices[drawn];
 }
 
+/// Whether two drawn vertices have different indices or, without indices, different positions.
 bool differ(const IndexedPatch& patch, std::uint32_t a, std::uint32_t b) {
   return patch.indices.empty() ? patch.positions[a] != patch.positions[b] : a != b;
 }

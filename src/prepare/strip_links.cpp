@@ -64,14 +64,15 @@ struct WeightTables {
     odd = powers.values[oddCost];
   }
 
-  /// Weight of a triangle: the path ends that it forms, and a swap at its outer side. 0: not allowed.
-  static float triangleWeight(const Powers& powers, std::uint32_t outer, std::uint32_t in, std::uint32_t out) {
+  /// Weight of a triangle: the path ends that it forms, and a swap at its outer side. 0: not allowed. `first` and
+  /// `second` are 1 if its first and second spoke are linked.
+  static float triangleWeight(const Powers& powers, std::uint32_t outer, std::uint32_t first, std::uint32_t second) {
     if (outer == noTriangle)
-      return in + out == 0 ? 1.0f : 0.0f;
-    const std::uint32_t degree = in + out + hasOuterLink(outer);
+      return first + second == 0 ? 1.0f : 0.0f;
+    const std::uint32_t degree = first + second + hasOuterLink(outer);
     if (degree > 2)
       return 0;
-    const bool isSwap = degree == 2 && ((outer == outerTurnsAfter && in) || (outer == outerTurnsBefore && out));
+    const bool isSwap = degree == 2 && ((outer == outerTurnsAfter && first) || (outer == outerTurnsBefore && second));
     return powers.values[endCost * (2 - degree) + (isSwap ? swapCost : 0)];
   }
 
@@ -104,23 +105,23 @@ public:
     std::uint32_t at = star.corner;
     const std::uint32_t count = size_ - star.isOpen;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t number = at / 4, in = at % 4, out = before(in), outer = after(in);
-      const Triangle& triangle = links_.triangles_[number];
-      links_.toggleTip(number); // removes its tip; run() adds the new one
-      numbers_[i] = number;
-      ins_[i] = in;
+      const std::uint32_t index = at / 4, firstSide = at % 4, secondSide = before(firstSide), outer = after(firstSide);
+      const Triangle& triangle = links_.triangles_[index];
+      links_.toggleTip(index); // removes its tip; run() adds the new one
+      triangleIndices_[i] = index;
+      firstSpokeSides_[i] = firstSide;
       outers_[i] = outerFree;
       if (triangle.linked >> outer & 1) {
         const std::uint32_t opposite = triangle.across[outer];
         outers_[i] = static_cast<Outer>(outerLinked + turns[links_.triangles_[opposite / 4].linked][opposite % 4]);
       }
-      farOdd_[i] = links_.oddTips_[links_.corners_[3 * number + outer]];
-      at = triangle.across[out];
+      farOdd_[i] = links_.oddTips_[links_.corners_[3 * index + outer]];
+      at = triangle.across[secondSide];
     }
     if (star.isOpen) {
-      const std::uint32_t last = numbers_[count - 1];
+      const std::uint32_t last = triangleIndices_[count - 1];
       outers_[count] = noTriangle;
-      farOdd_[count] = links_.oddTips_[links_.corners_[3 * last + before(ins_[count - 1])]];
+      farOdd_[count] = links_.oddTips_[links_.corners_[3 * last + before(firstSpokeSides_[count - 1])]];
     }
     count_ = count;
     center_ = links_.corners_[3 * (star.corner / 4) + star.corner % 4];
@@ -132,7 +133,7 @@ public:
     if (sampleBackward(links_.oddTips_[center_], tables.odd, random))
       write();
     for (std::uint32_t i = 0; i < count_; ++i)
-      links_.toggleTip(numbers_[i]);
+      links_.toggleTip(triangleIndices_[i]);
   }
 
 private:
@@ -213,10 +214,10 @@ private:
 
   void write() {
     for (std::uint32_t i = 0; i < count_; ++i) {
-      const std::uint32_t in = ins_[i];
+      const std::uint32_t firstSide = firstSpokeSides_[i];
       const std::uint32_t next = i + 1 == size_ ? 0 : i + 1;
-      links_.triangles_[numbers_[i]].linked =
-          spokes_[i] << in | spokes_[next] << before(in) | std::uint32_t{outers_[i] != outerFree} << after(in);
+      links_.triangles_[triangleIndices_[i]].linked = spokes_[i] << firstSide | spokes_[next] << before(firstSide) |
+                                                      std::uint32_t{outers_[i] != outerFree} << after(firstSide);
     }
   }
 
@@ -224,10 +225,10 @@ private:
 
   StripLinks& links_;
   std::uint32_t size_, count_, center_;
-  std::array<std::uint32_t, maxStarSize> numbers_; ///< indices of the triangles
-  std::array<std::uint32_t, maxStarSize> ins_;     ///< by triangle: the side that is its first spoke
-  std::array<std::uint8_t, maxStarSize> outers_;   ///< by triangle: Outer
-  std::array<std::uint8_t, maxStarSize> farOdd_;   ///< by spoke: tips of other paths at its outer vertex are odd
+  std::array<std::uint32_t, maxStarSize> triangleIndices_; ///< indices of the triangles
+  std::array<std::uint32_t, maxStarSize> firstSpokeSides_; ///< by triangle: the side that is its first spoke
+  std::array<std::uint8_t, maxStarSize> outers_;           ///< by triangle: Outer
+  std::array<std::uint8_t, maxStarSize> farOdd_; ///< by spoke: tips of other paths at its outer vertex are odd
   std::array<bool, maxStarSize> isTipAtCenter_;
   std::array<std::array<float, 8>, maxStarSize> weights_;
   Lanes sums_[maxStarSize][2][4];

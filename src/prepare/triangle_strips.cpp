@@ -285,7 +285,7 @@ private:
   std::vector<bool> used_;                ///< by trail
   std::vector<std::uint32_t> endCorners_; ///< three for each trail end: its tip and the vertices of its first half-edge
   Incidence endsAt_;                      ///< vertex -> indices in endCorners_
-  std::vector<std::uint32_t> endsLeft_;   ///< by vertex: number of these that are not known to be used
+  std::vector<std::uint32_t> endsLeft_;   ///< by vertex: number of its entries in endsAt_ that are not known to be used
   std::vector<Parity> requiredParities_;  ///< by path end: parity of the index at which its first triangle has to begin
   std::vector<std::size_t> lengths_;      ///< by path: indices, if it begins at the required parity
   std::vector<std::uint32_t> parityCosts_; ///< by trail end and parity of the index at which it begins

@@ -125,7 +125,7 @@ std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vec
 
 /// Appends the nodes, appearances, textures, images and inlined documents of `more` to those of `graph`, and adds
 /// `firstMesh` to the mesh indices of the appended shapes. Returns the new indices of the roots of `more`, which have
-/// no parent yet.
+/// no parent yet. Leaves its head in `more`, with new indices, for the caller to store.
 std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh);
 
 /// The indices of all Shape nodes in document order.
