@@ -11,6 +11,7 @@ import { indexOf, verticesOf } from "./patchBuffers.ts";
 /** The buffers of each segment, in order; undefined for a segment without triangles. */
 export type BaseBuffers = (PatchBuffers | undefined)[];
 
+/** A decoded base mesh. */
 export class Base {
   readonly segmentCount: number;
   /** All segments in one. */

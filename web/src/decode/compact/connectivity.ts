@@ -8,7 +8,7 @@ export interface Connectivity {
   readonly across: Int32Array;
   /** Per triangle: the same for its second edge, where it closes onto an existing triangle there. */
   readonly closing: Int32Array;
-  /** Per vertex, on the boundary when it was decoded: the vertex after its next one, and the one before its previous. */
+  /** Per vertex, on the boundary when it was decoded: the vertex after its next, and the one before its previous. */
   readonly ahead: Int32Array;
   readonly behind: Int32Array;
   /** Per vertex: the apex behind the edge of the triangle that closes its other side. */
