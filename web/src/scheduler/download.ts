@@ -1,21 +1,20 @@
 // Downloads a URL: counts the bytes as they arrive, times out when none arrive, and retries where that can help.
 
 import type { Prioritized } from "./priorityQueue.ts";
+import type { Failure } from "./retry.ts";
 import { retryDelayMs } from "./retry.ts";
 import type { Scheduler } from "./scheduler.ts";
 
-export type RequestFailure = "http" | "network" | "timeout" | "limit";
-
 export class RequestError extends Error {
   override readonly name = "RequestError";
-  readonly kind: RequestFailure;
+  readonly kind: Failure["kind"];
   readonly url: string;
   /** The HTTP status; 0 where there was no response. */
   readonly status: number;
   /** The `Retry-After` header as the server sent it. */
   readonly retryAfter: string | undefined;
 
-  constructor(kind: RequestFailure, url: string, message: string, status = 0, retryAfter?: string) {
+  constructor(kind: Failure["kind"], url: string, message: string, status = 0, retryAfter?: string) {
     super(message);
     this.kind = kind;
     this.url = url;

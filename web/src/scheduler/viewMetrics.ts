@@ -1,5 +1,5 @@
-// Computes whether a bounding sphere is in view, its size in pixels, and the pixels per unit there. Matrices are 16 numbers in
-// column-major order, as WebGL has them; there is no dependency on a camera class.
+// Computes whether a bounding sphere is in view, its size in pixels, and the pixels per unit there. Matrices are 16
+// numbers in column-major order, as WebGL has them; there is no dependency on a camera class.
 
 export type Point = readonly [number, number, number];
 export type Matrix = ArrayLike<number>;

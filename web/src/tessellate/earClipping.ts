@@ -16,7 +16,7 @@ const maxCorners = 512;
  * themselves still give n - 2 triangles.
  */
 export function triangulate(ring: readonly Vec3[]): number[] {
-  const normal = newellNormal(ring);
+  const normal = doubleVectorArea(ring);
   if (ring.length <= 3 || normal.every((component) => component === 0)) return fan(ring.length);
   const polygon = projected(ring, normal);
   return isConvex(polygon) || ring.length > maxCorners ? fan(ring.length) : clipEars(polygon);
@@ -27,10 +27,10 @@ function fan(cornerCount: number): number[] {
 }
 
 /**
- * Twice the polygon's vector area, computed relative to the first corner, which keeps the precision of distant
- * polygons.
+ * Twice the polygon's vector area, which points along its normal. Computed relative to the first corner, which keeps
+ * the precision of distant polygons.
  */
-function newellNormal([first = [0, 0, 0], ...others]: readonly Vec3[]): Vec3 {
+function doubleVectorArea([first = [0, 0, 0], ...others]: readonly Vec3[]): Vec3 {
   let sum: Vec3 = [0, 0, 0];
   for (const [i, corner] of others.slice(0, -1).entries()) {
     const [x, y, z] = cross(minus(corner, first), minus(others[i + 1] ?? corner, first));

@@ -149,7 +149,7 @@ export function cylinderOrCone(
   const slope = (bottomRadius - topRadius) / height;
   const normalLength = Math.hypot(1, slope);
   const [top, bottom] = [height / 2, -height / 2];
-  const wall = (segment: number, y: number, radius: number): SolidCorner => {
+  const sideCorner = (segment: number, y: number, radius: number): SolidCorner => {
     const [x, z] = directionOf(segment);
     return {
       position: [x * radius, y, z * radius],
@@ -158,7 +158,7 @@ export function cylinderOrCone(
     };
   };
   // Caps show the largest circle inside the texture.
-  const cap = (segment: number, y: number, radius: number, facing: 1 | -1): SolidCorner => {
+  const capCorner = (segment: number, y: number, radius: number, facing: 1 | -1): SolidCorner => {
     const [x, z] = radius > 0 ? directionOf(segment) : [0, 0];
     return {
       position: [x * radius, y, z * radius],
@@ -169,19 +169,23 @@ export function cylinderOrCone(
   for (let segment = 0; segment < segmentCount; ++segment) {
     if (surfaces.side) {
       const quad = [
-        wall(segment, bottom, bottomRadius),
-        wall(segment + 1, bottom, bottomRadius),
-        wall(segment + 1, top, topRadius),
+        sideCorner(segment, bottom, bottomRadius),
+        sideCorner(segment + 1, bottom, bottomRadius),
+        sideCorner(segment + 1, top, topRadius),
       ];
-      builder.addFace(...quad, ...(topRadius > 0 ? [wall(segment, top, topRadius)] : []));
+      builder.addFace(...quad, ...(topRadius > 0 ? [sideCorner(segment, top, topRadius)] : []));
     }
     if (surfaces.top && topRadius > 0)
-      builder.addFace(cap(0, top, 0, 1), cap(segment, top, topRadius, 1), cap(segment + 1, top, topRadius, 1));
+      builder.addFace(
+        capCorner(0, top, 0, 1),
+        capCorner(segment, top, topRadius, 1),
+        capCorner(segment + 1, top, topRadius, 1),
+      );
     if (surfaces.bottom)
       builder.addFace(
-        cap(0, bottom, 0, -1),
-        cap(segment + 1, bottom, bottomRadius, -1),
-        cap(segment, bottom, bottomRadius, -1),
+        capCorner(0, bottom, 0, -1),
+        capCorner(segment + 1, bottom, bottomRadius, -1),
+        capCorner(segment, bottom, bottomRadius, -1),
       );
   }
   return builder.solid;

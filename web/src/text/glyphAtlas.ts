@@ -71,7 +71,7 @@ function pack(runs: readonly PositionedRun[], texelsPerEm: number): GlyphAtlas {
   return { width, height: Math.max(top + rowHeight, 1), texelsPerEm, cells };
 }
 
-/** The data: URL that `drawGlyphAtlas` reads. `edition` changes only the URL: it counts how often the font has loaded. */
+/** The data: URL that `drawGlyphAtlas` reads. `edition` counts loads of the font, and changes only the URL. */
 export function glyphAtlasUrl(
   { width, height, texelsPerEm, cells }: GlyphAtlas,
   { family, isBold, isItalic }: Font,
