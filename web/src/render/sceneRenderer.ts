@@ -62,8 +62,9 @@ export interface RenderStatistics {
   readonly programs: number;
   /** Whether a change waits for its first frame. */
   readonly isFrameDue: boolean;
-  /** Memory of vertex data: images and buffers. */
+  /** GPU memory of images: vertex data and textures of appearances. */
   readonly textureBytes: number;
+  /** Memory of vertex data in buffers. */
   readonly bufferBytes: number;
 }
 

@@ -8,8 +8,8 @@ const minSine = 1e-6;
 
 /**
  * The rotation about `axis` that turns a billboard to the viewer. If the axis is 0 0 0, the billboard turns freely and
- * stays upright on the screen. `eye` is the viewer's position
- * and `up` the screen's up direction, both in the billboard's coordinates.
+ * stays upright on the screen. `eye` is the viewer's position and `up` the screen's up direction, both in the
+ * billboard's coordinates.
  */
 export function billboardRotation(axis: Vec3, eye: Vector3, up: Vector3): Matrix4 {
   const rotation = new Matrix4();

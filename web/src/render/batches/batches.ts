@@ -38,6 +38,7 @@ export class Batches {
   #empty = new Set<Batch>();
   /** Batches whose members blend. */
   readonly #blendedBatches = new WeakSet<Batch>();
+  /** Numbers that stand for stages in the keys of batches. */
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
 
@@ -48,7 +49,7 @@ export class Batches {
     this.root.matrixAutoUpdate = false;
   }
 
-  /** Adds a draw of an instance. `numbers`: the field `material` of its record. */
+  /** Adds a draw of an instance. `numbers`: as BatchingRules.instanceNumbersOf returns them. */
   add(draw: BatchedDraw, numbers: readonly number[], group: ShapeGroup): Member {
     const member: Member = {
       draw,
@@ -70,7 +71,7 @@ export class Batches {
     return member;
   }
 
-  /** Replaces the field `material` of a member's record. */
+  /** Replaces what BatchingRules.instanceNumbersOf returned for a member. */
   setMaterialNumbers({ instanceIndex }: Member, numbers: readonly number[]): void {
     this.#table.write(instanceIndex, instanceFields.material, numbers);
   }
@@ -90,7 +91,7 @@ export class Batches {
 
   /** Call when the scene's bounding sphere has changed. */
   setBoundingSphere({ center, radius }: Sphere): void {
-    // A new origin rewrites every record, so it moves only when it is outside of the sphere.
+    // Every record depends on the origin, so the origin moves only when it is outside of the sphere.
     const origin = new Vector3().setFromMatrixPosition(this.root.matrix);
     if (!(radius > 0) || origin.distanceTo(center) <= radius) return;
     this.root.matrix.setPosition(center);

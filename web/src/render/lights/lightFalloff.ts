@@ -9,8 +9,8 @@ const chunk = /* glsl */ `
 #define SCENE_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + 1 )
 uniform vec3 attenuations[SCENE_LIGHTS];
 ${falloffChunk}
-float getDistanceAttenuation(const in float lightDistance, const in float radius, const in float number) {
-  return attenuationAtDistance(lightDistance, radius, attenuations[int(number)]);
+float getDistanceAttenuation(const in float lightDistance, const in float radius, const in float decay) {
+  return attenuationAtDistance(lightDistance, radius, attenuations[int(decay)]);
 }
 
 float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, const in float cosine) {

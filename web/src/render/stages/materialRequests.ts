@@ -11,6 +11,7 @@ import { alphaMaskOf } from "../picking/pickMaterial.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { attributeDefinesOf, normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
 import { lineStepOf } from "../lines/wideLines.ts";
+import { isSurface } from "../primitives/primitives.ts";
 
 /** The request for a draw's material. */
 export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
@@ -67,9 +68,8 @@ export function colorsOf(stage: Stage): VertexColors {
 }
 
 function shadingOf(stage: Stage, draw: DrawRange): Shading {
-  const isSurface = draw.primitive === "triangles" || draw.primitive === "triangleStrip";
   if (stage.name === "points") return "distance";
-  if (!isSurface && !hasNormals(stage)) return "unlit"; // a point cloud with normals is lit
+  if (!isSurface(draw) && !hasNormals(stage)) return "unlit"; // a point cloud with normals is lit
   return hasNormals(stage) ? "smooth" : "flat";
 }
 
