@@ -1,7 +1,7 @@
 // Time, peak memory and output size of `imgeo convert`, as a user sees them: whole processes, medians of five, peak
 // memory as the kernel counts it. Each site is verified before it is timed. Runs alternate with npm's gltfpack
 // (meshoptimizer compiled to WebAssembly) on the same meshes as GLB. The first model is measured at every effort.
-// Prints Markdown tables for the README.
+// Prints Markdown tables.
 //
 //   build/bench/convert MODEL...        (in the repository's root)
 
@@ -56,12 +56,12 @@ struct Measured {
   Json report;
 };
 
-/// `form`: classic or compact, profiles of SIG, or bg.
-std::vector<std::string> convertWords(const std::string& model, const std::string& form, const std::string& effort,
+/// `encoding`: compact, classic or bg.
+std::vector<std::string> convertWords(const std::string& model, const std::string& encoding, const std::string& effort,
                                       const fs::path& work) {
   return {"build/imgeo", "convert",     model,
-          "-o",          work / "site", form == "bg" ? "--container" : "--profile",
-          form,          "-r",          work / "report.json",
+          "-o",          work / "site", encoding == "bg" ? "--container" : "--profile",
+          encoding,      "-r",          work / "report.json",
           "--effort",    effort};
 }
 
@@ -69,16 +69,16 @@ Json reportIn(const fs::path& work) {
   return Json::parse(asText(readFile(work / "report.json")));
 }
 
-Measured measureConvert(const std::string& model, const std::string& form, const std::string& effort,
+Measured measureConvert(const std::string& model, const std::string& encoding, const std::string& effort,
                         const fs::path& work) {
-  const std::vector<std::string> words = convertWords(model, form, effort, work);
+  const std::vector<std::string> words = convertWords(model, encoding, effort, work);
   runOnce(words);
   runOnce({"build/imgeo", "verify", work / "site", model});
   const Run run = measureInTurns({words})[0];
   return {run, reportIn(work)};
 }
 
-void printRow(const std::string& name, const std::string& form, const Measured& measured) {
+void printRow(const std::string& name, const std::string& encoding, const Measured& measured) {
   const double triangles = measured.report["triangles"];
   std::map<std::string, double> bytes;
   for (const Json& role : measured.report["roles"])
@@ -86,7 +86,7 @@ void printRow(const std::string& name, const std::string& form, const Measured& 
   const auto each = [&](const std::string& role) { return bytes[role] / triangles; };
   fmt::print("| {} | {} | {:.0f} | {:.2f} s | {:.2f} M/s | {:.0f} MB | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | "
              "**{:.2f}** |\n",
-             name, form, triangles, measured.run.seconds, millions(triangles / measured.run.seconds),
+             name, encoding, triangles, measured.run.seconds, millions(triangles / measured.run.seconds),
              millions(static_cast<double>(measured.run.peakBytes)), each("index"), each("coord"), each("normal"),
              each("patch") + each("base"), each("document"), measured.report["bytesPerTriangle"].get<double>());
   std::fflush(stdout);
@@ -153,8 +153,8 @@ void benchmark(const std::vector<std::string>& models, const fs::path& work) {
              "patch and base | document | together |\n"
              "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const std::string& model : models)
-    for (const std::string form : {"compact", "classic", "bg"})
-      printRow(fs::path(model).filename(), form, measureConvert(model, form, defaultEffort, work));
+    for (const std::string encoding : {"compact", "classic", "bg"})
+      printRow(fs::path(model).filename(), encoding, measureConvert(model, encoding, defaultEffort, work));
   fmt::print("\nBytes a triangle by role; medians of {} runs on {} threads.\n", runs, sysconf(_SC_NPROCESSORS_ONLN));
   for (const std::string& model : models)
     compareWithGltfpack(model, work);

@@ -15,7 +15,7 @@ namespace imgeo {
 namespace {
 
 struct Measured {
-  double seconds = 0;
+  double seconds = 0; ///< of processor time
   bench::ImageBytes bytes;
 };
 

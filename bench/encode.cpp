@@ -1,6 +1,6 @@
 // Processor time and peak memory of writing compact at each effort, compared with Draco and gltfpack on the same mesh:
-// whole processes on one processor, alternating, medians of nine. imgeo and Draco read it as PLY,
-// gltfpack as GLB; imgeo also welds it and writes the page. Prints a Markdown table.
+// whole processes on one processor, alternating, medians of nine. imgeo and Draco read the mesh as PLY, gltfpack as
+// GLB; imgeo also welds it and writes the page. Prints a Markdown table.
 //
 //   build/bench/encode MODEL...        (in the repository's root, with draco_encoder installed)
 

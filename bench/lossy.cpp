@@ -159,7 +159,7 @@ void printRow(const std::string& name, const Outcome& outcome, std::size_t lossl
              100 * static_cast<double>(outcome.beyondFirstByte) / count);
 }
 
-/// The alternative to a lossy codec: fewer bits, lossless.
+/// Measures the alternative to a lossy codec: lossless images with fewer bits.
 Outcome withFewerBits(const Mesh& mesh, const Lattice& full, std::uint32_t bits, EncodeOptions options) {
   const Lattice lattice = latticeFor(boxOf(mesh), bits);
   const PatchedMesh patched = cutIntoPatches(mesh, lattice, 65535);

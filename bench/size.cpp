@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// The streams of patches and of base meshes, where a file has any.
+/// The kinds of streams in compact files, as columns of the table.
 constexpr std::array roles{"sizes",   "connectivity", "parts",  "positions", "seams",
                            "normals", "texCoords",    "colors", "other"};
 
@@ -35,7 +35,7 @@ struct Site {
 void addStreams(const fs::path& file, Site& site) {
   const Bytes png = readFile(file), payload = compact::payloadOfImage(png, file);
   const compact::FileHeader header = compact::readHeader(payload, file).header;
-  constexpr std::size_t attributes = 5; // of the roles
+  constexpr std::size_t attributes = 5; // index of the first attribute in `roles`
   for (std::size_t i = 0; i < header.streamLengths.size(); ++i) {
     const std::size_t role =
         i < attributes ? i : attributes + static_cast<std::size_t>(header.attributes[i - attributes].kind);
@@ -80,7 +80,7 @@ std::uint64_t measureGltfpack(const fs::path& mesh, int bits, const fs::path& wo
   return brotliSize(readFile(out));
 }
 
-/// Prints a row for each precision; returns the row for the README, which is that of the maximum precision.
+/// Prints a row for each precision. Returns a row for the summary, with the numbers of the maximum precision.
 std::string printModel(const std::string& model, const fs::path& work) {
   std::string summary;
   // Draco reads texture coordinates from OBJ files only.
