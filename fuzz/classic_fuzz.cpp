@@ -2,8 +2,8 @@
 
 #include "patch_input.h"
 
-/// Images are made of raw pixels: behind check sums no mutation would get further
-/// than the PNG reader, which has a target of its own.
+/// The images of a patch are made from raw pixels. Mutated PNG files would fail at their checksums in the PNG reader,
+/// which has a fuzz target of its own.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   fuzz::InputReader input({data, size});

@@ -12,7 +12,7 @@ void require(bool condition) {
     std::abort();
 }
 
-/// Everything that decodes fits together.
+/// Requires that the arrays of a decoded patch have matching sizes and that indices are in range.
 void check(const imgeo::compact::CompactPatch& patch) {
   using namespace imgeo::compact;
   require(patch.elementCount() > 0 && patch.wedgeCount() >= patch.positions.size());
@@ -31,6 +31,7 @@ void check(const imgeo::compact::CompactPatch& patch) {
     require(segment < patch.segmentCount);
 }
 
+/// Checks each patch, and that the patches can be encoded and decoded again.
 void checkAll(const std::vector<imgeo::compact::CompactPatch>& patches) {
   using namespace imgeo::compact;
   for (const CompactPatch& patch : patches)
@@ -46,8 +47,8 @@ void checkAll(const std::vector<imgeo::compact::CompactPatch>& patches) {
 
 } // namespace
 
-/// Payloads, not images: behind check sums no mutation would get further than the
-/// PNG reader, which has a target of its own.
+/// Inputs are payloads, not images. Mutated PNG files would fail at their checksums in the PNG reader, which has a fuzz
+/// target of its own.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     checkAll(imgeo::compact::decodePatches({data, size}, "x.png"));

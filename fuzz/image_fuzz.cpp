@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-/// A decoded image survives encoding and decoding.
+/// Requires that a decoded image is the same after encoding and decoding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   constexpr std::uint64_t maxPixels = 1 << 12;

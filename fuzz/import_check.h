@@ -39,6 +39,7 @@ inline void requireGraph(const Scene& scene) {
   require(graph.isComplete || !shapeInstances(graph).empty());
 }
 
+/// Runs the check on an input file `name`. Returns 0, as fuzz targets do.
 inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
   try {
     const Imported imported = importBytes(bytes, name, {.attributes = {.all = true, .names = {}}});

@@ -1,5 +1,5 @@
 #pragma once
-// Makes inputs by small damage to inputs of a corpus. The sequence is the same on every machine.
+// Makes inputs by small changes to inputs of a corpus. The sequence is the same on every machine.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ public:
 
   Input next() {
     Input input = corpus_[below(corpus_.size())];
-    for (std::size_t damage = 1 + below(4); damage > 0; --damage)
+    for (std::size_t changes = 1 + below(4); changes > 0; --changes)
       mutate(input);
     return input;
   }

@@ -23,6 +23,7 @@ class InputReader {
 public:
   explicit InputReader(ByteSpan bytes) : bytes_(bytes) {}
 
+  /// A big-endian number of `count` bits, a multiple of 8.
   std::uint32_t bits(std::uint32_t count) {
     std::uint32_t value = 0;
     for (const std::uint8_t byte : take(count / 8))

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-/// A decoded PNG survives encoding and decoding, whatever chunks it had.
+/// Requires that a decoded PNG, whatever chunks it had, is the same after encoding and decoding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   try {

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-/// Computing the unpacked size and refusing archives beyond the limit is safe for all inputs.
+/// Requires that only archives that unpack to some bytes are refused, and as too large.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   const std::uint64_t unpacked = unpackedZipBytes({data, size});
