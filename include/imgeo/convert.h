@@ -62,10 +62,10 @@ struct ConvertOptions {
   std::optional<ElementType> coordType{}; ///< BG: type of coordinates; default: smallest unsigned type
   Layout layout = Layout::separate;       ///< BG: order of attributes
   NormalEncoding normals = NormalEncoding::rgb; ///< how normals are stored; compact replaces rgb by octahedral
-  std::uint32_t normalBits = 0;                 ///< bits of a stored component; 0: as many as cost no file size
-  std::uint32_t texCoordBits = 0;               ///< compact: 1..16; 0: 12 in compact, 16 elsewhere
-  std::uint32_t colorBits = 0;                  ///< compact: 1..8; 0: 8
-  DroppedElements dropped{};                    ///< elements to leave out
+  std::uint32_t normalBits = 0;   ///< bits of a stored component; 0: 8, or more in BG if that costs no bytes
+  std::uint32_t texCoordBits = 0; ///< compact: 1..16; 0: 12 in compact, 16 elsewhere
+  std::uint32_t colorBits = 0;    ///< compact: 1..8; 0: 8
+  DroppedElements dropped{};      ///< elements to leave out
   NormalWeighting normalWeighting = NormalWeighting::area; ///< for meshes without normals
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
   AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
