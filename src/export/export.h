@@ -14,7 +14,7 @@ enum class MeshFormat : std::uint8_t { ply, obj, glb };
 /// "PLY", "OBJ", "GLB".
 const char* nameOf(MeshFormat format);
 
-/// The format of a file name's extension, in upper or lower case.
+/// The format that a file name's extension, in upper or lower case, names; nothing for other extensions.
 std::optional<MeshFormat> meshFormatOf(const std::filesystem::path& file);
 
 /// Writes a scene with at least one shape and consistent meshes. Coordinates read back as the same floats.

@@ -21,7 +21,7 @@ using testing::shapeName;
 struct Corner {
   Vec3f position, normal;
   Vec2f texCoord;
-  Rgba8 color{255, 255, 255, 255}; ///< readers give it to meshes without colours beside others with colours
+  Rgba8 color{255, 255, 255, 255}; ///< readers give white to meshes without colours if other meshes have colours
 };
 
 std::vector<Corner> cornersOf(const Mesh& mesh) {
@@ -228,7 +228,7 @@ TEST(ExportedGlb, IsReadByAssimp) {
       std::vector<Corner> corners = cornersOf(*read->mMeshes[i], cornersPerElement(written.topology));
       const std::vector<Corner> expected = cornersOf(written);
       ASSERT_EQ(corners.size(), expected.size());
-      for (std::size_t c = 0; c < corners.size(); ++c) { // 1 - v twice costs a rounding
+      for (std::size_t c = 0; c < corners.size(); ++c) { // computing 1 - v twice rounds
         EXPECT_NEAR(corners[c].texCoord.y, expected[c].texCoord.y, 2e-7);
         corners[c].texCoord = expected[c].texCoord;
       }

@@ -44,9 +44,9 @@ private:
     if (!node.name.empty())
       json["name"] = node.name;
     if (const Shape* shape = std::get_if<Shape>(&node.content)) {
-      json["mesh"] = meshOf(*shape, node.name);
+      json["mesh"] = meshIndexOf(*shape, node.name);
     } else if (const Node* onlyShape = onlyShapeOf(node)) {
-      json["mesh"] = meshOf(std::get<Shape>(onlyShape->content), onlyShape->name);
+      json["mesh"] = meshIndexOf(std::get<Shape>(onlyShape->content), onlyShape->name);
       if (node.name.empty() && !onlyShape->name.empty())
         json["name"] = onlyShape->name;
       if (const Transform* transform = std::get_if<Transform>(&node.content))
@@ -109,8 +109,8 @@ private:
     json["matrix"] = std::move(matrix);
   }
 
-  std::size_t meshOf(const Shape& shape, const std::string& name) {
-    const auto [found, isNew] = meshOf_.try_emplace({shape.mesh, shape.appearance, shape.solid}, meshes.size());
+  std::size_t meshIndexOf(const Shape& shape, const std::string& name) {
+    const auto [found, isNew] = meshIndices_.try_emplace({shape.mesh, shape.appearance, shape.solid}, meshes.size());
     if (!isNew)
       return found->second;
     const Mesh& mesh = scene_.meshes.at(shape.mesh);
@@ -131,18 +131,19 @@ private:
     const Appearance& appearance =
         shape.appearance ? scene_.graph.appearances.at(*shape.appearance) : defaultAppearance;
     Json json = gltfMaterial(appearance, shape, mesh, [&](std::size_t texture) { return textureIndexOf(texture); });
-    const auto [found, isNew] = materialOf_.try_emplace(json.dump(-1, ' ', false, replaceBadUtf8), materials.size());
+    const auto [found, isNew] =
+        materialIndices_.try_emplace(json.dump(-1, ' ', false, replaceBadUtf8), materials.size());
     if (isNew)
       materials.push_back(std::move(json));
     return found->second;
   }
 
   std::optional<std::size_t> textureIndexOf(std::size_t index) {
-    if (const auto found = textureOf_.find(index); found != textureOf_.end())
+    if (const auto found = textureIndices_.find(index); found != textureIndices_.end())
       return found->second;
     const Texture& texture = scene_.graph.textures.at(index);
     const ImageFile& image = scene_.graph.images.at(texture.image);
-    std::optional<std::size_t>& gltfIndex = textureOf_[index];
+    std::optional<std::size_t>& gltfIndex = textureIndices_[index];
     const std::string_view signature = asText(image.bytes);
     const char* type = signature.starts_with("\x89PNG")        ? "image/png"
                        : signature.starts_with("\xff\xd8\xff") ? "image/jpeg"
@@ -150,7 +151,7 @@ private:
                                                                : nullptr;
     if (!type)
       return gltfIndex;
-    const auto [imageIndex, isNew] = imageOf_.try_emplace(texture.image, images.size());
+    const auto [imageIndex, isNew] = imageIndices_.try_emplace(texture.image, images.size());
     if (isNew)
       images.push_back({{"bufferView", arrays.addFile(image.bytes)}, {"mimeType", type}});
     samplers.push_back(gltfSampler(texture));
@@ -170,10 +171,10 @@ private:
   const Scene& scene_;
   std::vector<Json> primitives_; ///< by index of the mesh
   std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool>, std::size_t>
-      meshOf_;                                                  ///< by mesh, appearance and solid
-  std::map<std::string, std::size_t> materialOf_;               ///< by the JSON text
-  std::map<std::size_t, std::optional<std::size_t>> textureOf_; ///< nothing for images of other formats
-  std::map<std::size_t, std::size_t> imageOf_;
+      meshIndices_;                                                  ///< by mesh, appearance and solid
+  std::map<std::string, std::size_t> materialIndices_;               ///< by the JSON text
+  std::map<std::size_t, std::optional<std::size_t>> textureIndices_; ///< nothing for images of other formats
+  std::map<std::size_t, std::size_t> imageIndices_;
 };
 
 void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t padding) {

@@ -85,7 +85,7 @@ Rgba8 diffuseColorOf(const Material& material) {
   return {byte(material.diffuseColor.x), byte(material.diffuseColor.y), byte(material.diffuseColor.z), 255};
 }
 
-/// A component of a further attribute; 0 if the mesh does not have it.
+/// A component of a further attribute; 0 if the mesh has no attribute of this name and number of components.
 float valueOf(const Mesh& mesh, const std::string& name, std::uint32_t components, std::size_t wedge,
               std::uint32_t component) {
   const auto found = std::ranges::find(mesh.namedAttributes, name, &NamedAttribute::name);
