@@ -9,7 +9,7 @@
 
 namespace imgeo {
 
-/// Collects the base meshes of all geometries and writes them, in one file as long as they fit into it.
+/// Collects the base meshes of all geometries and writes them, as many in one file as fit into it.
 class BaseFiles {
 public:
   /// `sharing` is nullptr for encodings without base meshes.

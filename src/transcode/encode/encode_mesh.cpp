@@ -42,7 +42,7 @@ void addSmall(EncodedMesh& mesh, Patch patch, const EncodeOptions& encoding, con
   mesh.positionError = positionErrorBound(mesh.geometry);
 }
 
-/// Notes which attributes any patch has.
+/// Sets which attributes any patch has, and the error of texture coordinates.
 void addAttributes(EncodedMesh& mesh, const std::vector<Patch>& patches, const ConvertOptions& options) {
   for (const Patch& patch : patches) {
     mesh.hasNormals |= !patch.normals.empty();

@@ -33,6 +33,7 @@ std::vector<std::size_t> numberGeometries(SceneGraph& graph) {
 
 std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& meshOf) {
   std::vector<Box3d> boxes;
+  boxes.reserve(meshOf.size());
   for (const std::size_t mesh : meshOf)
     boxes.push_back(boxOf(meshes[mesh]));
   return boxes;

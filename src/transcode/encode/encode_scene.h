@@ -6,8 +6,8 @@
 
 namespace imgeo {
 
-/// Encodes every mesh once, however many shapes use it, in the order of the shapes' positions, and writes its files.
-/// Adds counts and errors to `report`. The scene has at least one shape, or is complete (an X3D source).
+/// Encodes every mesh once, however many shapes use it, in the spatial order of the shapes, and writes its files. Adds
+/// counts and errors to `report`. The scene has at least one shape, or is complete (an X3D source).
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentFiles& files, ConvertReport& report,
                           const ElementsDone& done);
 

@@ -5,8 +5,8 @@ namespace imgeo {
 namespace {
 
 bool isSwitchOrLod(const NodeContent& content) {
-  const GenericNode* other = std::get_if<GenericNode>(&content);
-  return other && (other->element == "Switch" || other->element == "LOD");
+  const GenericNode* generic = std::get_if<GenericNode>(&content);
+  return generic && (generic->element == "Switch" || generic->element == "LOD");
 }
 
 } // namespace

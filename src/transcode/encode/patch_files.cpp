@@ -9,7 +9,7 @@ namespace imgeo {
 
 namespace {
 
-/// Number of files that are encoded at a time. Their patches are in memory until then.
+/// Number of full files that wait to be encoded together. Their patches are in memory until then.
 constexpr std::size_t maxClosedFiles = 64;
 
 } // namespace

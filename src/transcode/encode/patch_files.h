@@ -15,8 +15,7 @@ namespace imgeo {
 /// different groups never do. Encodes several files at a time; the result does not depend on how many.
 class PatchFiles {
 public:
-  /// `files` must outlive this.
-  /// `sharing` is nullptr for encodings whose patches share no files.
+  /// `files` must outlive this. `sharing` is nullptr for encodings whose patches share no files.
   PatchFiles(ContentFiles& files, const FileSharing* sharing, int effort)
       : files_(files), sharing_(sharing), effort_(effort) {}
 

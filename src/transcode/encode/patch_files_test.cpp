@@ -1,4 +1,5 @@
-// Many small shapes in few files.
+// Converts scenes of many small shapes and checks that few files hold them.
+
 #include "base/parallel.h"
 #include "scene/testing.h"
 #include "transcode/site/testing.h"

@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// Transform of each node's content, at the node's first instance.
+/// For each node the transform of its content to world coordinates, at the node's first instance.
 std::vector<Affine3d> worldFromNodes(const SceneGraph& graph) {
   std::vector<Affine3d> worldFromNode(graph.nodes.size());
   std::vector<bool> isKnown(graph.nodes.size());
@@ -51,6 +51,7 @@ std::vector<std::size_t> spatialOrder(const SceneGraph& graph, const std::vector
     order.push_back({latticePoints[i], shapes[i]});
   std::ranges::stable_sort(order, isBeforeInMortonOrder, &std::pair<Vec3u, std::size_t>::first);
   std::vector<std::size_t> sorted;
+  sorted.reserve(order.size());
   for (const auto& [point, shape] : order)
     sorted.push_back(shape);
   return sorted;

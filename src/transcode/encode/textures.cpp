@@ -18,7 +18,7 @@ namespace {
 constexpr int webpQuality = 80, avifQuality = 60, previewQuality = 60;
 
 /// Smaller images load fast enough without a preview.
-constexpr std::size_t minPreviewedBytes = 16 * 1024;
+constexpr std::size_t minPreviewedBytes = std::size_t{16} << 10;
 
 /// The role of a texture in an X3D source, by the field that contains it.
 TextureRole roleOfField(std::string_view field) {
@@ -53,12 +53,12 @@ void addUse(ImageUse& use, TextureRole role) {
   }
 }
 
-struct Encoded {
+struct EncodedImage {
   Bytes bytes;
   std::string extension;
 };
 
-Encoded encodedPng(const Raster& raster, int effort) {
+EncodedImage encodedPng(const Raster& raster, int effort) {
   const std::uint32_t channels = hasAlpha(raster) ? 4 : 3;
   Image image{raster.width, raster.height, channels, {}, {}};
   image.pixels.reserve(std::size_t{channels} * raster.width * raster.height);
@@ -68,22 +68,22 @@ Encoded encodedPng(const Raster& raster, int effort) {
 }
 
 /// An image as the site will contain it.
-struct Prepared {
-  Encoded file;
+struct PreparedImage {
+  EncodedImage file;
   Bytes preview; ///< empty: no preview
   bool isResized = false, isReencoded = false;
   std::string failure; ///< why the image is left out; empty if it is not
   std::string warning; ///< why the image stays unchanged although options ask for another format
 };
 
-/// Prepares one image.
-class Preparation {
+/// Decides what the site contains for one image, and makes it.
+class ImagePreparation {
 public:
-  Preparation(const ConvertOptions& options, const ImageFile& image, const ImageUse& use)
+  ImagePreparation(const ConvertOptions& options, const ImageFile& image, const ImageUse& use)
       : options_(options), image_(image), use_(use), type_(imageType(image.bytes)) {}
 
-  Prepared prepared() const {
-    Prepared result;
+  PreparedImage prepared() const {
+    PreparedImage result;
     if (!needsPixels()) {
       result.file = {image_.bytes, type_};
       return result;
@@ -115,7 +115,7 @@ private:
     return use_.isNormal ? PixelContent::directions : use_.isData ? PixelContent::numbers : PixelContent::color;
   }
 
-  void fromPixels(Raster raster, Prepared& result) const {
+  void fromPixels(Raster raster, PreparedImage& result) const {
     const TextureOptions& requested = options_.textures;
     const RasterSize own{raster.width, raster.height};
     const RasterSize size = requested.size == 0 ? own : sizeWithin(own, requested.size);
@@ -135,7 +135,7 @@ private:
   }
 
   /// Encodes in the requested format; `keep` encodes a resized image in its own format or the nearest one.
-  Encoded encoded(const Raster& raster) const {
+  EncodedImage encoded(const Raster& raster) const {
     const TextureOptions& requested = options_.textures;
     const bool isLossy = !use_.isData && (requested.format != TextureFormat::keep || type_ == ".jpg");
     if (requested.format == TextureFormat::png || (requested.format == TextureFormat::keep && type_ == ".png"))
@@ -158,11 +158,12 @@ void removeFailedImages(SceneGraph& graph, const std::vector<bool>& hasFailed) {
     std::erase_if(appearance.textures,
                   [&](const TextureUse& use) { return hasFailed[graph.textures[use.texture].image]; });
   for (Node& node : graph.nodes)
-    if (GenericNode* other = std::get_if<GenericNode>(&node.content); other && other->image && hasFailed[*other->image])
-      other->image = {};
+    if (GenericNode* generic = std::get_if<GenericNode>(&node.content);
+        generic && generic->image && hasFailed[*generic->image])
+      generic->image = {};
 }
 
-void add(TextureReport& report, const ImageFile& image, const Prepared& prepared) {
+void add(TextureReport& report, const ImageFile& image, const PreparedImage& prepared) {
   report.files += 1;
   report.resized += prepared.isResized;
   report.reencoded += prepared.isReencoded;
@@ -182,11 +183,11 @@ std::vector<ImageUse> imageUses(const SceneGraph& graph) {
         addUse(uses[graph.textures[use.texture].image], use.role);
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
-    const GenericNode* other = std::get_if<GenericNode>(&node.content);
-    if (!other || !other->image)
+    const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+    if (!generic || !generic->image)
       continue;
     const auto field = std::ranges::find(node.fields, "containerField", &FieldText::name);
-    addUse(uses[*other->image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
+    addUse(uses[*generic->image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
   }
   return uses;
 }
@@ -194,10 +195,10 @@ std::vector<ImageUse> imageUses(const SceneGraph& graph) {
 TextureReport writeTextures(SceneGraph& graph, const ConvertOptions& options, ContentFiles& files,
                             std::vector<std::string>& warnings) {
   const std::vector<ImageUse> uses = imageUses(graph);
-  std::vector<Prepared> all(graph.images.size());
+  std::vector<PreparedImage> all(graph.images.size());
   parallelFor(all.size(), [&](std::size_t i) {
     if (uses[i].isUsed)
-      all[i] = Preparation(options, graph.images[i], uses[i]).prepared();
+      all[i] = ImagePreparation(options, graph.images[i], uses[i]).prepared();
   });
   TextureReport report;
   std::vector<bool> hasFailed(all.size());

@@ -11,8 +11,9 @@ namespace imgeo {
 namespace {
 
 constexpr std::uint32_t seatsPerRow = 40;
+// Lengths in metres. The stage is at z = 0, the first row at z = firstRowZ.
 constexpr double seatWidth = 0.55, rowDepth = 0.95, rowRise = 0.16, aisleWidth = 1.6;
-constexpr double firstRow = 5, bayLength = 4, halfWidth = 14, wall = 0.3, landing = 4;
+constexpr double firstRowZ = 5, bayLength = 4, halfWidth = 14, wallThickness = 0.3, landingDepth = 4;
 
 Mesh seatMesh() {
   SurfaceBuilder seat;
@@ -40,10 +41,10 @@ Mesh columnMesh(double height) {
 Mesh trussMesh() {
   SurfaceBuilder truss;
   truss.mesh.name = "truss";
-  const double deep = 1.2, wide = 0.5;
+  const double height = 1.2, halfDepth = 0.5;
   constexpr int bays = 14;
   const auto chord = [&](int which, double x) {
-    return which == 0 ? Vec3d{x, 0, -wide} : which == 1 ? Vec3d{x, 0, wide} : Vec3d{x, deep, 0};
+    return which == 0 ? Vec3d{x, 0, -halfDepth} : which == 1 ? Vec3d{x, 0, halfDepth} : Vec3d{x, height, 0};
   };
   for (int which = 0; which < 3; ++which)
     truss.addBar(chord(which, -halfWidth), chord(which, halfWidth), 0.08, 24, 14);
@@ -60,33 +61,34 @@ Mesh trussMesh() {
 Mesh stairsMesh(std::uint32_t rows) {
   SurfaceBuilder stairs;
   stairs.mesh.name = "stairs";
-  stairs.addBox({-halfWidth, -0.2, -4}, {halfWidth, 0, firstRow - rowDepth / 2});
+  stairs.addBox({-halfWidth, -0.2, -4}, {halfWidth, 0, firstRowZ - rowDepth / 2});
   for (std::uint32_t row = 0; row < rows; ++row) {
-    const double front = firstRow + (row - 0.5) * rowDepth;
+    const double front = firstRowZ + (row - 0.5) * rowDepth;
     stairs.addBox({-halfWidth, -0.2, front}, {halfWidth, row * rowRise, front + rowDepth});
   }
   return std::move(stairs.mesh);
 }
 
 struct Size {
-  double back, height, backFloor; ///< end of the rows, height of the roof, floor of the last row
+  double back, height, backFloor; ///< z of the end of the rows, y of the roof, y of the floor at the last row
 };
 
-/// Walls around, with a doorway at the back and a landing before it, and a stage.
+/// Walls on all sides, a doorway in the back wall with a landing behind it, and a stage.
 Mesh wallsMesh(const Size& size) {
   SurfaceBuilder walls;
   walls.mesh.name = "walls";
   for (const double side : {-1.0, 1.0}) {
-    const double inner = side * halfWidth, outer = side * (halfWidth + wall);
+    const double inner = side * halfWidth, outer = side * (halfWidth + wallThickness);
     walls.addBox({std::min(inner, outer), -0.2, -4}, {std::max(inner, outer), size.height, size.back});
   }
-  walls.addBox({-halfWidth, -0.2, -4 - wall}, {halfWidth, size.height, -4});
+  walls.addBox({-halfWidth, -0.2, -4 - wallThickness}, {halfWidth, size.height, -4});
   const double door = 1.2, lintel = size.backFloor + 2.5;
-  walls.addBox({-halfWidth, -0.2, size.back}, {-door, size.height, size.back + wall});
-  walls.addBox({door, -0.2, size.back}, {halfWidth, size.height, size.back + wall});
-  walls.addBox({-door, lintel, size.back}, {door, size.height, size.back + wall});
-  walls.addBox({-door, -0.2, size.back}, {door, size.backFloor, size.back + wall});
-  walls.addBox({-door - 1, size.backFloor - 0.2, size.back + wall}, {door + 1, size.backFloor, size.back + landing});
+  walls.addBox({-halfWidth, -0.2, size.back}, {-door, size.height, size.back + wallThickness});
+  walls.addBox({door, -0.2, size.back}, {halfWidth, size.height, size.back + wallThickness});
+  walls.addBox({-door, lintel, size.back}, {door, size.height, size.back + wallThickness});
+  walls.addBox({-door, -0.2, size.back}, {door, size.backFloor, size.back + wallThickness});
+  walls.addBox({-door - 1, size.backFloor - 0.2, size.back + wallThickness},
+               {door + 1, size.backFloor, size.back + landingDepth});
   walls.addBox({-8, 0, -4}, {8, 0.9, 1.5});
   for (const int step : {1, 2, 3})
     walls.addBox({6, 0, 1.5 + 0.3 * (3 - step)}, {8, 0.225 * step, 1.5 + 0.3 * (4 - step)});
@@ -122,11 +124,11 @@ public:
   Scene build(std::uint32_t seats) {
     const std::uint32_t rows = (seats + seatsPerRow - 1) / seatsPerRow;
     const double backFloor = (rows - 1) * rowRise;
-    const Size size{firstRow + (rows - 0.5) * rowDepth, backFloor + 6, backFloor};
+    const Size size{firstRowZ + (rows - 0.5) * rowDepth, backFloor + 6, backFloor};
     graph().title = fmt::format("A hall with {} seats", seats);
     addViewpoint("From the door", {0, backFloor + 1.7, size.back + 2.5}, {{1, 0, 0}, -0.1});
     addViewpoint("From the stage", {0, 2.6, -1}, {{0, 1, 0}, std::numbers::pi});
-    addViewpoint("Beside a seat", {2.5, 3, firstRow + 2}, {{0, 1, 0}, 2.2});
+    addViewpoint("Beside a seat", {2.5, 3, firstRowZ + 2}, {{0, 1, 0}, 2.2});
     addLights();
 
     addRoot(graph(), {"stairs", shapeOf(stairsMesh(rows), {0.16f, 0.13f, 0.11f}, 0), {}, ""});
@@ -183,11 +185,12 @@ private:
     for (std::uint32_t first = 0; first < seats; first += seatsPerRow) {
       const std::uint32_t row = first / seatsPerRow;
       Transform transform;
-      transform.translation = {0, row * rowRise, firstRow + row * rowDepth};
+      transform.translation = {0, row * rowRise, firstRowZ + row * rowDepth};
       Node node{fmt::format("row{}", row + 1), transform, {}, ""};
       for (std::uint32_t i = 0; i < std::min(seatsPerRow, seats - first); ++i) {
         const double side = i % 2 == 0 ? 1 : -1; // from the aisle outwards
-        const double x = side * (aisleWidth / 2 + (i / 2 + 0.5) * seatWidth);
+        const std::uint32_t column = i / 2;
+        const double x = side * (aisleWidth / 2 + (column + 0.5) * seatWidth);
         node.children.push_back(instanceAt({x, 0, 0}, seat));
       }
       addRoot(graph(), std::move(node));
@@ -198,9 +201,10 @@ private:
   void addAlong(const char* name, const Shape& shape, double back, std::initializer_list<double> xs, double y) {
     const std::size_t one = addNode(graph(), {"", shape, {}, ""});
     Node group{name, Group{}, {}, ""};
-    for (double z = -2; z < back; z += bayLength)
+    const auto zOf = [](int bay) { return -2 + bay * bayLength; };
+    for (int bay = 0; zOf(bay) < back; ++bay)
       for (const double x : xs)
-        group.children.push_back(instanceAt({x, y, z}, one));
+        group.children.push_back(instanceAt({x, y, zOf(bay)}, one));
     addRoot(graph(), std::move(group));
   }
 
@@ -224,7 +228,7 @@ private:
     }
     Node group{"signs", Group{}, {}, ""};
     for (std::uint32_t row = 0; row < rows; row += 4)
-      group.children.push_back(instanceAt({0, row * rowRise + 2.6, firstRow + row * rowDepth}, signs[row / 4 % 2]));
+      group.children.push_back(instanceAt({0, row * rowRise + 2.6, firstRowZ + row * rowDepth}, signs[row / 4 % 2]));
     addRoot(graph(), std::move(group));
   }
 

@@ -49,7 +49,7 @@ public:
       }
   }
 
-  /// Adds a cylinder without caps. `flutes`: number of grooves along it.
+  /// Adds a cylinder without caps. `segments`: quads around it; `rings`: quads along it; `flutes`: grooves along it.
   void addBar(Vec3d from, Vec3d to, double radius, std::uint32_t segments, std::uint32_t rings = 1, int flutes = 0) {
     const Vec3d along = (to - from) * (1 / length(to - from));
     const Vec3d aside = cross(along, std::abs(along.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0});
