@@ -47,8 +47,8 @@ private:
 
 /// Refuses an input inside the target directory: publishing the site would remove it.
 void requireOutside(const fs::path& input, const fs::path& directory) {
-  std::error_code none;
-  const fs::path file = fs::weakly_canonical(input, none), target = fs::weakly_canonical(directory, none);
+  std::error_code ignored;
+  const fs::path file = fs::weakly_canonical(input, ignored), target = fs::weakly_canonical(directory, ignored);
   if (std::mismatch(target.begin(), target.end(), file.begin(), file.end()).first == target.end())
     throw Error(ErrorKind::usage, input.string(), "lies inside the directory that is to be replaced");
 }
@@ -97,14 +97,14 @@ void warnOfCollapsed(ConvertReport& report) {
   warn(Topology::lines, "length");
 }
 
-/// Warns of elements that are in scene.x3d but may not be in an HTML page.
+/// Warns of elements that scene.x3d contains and the HTML page must not.
 void warnOfPageOmissions(const SceneGraph& graph, ConvertReport& report) {
   std::vector<std::string> elements;
   for (const auto& [element, count] : elementsLeftOutOfPage(graph))
     elements.push_back(fmt::format("{} ({})", element, count));
   if (!elements.empty())
-    report.warnings.push_back(
-        fmt::format("{} alone has what does not go into a page: {}", sceneName, fmt::join(elements, ", ")));
+    report.warnings.push_back(fmt::format("Elements that only {} contains, because a page must not: {}", sceneName,
+                                          fmt::join(elements, ", ")));
 }
 
 /// Bytes by role, in the order of the roles' first files.

@@ -11,7 +11,7 @@
 namespace imgeo {
 namespace {
 
-/// A strip of a thousand triangles: worth a file.
+/// A strip of a thousand triangles, too large to stay in the document.
 std::string strip() {
   std::string points;
   for (int i = 0; i < 1002; ++i)
@@ -29,7 +29,8 @@ protected:
   ConvertReport convertNodes(const std::string& nodes, const ConvertOptions& options = {}) {
     return convert(write("a.x3d", "<X3D><Scene>\n" + nodes + "</Scene></X3D>"), directory_ / "site", options);
   }
-  /// Converts the nodes and expects that the site equals them, but for one warning, which strict refuses.
+  /// Converts the nodes. Expects one warning, which contains `words`, a site that equals its source, and that `strict`
+  /// refuses the source.
   void expectWarning(const std::string& nodes, const std::string& words) {
     const ConvertReport report = convertNodes(nodes);
     ASSERT_EQ(report.warnings.size(), 1u) << nodes << ::testing::PrintToString(report.warnings);
@@ -62,7 +63,7 @@ TEST_F(DamagedSource, KeepsUrlsOfMissingTexturesAndOfTexturesOutsideItsFolder) {
     expectWarning("<Shape><Appearance><ImageTexture url='\"" + url + "\"'/></Appearance>" + strip() + "</Shape>", url);
     EXPECT_EQ(inspect(directory_ / "site").missing, std::vector<std::string>{url});
   }
-  // A file that convert has written is another matter.
+  // A texture that convert has written must not be missing.
   write("grey.pgm", "P5 1 1 255\nx");
   convertNodes("<Shape><Appearance><ImageTexture url='\"grey.pgm\"'/></Appearance>" + strip() + "</Shape>");
   ASSERT_TRUE(verify(directory_ / "site", directory_ / "a.x3d").equal);
@@ -70,7 +71,7 @@ TEST_F(DamagedSource, KeepsUrlsOfMissingTexturesAndOfTexturesOutsideItsFolder) {
   EXPECT_FALSE(verify(directory_ / "site", directory_ / "a.x3d").equal);
 }
 
-TEST_F(DamagedSource, HasShapesWithoutGeometry) {
+TEST_F(DamagedSource, MayHaveShapesWithoutGeometry) {
   for (const std::string shape : {"<Shape/>", "<Shape><Appearance><Material/></Appearance></Shape>"}) {
     EXPECT_TRUE(convertNodes(shape + "<Shape>" + strip() + "</Shape>").warnings.empty());
     EXPECT_TRUE(verify(directory_ / "site", directory_ / "a.x3d").equal);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A square of 200 triangles, which is worth a file.
+/// A square of n x n quads. With n = 10 it is too large to stay in the document.
 std::string gridOf(int n) {
   std::string points, faces;
   for (int y = 0; y <= n; ++y)

@@ -6,7 +6,7 @@
 namespace imgeo {
 
 std::uint64_t peakMemoryBytes() {
-  // getrusage would keep the maximum of the process image before exec, that is, of the parent.
+  // getrusage would include the peak of the process before exec, that is, of the parent.
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
     if (line.starts_with("VmHWM:"))

@@ -12,8 +12,8 @@ namespace imgeo {
 
 namespace {
 
-/// From above and to the left of the viewer, warmer than the headlight, so that carving casts light and shade across
-/// the view.
+/// From above and to the left of the viewer, warmer than the headlight, so that relief has a bright side and a dark
+/// one.
 constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.4f};
 
 /// From the opposite side, cooler, with ambient light: walls and ceilings of rooms are not black, wherever the viewer

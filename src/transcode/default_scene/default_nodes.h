@@ -8,9 +8,9 @@
 
 namespace imgeo {
 
-/// Adds a viewpoint that shows the whole scene, two lights and a background, each kind where the scene has none, before
-/// the scene's own nodes, and sets the centre of rotation of all viewpoints. Adds a warning where shapes are too large
-/// or too far away to be drawn.
+/// Adds a viewpoint that shows the whole scene, two lights and a background, each if the scene has none of its kind.
+/// Added nodes precede the scene's own. Sets the centre of rotation of all viewpoints. Adds a warning if shapes are too
+/// large, too small or too far away to be drawn.
 void addDefaultNodes(SceneDocument& document, std::vector<std::string>& warnings);
 
 } // namespace imgeo

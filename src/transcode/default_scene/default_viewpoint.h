@@ -1,5 +1,5 @@
 #pragma once
-// The default viewpoint, and the centre of rotation of all viewpoints.
+// Makes the default viewpoint and sets the centres of rotation of all viewpoints.
 
 #include "scene/scene.h"
 

@@ -8,7 +8,7 @@ namespace imgeo {
 
 namespace {
 
-/// Single precision cannot hold lengths outside of this range together with those of other shapes.
+/// Range of the scales of shapes that can be drawn together in single precision.
 constexpr double minScale = 1e-15, maxScale = 1e15;
 
 bool canBeDrawn(const Affine3d& worldFromShape) {

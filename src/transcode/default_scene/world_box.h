@@ -10,6 +10,7 @@ struct WorldBox {
   std::size_t undrawableShapes = 0; ///< scaled or moved beyond the range of single precision
 };
 
+/// The box of all shape instances that can be drawn.
 WorldBox worldBoxOf(const SceneDocument& document);
 
 } // namespace imgeo

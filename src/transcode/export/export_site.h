@@ -1,5 +1,5 @@
 #pragma once
-// Exports a site to a mesh file.
+// Exports a site to a mesh file: PLY, OBJ or GLB.
 
 #include "imgeo/elements.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Options of a conversion: defaults that depend on other options, and contradictions.
+// Fills in the options of a conversion that depend on others, and refuses contradictions.
 
 #include "base/vec.h"
 #include "imgeo/convert.h"

@@ -11,8 +11,7 @@
 
 namespace imgeo {
 
-/// The files of one folder of a site under construction. A content that is written several times makes one file.
-/// Safe to call from any thread.
+/// The files of one folder of a site under construction. Equal contents share one file. Safe to call from any thread.
 class ContentFiles {
 public:
   /// `site` is the site's root. The first file makes the folder.

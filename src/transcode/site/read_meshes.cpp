@@ -15,13 +15,14 @@ namespace imgeo {
 
 namespace {
 
-/// The kind of element of all draws of a geometry.
+/// The kind of element that all draws of a geometry have.
 Topology topologyOf(const GeometryDescription& geometry, const std::string& location) {
   std::optional<Topology> topology;
   for (const PatchDescription& patch : geometry.patches)
     for (const Draw& draw : patch.draws) {
       if (topology && *topology != topologyOf(draw.primitive))
-        throw Error(ErrorKind::unsupported, location, "a shape draws triangles, lines or points at once");
+        throw Error(ErrorKind::unsupported, location,
+                    "a shape draws elements of several kinds (triangles, lines, points)");
       topology = topologyOf(draw.primitive);
     }
   return topology.value_or(Topology::triangles);

@@ -1,5 +1,5 @@
-// The bytes of the bundles of web/dist, see runtime.h. The assembler takes files in
-// as they are; no compiler has to parse them as arrays.
+// The bytes of the bundles of web/dist, see runtime.h. The assembler includes files as they are; no compiler has to
+// parse them as arrays.
 #define BUNDLE(begin, end, file) .global begin; .global end; begin: .incbin file; end: .byte 0
 
     .section .rodata

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t maxInlinedDocuments = 1000; // as import has it
+constexpr std::size_t maxInlinedDocuments = 1000; // the limit of src/import too
 
 /// Reads inlined documents and makes their roots the children of the Inline nodes. Nested Inlines are appended to
 /// graph.inlined during the loop.
@@ -22,15 +22,15 @@ void addInlined(SiteDocument& document) {
   for (std::size_t index = 0; index < graph.inlined.size(); ++index) {
     const std::string url = graph.inlined[index].url;
     const fs::path file = document.root / url;
-    std::error_code none;
-    if (!fs::is_regular_file(file, none))
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored))
       continue;
     if (index >= maxInlinedDocuments)
       throw Error(ErrorKind::limit, file.string(), "documents inline one another without end");
     InlinedText inlined{url, std::string(asText(readFile(file)))};
     const std::vector<std::size_t> roots = append(document.scene, readScene(inlined.text, file.string()));
     for (Node& node : graph.nodes)
-      if (const GenericNode* other = std::get_if<GenericNode>(&node.content); other && other->document == index)
+      if (const GenericNode* generic = std::get_if<GenericNode>(&node.content); generic && generic->document == index)
         node.children = roots;
     document.inlined.push_back(std::move(inlined));
   }
@@ -58,12 +58,12 @@ bool leadsOutOfFolder(const std::string& url) {
 
 SiteDocument openDocument(const fs::path& site) {
   fs::path file = site;
-  std::error_code none;
-  if (fs::is_directory(site, none)) {
+  std::error_code ignored;
+  if (fs::is_directory(site, ignored)) {
     file = site / pageName;
-    if (!fs::exists(file, none) && fs::exists(site / sceneName, none))
+    if (!fs::exists(file, ignored) && fs::exists(site / sceneName, ignored))
       file = site / sceneName;
-    if (!fs::exists(file, none))
+    if (!fs::exists(file, ignored))
       throw Error(ErrorKind::io, site.string(), "is no site: it holds neither index.html nor scene.x3d");
   }
   SiteDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}, {}};
@@ -119,9 +119,9 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document) {
   // Modules import others as "./imgeo-....js".
   constexpr std::string_view name = "\"./imgeo-";
   for (std::size_t i = 0; i < urls.size(); ++i) {
-    std::error_code none;
+    std::error_code ignored;
     const fs::path file = fileOf(document, urls[i]);
-    if (!urls[i].ends_with(".js") || !fs::is_regular_file(file, none))
+    if (!urls[i].ends_with(".js") || !fs::is_regular_file(file, ignored))
       continue;
     const Bytes bytes = readFile(file);
     const std::string_view text = asText(bytes);
@@ -144,8 +144,8 @@ fs::path fileOf(const SiteDocument& document, const std::string& url) {
 }
 
 bool exists(const SiteDocument& document, const std::string& url) {
-  std::error_code none;
-  return !leadsOutOfFolder(url) && fs::is_regular_file(fileOf(document, url), none);
+  std::error_code ignored;
+  return !leadsOutOfFolder(url) && fs::is_regular_file(fileOf(document, url), ignored);
 }
 
 FetchFile fetchFrom(const SiteDocument& document) {

@@ -42,7 +42,7 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
 /// URLs of texture images, each once, in the order of first mention, without those of other hosts.
 std::vector<std::string> textureFilesOf(const SceneDocument& scene);
 
-/// URLs of the previews of texture images, likewise.
+/// URLs of the previews of texture images, with the same order and omissions.
 std::vector<std::string> previewFilesOf(const SceneDocument& scene);
 
 /// URLs of the runtime modules and the stylesheet that a page names, without those of other hosts and of X3DOM.

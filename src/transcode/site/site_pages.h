@@ -12,7 +12,7 @@ namespace imgeo {
 /// Writes the documents that the scene inlines, named by their content, and sets their urls in the graph.
 void writeInlinedDocuments(SceneDocument& document, Target target, const std::filesystem::path& site);
 
-/// Writes the page, the scene and the stylesheet of a site for X3DOM, which brings its own runtime.
+/// Writes the page, the scene and the stylesheet of a site for X3DOM. The page loads X3DOM instead of our runtime.
 void writeX3domPages(const SceneDocument& document, const X3domRelease& release, const std::filesystem::path& site);
 
 /// Writes the page, the scene and the stylesheet of a site for our runtime, and the runtime's files.

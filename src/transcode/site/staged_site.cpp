@@ -66,8 +66,8 @@ bool isMountPoint(const fs::path& directory) {
          (own.st_dev != parent.st_dev || own.st_ino == parent.st_ino);
 }
 
-/// Locks a directory until the returned descriptor is closed; -1 if another run holds the lock or the directory has
-/// been removed. The system unlocks it when the process ends.
+/// Locks a directory (flock(2)) until the returned descriptor is closed; -1 if another run holds the lock or the
+/// directory has been removed. The system unlocks it when the process ends.
 int lockDirectory(const fs::path& directory, int operation) {
   const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0)
@@ -81,6 +81,7 @@ int lockDirectory(const fs::path& directory, int operation) {
   return -1;
 }
 
+/// Removes those staging directories in `folder` that no running process has locked.
 void removeAbandoned(const fs::path& folder, const std::string& prefix) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {

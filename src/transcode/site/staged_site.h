@@ -17,17 +17,15 @@ int renameBySystem(const std::filesystem::path& from, const std::filesystem::pat
 /// A directory under construction. The destructor removes it unless it is published.
 class StagedSite {
 public:
-  /// Makes `.<name>.imgeo-XXXXXX` beside `target` (and the folders above it),
-  /// after removing those that killed runs left there.
+  /// Makes the staging directory `.<name>.imgeo-XXXXXX` beside `target`, and missing parent folders. Removes staging
+  /// directories that killed runs left there.
   ///
-  /// Where the target cannot change places with another directory (it is a mount
-  /// point or holds the working directory, or the folder above it is not
-  /// writable) the staging directory stands inside it, and is published as on
-  /// systems without renameat2.
+  /// If the target cannot be exchanged with another directory (it is a mount point or contains the working directory,
+  /// or its parent is not writable), the staging directory is inside the target, and is published as on file systems
+  /// without renameat2.
   ///
-  /// Throws Error{usage} where the target is a directory that is neither empty
-  /// nor a site and `force` does not say that it may be replaced with everything
-  /// in it; Error{io} where nothing can be written.
+  /// Throws Error{usage} if the target is a directory that is neither empty nor a site, unless `force` allows to
+  /// replace it with everything in it; Error{io} if the target is a file or nothing can be written.
   StagedSite(const std::filesystem::path& target, bool force);
   ~StagedSite();
   StagedSite(const StagedSite&) = delete;
@@ -35,11 +33,10 @@ public:
 
   const std::filesystem::path& path() const { return staging_; }
 
-  /// Puts the staged directory in the target's place: a new target by
-  /// RENAME_NOREPLACE, an existing one by RENAME_EXCHANGE, after which the old
-  /// one is removed. Where the file system has neither, containers are added
-  /// first, the document is renamed last and stale containers are deleted after.
-  /// Throws Error; the target is then the old site.
+  /// Renames the staging directory to the target: a new target by RENAME_NOREPLACE; an existing one by RENAME_EXCHANGE,
+  /// after which the destructor removes the old one. On file systems that support neither, moves the files one by one,
+  /// the page last, and then deletes the old site's geometry, textures and runtime. Throws Error; the target's page is
+  /// then the old one.
   void publish(const Rename& rename = renameBySystem);
 
 private:

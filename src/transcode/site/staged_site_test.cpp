@@ -85,17 +85,17 @@ TEST(StagedSite, IsPublishedWithoutRenameat2) {
 }
 
 TEST(StagedSite, IsOldOrNewWhereverTheFallbackIsKilled) {
-  for (int survived = 0; survived < 8; ++survived) {
+  for (int renamesBeforeKill = 0; renamesBeforeKill < 8; ++renamesBeforeKill) {
     const TemporaryDirectory directory;
     const fs::path target = directory / "site";
     publish(target, "old");
     const pid_t child = fork();
     if (child == 0) {
-      int left = survived;
+      int renamesLeft = renamesBeforeKill;
       publish(target, "new", false, [&](const fs::path& from, const fs::path& to, unsigned flags) {
         if (flags != 0)
           return ENOSYS;
-        if (left-- == 0)
+        if (renamesLeft-- == 0)
           _exit(9); // as abrupt as a kill: nothing is unwound
         return renameBySystem(from, to, 0);
       });
@@ -105,7 +105,7 @@ TEST(StagedSite, IsOldOrNewWhereverTheFallbackIsKilled) {
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(wholeVersionAt(target), WEXITSTATUS(status) == 0 ? "new" : "old");
-    EXPECT_EQ(WEXITSTATUS(status), survived < 7 ? 9 : 0) << "seven files are renamed";
+    EXPECT_EQ(WEXITSTATUS(status), renamesBeforeKill < 7 ? 9 : 0) << "seven files are renamed";
 
     publish(target, "last");
     EXPECT_EQ(wholeVersionAt(target), "last");

@@ -1,5 +1,5 @@
 #pragma once
-// Directories, inputs and sites for tests. Header-only and for tests alone.
+// Functions for tests of sites: write inputs and list directories.
 
 #include "base/file.h"
 #include "base/testing.h"

@@ -9,12 +9,12 @@ namespace imgeo {
 
 namespace {
 
-struct Published {
+struct PublishedRelease {
   std::string_view version;
   const char *scriptIntegrity, *stylesheetIntegrity;
 };
 
-constexpr Published releases[] = {
+constexpr PublishedRelease releases[] = {
     {"1.7.2", "sha384-oQ9tNXncaw82KCZEOw04VVSHG3NtBhpBNgFO7k34hf/gtRbwB/a6f9w5swP8aFlx",
      "sha384-SxENDTJ8EH9KycoVNkxmZ/41CqFFDFc/hjL9GpNIN+Oe0dwqFf7Usel+IODWsBi9"},
     {"1.8.3", "sha384-w8ORWjdI7HWkA1nJ1+2+fC+tGuvNaL+vnbcMsCCG5HkvwKXgEgdGBx1uqh2wVuri",
@@ -25,7 +25,7 @@ constexpr Published releases[] = {
 
 X3domRelease x3domReleaseFor(Encoding encoding, const std::string& folderUrl) {
   const std::string version = rowOf(encoding).x3domVersion;
-  const Published& published = *std::ranges::find(releases, version, &Published::version);
+  const PublishedRelease& published = *std::ranges::find(releases, version, &PublishedRelease::version);
   if (folderUrl.empty()) {
     const std::string folder = "https://cdn.jsdelivr.net/npm/x3dom@" + version + "/";
     return {version,

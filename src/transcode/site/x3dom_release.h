@@ -13,9 +13,8 @@ struct X3domRelease {
   X3domFiles files;
 };
 
-/// 1.7.2 for SIG, the last release that draws images; 1.8.3 for BG. `folderUrl`
-/// holds x3dom.js and x3dom.css; where it is empty, they are npm's, as a public
-/// CDN serves them, with sums that let nothing else run.
+/// 1.7.2 for SIG, the last release that draws images; 1.8.3 for BG. `folderUrl` is the folder of x3dom.js and
+/// x3dom.css; empty: the npm package on a public CDN, with integrity hashes, so that the browser refuses other files.
 X3domRelease x3domReleaseFor(Encoding encoding, const std::string& folderUrl);
 
 } // namespace imgeo

@@ -45,8 +45,8 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
     return importBytes(read, locationOf(input), options);
   }
   Imported imported = importFile(input, options);
-  std::error_code none;
-  bytes = std::filesystem::file_size(input, none);
+  std::error_code ignored;
+  bytes = std::filesystem::file_size(input, ignored);
   return imported;
 }
 

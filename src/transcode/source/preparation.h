@@ -30,8 +30,8 @@ struct PreparationReport {
 };
 
 /// Welds every mesh, drops the stated elements and unreferenced positions, computes normals for triangle meshes without
-/// normals, and removes shapes without elements. Throws Error{malformed} with the location `location` where that leaves
-/// an empty scene.
+/// normals, and removes shapes without elements. Throws Error{malformed} with the location `location` if no shape is
+/// left, unless the scene is complete (an X3D source).
 PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
                                const std::string& location);
 

@@ -27,8 +27,8 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
     urls.push_back(file.url);
   for (const std::string& url : urls) {
     const fs::path file = fileOf(document, url);
-    std::error_code none;
-    if (!fs::is_regular_file(file, none)) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) {
       findings.add("{} is named by the document but is not there.", url);
       allPresent = false;
       continue;

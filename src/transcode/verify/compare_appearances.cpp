@@ -36,8 +36,8 @@ bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, c
 std::set<std::string> unreadTextureUrls(const SceneGraph& input) {
   std::set<std::string> urls;
   for (const Node& node : input.nodes)
-    if (const GenericNode* other = std::get_if<GenericNode>(&node.content);
-        other && other->element == "ImageTexture" && !other->image)
+    if (const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+        generic && generic->element == "ImageTexture" && !generic->image)
       for (const FieldText& field : node.fields)
         if (field.name == "url")
           std::ranges::move(parseStrings(field.value), std::inserter(urls, urls.end()));

@@ -1,3 +1,5 @@
+// compare(): matches the elements of an input and of a site.
+
 #include "transcode/verify/element_list.h"
 
 #include <algorithm>
@@ -86,19 +88,20 @@ public:
     const std::size_t turns = collapsed ? input_.cornerCount : 1;
     const std::vector<std::uint32_t> ofInput = distinct(input_, inputs), ofSite = distinct(site_, sites);
     if (ofInput.size() == 1 && ofSite.size() == 1) {
-      addToWorst(nearest(ofInput.front(), sorted(site_, ofSite, 1), site_, input_, turns), worst);
+      addToWorst(nearest(ofInput.front(), sortedCandidates(site_, ofSite, 1), site_, input_, turns), worst);
       return;
     }
-    const std::vector<Candidate> siteOrder = sorted(site_, ofSite, turns), inputOrder = sorted(input_, ofInput, turns);
+    const std::vector<Candidate> siteCandidates = sortedCandidates(site_, ofSite, turns),
+                                 inputCandidates = sortedCandidates(input_, ofInput, turns);
     for (const std::uint32_t element : ofInput)
-      addToWorst(nearest(element, siteOrder, site_, input_, 1), worst);
+      addToWorst(nearest(element, siteCandidates, site_, input_, 1), worst);
     for (const std::uint32_t element : ofSite)
-      addToWorst(nearest(element, inputOrder, input_, site_, 1), worst);
+      addToWorst(nearest(element, inputCandidates, input_, site_, 1), worst);
   }
 
 private:
   /// An element rotated by `turn` corners. `key` is its coordinate along one axis of attribute space: the cost of a
-  /// pair is at least the difference of its keys.
+  /// pair of elements is at least the difference of their keys.
   struct Candidate {
     double key;
     std::uint32_t element;
@@ -135,8 +138,8 @@ private:
     return elements;
   }
 
-  std::vector<Candidate> sorted(const ElementList& list, const std::vector<std::uint32_t>& elements,
-                                std::size_t turns) const {
+  std::vector<Candidate> sortedCandidates(const ElementList& list, const std::vector<std::uint32_t>& elements,
+                                          std::size_t turns) const {
     std::vector<Candidate> candidates;
     for (const std::uint32_t element : elements)
       for (std::uint32_t turn = 0; turn < turns; ++turn)
@@ -153,16 +156,16 @@ private:
     Distance best{180, {infinity, infinity}, infinity, true}; // the result if every cost is NaN
     double bestCost = infinity;
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
-      const double here = key(own, element, ownTurn);
+      const double ownKey = key(own, element, ownTurn);
       const auto tryOne = [&](const Candidate& candidate) {
-        if (std::abs(candidate.key - here) > bestCost)
+        if (std::abs(candidate.key - ownKey) > bestCost)
           return false;
         const Distance distance = between(own, element, ownTurn, others, candidate.element, candidate.turn);
         if (const double c = cost(distance); c < bestCost)
           bestCost = c, best = distance;
         return bestCost > 0;
       };
-      const auto middle = std::ranges::lower_bound(candidates, here, {}, &Candidate::key);
+      const auto middle = std::ranges::lower_bound(candidates, ownKey, {}, &Candidate::key);
       for (auto up = middle; up != candidates.end() && tryOne(*up);)
         ++up;
       for (auto down = middle; down != candidates.begin() && tryOne(*(down - 1));)
@@ -252,20 +255,20 @@ ElementDifference compare(const ElementList& inputAsGiven, const ElementList& si
   while (i < inputs.size() || s < sites.size()) {
     const bool onlySite = i == inputs.size() || (s < sites.size() && less(sites[s], inputs[i]));
     const bool onlyInput = !onlySite && (s == sites.size() || less(inputs[i], sites[s]));
-    const auto here = onlySite ? std::span<const LatticeElement>{} : coincidentFrom(inputs, i);
-    const auto there = onlyInput ? std::span<const LatticeElement>{} : coincidentFrom(sites, s);
-    std::size_t allowed = here.size();
+    const auto ofInput = onlySite ? std::span<const LatticeElement>{} : coincidentFrom(inputs, i);
+    const auto ofSite = onlyInput ? std::span<const LatticeElement>{} : coincidentFrom(sites, s);
+    std::size_t allowed = ofInput.size();
     if (!input.copies.empty()) {
       allowed = 0;
-      for (const LatticeElement& one : here)
+      for (const LatticeElement& one : ofInput)
         allowed += input.copies[one.element];
     }
-    difference.missing += here.size() - std::min(here.size(), there.size());
-    difference.extra += there.size() - std::min(allowed, there.size());
-    if (!here.empty() && !there.empty())
-      matcher.match(here, there, difference);
-    i += here.size();
-    s += there.size();
+    difference.missing += ofInput.size() - std::min(ofInput.size(), ofSite.size());
+    difference.extra += ofSite.size() - std::min(allowed, ofSite.size());
+    if (!ofInput.empty() && !ofSite.empty())
+      matcher.match(ofInput, ofSite, difference);
+    i += ofInput.size();
+    s += ofSite.size();
   }
   return difference;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh of the input against the geometry of the site that stands for it.
+// Compares a mesh of the input with the geometry of the site that was made from it.
 
 #include "containers/container_reader.h"
 #include "scene/mesh.h"

@@ -18,13 +18,13 @@ struct ElementList : VertexAttributes {
   std::vector<Vec3u> positions;  ///< per vertex, on the lattice
   std::uint32_t cornerCount = 3; ///< corners of an element: 3 for triangles, 2 for lines, 1 for points
   std::vector<std::array<std::uint32_t, 3>> elements; ///< vertex indices; unused corners are 0
-  std::vector<std::uint32_t> copies; ///< maximum number of times that the site may draw an element; empty: once
+  std::vector<std::uint32_t> copies; ///< maximum number of times that the site may draw each element; empty: once
 
   std::size_t vertexCount() const { return positions.size(); }
 };
 
-/// The elements that sites contain. Points: the wedges of the mesh; each patch may draw its own copy of a wedge at its
-/// border. Lines and triangles: those whose corners are different wedges.
+/// Which elements are compared. Points: all wedges of the mesh; a wedge at the border of patches may be drawn by each
+/// of them. Lines and triangles: those whose corners are different wedges.
 struct ElementKind {
   Topology topology = Topology::triangles;
   /// The corners must be different lattice points as well: without an index, two vertices at one lattice point cannot

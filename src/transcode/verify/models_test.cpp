@@ -1,5 +1,5 @@
-// The models of Behr et al. 2012 (section 4.3, Table 1), where they are: what a site of
-// them takes at most.
+// Upper bounds for the sizes of sites of the models of Behr et al. 2012 (section 4.3, Table 1). Skipped if the models
+// are missing.
 
 #include "base/testing.h"
 #include "imgeo/convert.h"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 struct PaperModel {
   std::string file;
   std::uint64_t imageBytes;   ///< SIG PNG, indexed, at the highest effort; the paper needs 1.7 times that
-  std::uint64_t stripIndices; ///< the paper's
+  std::uint64_t stripIndices; ///< the paper's number of indices of strips
 };
 
 class PaperModels : public ::testing::TestWithParam<PaperModel> {
@@ -31,9 +31,9 @@ protected:
   /// The bytes of the site's geometry files, all or those of one role.
   std::uint64_t bytesOf(const ConvertOptions& options, const std::string& role = "") {
     std::uint64_t bytes = 0;
-    for (const RoleBytes& of : convert(model_, directory_ / "site", options).roles)
-      if (role.empty() ? of.role == "index" || of.role == "coord" || of.role == "normal" : of.role == role)
-        bytes += of.bytes;
+    for (const RoleBytes& sum : convert(model_, directory_ / "site", options).roles)
+      if (role.empty() ? sum.role == "index" || sum.role == "coord" || sum.role == "normal" : sum.role == role)
+        bytes += sum.bytes;
     return bytes;
   }
 
@@ -42,7 +42,7 @@ private:
   fs::path model_;
 };
 
-/// 8 tries less than 9, in a fifth of its time: 9 is never larger.
+/// Effort 8 takes a fifth of the time of 9, which tries more and is never larger.
 TEST_P(PaperModels, AreImagesOfFewBytes) {
   ConvertOptions options;
   options.encoding = Encoding::classic;

@@ -35,17 +35,17 @@ const char* nameOf(std::optional<Encoding> encoding) {
   return encoding ? imgeo::nameOf(*encoding) : "automatic";
 }
 
-/// One after the other, every way in which these coordinates can have their normals.
+/// Chooses by `seed` one of the ways to store normals that the options for coordinates allow.
 void setNormals(ConvertOptions& options, std::uint32_t seed) {
   using enum NormalEncoding;
   if (options.encoding != Encoding::bg) {
     options.normals = std::array{rgb, octahedral, spherical, palette}[seed % 4];
     return;
   }
-  const bool fit = options.positionBits > 8 && options.positionBits <= 16;
+  const bool canBeSpherical = options.positionBits > 8 && options.positionBits <= 16;
   const std::pair<NormalEncoding, std::uint32_t> all[] = {{rgb, 8},         {rgb, 16},       {rgb, 32},
                                                           {octahedral, 16}, {octahedral, 0}, {spherical, 0}};
-  std::tie(options.normals, options.normalBits) = all[seed % (fit ? 6 : 5)];
+  std::tie(options.normals, options.normalBits) = all[seed % (canBeSpherical ? 6 : 5)];
 }
 
 TEST(RoundTrip, EveryEncodingPrimitiveAndPrecisionPreservesEveryMesh) {
@@ -99,7 +99,7 @@ TEST(RoundTrip, CompactPreservesEveryMeshAtEveryPrecision) {
       }
 }
 
-/// Triangles over random points, however they hang together.
+/// A mesh of these triangles over random points.
 Mesh meshOver(std::uint32_t pointCount, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   testing::Random random(pointCount);
   Mesh mesh;
@@ -111,7 +111,7 @@ Mesh meshOver(std::uint32_t pointCount, const std::vector<std::array<std::uint32
   return mesh;
 }
 
-/// Each after what the codec's own tests have of it: here it is welded, cut, simplified, written and proven.
+/// The codec's own tests have the same meshes. Here they are also welded, cut into patches, simplified and verified.
 TEST(RoundTrip, CompactPreservesMeshesThatAreNotManifold) {
   constexpr std::uint32_t count = 30'000;
   using Triangle = std::array<std::uint32_t, 3>;
@@ -149,11 +149,11 @@ TEST(RoundTrip, CompactPreservesMeshesThatAreNotManifold) {
        }}};
   for (const auto& [what, triangleAt] : kinds) {
     std::vector<Triangle> triangles;
-    std::uint32_t pointCount = 0, flat = 0; // those of two corners are not compared, but are all there
+    std::uint32_t pointCount = 0, degenerate = 0; // triangles that repeat a corner are not compared
     for (std::uint32_t i = 0; i < count; ++i) {
       triangles.push_back(triangleAt(i));
       const auto& [a, b, c] = triangles.back();
-      flat += a == b || b == c || c == a;
+      degenerate += a == b || b == c || c == a;
       pointCount = std::max({pointCount, a + 1, b + 1, c + 1});
     }
     for (const std::uint32_t patchVertices : {5'000u, 65'535u}) {
@@ -161,7 +161,7 @@ TEST(RoundTrip, CompactPreservesMeshesThatAreNotManifold) {
       options.encoding = Encoding::compact;
       options.patchVertices = patchVertices;
       const VerifyReport verified = expectRoundTrip(meshOver(pointCount, triangles), options, what);
-      EXPECT_EQ(verified.input.triangles + flat, count) << what;
+      EXPECT_EQ(verified.input.triangles + degenerate, count) << what;
     }
   }
 }
@@ -233,7 +233,7 @@ TEST(RoundTrip, Float32KeepsTheNumbersOfTheSource) {
     own += source.contains(key({at(0), at(1), at(2)}));
     near += std::min({std::abs(at(0)), std::abs(at(1)), std::abs(at(2))}) < boxOf(mesh).longestEdge() / 128;
   }
-  EXPECT_GE(own + near, mesh.corners.size()) << "all but those next to zero, which a single holds too finely";
+  EXPECT_GE(own + near, mesh.corners.size()) << "all but those near zero, where floats are finer than the lattice";
   EXPECT_GT(own, mesh.corners.size() / 2);
 }
 

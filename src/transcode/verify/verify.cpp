@@ -37,8 +37,8 @@ bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
 /// The site's imgeo.json; nothing if another program wrote the site.
 std::optional<SiteManifest> manifestOf(const SiteDocument& document) {
   const fs::path file = document.root / manifestName;
-  std::error_code none;
-  if (!fs::exists(file, none))
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
     return std::nullopt;
   return readManifest(asText(readFile(file)), file.string());
 }

@@ -1,5 +1,5 @@
-// Damage that a check of the files' names alone would not see: every damaged
-// file is renamed to what it holds and the document follows.
+// Damages sites and expects that verify finds the damage. Most damaged files are named by their new content and the
+// documents refer to them, so that a check of names alone would find nothing.
 
 #include "base/error.h"
 #include "containers/png/png.h"
@@ -18,7 +18,7 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-/// A sphere in several patches, which tests then damage.
+/// A site of a mesh (by default a sphere) in several patches, which tests damage.
 class DamagedSite {
 public:
   explicit DamagedSite(Encoding encoding = Encoding::classic, const Mesh& mesh = testing::sphere(30, 30),
@@ -36,7 +36,7 @@ public:
   SceneDocument& scene() { return opened_.scene; }
   GeometryDescription& geometry() { return opened_.scene.geometries.at(0); }
 
-  /// Writes both documents anew.
+  /// Writes the page and scene.x3d again.
   void write() {
     const std::vector<std::string> urls = pageFilesOf(opened_.text);
     const bool moduleFirst = urls.at(0).ends_with(".js");
@@ -45,7 +45,7 @@ public:
     writeFile(site() / sceneName, asBytes(writeX3d(opened_.scene)));
   }
 
-  /// Changes a file and gives it the name of what it then holds.
+  /// Changes a file, names it by its new content and updates the documents.
   void change(Reference& reference, const std::function<void(Bytes&)>& damage) {
     Bytes bytes = readFile(site() / reference.url);
     damage(bytes);
@@ -77,7 +77,7 @@ private:
   SiteDocument opened_;
 };
 
-/// Some finding says `words`, and the whole is not equal.
+/// Expects that the site does not equal its input and that a finding contains `words`.
 void expectFinding(const DamagedSite& site, const std::string& words) {
   const VerifyReport report = site.verified();
   EXPECT_FALSE(report.equal);
@@ -91,7 +91,7 @@ TEST(Verify, FindsNoDifferenceInAnUndamagedSite) {
   DamagedSite site;
   ASSERT_GT(site.geometry().patches.size(), 2u);
   EXPECT_TRUE(site.verified().equal);
-  site.write(); // what the damages below rest on
+  site.write(); // tests write damaged scenes in this way
   EXPECT_TRUE(site.verified().equal);
 }
 
@@ -158,7 +158,7 @@ TEST(Verify, SeesAPatchTakenAwayOrPutInTwice) {
   expectFinding(site, "not in the input");
 }
 
-TEST(Verify, SeesTheDecodeBoxChanged) {
+TEST(Verify, SeesAChangedLattice) {
   DamagedSite moved, stretched;
   moved.geometry().lattice.origin.x += 2 * moved.geometry().lattice.step;
   moved.widenBoxes();
