@@ -36,13 +36,13 @@ std::vector<Run> measureInTurns(const std::vector<std::vector<std::string>>& pro
     for (std::size_t i = 0; i < programs.size(); ++i)
       all[i].push_back(runOnce(programs[i]));
   std::vector<Run> medians;
-  for (std::vector<Run>& of : all) {
+  for (std::vector<Run>& ofProgram : all) {
     const auto median = [&](auto member) {
-      std::ranges::nth_element(of, of.begin() + runs / 2, {}, member);
-      return of[runs / 2].*member;
+      std::ranges::nth_element(ofProgram, ofProgram.begin() + runs / 2, {}, member);
+      return ofProgram[runs / 2].*member;
     };
     const double seconds = median(&Run::seconds), processorSeconds = median(&Run::processorSeconds);
-    medians.push_back({seconds, processorSeconds, std::ranges::max(of, {}, &Run::peakBytes).peakBytes});
+    medians.push_back({seconds, processorSeconds, std::ranges::max(ofProgram, {}, &Run::peakBytes).peakBytes});
   }
   return medians;
 }

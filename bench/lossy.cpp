@@ -1,6 +1,6 @@
 // Measures the effect of JPEG and lossy WebP on coordinate images (the paper's Figure 10 and section 7.1). Each model
-// is prepared as by `imgeo convert`; its coordinate images are encoded and decoded with a lossy codec; the resulting
-// geometry is compared with the exact one.
+// is prepared as `imgeo convert` does it; its coordinate images are encoded and decoded with a lossy codec; the
+// resulting geometry is compared with the exact one.
 //
 //   build/bench/lossy MODEL... [--write DIRECTORY]
 //

@@ -1,6 +1,6 @@
 // Size and error of normals in each encoding of SIG classic, and in two that imgeo does not write: octahedral
 // coordinates as two channels of one image, and the palette as a GIF (the paper's unexplored option, 7.1). Meshes are
-// prepared as by `imgeo convert`; errors are those of the files as they are read back.
+// prepared as `imgeo convert` does it; errors are those of the files as they are read back.
 //
 //   build/bench/normals MODEL...
 

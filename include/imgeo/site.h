@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Reading of a site: its description, and its meshes.
+/// Reading of a site: inspect() describes it, readSiteMeshes() decodes its meshes.
 
 #include "imgeo/elements.h"
 #include "imgeo/encoding.h"
