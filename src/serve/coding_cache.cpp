@@ -10,7 +10,7 @@ std::shared_ptr<const Bytes> CodingCache::get(const std::string& key, const std:
       return found->second->content;
     }
   }
-  const auto content = std::make_shared<const Bytes>(encode());
+  auto content = std::make_shared<const Bytes>(encode());
   const std::lock_guard lock(mutex_);
   if (content->size() > limitBytes_ || byKey_.contains(key))
     return content;

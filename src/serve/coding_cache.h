@@ -18,8 +18,8 @@ public:
   /// Holds at most `limitBytes` of encoded content; larger content is returned but not kept.
   explicit CodingCache(std::size_t limitBytes) : limitBytes_(limitBytes) {}
 
-  /// The content of `key`, which names one version of a file and a coding; calls `encode` where the cache lacks it. Two
-  /// threads that miss at the same time both encode.
+  /// The encoded content for `key`, which names one version of a file and a coding; calls `encode` if the cache lacks
+  /// it. Two threads that miss at the same time both encode.
   std::shared_ptr<const Bytes> get(const std::string& key, const std::function<Bytes()>& encode);
 
   /// Bytes of content in the cache.

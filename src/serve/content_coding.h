@@ -13,9 +13,9 @@ enum class ContentCoding { identity, gzip, brotli };
 /// The name in Content-Encoding: "br", "gzip"; "identity" is not sent.
 std::string_view codingName(ContentCoding coding);
 
-/// The best coding that an Accept-Encoding header allows: the one with the highest
-/// q; brotli before gzip before identity where q is equal. A malformed header allows identity only. Safe for untrusted
-/// bytes.
+/// The coding that an Accept-Encoding header prefers: the one with the highest q; brotli before gzip before identity
+/// where q is equal. Malformed items of the header are ignored; identity is the coding if no other is allowed. Safe for
+/// untrusted bytes.
 ContentCoding chooseCoding(std::string_view acceptEncoding);
 
 /// Encodes `bytes`; identity copies them. The same bytes give the same result.

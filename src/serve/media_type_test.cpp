@@ -19,7 +19,7 @@ TEST(MediaType, UnknownExtensionsAreOctetStreams) {
     EXPECT_EQ(mediaTypeOf(name).name, "application/octet-stream") << name;
 }
 
-TEST(MediaType, OnlyTextIsCompressible) {
+TEST(MediaType, TextIsCompressibleAndVertexDataIsNot) {
   EXPECT_TRUE(mediaTypeOf("a.html").isCompressible);
   EXPECT_TRUE(mediaTypeOf("a.x3d").isCompressible);
   EXPECT_FALSE(mediaTypeOf("a.png").isCompressible);

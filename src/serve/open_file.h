@@ -21,11 +21,11 @@ public:
   OpenFile& operator=(const OpenFile&) = delete;
 
   std::uint64_t size() const { return size_; }
-  /// Changes whenever the bytes may have changed: made of inode, size and modification time in nanoseconds. Letters,
+  /// Inode, size and modification time in nanoseconds, so that it changes when the bytes change. Consists of letters,
   /// digits and dashes.
   const std::string& version() const { return version_; }
-  /// Reads up to out.size() bytes from `offset`; fewer only at the file's end.
-  /// Throws Error{io}. Safe to call from several threads.
+  /// Reads out.size() bytes from `offset`, or fewer at the file's end. Returns their number. Throws Error{io}. Safe to
+  /// call from several threads.
   std::size_t readAt(std::uint64_t offset, std::span<std::uint8_t> out) const;
 
 private:
@@ -35,7 +35,7 @@ private:
 };
 
 enum class Absence {
-  notFound,  ///< no such file, not readable, no regular file, or outside the root
+  notFound,  ///< no such file, not readable, not a regular file, or outside the root
   directory, ///< a directory, requested without a trailing slash
 };
 

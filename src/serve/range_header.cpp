@@ -9,7 +9,7 @@ namespace imgeo {
 
 namespace {
 
-/// All of `text` as a number; more than 64 bits count as the largest.
+/// The number that `text` consists of; the largest one for numbers of more than 64 bits.
 std::optional<std::uint64_t> parseOffset(std::string_view text) {
   std::uint64_t value = 0;
   const char* end = text.data() + text.size();

@@ -18,9 +18,8 @@ struct ByteRange {
   friend bool operator==(const ByteRange&, const ByteRange&) = default;
 };
 
-/// Reads "bytes=0-99", "bytes=100-" or "bytes=-100" against a file of `size` bytes.
-/// Several ranges at once are answered with the whole file, as the RFC allows.
-/// Safe for untrusted bytes.
+/// The range of a file of `size` bytes that "bytes=0-99", "bytes=100-" or "bytes=-100" asks for. Several ranges at once
+/// give the whole file, as the RFC allows. Safe for untrusted bytes.
 ByteRange parseRange(std::string_view header, std::uint64_t size);
 
 } // namespace imgeo

@@ -16,12 +16,13 @@ struct RequestPath {
   friend bool operator==(const RequestPath&, const RequestPath&) = default;
 };
 
-/// Parses a request target, "/a%20b/c?query" or "http://host/a". Empty for a target without a path, a malformed escape,
-/// or "..", which browsers resolve before they send. Safe for untrusted bytes.
+/// Parses a request target, "/a%20b/c?query" or "http://host/a". Returns nothing for a target without a path, a
+/// malformed escape, an escaped slash or NUL, or "..", which browsers resolve before they send. Safe for untrusted
+/// bytes.
 std::optional<RequestPath> parseRequestTarget(std::string_view target);
 
-/// The path as a request target: a slash in front, one behind a directory, every character percent-encoded that is not
-/// unreserved.
+/// The path as a request target: it begins with a slash, a directory ends in one, and every character that is not
+/// unreserved is percent-encoded.
 std::string formatRequestPath(const RequestPath& path);
 
 } // namespace imgeo

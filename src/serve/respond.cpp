@@ -32,7 +32,7 @@ void addContentFields(Response& response, const MediaType& type, std::uint64_t b
 }
 
 Response redirectTo(const std::string& location) {
-  Response response = refuse(301, "This is a directory.");
+  Response response = plainResponse(301, "This is a directory.");
   response.fields.emplace_back("Location", location);
   return response;
 }
@@ -85,12 +85,12 @@ Response respondWithFile(const Site& site, const RequestHead& request, std::stri
     sendEncoded(response, site, *file, tag, type, coding);
     return response;
   }
-  // If-Range with another tag, or with a date (this server sends no dates): the whole file.
+  // If-Range with another tag, or with a date (this server sends no Last-Modified): the whole file.
   const bool hasRange =
       request.method == "GET" && !request.range.empty() && (request.ifRange.empty() || request.ifRange == tag);
   const ByteRange range = parseRange(hasRange ? request.range : "", file->size());
   if (range.kind == ByteRange::Kind::unsatisfiable) {
-    Response refusal = refuse(416, "The file ends before the range begins.");
+    Response refusal = plainResponse(416, "The file ends before the range begins.");
     refusal.fields.emplace_back("Content-Range", fmt::format("bytes */{}", file->size()));
     return refusal;
   }
@@ -101,11 +101,11 @@ Response respondWithFile(const Site& site, const RequestHead& request, std::stri
 Response respondToGet(const Site& site, const RequestHead& request) {
   const std::optional<RequestPath> path = parseRequestTarget(request.target);
   if (!path)
-    return refuse(400, "The path is malformed.");
+    return plainResponse(400, "The path is malformed.");
   auto found = openBelow(site.root, *path);
   if (const Absence* absence = std::get_if<Absence>(&found)) {
     if (*absence == Absence::notFound)
-      return refuse(404, "There is no such file.");
+      return plainResponse(404, "There is no such file.");
     // Made from the decoded names: a target such as "//host" must not become a link to another host.
     return redirectTo(formatRequestPath({path->names, true}));
   }
@@ -120,7 +120,7 @@ std::string_view Response::field(std::string_view name) const {
   return found == fields.end() ? std::string_view() : std::string_view(found->second);
 }
 
-Response refuse(unsigned status, std::string_view sentence) {
+Response plainResponse(unsigned status, std::string_view sentence) {
   Response response;
   response.status = status;
   const std::string text = fmt::format("{}\n", sentence);
@@ -152,7 +152,7 @@ bool matchesAnyTag(std::string_view ifNoneMatch, std::string_view tag) {
 Response respond(const Site& site, const RequestHead& request) {
   const bool isHead = request.method == "HEAD";
   if (!isHead && request.method != "GET") {
-    Response response = refuse(405, "Only GET and HEAD are answered here.");
+    Response response = plainResponse(405, "Only GET and HEAD are answered here.");
     response.fields.emplace_back("Allow", "GET, HEAD");
     return response;
   }

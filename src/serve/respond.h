@@ -13,7 +13,7 @@
 
 namespace imgeo {
 
-/// The header fields that responses depend on; absent fields are empty.
+/// The parts of a request that its response depends on; absent header fields are empty.
 struct RequestHead {
   std::string_view method, target;
   std::string_view acceptEncoding, ifNoneMatch, ifRange, range;
@@ -42,7 +42,7 @@ struct Site {
 Response respond(const Site& site, const RequestHead& request);
 
 /// A response whose body is one sentence of plain text.
-Response refuse(unsigned status, std::string_view sentence);
+Response plainResponse(unsigned status, std::string_view sentence);
 
 /// Whether an If-None-Match header names this ETag (with its quotes), by weak comparison.
 bool matchesAnyTag(std::string_view ifNoneMatch, std::string_view tag);

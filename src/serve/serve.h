@@ -2,14 +2,14 @@
 // A static file server over HTTP/1.1, for local use and for many slow clients: one coroutine per connection on a few
 // threads. It is independent of geometry formats.
 //
-// - GET and HEAD; If-None-Match, one Range with If-Range; keep-alive, pipelining.
-// - A directory's path answers with its index.html.
-// - Files whose stem ends in the 16 hex digits of their content's hash may be
-//   cached indefinitely; all others are revalidated by their ETag at each use.
+// - GET and HEAD; If-None-Match, a single Range, If-Range; keep-alive, pipelining.
+// - The path of a directory gives its index.html.
+// - Files whose stem ends in the 16 hex digits of their content's hash may be cached indefinitely; all others are
+//   revalidated by their ETag at each use.
 // - Text is sent as brotli or gzip where the client accepts it.
 // - Every page runs under `Content-Security-Policy: default-src 'self'`.
-// - Nothing outside the directory is served, neither by ".." nor through symbolic
-//   links, and no name that starts with a dot. Safe for untrusted requests.
+// - Nothing outside the directory is served, neither by ".." nor through symbolic links, and no name that starts with a
+//   dot. Safe for untrusted requests.
 
 #include <cstdint>
 #include <filesystem>

@@ -44,7 +44,7 @@ void raiseOpenFileLimit() {
 
 fs::path canonicalDirectory(const fs::path& directory) {
   std::error_code failure;
-  const fs::path root = fs::canonical(directory, failure);
+  fs::path root = fs::canonical(directory, failure);
   if (failure)
     throw Error(ErrorKind::io, directory.string(), fmt::format("cannot be served: {}", failure.message()));
   if (!fs::is_directory(root, failure))

@@ -22,8 +22,8 @@ namespace http = boost::beast::http;
 namespace {
 
 constexpr std::uint32_t maxHeadBytes = 16 * 1024;
-constexpr std::size_t chunkBytes = 64 * 1024;
-constexpr std::size_t maxDrainedBytes = 1024 * 1024;
+constexpr std::size_t chunkBytes = std::size_t{64} << 10;
+constexpr std::size_t maxDrainedBytes = std::size_t{1} << 20;
 constexpr auto drainTimeout = std::chrono::seconds(2);
 
 std::string_view view(boost::string_view text) {
@@ -53,10 +53,10 @@ std::string formatHead(const Response& response, bool keepAlive) {
 
 Response refusalOf(beast::error_code failure) {
   if (failure == http::error::header_limit || failure == http::error::buffer_overflow)
-    return refuse(431, "The request head is too long.");
+    return plainResponse(431, "The request head is too long.");
   if (failure == http::error::bad_version)
-    return refuse(505, "Only HTTP/1.0 and HTTP/1.1 are spoken here.");
-  return refuse(400, "The request is malformed.");
+    return plainResponse(505, "Only HTTP/1.0 and HTTP/1.1 are spoken here.");
+  return plainResponse(400, "The request is malformed.");
 }
 
 /// Whether the request is malformed, which the session answers, as opposed to a failure of the network.
@@ -96,7 +96,8 @@ asio::awaitable<void> Session::serveRequests() {
     const bool isHttp11 = request.version() >= 11;
     keepAlive = isHttp11 && request.keep_alive() && !hasBody && !isFinishing_;
     const bool lacksHost = isHttp11 && request.find(http::field::host) == request.end();
-    const Response response = lacksHost ? refuse(400, "The request names no host.") : respond(site_, headOf(request));
+    const Response response =
+        lacksHost ? plainResponse(400, "The request names no host.") : respond(site_, headOf(request));
     co_await write(response, keepAlive);
     isAnswering_ = false;
   }
