@@ -21,9 +21,9 @@ namespace {
 
 /// What is wrong with a value; empty if it is valid.
 std::string faultOf(const Flag& flag, const std::string& value) {
-  if (flag.value == Value::choice && std::ranges::find(flag.choices, value) == flag.choices.end())
+  if (flag.valueKind == ValueKind::choice && std::ranges::find(flag.choices, value) == flag.choices.end())
     return fmt::format("\"{}\" is not {}", value, fmt::join(flag.choices, " or "));
-  if (flag.value == Value::integer) {
+  if (flag.valueKind == ValueKind::integer) {
     std::int64_t number = 0;
     const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (fault != std::errc{} || end != value.data() + value.size())
@@ -112,7 +112,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
   return arguments;
 }
 
-/// The long form of an argument that is a short name of the flag.
+/// The word with the flag's long name; nothing if it does not begin with a short name of the flag.
 std::optional<std::vector<std::string>> expand(const Flag& flag, const std::string& word) {
   for (const std::string& alias : flag.aliases) {
     if (!word.starts_with(alias))
@@ -125,7 +125,7 @@ std::optional<std::vector<std::string>> expand(const Flag& flag, const std::stri
     if (rest.starts_with("="))
       return std::vector{"--" + flag.name + rest};
     const bool isNumber = std::ranges::all_of(rest, [](char c) { return c >= '0' && c <= '9'; });
-    if (flag.value == Value::integer ? isNumber : alias.size() == 2)
+    if (flag.valueKind == ValueKind::integer ? isNumber : alias.size() == 2)
       return std::vector{"--" + flag.name + "=" + rest};
   }
   return std::nullopt;

@@ -21,12 +21,11 @@ struct Arguments {
   bool has(const std::string& name) const { return switches.at(name); }
 };
 
-/// Replaces the short names of a command's flags by their long ones: "-vp 14",
-/// "-vp=14", "-vp14" and "-oDIR" become "--position-bits 14" and so on. Words
-/// after "--" stay as they are.
+/// Replaces the short names of a command's flags by their long ones: "-vp 14" becomes "--position-bits 14"; "-vp14" and
+/// "-vp=14" become "--position-bits=14"; "-oDIR" becomes "--output=DIR". Words after "--" stay as they are.
 std::vector<std::string> expandAliases(const Command& command, std::vector<std::string> words);
 
-/// Parses `words` (without the program's name). Throws Error{usage}.
+/// Parses `words`, the command line without the program's name. Throws Error{usage}.
 Arguments parseArguments(std::vector<std::string> words);
 
 } // namespace imgeo::cli

@@ -1,6 +1,6 @@
 #pragma once
-// The values of the flags that choose from a list: the name on the command line and the enumerator of each. The flag
-// table (flags.cpp) takes the names, convert_command.cpp the enumerators.
+// The flags of convert that choose from a list: the name of each choice on the command line and its value in
+// ConvertOptions. flags.cpp uses the names, convert_options.cpp and convert_report.cpp the values.
 
 #include "imgeo/convert.h"
 
@@ -62,7 +62,7 @@ template <typename Value, std::size_t count> std::vector<std::string> namesOf(co
   return names;
 }
 
-/// The value of a name, which the parser has found in the list.
+/// The value of a name that is in the list; the parser has checked that.
 template <typename Value, std::size_t count>
 Value valueNamed(const Choice<Value> (&choices)[count], std::string_view name) {
   return std::ranges::find(choices, name, &Choice<Value>::name)->value;

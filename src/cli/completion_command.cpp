@@ -16,7 +16,7 @@ std::vector<std::string> commandNames() {
   return names;
 }
 
-/// All names of a flag; positional arguments have none.
+/// The short names of a flag and, unless it is positional, its long name.
 std::vector<std::string> spellings(const Flag& flag) {
   std::vector<std::string> all = flag.aliases;
   if (!flag.positional)
@@ -39,21 +39,21 @@ std::string bashScript() {
       for (const std::string& name : spellings(flag))
         patterns.push_back(fmt::format("\"{} {}\"", command.name, name));
       const std::string action =
-          flag.value == Value::choice
+          flag.valueKind == ValueKind::choice
               ? fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", fmt::join(flag.choices, " "))
-          : flag.value == Value::directory ? "COMPREPLY=($(compgen -d -- \"$word\"))"
-          : flag.value == Value::file      ? "COMPREPLY=($(compgen -f -- \"$word\"))"
-                                           : "COMPREPLY=()";
+          : flag.valueKind == ValueKind::directory ? "COMPREPLY=($(compgen -d -- \"$word\"))"
+          : flag.valueKind == ValueKind::file      ? "COMPREPLY=($(compgen -f -- \"$word\"))"
+                                                   : "COMPREPLY=()";
       script += fmt::format("    {}) {}; return ;;\n", fmt::join(patterns, "|"), action);
     }
   script += "  esac\n  case \"${COMP_WORDS[1]}\" in\n";
   for (const Command& command : commands()) {
     std::vector<std::string> names, words;
     for (const Flag& flag : command.flags) {
-      if (!flag.positional)
-        names.push_back("--" + flag.name);
       if (flag.positional)
         words.insert(words.end(), flag.choices.begin(), flag.choices.end());
+      else
+        names.push_back("--" + flag.name);
     }
     script += fmt::format("    {}) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); "
                           "else COMPREPLY=($(compgen {} -- \"$word\")); fi ;;\n",
@@ -75,14 +75,14 @@ std::string zshText(const std::string& text) {
 }
 
 std::string zshValue(const Flag& flag) {
-  switch (flag.value) {
-  case Value::none:
+  switch (flag.valueKind) {
+  case ValueKind::none:
     return "";
-  case Value::choice:
+  case ValueKind::choice:
     return fmt::format(":{}:({})", flag.name, fmt::join(flag.choices, " "));
-  case Value::file:
+  case ValueKind::file:
     return fmt::format(":{}:_files", flag.name);
-  case Value::directory:
+  case ValueKind::directory:
     return fmt::format(":{}:_files -/", flag.name);
   case Value::text:
   case Value::integer:
@@ -126,23 +126,23 @@ std::string fishScript() {
     script += fmt::format("complete -c imgeo -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
                           fishText(command.summary));
   for (const Command& command : commands()) {
-    const std::string here = fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
+    const std::string prefix = fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
     for (const Flag& flag : command.flags) {
       if (flag.positional) {
         if (!flag.choices.empty())
-          script += fmt::format("{} -f -a '{}'\n", here, fmt::join(flag.choices, " "));
+          script += fmt::format("{} -f -a '{}'\n", prefix, fmt::join(flag.choices, " "));
         continue;
       }
-      script += fmt::format("{} -l {}", here, flag.name);
+      script += fmt::format("{} -l {}", prefix, flag.name);
       for (const std::string& alias : flag.aliases)
         script += fmt::format(" -{} {}", alias.size() == 2 ? "s" : "o", alias.substr(1));
-      if (flag.value == Value::choice)
+      if (flag.valueKind == ValueKind::choice)
         script += fmt::format(" -x -a '{}'", fmt::join(flag.choices, " "));
-      if (flag.value == Value::text || flag.value == Value::integer)
+      if (flag.valueKind == ValueKind::text || flag.valueKind == ValueKind::integer)
         script += " -x";
-      if (flag.value == Value::file)
+      if (flag.valueKind == ValueKind::file)
         script += " -r -F";
-      if (flag.value == Value::directory)
+      if (flag.valueKind == ValueKind::directory)
         script += " -x -a '(__fish_complete_directories)'";
       script += fmt::format(" -d '{}'\n", fishText(flag.help));
     }

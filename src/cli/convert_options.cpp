@@ -13,7 +13,7 @@ namespace imgeo::cli {
 
 namespace {
 
-/// The attributes of "all", "none" or a list of names separated by commas.
+/// Parses "all", "none" or names of attributes separated by commas.
 AttributeChoice attributesNamed(const std::string& text) {
   AttributeChoice choice;
   choice.all = text == "all";
@@ -27,14 +27,14 @@ AttributeChoice attributesNamed(const std::string& text) {
   return choice;
 }
 
-/// The error of "0.02" or "0.05%".
+/// Parses "0.02" or "0.05%".
 MaxError maxErrorFrom(const std::string& text) {
   MaxError error;
   const char* end = text.data() + text.size();
   error.isPercent = text.ends_with('%');
   const auto [last, fault] = std::from_chars(text.data(), end - error.isPercent, error.value);
   if (fault != std::errc{} || last != end - error.isPercent || !(error.value > 0) || !std::isfinite(error.value))
-    throw Error(ErrorKind::usage, "--max-error", fmt::format("\"{}\" is no length, nor one of percent", text));
+    throw Error(ErrorKind::usage, "--max-error", fmt::format("\"{}\" is neither a length nor a percentage", text));
   return error;
 }
 
@@ -43,7 +43,7 @@ double basePercentFrom(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [last, fault] = std::from_chars(text.data(), end, percent);
   if (fault != std::errc{} || last != end || !std::isfinite(percent))
-    throw Error(ErrorKind::usage, "--base", fmt::format("\"{}\" is no number of percent", text));
+    throw Error(ErrorKind::usage, "--base", fmt::format("\"{}\" is not a percentage", text));
   return percent;
 }
 
@@ -58,7 +58,7 @@ TextureOptions texturesFrom(const Arguments& arguments) {
   return textures;
 }
 
-/// The encoding that --container and --profile name; nothing if convert is to choose between several.
+/// The only encoding that --container and --profile allow; nothing if they allow several, so that convert chooses.
 std::optional<Encoding> encodingFrom(const Arguments& arguments) {
   const std::string container = arguments.text("container"), profile = arguments.text("profile");
   std::optional<Encoding> encoding;

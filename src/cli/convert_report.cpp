@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Where normals come from: "source", or the weighting of computed ones.
-std::string normalsOf(const Arguments& arguments, const ConvertReport& report) {
+/// "source", or the weighting of computed normals.
+std::string normalSourceName(const Arguments& arguments, const ConvertReport& report) {
   return report.normalsComputed ? arguments.text("normal-weighting") : "source";
 }
 
@@ -59,7 +59,7 @@ void printTextures(const TextureReport& textures) {
 }
 
 /// "computed: triangles count by their area"
-std::string normalSource(const Arguments& arguments, const ConvertReport& report) {
+std::string normalSourceText(const Arguments& arguments, const ConvertReport& report) {
   if (!report.normalsComputed)
     return "the source's, where it has any";
   switch (valueNamed(normalWeightingChoices, arguments.text("normal-weighting"))) {
@@ -103,10 +103,11 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions", positionsOf(arguments, report));
   if (report.collapsed.sum() > 0)
-    printLine("", fmt::format("too coarse for {}, without area or length there", listed(report.collapsed)));
+    printLine("", fmt::format("too coarse for {}: they have lost their area or length", listed(report.collapsed)));
   if (report.hasNormals)
-    printLine("normals", fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
-                                     report.normalBits, report.normalErrorDegrees, normalSource(arguments, report)));
+    printLine("normals",
+              fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
+                          report.normalBits, report.normalErrorDegrees, normalSourceText(arguments, report)));
   const auto bitsOf = [&](std::uint32_t bits) {
     return row.storage != PatchStorage::arrays ? fmt::format("{} bits: ", bits) : "";
   };
@@ -115,7 +116,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   if (report.hasColors)
     printLine("colours", bitsOf(report.colorBits) +
                              (report.colorBits >= 8
-                                  ? "the source's own of 8"
+                                  ? "as in the source"
                                   : fmt::format("off by at most {:.0f} of 255", colorErrorBound(report.colorBits))));
   for (const AttributeReport& attribute : report.attributes)
     printLine("attribute",
@@ -131,10 +132,10 @@ void printBytes(const ConvertReport& report) {
   RoleBytes sum{"together", 0, 0};
   const auto print = [&](const RoleBytes& role) {
     const std::size_t triangles = report.elements.triangles;
-    const bool counts = triangles > 0;
-    const double each = counts ? static_cast<double>(role.bytes) / static_cast<double>(triangles) : 0;
+    const bool hasTriangles = triangles > 0;
+    const double each = hasTriangles ? static_cast<double>(role.bytes) / static_cast<double>(triangles) : 0;
     fmt::print("{:10} {:>7} {:>14} {:>16}\n", role.role, role.files, grouped(role.bytes),
-               counts ? fmt::format("{:.3f}", each) : "");
+               hasTriangles ? fmt::format("{:.3f}", each) : "");
   };
   for (const RoleBytes& role : report.roles) {
     print(role);
@@ -198,7 +199,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
     json["colorError"] = colorErrorBound(report.colorBits);
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
-  json["normals"] = normalsOf(arguments, report);
+  json["normals"] = normalSourceName(arguments, report);
   json["step"] = report.maxStep;
   json["positionError"] = report.positionError;
   json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};

@@ -26,7 +26,7 @@ int print(const Arguments& arguments, const ExportReport& report) {
   }
   if (report.lightsLeftOut > 0)
     fmt::print(stderr,
-               "imgeo: warning: {} left out: glTF's shine on everything and fall off by the square of the "
+               "imgeo: warning: {} left out: lights of glTF shine on everything and fall off with the square of the "
                "distance.\n",
                report.lightsLeftOut == 1 ? "1 light is" : fmt::format("{} lights are", report.lightsLeftOut));
   fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format, listed(report.elements),

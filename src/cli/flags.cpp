@@ -1,7 +1,7 @@
 #include "cli/flags.h"
 
 #include "cli/choices.h"
-
+#include "containers/encodings.h"
 #include "import/format.h"
 
 #include <algorithm>
@@ -21,19 +21,21 @@ Flag outsideFlag() {
   return {.name = "outside", .help = "let the source refer to files outside of its folder"};
 }
 
-Flag positional(const std::string& name, const std::string& valueName, Value value, const std::string& help) {
-  return {.name = name, .value = value, .valueName = valueName, .help = help, .positional = true, .required = true};
+Flag positional(const std::string& name, const std::string& valueName, ValueKind valueKind, const std::string& help) {
+  return {
+      .name = name, .valueKind = valueKind, .valueName = valueName, .help = help, .positional = true, .required = true};
 }
 
 Flag choice(const std::string& name, std::vector<std::string> choices, const std::string& help) {
-  return {.name = name, .value = Value::choice, .help = help, .defaultValue = choices.front(), .choices = choices};
+  return {
+      .name = name, .valueKind = ValueKind::choice, .help = help, .defaultValue = choices.front(), .choices = choices};
 }
 
 Flag integer(const std::string& name, std::vector<std::string> aliases, std::int64_t min, std::int64_t max,
              const std::string& defaultValue, const std::string& help) {
   return {.name = name,
           .aliases = std::move(aliases),
-          .value = Value::integer,
+          .valueKind = ValueKind::integer,
           .valueName = "N",
           .help = help,
           .defaultValue = defaultValue,
@@ -41,34 +43,40 @@ Flag integer(const std::string& name, std::vector<std::string> aliases, std::int
           .max = max};
 }
 
+/// `values`, then the different values that a member has in the rows of the encodings.
+std::vector<std::string> valuesOf(const char* EncodingRow::*member, std::vector<std::string> values = {}) {
+  for (const EncodingRow* row : allEncodings())
+    if (std::ranges::find(values, row->*member) == values.end())
+      values.emplace_back(row->*member);
+  return values;
+}
+
 Command convertCommand() {
   Flag input =
-      positional("input", "INPUT", Value::file, formatHelp() + " file, gzipped or not; \"-\" reads standard input");
+      positional("input", "INPUT", ValueKind::file, formatHelp() + " file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
   Flag output{.name = "output",
               .aliases = {"-o"},
-              .value = Value::directory,
+              .valueKind = ValueKind::directory,
               .valueName = "DIR",
               .help = "the site's directory; an older site there is replaced in one step",
               .required = true};
   Flag report{.name = "report",
               .aliases = {"-r"},
-              .value = Value::file,
+              .valueKind = ValueKind::file,
               .valueName = "FILE",
               .help = "write a report of what was chosen and measured, as JSON"};
   return {
       .name = "convert",
       .usage = "INPUT -o DIR [options]",
       .summary = "turn a mesh into a page that shows it progressively",
-      .text = "Writes a static site: index.html, the scene as X3D, the runtime, and the mesh's vertex data "
-              "in files "
-              "named by their content. The directory takes its place in one step; killed at any moment, it "
-              "is the old "
+      .text = "Writes a static site: index.html, the scene as X3D, the runtime, and the mesh's vertex data in files "
+              "named by their content. The directory takes its place in one step; killed at any moment, it is the old "
               "site or the new one.",
       .flags = {input,
                 output,
-                choice("container", {"sig", "bg"}, "sig: PNG images; bg: typed arrays"),
-                choice("profile", {"auto", "compact", "classic"},
+                choice("container", valuesOf(&EncodingRow::container), "sig: PNG images; bg: typed arrays"),
+                choice("profile", valuesOf(&EncodingRow::profile, {"auto"}),
                        "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
                        "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
                        "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
@@ -76,7 +84,7 @@ Command convertCommand() {
                 choice("target", namesOf(targetChoices),
                        "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
                 {.name = "x3dom-url",
-                 .value = Value::text,
+                 .valueKind = ValueKind::text,
                  .valueName = "URL",
                  .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
                          "jsdelivr.net"},
@@ -89,7 +97,7 @@ Command convertCommand() {
                         "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
                         "otherwise 16, or what the coordinates' type holds"),
                 {.name = "max-error",
-                 .value = Value::text,
+                 .valueKind = ValueKind::text,
                  .valueName = "LENGTH|PERCENT",
                  .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
                          "with %, of a mesh's longest edge"},
@@ -110,14 +118,14 @@ Command convertCommand() {
                 integer("patch-vertices", {}, 256, 4194304, "65535",
                         "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
                 {.name = "base",
-                 .value = Value::text,
+                 .valueKind = ValueKind::text,
                  .valueName = "PERCENT",
                  .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
                 choice("drop", namesOf(dropChoices),
                        "which elements to leave out: those with two corners at one place, those that repeat "
                        "another, or both"),
                 {.name = "keep-attributes",
-                 .value = Value::text,
+                 .valueKind = ValueKind::text,
                  .valueName = "NAMES",
                  .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
                  .defaultValue = "none"},
@@ -134,7 +142,7 @@ Command convertCommand() {
                 choice("normal-weighting", namesOf(normalWeightingChoices),
                        "how triangles count in normals that the source lacks"),
                 {.name = "title",
-                 .value = Value::text,
+                 .valueKind = ValueKind::text,
                  .valueName = "TEXT",
                  .help = "the page's title; otherwise the input's name"},
                 integer("effort", {}, 0, 9, "5",
@@ -159,14 +167,14 @@ Command convertCommand() {
 }
 
 Command infoCommand() {
-  return {
-      .name = "info",
-      .usage = "PATH [--json]",
-      .summary = "say what a site or a mesh file holds, and where its bytes are",
-      .text = "PATH is a site's directory, its index.html or scene.x3d, a file of vertex data, or a mesh to "
-              "convert.",
-      .flags = {positional("path", "PATH", Value::file, "a site or a file"), outsideFlag(), jsonFlag("it"), helpFlag()},
-      .examples = {"imgeo info site", "imgeo info site --json | jq .documentBytes", "imgeo info statue.ply"}};
+  return {.name = "info",
+          .usage = "PATH [--json]",
+          .summary = "say what a site or a mesh file holds, and where its bytes are",
+          .text = "PATH is a site's directory, its index.html or scene.x3d, a file of vertex data, or a mesh to "
+                  "convert.",
+          .flags = {positional("path", "PATH", ValueKind::file, "a site or a file"), outsideFlag(), jsonFlag("it"),
+                    helpFlag()},
+          .examples = {"imgeo info site", "imgeo info site --json | jq .documentBytes", "imgeo info statue.ply"}};
 }
 
 Command verifyCommand() {
@@ -174,13 +182,11 @@ Command verifyCommand() {
           .usage = "DIR INPUT [--json]",
           .summary = "read a site back and prove that it equals its input",
           .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
-                  "same "
-                  "elements in the same orientation, positions within half a step of the lattice, normals within the "
-                  "rounding of their bits. Checks that every file is there and holds what its name says, in a site "
-                  "of "
-                  "another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
-          .flags = {positional("site", "DIR", Value::directory, "the site"),
-                    positional("input", "INPUT", Value::file, "the file it was converted from"), outsideFlag(),
+                  "same elements in the same orientation, positions within half a step of the lattice, normals within "
+                  "the rounding of their bits. Checks that every file is there and holds what its name says, in a site "
+                  "of another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
+          .flags = {positional("site", "DIR", ValueKind::directory, "the site"),
+                    positional("input", "INPUT", ValueKind::file, "the file it was converted from"), outsideFlag(),
                     jsonFlag("the result"), helpFlag()},
           .examples = {"imgeo verify site statue.ply", "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
@@ -188,7 +194,7 @@ Command verifyCommand() {
 Command exportCommand() {
   Flag output{.name = "output",
               .aliases = {"-o"},
-              .value = Value::file,
+              .valueKind = ValueKind::file,
               .valueName = "FILE",
               .help = "the file to write; .ply, .obj or .glb says what",
               .required = true};
@@ -196,19 +202,18 @@ Command exportCommand() {
           .usage = "DIR -o FILE",
           .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
           .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
-                  "Reads sites "
-                  "that aopt wrote for X3DOM, too.",
-          .flags = {positional("site", "DIR", Value::directory, "the site, its index.html or a .x3d file"), output,
+                  "Reads sites that aopt wrote for X3DOM, too.",
+          .flags = {positional("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"), output,
                     jsonFlag("what was written"), helpFlag()},
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
 }
 
 Command sampleCommand() {
-  Flag what = positional("sample", "SAMPLE", Value::choice, "hall: rows of seats, stairs, columns, trusses, signs");
+  Flag what = positional("sample", "SAMPLE", ValueKind::choice, "hall: rows of seats, stairs, columns, trusses, signs");
   what.choices = {"hall"};
   Flag output{.name = "output",
               .aliases = {"-o"},
-              .value = Value::file,
+              .valueKind = ValueKind::file,
               .valueName = "FILE",
               .help = "the GLB file to write",
               .required = true};
@@ -223,7 +228,7 @@ Command sampleCommand() {
 
 Command serveCommand() {
   Flag host{.name = "host",
-            .value = Value::text,
+            .valueKind = ValueKind::text,
             .valueName = "A",
             .help = "the address to listen on; 0.0.0.0 for every network",
             .defaultValue = "127.0.0.1"};
@@ -231,14 +236,14 @@ Command serveCommand() {
           .usage = "DIR [--port N] [--host A]",
           .summary = "serve a directory over HTTP until Ctrl-C",
           .text = "Prints the address when it listens.",
-          .flags = {positional("site", "DIR", Value::directory, "the directory to serve"),
+          .flags = {positional("site", "DIR", ValueKind::directory, "the directory to serve"),
                     integer("port", {}, 0, 65535, "8080", "the port to listen on; 0: any that is free"), host,
                     helpFlag()},
           .examples = {"imgeo serve site", "imgeo serve site --port 0 --host 0.0.0.0"}};
 }
 
 Command completionCommand() {
-  Flag shell = positional("shell", "SHELL", Value::choice, "bash, zsh or fish");
+  Flag shell = positional("shell", "SHELL", ValueKind::choice, "bash, zsh or fish");
   shell.choices = {"bash", "zsh", "fish"};
   return {.name = "completion",
           .usage = "SHELL",

@@ -9,36 +9,36 @@
 namespace imgeo::cli {
 
 /// Kind of a flag's value. Checks and completions depend on it.
-enum class Value : std::uint8_t { none, text, file, directory, integer, choice };
+enum class ValueKind : std::uint8_t { none, text, file, directory, integer, choice };
 
 struct Flag {
   std::string name;                   ///< "position-bits"; for positional arguments "input"
   std::vector<std::string> aliases{}; ///< short names: "-vp", "-qp"
-  Value value = Value::none;
+  ValueKind valueKind = ValueKind::none;
   std::string valueName{};            ///< "N", "DIR"
   std::string help{};                 ///< begins in lower case, no full stop
-  std::string defaultValue{};         ///< value when the flag is not given
-  std::vector<std::string> choices{}; ///< Value::choice
-  std::int64_t min = 0, max = 0;      ///< Value::integer
+  std::string defaultValue{};         ///< value when the flag is not given; empty: none
+  std::vector<std::string> choices{}; ///< ValueKind::choice
+  std::int64_t min = 0, max = 0;      ///< ValueKind::integer
   bool positional = false;            ///< may be given without its name
   bool required = false;
 
-  bool takesValue() const { return value != Value::none; }
+  bool takesValue() const { return valueKind != ValueKind::none; }
 };
 
 struct Command {
   std::string name;
   std::string usage;   ///< what follows "imgeo NAME"
   std::string summary; ///< one line for the list of commands
-  std::string text;    ///< paragraphs of the command's help
+  std::string text;    ///< one paragraph that describes the command
   std::vector<Flag> flags;
   std::vector<std::string> examples;
 };
 
-/// Every command. `--help` and `-h` are the last flag of each.
+/// Every command. The last flag of each is --help.
 std::span<const Command> commands();
 
-/// nullptr where there is none of this name.
+/// The command of this name; nullptr if there is none.
 const Command* findCommand(const std::string& name);
 
 /// Exit codes and what they mean, for help and manual.

@@ -32,8 +32,8 @@ std::string filled(const std::string& text, std::size_t indent) {
 }
 
 std::string valueOf(const Flag& flag) {
-  return flag.value == Value::choice && !flag.positional ? fmt::format("{}", fmt::join(flag.choices, "|"))
-                                                         : flag.valueName;
+  return flag.valueKind == ValueKind::choice && !flag.positional ? fmt::format("{}", fmt::join(flag.choices, "|"))
+                                                                 : flag.valueName;
 }
 
 /// "-vp, -qp, --position-bits N"

@@ -188,9 +188,9 @@ bool refersToContainers(const std::filesystem::path& file) {
 
 int runInfo(const Arguments& arguments) {
   const std::filesystem::path path = arguments.text("path");
-  std::error_code none;
+  std::error_code ignored;
   const std::string extension = path.extension();
-  if (std::filesystem::is_directory(path, none) || extension == ".html" ||
+  if (std::filesystem::is_directory(path, ignored) || extension == ".html" ||
       (extension == ".x3d" && refersToContainers(path)))
     return print(arguments, inspect(path), printSite);
   if (extension == ".png" || extension == ".bin")

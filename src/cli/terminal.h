@@ -12,7 +12,7 @@ std::string bold(const std::string& text);
 
 /// "1,234,567"
 std::string grouped(std::uint64_t number);
-/// "12.3 MB" (of a million bytes), "812 B"
+/// "12.3 MB" (a MB is a million bytes), "812 B"
 std::string byteSize(std::uint64_t bytes);
 
 /// A progress bar on standard error, if that is a terminal.
@@ -23,7 +23,7 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Draws the bar. May be called from any thread, one call at a time.
+  /// Draws the bar, with `fraction` (0..1) of it filled. May be called from any thread, one call at a time.
   void show(double fraction, const std::string& step);
 
 private:
