@@ -43,22 +43,22 @@ char32_t decodeUtf8(std::string_view text, std::size_t& at) {
   const std::uint8_t lead = byte(at++);
   if (lead < 0x80)
     return lead;
-  const std::size_t more = lead >= 0xc2 && lead < 0xe0   ? 1
-                           : lead >= 0xe0 && lead < 0xf0 ? 2
-                           : lead >= 0xf0 && lead < 0xf5 ? 3
-                                                         : 0;
-  if (more == 0 || text.size() - at < more)
+  const std::size_t continuationBytes = lead >= 0xc2 && lead < 0xe0   ? 1
+                                        : lead >= 0xe0 && lead < 0xf0 ? 2
+                                        : lead >= 0xf0 && lead < 0xf5 ? 3
+                                                                      : 0;
+  if (continuationBytes == 0 || text.size() - at < continuationBytes)
     return replacement;
-  char32_t c = lead & (0x3f >> more);
-  for (std::size_t i = 0; i < more; ++i) {
+  char32_t c = lead & (0x3f >> continuationBytes);
+  for (std::size_t i = 0; i < continuationBytes; ++i) {
     if ((byte(at + i) & 0xc0) != 0x80)
       return replacement;
     c = c << 6 | (byte(at + i) & 0x3f);
   }
   const char32_t minimum[] = {0, 0x80, 0x800, 0x10000};
-  if (c < minimum[more] || !isXmlCharacter(c))
+  if (c < minimum[continuationBytes] || !isXmlCharacter(c))
     return replacement;
-  at += more;
+  at += continuationBytes;
   return c;
 }
 
@@ -66,12 +66,13 @@ void appendUtf8(std::string& out, char32_t c) {
   const auto append = [&](char32_t byte) { out.push_back(static_cast<char>(byte)); };
   if (c < 0x80)
     return append(c);
-  const int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-  append((0xff80u >> more & 0xff) | c >> (6 * more));
-  for (int i = more - 1; i >= 0; --i)
+  const int continuationBytes = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+  append((0xff80u >> continuationBytes & 0xff) | c >> (6 * continuationBytes));
+  for (int i = continuationBytes - 1; i >= 0; --i)
     append(0x80 | (c >> (6 * i) & 0x3f));
 }
 
+/// Replaces each character for which substituteFor(c) is not null by that text.
 template <typename Substitute> std::string substitute(std::string_view text, Substitute substituteFor) {
   std::string out;
   for (const char c : text) {
@@ -83,7 +84,8 @@ template <typename Substitute> std::string substitute(std::string_view text, Sub
   return out;
 }
 
-const char* markup(char c) {
+/// The entity reference of a character that begins or ends markup; null for other characters.
+const char* entityReference(char c) {
   switch (c) {
   case '&':
     return "&amp;";
@@ -120,7 +122,7 @@ std::string validText(std::string_view text) {
 }
 
 std::string escapeText(std::string_view text) {
-  return substitute(validText(text), markup);
+  return substitute(validText(text), entityReference);
 }
 
 std::string quoteAttribute(std::string_view text) {
@@ -139,7 +141,7 @@ std::string quoteAttribute(std::string_view text) {
                       case '\r':
                         return "&#13;";
                       default:
-                        return markup(c);
+                        return entityReference(c);
                       }
                     }) +
          quote;

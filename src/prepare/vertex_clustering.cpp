@@ -19,7 +19,7 @@ std::vector<Vec3d> sumNormals(std::size_t vertexCount, std::span<const std::uint
   return normalSums;
 }
 
-/// Key of a grid cell and an octant of directions; points are within -1 .. 1.
+/// Key of a grid cell and an octant of directions, of 63 bits; points are within -1 .. 1.
 std::uint64_t clusterKey(Vec3d point, Vec3d normal, double cellsPerUnit) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,7 +50,7 @@ VertexClusters clusterVertices(std::span<const Vec3d> points, std::span<const st
   keys.reserve(points.size());
   IndexHashTable table(points.size());
   for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
-    const std::uint64_t key =
+    const std::uint64_t key = // the highest bit is set for fixed vertices alone
         isFixed[vertex] ? ~std::uint64_t{vertex} : clusterKey(points[vertex], normalSums[vertex], cellsPerUnit);
     const std::uint32_t cluster =
         table.findOrInsert(mixHash(0, key), clusters.count, [&](std::uint32_t i) { return keys[i] == key; });

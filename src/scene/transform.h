@@ -12,7 +12,8 @@ struct Rotation {
   friend bool operator==(const Rotation&, const Rotation&) = default;
 };
 
-/// Maps p to translation + center + R SR S SR^-1 (p - center).
+/// Maps p to translation + center + R SR S SR^-1 (p - center), where R, S and SR are rotation, scale and
+/// scaleOrientation.
 struct Transform {
   Vec3d translation;
   Rotation rotation;
