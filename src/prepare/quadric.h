@@ -1,11 +1,12 @@
 #pragma once
-// Sums of squared distances to planes (Garland and Heckbert, "Surface simplification using quadric error metrics",
+// Quadric error metrics (Garland and Heckbert, "Surface simplification using quadric error metrics",
 // 1997).
 
 #include "base/vec.h"
 
 namespace imgeo {
 
+/// A weighted sum of squared distances to planes, as a function of position.
 class Quadric {
 public:
   /// Adds the plane through `point`; `normal` has length 1.
@@ -27,6 +28,7 @@ public:
     return *this;
   }
 
+  /// The sum of the weights of all planes.
   double weight() const { return weight_; }
 
   /// The weighted sum of squared distances. Rounding may make it negative.
