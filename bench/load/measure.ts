@@ -1,5 +1,5 @@
-// Cold loads of a page over a network link: all in one browser, which has drawn before, each in a context of its own
-// with an empty cache and without cached shaders.
+// Measures cold loads of a page over a network link. All are in one browser, which has drawn before; each is in a
+// context of its own, with an empty cache and without cached shaders.
 
 import { readFileSync, readdirSync } from "node:fs";
 import { extname, join } from "node:path";
@@ -49,11 +49,11 @@ export async function medianLoad(
   browser: Browser,
   page: BenchPage,
   server: TestServer,
-  line: LinkOptions | undefined,
+  connection: LinkOptions | undefined,
   count: number,
 ): Promise<Load> {
   const loads: Load[] = [];
-  server.useLink(line);
+  server.useLink(connection);
   do loads.push(await coldLoad(browser, page, server));
   while (loads.length < count && loads.at(-1)!.first < longLoadMs);
   const median = (of: (load: Load) => number): number =>

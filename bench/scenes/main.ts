@@ -13,7 +13,7 @@ import { converter, repository } from "../../tests/browser/paths.ts";
 import { fileOf, inputs, sitesOf, type Input } from "./inputs.ts";
 import { loadScene, type RequestedFile, type SceneLoad } from "./sceneLoad.ts";
 
-const line = { bitsPerSecond: 20e6, roundTripMs: 40 };
+const connection = { bitsPerSecond: 20e6, roundTripMs: 40 };
 const output = join(repository, "build/scenes");
 
 interface SiteInfo {
@@ -33,7 +33,7 @@ function print(...cells: (string | number)[]): void {
   console.log(`| ${cells.join(" | ")} |`);
 }
 
-const whole = (value: number): string => Math.round(value).toLocaleString("en-US");
+const integerText = (value: number): string => Math.round(value).toLocaleString("en-US");
 const share = (part: number, of: number): string => `${((100 * part) / of).toFixed(1)} %`;
 
 async function measure(input: Input, work: string): Promise<Measured | undefined> {
@@ -42,7 +42,7 @@ async function measure(input: Input, work: string): Promise<Measured | undefined
   const sites = sitesOf(input, file, work);
   const info = JSON.parse(execFileSync(converter, ["info", "--json", sites[0]], { encoding: "utf8" })) as SiteInfo;
   const visits: SceneLoad[] = [];
-  for (const site of sites) visits.push(await loadScene(browser, site, line));
+  for (const site of sites) visits.push(await loadScene(browser, site, connection));
   visits.forEach(({ picture }, camera) => {
     writeFileSync(join(output, `${input.name}-${camera + 1}.png`), picture);
   });
@@ -55,20 +55,20 @@ function printBytes({ input, info, visits }: Measured): void {
   const { shapes, triangles, documentBytes, runtimeBytes } = visits[0]!;
   const { containerBytes, textureBytes } = info;
   // Bytes of the containers if every instance of a mesh were stored separately.
-  const unshared = (containerBytes * triangles) / info.triangles;
+  const unsharedBytes = (containerBytes * triangles) / info.triangles;
   const page = runtimeBytes + containerBytes + textureBytes;
   print(
     input.name,
-    whole(shapes),
-    whole(triangles),
-    whole(info.triangles),
-    whole(info.documentBytes),
-    whole(documentBytes),
-    whole(containerBytes),
-    whole(textureBytes),
+    integerText(shapes),
+    integerText(triangles),
+    integerText(info.triangles),
+    integerText(info.documentBytes),
+    integerText(documentBytes),
+    integerText(containerBytes),
+    integerText(textureBytes),
     share(documentBytes, documentBytes + page),
     share(documentBytes, documentBytes + containerBytes + textureBytes),
-    share(info.documentBytes, info.documentBytes + unshared + textureBytes),
+    share(info.documentBytes, info.documentBytes + unsharedBytes + textureBytes),
   );
 }
 
@@ -79,8 +79,8 @@ function printLoad({ input, visits }: Measured, camera: number): void {
     input.cameras[camera]!.name,
     requests,
     drawCalls,
-    `${whole(firstBytes / 1000)} kB, ${firstSeconds.toFixed(2)} s`,
-    `${whole(bytes / 1000)} kB, ${finalSeconds.toFixed(2)} s`,
+    `${integerText(firstBytes / 1000)} kB, ${firstSeconds.toFixed(2)} s`,
+    `${integerText(bytes / 1000)} kB, ${finalSeconds.toFixed(2)} s`,
   );
 }
 

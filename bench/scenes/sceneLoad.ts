@@ -35,7 +35,7 @@ export interface SceneLoad {
   readonly picture: Buffer;
 }
 
-export async function loadScene(browser: Browser, directory: string, line: LinkOptions): Promise<SceneLoad> {
+export async function loadScene(browser: Browser, directory: string, connection: LinkOptions): Promise<SceneLoad> {
   const server = await serve({ name: "", directory, contentPolicy: "default-src 'self'", announcesCompletion: true });
   const context = await browser.newContext({ viewport, reducedMotion: "reduce" });
   try {
@@ -46,7 +46,7 @@ export async function loadScene(browser: Browser, directory: string, line: LinkO
     });
     const order: string[] = [];
     page.on("request", (request) => order.push(request.url().slice(server.origin.length)));
-    server.useLink(line);
+    server.useLink(connection);
     await page.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs });
     await page.waitForFunction(
       () => window.observed.events.some(({ type, target }) => type === "load" && target === "x3d"),
