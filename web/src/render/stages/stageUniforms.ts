@@ -70,6 +70,7 @@ const defaultPoints: PointDescription = {
   maxSize: Infinity,
   attenuation: [1, 0, 0],
 };
+/** In CSS pixels; stands for Infinity, which uniforms cannot hold reliably. */
 const maxPointSize = 1e6;
 const defaultLines: LineDescription = { width: 1, dashes: [] };
 
