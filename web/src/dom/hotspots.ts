@@ -29,7 +29,7 @@ export interface HotspotView {
   readonly pointAt: (x: number, y: number) => Promise<Point | undefined>;
 }
 
-/** A surface in front of a hotspot by at most this share of the distance counts as the hotspot's own surface. */
+/** A surface nearer than a hotspot by at most this share of the hotspot's distance counts as the hotspot's own. */
 const coverTolerance = 0.02;
 
 export class Hotspots {

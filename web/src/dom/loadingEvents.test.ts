@@ -114,7 +114,7 @@ describe("the loading of an element", () => {
     await assert.rejects(element.complete, { name: "AbortError" });
   });
 
-  test("puts new promises on the element when it begins again", () => {
+  test("puts new promises on the element when it begins to load again", () => {
     const { element } = elementWithLog();
     new LoadingEvents(element).abandon();
     const { complete } = element;

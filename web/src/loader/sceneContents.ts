@@ -38,7 +38,7 @@ export class SceneContents {
   readonly root = new Group();
   readonly #core: ViewerCore<AppShape>;
   readonly #groups: SceneGroups;
-  readonly #billboards = new CameraObserver((camera) => {
+  readonly #billboardCameraObserver = new CameraObserver((camera) => {
     this.#groups.rotateBillboards(camera);
   });
   readonly #lods: SceneLod[] = [];
@@ -136,8 +136,8 @@ export class SceneContents {
     this.#groups.follow(withoutLights(root));
     this.box.copy(this.#groups.box);
     // three.js visits children in order: the observer must come before the billboards that it turns.
-    if (this.#groups.hasBillboards && this.#billboards.parent === null)
-      this.root.add(this.#billboards, this.#groups.root);
+    if (this.#groups.hasBillboards && this.#billboardCameraObserver.parent === null)
+      this.root.add(this.#billboardCameraObserver, this.#groups.root);
     return this.shapes.takeChanges();
   }
 
