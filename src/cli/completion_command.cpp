@@ -84,8 +84,8 @@ std::string zshValue(const Flag& flag) {
     return fmt::format(":{}:_files", flag.name);
   case ValueKind::directory:
     return fmt::format(":{}:_files -/", flag.name);
-  case Value::text:
-  case Value::integer:
+  case ValueKind::text:
+  case ValueKind::integer:
     break;
   }
   return fmt::format(":{}: ", flag.name);
