@@ -78,7 +78,7 @@ describe("documents that Inlines name", () => {
     );
   });
 
-  test("are the first of their URLs that loads; the error is that of the last URL", async () => {
+  test("come from the first of their URLs that loads; the error is that of the last URL", async () => {
     const scene = sceneOf(
       x3d(`<Inline DEF="a" url='"data:," "lost.x3d" "part.x3d"'/>`, `<Inline DEF="b" url='"lost.x3d" "data:,"'/>`),
       { "part.x3d": shape },

@@ -111,10 +111,10 @@ export class WorkerPool {
   #pump(): void {
     while (this.#waiting.length > 0 && !this.#isDisposed) {
       const idle = this.#idleWorker();
-      if (idle === "none") return;
+      if (idle === "busy") return;
       const job = this.#waiting.shift();
       if (job === undefined) return;
-      if (idle === "never") {
+      if (idle === "unavailable") {
         this.#runJobOnMainThread(job);
         continue;
       }
@@ -124,13 +124,13 @@ export class WorkerPool {
     }
   }
 
-  /** An idle worker; "none" while all are busy, "never" where none can be started. */
-  #idleWorker(): PoolWorker | "none" | "never" {
+  /** An idle worker; "busy" while all have jobs, "unavailable" where none can be started. */
+  #idleWorker(): PoolWorker | "busy" | "unavailable" {
     const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
     if (idle !== undefined) return idle;
-    if (!this.#canStart) return "never";
-    if (this.#workers.size >= this.#options.size) return "none";
-    return this.#tryStart() ?? "never";
+    if (!this.#canStart) return "unavailable";
+    if (this.#workers.size >= this.#options.size) return "busy";
+    return this.#tryStart() ?? "unavailable";
   }
 
   #tryStart(): PoolWorker | undefined {
@@ -156,7 +156,7 @@ export class WorkerPool {
       this.#finishJob(poolWorker, data);
     };
     worker.onerror = (event) => {
-      // The worker's module did not load: jobs catch their own errors.
+      // Jobs catch their own errors, so the worker's module did not load.
       event.preventDefault();
       this.#canStart = false;
       const { job } = poolWorker;
@@ -182,7 +182,7 @@ export class WorkerPool {
     this.#workers.delete(poolWorker);
   }
 
-  /** Runs one job after the other on the main thread, and yields to the page between them. */
+  /** Runs the job on the main thread after earlier ones, and yields to the page before it. */
   #runJobOnMainThread({ message, signal, resolve, reject }: Job): void {
     this.#mainThreadJobs = this.#mainThreadJobs.then(async () => {
       await new Promise((next) => {

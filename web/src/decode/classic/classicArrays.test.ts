@@ -41,7 +41,7 @@ describe("coordinates on the CPU", () => {
     assert.deepEqual([byte.array.constructor, byte.array[4]], [Uint8Array, 17]);
   });
 
-  test("begin at the texel of the reference, and are in rows where there is no index", async () => {
+  test("are read from the first texel of the reference on, and in rows of `rowLength` where it is not 0", async () => {
     const shifted = await classicCoords({
       count: 3,
       rowLength: 0,

@@ -21,7 +21,7 @@ const maskModels = gridModels + 96 * numberModelCount;
 export const positionModelCount = maskModels + 512 * 8;
 
 export interface Positions {
-  /** x, y, z of each vertex, and one further element that is no vertex. */
+  /** x, y, z of each vertex, then those of the middle of the lattice. */
   readonly coordinates: Int32Array;
   /** x, y, z of the sum of the triangle normals around each vertex; 0 in points and lines. */
   readonly normalSums: Int32Array;

@@ -4,6 +4,7 @@ import { DecodeError } from "../decodeError.ts";
 import { RangeDecoder } from "./rangeDecoder.ts";
 import { TestEncoder, TestRandom } from "./rangeEncoder.testing.ts";
 
+/** Encodes a value, and checks that the decoder reads it. */
 interface Call {
   readonly encode: (encoder: TestEncoder) => void;
   readonly check: (decoder: RangeDecoder) => void;

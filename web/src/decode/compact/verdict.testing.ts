@@ -48,7 +48,7 @@ export function stated({
         components,
         bits,
         mode: Number(isUniform) + 2 * Number(isDerived),
-        values: Array.from(values, (value) => value + 0),
+        values: Array.from(values),
       };
     }),
   };
