@@ -22,9 +22,9 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
   return tags
     .filter(({ attributes }) => attributes.data !== undefined)
     .map(({ attributes }) => {
-      const [url, first] = attributes.data!.split("#");
+      const [url, patchIndex] = attributes.data!.split("#");
       const { data } = decodePng(readFileSync(join(directory, url!)));
-      const buffers = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
+      const buffers = decodePatches(data, buffersOf)[Number(patchIndex ?? 0)]!;
       const { topology, coord, index, vertexCount } = buffers;
       const { normal } = buffers.attributes;
       const elementsOf = (kind: typeof topology): Uint32Array =>

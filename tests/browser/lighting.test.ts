@@ -7,12 +7,14 @@ import { withPage } from "./harness.ts";
 import { sceneOf } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
 
+/** The camera and the lamp are at these z, the wall at 0. */
 const eye = 5,
   fieldOfView = 0.8,
   lamp = 2;
 const attenuation = [0.5, 0.25, 0.1] as const;
 const beamWidth = 0.25,
   cutOffAngle = 0.55;
+/** Half of the wall's extents. */
 const edge = 1.5;
 const skyAngles = [1.4, 1.8] as const;
 const sky = [
@@ -51,8 +53,8 @@ test("a spot light is attenuated by distance and angle, and the sky has its grad
     const { data, width, height, channels } = await view.picture();
     const slope = (pixel: number, from: number): number =>
       ((pixel + 0.5 - from / 2) / (height / 2)) * Math.tan(fieldOfView / 2);
-    let lamps = 0,
-      skies = 0;
+    let litCount = 0,
+      skyCount = 0;
     for (let y = 0; y < height; ++y) {
       for (let x = 0; x < width; ++x) {
         const [right, down] = [slope(x, width), slope(y, height)];
@@ -71,10 +73,10 @@ test("a spot light is attenuated by distance and angle, and the sky has its grad
           off <= 3,
           `(${x}, ${y}) is ${seen.join(" ")} instead of ${expected.map((value) => Math.round(255 * value)).join(" ")}`,
         );
-        if (!isWall) skies += 1;
-        else if (seen[0]! > 0) lamps += 1;
+        if (!isWall) skyCount += 1;
+        else if (seen[0]! > 0) litCount += 1;
       }
     }
-    assert.ok(lamps > 1000 && skies > 5000, `${lamps} pixels are lit, ${skies} are sky`);
+    assert.ok(litCount > 1000 && skyCount > 5000, `${litCount} pixels are lit, ${skyCount} are sky`);
   });
 });

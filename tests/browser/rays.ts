@@ -11,8 +11,7 @@ export interface RayHit {
   /** Index of the triangle in its patch. */
   triangle: number;
   vertices: Vec3;
-  /** Barycentric coordinates. */
-  shares: Vec3;
+  barycentric: Vec3;
   position: Vec3;
   /** Interpolated from the vertices' normals; the triangle's normal where there are none. */
   normal: Vec3;
@@ -63,24 +62,24 @@ export function firstHit({ origin, direction }: Ray, patches: PlainPatch[]): Ray
       const v = dot(direction, q) / determinant;
       const distance = dot(ac, q) / determinant;
       if (u < 0 || v < 0 || u + v > 1 || distance <= 0 || (found && found.distance <= distance)) continue;
-      const shares: Vec3 = [1 - u - v, u, v];
+      const barycentric: Vec3 = [1 - u - v, u, v];
       found = {
         patch,
         triangle: mesh.triangleIndices?.[t] ?? t,
         vertices,
-        shares,
+        barycentric,
         distance,
         position: [0, 1, 2].map((i) => origin[i]! + distance * direction[i]!) as Vec3,
-        normal: unit(mesh.normals ? mixed(mesh.normals, vertices, shares) : cross(ab, ac)),
+        normal: unit(mesh.normals ? mixed(mesh.normals, vertices, barycentric) : cross(ab, ac)),
       };
     }
   }
   return found;
 }
 
-function mixed(values: Float32Array, vertices: Vec3, shares: Vec3): Vec3 {
+function mixed(values: Float32Array, vertices: Vec3, barycentric: Vec3): Vec3 {
   return [0, 1, 2].map((i) =>
-    shares.reduce((sum, share, corner) => sum + share * values[3 * vertices[corner]! + i]!, 0),
+    barycentric.reduce((sum, share, corner) => sum + share * values[3 * vertices[corner]! + i]!, 0),
   ) as Vec3;
 }
 
