@@ -71,15 +71,15 @@ function tasksOf(tasks: readonly TraceEvent[], sorted: readonly TraceEvent[]): T
   let next = 0;
   return tasks.map((task) => {
     let main: TraceEvent | undefined;
-    let inspectors = 0;
+    let inspectorTime = 0;
     for (let event = sorted[next]; event !== undefined && event.ts < endOf(task); event = sorted[++next]) {
       if (event.ts < task.ts || endOf(event) > endOf(task)) continue;
-      if (event.name === inspectorsEvent) inspectors += onProcessor(event);
+      if (event.name === inspectorsEvent) inspectorTime += onProcessor(event);
       if (event.name in causes && (main === undefined || onProcessor(event) > onProcessor(main))) main = event;
     }
     return {
       ms: (task.dur ?? 0) / 1000,
-      processorMs: (onProcessor(task) - inspectors) / 1000,
+      processorMs: (onProcessor(task) - inspectorTime) / 1000,
       cause: main === undefined ? "unknown" : causes[main.name as keyof typeof causes],
     };
   });
