@@ -1,6 +1,6 @@
 // Compares the runtime's decoder of compact with the C++ decoder: reads lines of a verdict, a tab and a path, as
-// fuzz/compact_verdicts prints them, and fails where its own verdict on the file differs. `make test` uses the corpus,
-// `make soak` also the inputs that fuzzing has found.
+// fuzz/compact_verdicts prints them, and fails where its own verdict on the file differs. `make soak` runs
+// it on the corpus and on the inputs that fuzzing has found.
 
 import { readFileSync } from "node:fs";
 import { differencesIn } from "./verdicts.testing.ts";

@@ -45,7 +45,7 @@ async function workerModule(): Promise<Buffer> {
   return Buffer.from(outputFiles[0]!.contents);
 }
 
-/** The file of another viewer's package that pages load, minified if the package does not minify it. */
+/** The file of another viewer's package that pages load, minified. */
 async function packagedFile(path: string): Promise<Buffer> {
   const { code } = await transform(readFileSync(join(repository, "node_modules", path)), {
     minify: true,

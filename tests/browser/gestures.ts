@@ -35,7 +35,7 @@ export async function drag({ page }: View, right: number, down: number): Promise
 }
 
 /** Number of pixels that differ from the top left pixel by more than 8 in a channel. */
-export function covered({ data, channels }: Picture): number {
+export function coveredPixelCount({ data, channels }: Picture): number {
   let count = 0;
   for (let at = 0; at < data.length; at += channels) {
     count += [0, 1, 2].some((channel) => Math.abs(data[at + channel]! - data[channel]!) > 8) ? 1 : 0;

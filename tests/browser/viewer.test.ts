@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
-import { center, covered, focusView, touch } from "./gestures.ts";
+import { center, coveredPixelCount, focusView, touch } from "./gestures.ts";
 import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
 import type { Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
@@ -81,7 +81,7 @@ describe("the camera moves, and R resets it", () => {
         ],
       ]);
       const nearer = await view.picture();
-      assert.ok(covered(nearer) > 1.3 * covered(before), "two fingers do not zoom in");
+      assert.ok(coveredPixelCount(nearer) > 1.3 * coveredPixelCount(before), "two fingers do not zoom in");
       await touch(view, [[[0, 0]], [[40, 10]], [[90, 20]]]);
       assert.ok(difference(nearer, await view.picture()).mean > 1, "one finger does not turn");
     });
@@ -237,6 +237,6 @@ test("a shape without a box in the document is framed when its vertices have loa
       pictures.push(await view.picture());
     });
   }
-  assert.ok(covered(pictures[0]!) > 20_000);
+  assert.ok(coveredPixelCount(pictures[0]!) > 20_000);
   assertSamePicture("without boxes", pictures[1]!, pictures[0]!, { mean: 0.1 });
 });
