@@ -19,8 +19,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-[[noreturn]] void failWithErrno(const std::filesystem::path& path, const char* doing) {
-  throw Error(ErrorKind::io, path.string(), fmt::format("cannot {}: {}", doing, std::strerror(errno)));
+[[noreturn]] void failWithErrno(const std::filesystem::path& path, const char* action) {
+  throw Error(ErrorKind::io, path.string(), fmt::format("cannot {}: {}", action, std::strerror(errno)));
 }
 
 } // namespace

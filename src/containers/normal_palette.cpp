@@ -39,10 +39,10 @@ std::vector<Cell> occupiedCells(std::span<const Vec3f> normals) {
 /// Evenly spread directions: the spherical Fibonacci lattice (Swinbank & Purser 2006).
 std::vector<Vec3d> spreadDirections() {
   std::vector<Vec3d> directions;
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  const double goldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (std::size_t i = 0; i < paletteSize; ++i) {
     const double z = 1 - (2.0 * static_cast<double>(i) + 1) / paletteSize, radius = std::sqrt(1 - z * z);
-    const double angle = golden * static_cast<double>(i);
+    const double angle = goldenAngle * static_cast<double>(i);
     directions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
   }
   return directions;

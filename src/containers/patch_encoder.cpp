@@ -58,6 +58,31 @@ EncodedPatch encodeAlone(const FileSharing& sharing, Patch patch, const Geometry
   return encoded;
 }
 
+void addReference(PatchDescription& patch, Role role, std::size_t attribute, const Reference& reference) {
+  switch (role) {
+  case Role::index:
+    patch.index = reference;
+    break;
+  case Role::coord:
+    patch.coord.push_back(reference);
+    break;
+  case Role::attribute:
+    patch.attributes.resize(std::max(patch.attributes.size(), attribute + 1));
+    patch.attributes[attribute].push_back(reference);
+    break;
+  case Role::patch:
+    patch.data = reference;
+    break;
+  case Role::base:
+    assert(false); // a geometry has it, not a patch
+    break;
+  case Role::normal:
+  case Role::texCoord:
+  case Role::color:
+    patch.vertexAttributes[*vertexRoleOf(role)] = reference;
+  }
+}
+
 } // namespace
 
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options) {
@@ -97,6 +122,15 @@ EncodedPatch encodePatch(Patch patch, const GeometryDescription& geometry, const
   if (options.primitives == Primitives::strips && patch.topology == Topology::triangles)
     encoded.elements = {.triangles = trianglesOf(indexed).size()};
   return encoded;
+}
+
+PatchDescription describeWithUrls(const EncodedPatch& encoded, std::span<const std::string> urls) {
+  assert(urls.size() == encoded.files.size());
+  PatchDescription description = encoded.description;
+  for (const FileReference& reference : encoded.references)
+    addReference(description, reference.role, reference.attributeIndex,
+                 {urls[static_cast<std::size_t>(reference.file)], reference.location});
+  return description;
 }
 
 } // namespace imgeo

@@ -111,44 +111,6 @@ FileIndex addFile(EncodedPatch& encoded, EncodedFile file) {
   return FileIndex(encoded.files.size() - 1);
 }
 
-namespace {
-
-void addReference(PatchDescription& patch, Role role, std::size_t attribute, const Reference& reference) {
-  switch (role) {
-  case Role::index:
-    patch.index = reference;
-    break;
-  case Role::coord:
-    patch.coord.push_back(reference);
-    break;
-  case Role::attribute:
-    patch.attributes.resize(std::max(patch.attributes.size(), attribute + 1));
-    patch.attributes[attribute].push_back(reference);
-    break;
-  case Role::patch:
-    patch.data = reference;
-    break;
-  case Role::base:
-    assert(false); // a geometry has it, not a patch
-    break;
-  case Role::normal:
-  case Role::texCoord:
-  case Role::color:
-    patch.vertexAttributes[*vertexRoleOf(role)] = reference;
-  }
-}
-
-} // namespace
-
-PatchDescription describeWithUrls(const EncodedPatch& encoded, std::span<const std::string> urls) {
-  assert(urls.size() == encoded.files.size());
-  PatchDescription description = encoded.description;
-  for (const FileReference& reference : encoded.references)
-    addReference(description, reference.role, reference.attributeIndex,
-                 {urls[static_cast<std::size_t>(reference.file)], reference.location});
-  return description;
-}
-
 ElementType indexTypeFor(const PatchedMesh& mesh) {
   const bool isShort = std::ranges::all_of(
       mesh.patches, [](const Patch& patch) { return patch.wedgeCount() <= maxShortIndexedVertices; });

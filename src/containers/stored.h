@@ -31,14 +31,14 @@ Box3d boxOf(std::span<const Vec3u> positions, const GeometryDescription& geometr
 /// The fields of a description that classic and bg share, without references.
 PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescription& geometry);
 
-/// The number of records of a patch: stated by the description, or the largest index + 1. Throws Error{malformed} with
-/// `location` for an index beyond them.
+/// The number of records of a patch: as the description states; otherwise the largest index + 1 or, without an index,
+/// the number of drawn records. Throws Error{malformed} for an index or a draw beyond them and for a patch that draws
+/// nothing, Error{limit} for more than 2^32 - 1 records, each with `location`.
 std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::uint32_t> indices,
                             const std::string& location);
 
-/// Throws Error{malformed} with `location` where a point lies outside of the box
-/// that the description states (if it states one). This detects byte planes in the wrong
-/// order and files of another patch.
+/// Throws Error{malformed} with `location` if a point lies outside of `box`, unless the box is empty, that is, not
+/// stated. This detects byte planes in the wrong order and files of another patch.
 void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription& geometry, const Box3d& box,
                     const std::string& location);
 

@@ -16,7 +16,7 @@ enum class PixelContent : std::uint8_t {
 struct RasterSize {
   std::uint32_t width = 0, height = 0;
 };
-/// `size` scaled to a longest edge of `maxEdge` in the same proportions; `size` itself where its edges are no longer.
+/// `size` scaled to a longest edge of `maxEdge` in the same proportions; `size` itself if neither edge is longer.
 RasterSize sizeWithin(RasterSize size, std::uint32_t maxEdge);
 
 /// Each pixel of the result is the mean of the pixels that it covers. `size` is not empty and no larger than the raster

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array bgNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical};
 
 void describeBg(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
-  if (options.target == Target::x3dom && !hasUnitTexCoords(mesh)) // integers are 0..1 there
+  if (options.target == Target::x3dom && !hasUnitTexCoords(mesh)) // X3DOM's integers hold 0..1 alone
     geometry.attributeTypes[VertexRole::texCoord] = ElementType::float32;
   geometry.indexType = indexTypeFor(mesh);
   chooseTypes(geometry, mesh, options);

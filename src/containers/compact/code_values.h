@@ -1,9 +1,8 @@
 #pragma once
-// Texture coordinates, colours and other attributes, predicted from neighbouring
-// wedges: docs/formats/compact.md. Texture coordinates follow Isenburg and
-// Snoeyink, "Compressing texture coordinates with selective linear predictions",
-// 2003, and Váša and Brunnett, "Efficient encoding of texture coordinates guided
-// by mesh geometry", 2014.
+// Encodes and decodes texture coordinates, colours and other attributes, predicted from neighbouring wedges:
+// docs/formats/compact.md. Texture coordinates follow Isenburg and Snoeyink, "Compressing texture coordinates with
+// selective linear predictions", 2003, and Váša and Brunnett, "Efficient encoding of texture coordinates guided by mesh
+// geometry", 2014.
 
 #include "containers/compact/code_attributes.h"
 
@@ -27,8 +26,8 @@ inline std::int64_t integerSqrt(std::int64_t square) {
   return root;
 }
 
-/// The coordinates of a third corner relative to the edge a -> b: `along` and `beside` it, in units of the edge, times
-/// `unit`.
+/// The coordinates of corner c relative to the edge a -> b: `along` it and `beside` it, as fractions of the edge with
+/// the denominator `unit`.
 struct EdgeFrame {
   std::int64_t along = 0, beside = 0, unit = 0;
 
@@ -62,18 +61,18 @@ public:
         values_[wedge] = values_[wedges.previous[wedge]];
         continue;
       }
-      const Guesses guesses = guessesFor(wedge);
+      const ValueCandidates candidates = candidatesFor(wedge);
       std::uint32_t choice = 0;
       if constexpr (Coder::encodes)
-        choice = cheapest(guesses, latest, values_[wedge]);
-      choice = codeChoice(coder_, guesses, latest, choice);
-      codeValue(coder_, guesses.values[choice], values_[wedge]);
+        choice = cheapest(candidates, latest, values_[wedge]);
+      choice = codeChoice(coder_, candidates, latest, choice);
+      codeValue(coder_, candidates.values[choice], values_[wedge]);
       latest = choice;
     }
   }
 
 private:
-  struct Guesses {
+  struct ValueCandidates {
     std::array<Value, 3> values;
     std::uint32_t count = 0;
 
@@ -82,7 +81,7 @@ private:
     std::uint32_t set() const { return count - 1; }
   };
 
-  Guesses guessesFor(std::uint32_t wedge) const {
+  ValueCandidates candidatesFor(std::uint32_t wedge) const {
     const Wedges& wedges = surface_.wedges;
     const std::uint32_t corner = wedges.corner[wedge];
     std::uint32_t a = none, b = none; // the neighbours whose values are known
@@ -92,19 +91,19 @@ private:
     } else if (surface_.topology == Topology::lines && corner % 2 == 1) {
       a = knownAt(corner - 1, wedge);
     }
-    Guesses guesses;
+    ValueCandidates candidates;
     if (a != none && b != none) {
       if (type_.kind == AttributeKind::texCoord)
-        addSides(guesses, wedge, a, b);
+        addSides(candidates, wedge, a, b);
       else
-        guesses.add(combine([&](std::uint32_t i) { return (values_[a][i] + values_[b][i]) >> 1; }));
-      addParallelogram(guesses, corner, a, b);
+        candidates.add(combine([&](std::uint32_t i) { return (values_[a][i] + values_[b][i]) >> 1; }));
+      addParallelogram(candidates, corner, a, b);
     } else if (a != none || b != none) {
-      guesses.add(values_[a != none ? a : b]);
+      candidates.add(values_[a != none ? a : b]);
     } else {
-      guesses.add(wedge > 0 ? values_[wedge - 1] : combine([&](std::uint32_t) { return 1 << (type_.bits - 1); }));
+      candidates.add(wedge > 0 ? values_[wedge - 1] : combine([&](std::uint32_t) { return 1 << (type_.bits - 1); }));
     }
-    return guesses;
+    return candidates;
   }
 
   std::uint32_t knownAt(std::uint32_t corner, std::uint32_t wedge) const {
@@ -120,42 +119,42 @@ private:
   }
 
   /// Adds two candidates: the triangle keeps its shape in texture space, on one side of its edge or on the other.
-  void addSides(Guesses& guesses, std::uint32_t wedge, std::uint32_t a, std::uint32_t b) const {
+  void addSides(ValueCandidates& candidates, std::uint32_t wedge, std::uint32_t a, std::uint32_t b) const {
     const auto positionOf = [&](std::uint32_t w) { return surface_.positions[surface_.wedges.vertex[w]]; };
     const EdgeFrame frame(positionOf(a), positionOf(b), positionOf(wedge));
     const std::int64_t u = values_[b][0] - values_[a][0], v = values_[b][1] - values_[a][1];
     for (const std::int64_t beside : {frame.beside, -frame.beside}) {
       if (frame.unit == 0) {
-        guesses.add(values_[a]);
+        candidates.add(values_[a]);
         continue;
       }
       const auto moved = [&](std::int64_t from, std::int64_t by) {
         const std::int64_t to = from + floorDivide(2 * by + frame.unit, 2 * frame.unit);
         return static_cast<std::int32_t>(std::clamp<std::int64_t>(to, 0, maximum_));
       };
-      guesses.add(
+      candidates.add(
           {{moved(values_[a][0], frame.along * u - beside * v), moved(values_[a][1], frame.along * v + beside * u)}});
     }
   }
 
   /// Adds the candidate of the parallelogram if the attribute continues across the triangle's first edge.
-  void addParallelogram(Guesses& guesses, std::uint32_t corner, std::uint32_t a, std::uint32_t b) const {
+  void addParallelogram(ValueCandidates& candidates, std::uint32_t corner, std::uint32_t a, std::uint32_t b) const {
     if (corner % 3 != 2)
       return;
     const std::uint32_t across = surface_.connectivity.across[corner / 3];
     const std::vector<std::uint32_t>& ofCorner = surface_.wedges.ofCorner;
     if (across != none && ofCorner[after(across)] == b && ofCorner[before(across)] == a)
-      guesses.add(
+      candidates.add(
           combine([&](std::uint32_t i) { return values_[a][i] + values_[b][i] - values_[ofCorner[across]][i]; }));
   }
 
-  std::uint32_t cheapest(const Guesses& guesses, std::uint32_t latest, Value value) {
+  std::uint32_t cheapest(const ValueCandidates& candidates, std::uint32_t latest, Value value) {
     std::uint32_t best = 0;
     std::uint32_t minCost = std::numeric_limits<std::uint32_t>::max();
-    for (std::uint32_t i = 0; i < guesses.count && guesses.count > 1; ++i) {
+    for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
       CostMeter meter(coder_, minCost);
-      codeChoice(meter, guesses, latest, i);
-      codeValue(meter, guesses.values[i], value);
+      codeChoice(meter, candidates, latest, i);
+      codeValue(meter, candidates.values[i], value);
       if (meter.cost() < minCost)
         minCost = meter.cost(), best = i;
     }
@@ -163,10 +162,11 @@ private:
   }
 
   template <typename C>
-  static std::uint32_t codeChoice(C& coder, const Guesses& guesses, std::uint32_t latest, std::uint32_t choice) {
-    const std::size_t models = attributeModels::choice + (guesses.set() * 4 + latest) * 2;
+  static std::uint32_t codeChoice(C& coder, const ValueCandidates& candidates, std::uint32_t latest,
+                                  std::uint32_t choice) {
+    const std::size_t models = attributeModels::choice + (candidates.set() * 4 + latest) * 2;
     std::uint32_t i = 0;
-    while (i + 1 < guesses.count && !coder.bit(models + i, i == choice))
+    while (i + 1 < candidates.count && !coder.bit(models + i, i == choice))
       ++i;
     return i;
   }

@@ -26,7 +26,7 @@ compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geom
 PatchDescription describe(const compact::CompactPatch& patch, const GeometryDescription& geometry);
 
 /// Encodes patches into one file, in this order: at most compact::maxFilePatches patches of compact::maxFileTypes
-/// types, which together have at most compact::maxPatchCount vertices, wedges and elements. Throws Error{limit} for
+/// types, which together have at most compact::maxCount vertices, wedges and elements. Throws Error{limit} for
 /// more bytes than an image holds.
 EncodedSharedFile encodeCompact(std::span<const compact::CompactPatch> patches, int effort);
 

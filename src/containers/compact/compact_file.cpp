@@ -53,8 +53,7 @@ public:
     const compact::CompactPatch& patch = static_cast<const PreparedCompactPatch&>(prepared).patch();
     const bool isKnown = std::ranges::find(kinds_, kindOf(patch)) != kinds_.end();
     return patches_.size() < compact::maxFilePatches && (isKnown || kinds_.size() < maxPatchKinds) &&
-           wedgeCount_ + patch.wedgeCount() <= maxVertices &&
-           elementCount_ + patch.elementCount() <= compact::maxPatchCount;
+           wedgeCount_ + patch.wedgeCount() <= maxVertices && elementCount_ + patch.elementCount() <= compact::maxCount;
   }
 
   void add(std::unique_ptr<PreparedPatch> prepared) override {
@@ -98,7 +97,7 @@ constinit const FileSharing compactSharing{
     .prepareBase = prepareCompactBase,
     .makeFile = makeCompactFile,
     .maxFileVertices = 16384, // docs/decisions/compact.md has the measurement
-    .maxBaseVertices = compact::maxPatchCount,
+    .maxBaseVertices = compact::maxCount,
 };
 
 } // namespace imgeo

@@ -77,15 +77,15 @@ struct CompactPatch {
   /// Base only: the segment of each triangle, below `segmentCount`. Empty in a patch.
   std::vector<std::uint32_t> segments;
   std::uint32_t segmentCount = 0; ///< 0: a patch, not a base
-  /// Base only: positions that only one segment has are rounded to residual steps of 2^residualShift.
+  /// Base only: the residuals of positions that only one segment has are rounded to multiples of 2^residualShift.
   std::uint32_t residualShift = 0;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
   std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }
 };
 
-/// Maximum number of vertices, of wedges and of elements of a patch, and of all patches of a file.
-inline constexpr std::uint32_t maxPatchCount = 1u << 20;
+/// Maximum number of vertices, of wedges and of elements, both of a patch and of all patches of a file together.
+inline constexpr std::uint32_t maxCount = 1u << 20;
 inline constexpr std::uint32_t maxAttributes = 16;
 
 } // namespace imgeo::compact

@@ -42,7 +42,7 @@ Connectivity decodeTriangles(RangeDecoder& decoder, std::uint32_t triangleCount,
 Connectivity decodeLines(RangeDecoder& decoder, std::uint32_t lineCount, std::uint32_t vertexCount);
 
 /// Chooses an order of triangles over vertices 0 .. vertexCount - 1, all of which are used, and encodes it.
-/// `sourceCorner` receives the index in `vertices` of each corner of the result. `firstTriangle` is the first root.
+/// `sourceCorner` receives the index in `vertices` of each corner of the result. The order begins with `firstTriangle`.
 Connectivity encodeTriangles(RangeEncoder& encoder, std::span<const std::uint32_t> vertices, std::uint32_t vertexCount,
                              std::uint32_t firstTriangle, std::vector<std::uint32_t>& sourceCorner);
 /// Encodes lines in their order and direction.

@@ -34,7 +34,7 @@ public:
     streams_.finish(streamOf(StreamName::sizes));
     if (!sums.fits())
       throw Error(ErrorKind::limit, location_,
-                  "a file has at most " + std::to_string(maxPatchCount) + " vertices and elements");
+                  "a file has at most " + std::to_string(maxCount) + " vertices and elements");
     return all;
   }
 

@@ -278,7 +278,7 @@ private:
 
   /// The cost of a mode: bytes, or radians for derived normals. Lower efforts measure only the first normals.
   double costOf(std::uint32_t attributeIndex, const AttributeType& as) const {
-    std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxPatchCount;
+    std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxCount;
     double error = 0;
     RangeEncoder encoder(attributeModels::count);
     forEachWith(attributeIndex, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t) {

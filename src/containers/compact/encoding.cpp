@@ -38,7 +38,7 @@ constinit const EncodingRow compactEncoding{
     .capabilities =
         {
             .maxPositionBits = 30,
-            .maxPatchVertices = compact::maxPatchCount,
+            .maxPatchVertices = compact::maxCount,
             .maxNamedAttributes = compact::maxAttributes - 3, // beside normals, texture coordinates and colours
             .texCoordBits = {.min = 1, .max = 16, .defaultBits = 12},
             .colorBits = {.min = 1, .max = 8, .defaultBits = 8},

@@ -30,7 +30,7 @@ struct FileHeader {
   std::size_t streamCount() const { return static_cast<std::size_t>(StreamName::attributes) + attributes.size(); }
 };
 
-/// Limits of a file. All its patches together have at most maxPatchCount vertices, wedges and elements.
+/// Limits of a file. All its patches together have at most maxCount vertices, wedges and elements.
 inline constexpr std::uint32_t maxFilePatches = 65536, maxFileTypes = 256, maxFileAttributes = 256;
 
 void appendHeader(Bytes& out, const FileHeader& header);

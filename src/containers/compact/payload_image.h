@@ -10,7 +10,7 @@ namespace imgeo::compact {
 /// Maximum number of bytes in an image, 4096^2.
 inline constexpr std::size_t maxPayloadBytes = std::size_t{4096} * 4096;
 
-/// Writes 1 .. maxPayloadBytes bytes, without compression. Zeros fill the last row.
+/// Writes 1 .. maxPayloadBytes bytes with encodePlainPng. Zeros fill the last row.
 Bytes imageOfPayload(ByteSpan payload);
 
 /// Reads them back, with the zeros. Safe for untrusted bytes. Throws Error naming `location`.

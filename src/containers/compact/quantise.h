@@ -1,5 +1,5 @@
 #pragma once
-// Quantises the attributes of a patch, and reverses it.
+// Quantises the attributes of a patch, and dequantises those of a decoded one.
 
 #include "containers/compact/compact_patch.h"
 #include "containers/geometry_description.h"
@@ -14,8 +14,8 @@ struct AttributeBits {
 };
 
 /// Quantises a patch. Points are in Morton order, each wedge once and with its own position; lines are in the order of
-/// trails. Normals become points of the octahedron (octahedronPoint), each coordinate of which is off by at most half a
-/// step. Texture coordinates are rounded to 2^bits points over the node's box, colours to 2^bits points over 0 .. 255.
+/// trails. Normals become points of the octahedron (octahedronPoint), two coordinates of which are rounded. Texture
+/// coordinates are rounded to 2^bits values over the node's box, colours to 2^bits values over 0 .. 255.
 CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
 /// Quantised attributes with one value for each wedge.
@@ -23,7 +23,7 @@ Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryD
                             std::uint32_t bits);
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
 
-/// `bits` are 1 .. 8 * description.bytes, over the box of the description.
+/// Values are rounded to 2^bits values over the range of the description; `bits` is 1 .. 8 * description.bytes.
 Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description, std::uint32_t bits);
 
 /// The draws of a patch: all its elements.

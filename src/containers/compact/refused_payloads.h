@@ -102,9 +102,9 @@ inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
     return bytes;
   };
   return {
-      {"more vertices", withSizes(points, {{0, maxPatchCount, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
-      {"more wedges", withSizes(lines, {{0, 1, maxPatchCount + 1, maxPatchCount, 0, {}, 0, 0}})},
-      {"more elements", withSizes(lines, {{0, 1, 1, maxPatchCount + 1, 0, {}, 0, 0}})},
+      {"more vertices", withSizes(points, {{0, maxCount, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
+      {"more wedges", withSizes(lines, {{0, 1, maxCount + 1, maxCount, 0, {}, 0, 0}})},
+      {"more elements", withSizes(lines, {{0, 1, 1, maxCount + 1, 0, {}, 0, 0}})},
       {"another format", {'I', 'G', 'D', 1, 0, 0}},
       {"another version", {'I', 'G', 'C', 2, 0, 0}},
       {"half a header", {'I', 'G', 'C', 1, 1, 0}},

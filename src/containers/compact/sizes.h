@@ -27,7 +27,7 @@ struct SizeSums {
     wedges += wedgeCount;
     elements += elementCount;
   }
-  bool fits() const { return vertices <= maxPatchCount && wedges <= maxPatchCount && elements <= maxPatchCount; }
+  bool fits() const { return vertices <= maxCount && wedges <= maxCount && elements <= maxCount; }
 };
 
 /// The first model of each symbol in the stream.
@@ -38,6 +38,7 @@ inline constexpr std::size_t type = 0, vertices = type + numberModels, seams = v
                              grid = residual + numberModels, count = grid + 1;
 }
 
+/// Codes 32 raw bits.
 template <typename Coder> std::uint32_t codeWord(Coder& coder, std::uint32_t value) {
   const std::uint32_t low = coder.raw(16, value & 0xffff);
   return low | coder.raw(16, value >> 16) << 16;

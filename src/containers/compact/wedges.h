@@ -78,7 +78,7 @@ private:
     }
   }
 
-  /// The wedge that continues across the previous edge; otherwise the latest wedge of the vertex.
+  /// The wedge of the vertex in the earlier triangle across an edge; without one, the latest wedge of the vertex.
   std::uint32_t guessAt(std::uint32_t corner) const {
     const std::uint32_t vertex = connectivity_.vertex[corner];
     if (connectivity_.across.empty())
@@ -154,11 +154,12 @@ private:
   std::uint32_t wedgeCount_;
   SourceWedge sourceWedge_;
   Wedges out_;
-  std::vector<std::uint32_t> ring_; ///< per wedge: the next wedge of its vertex, in a circle
-  std::vector<std::uint32_t> start_, made_,
-      latest_;                       ///< per vertex: its first wedge, the one made last, that of its last coded corner
-  std::vector<std::uint32_t> extra_; ///< per vertex: wedges beyond the first
-  std::vector<bool> isSplit_;        ///< per vertex: it has several wedges
+  std::vector<std::uint32_t> ring_;    ///< per wedge: the next wedge of its vertex, in a circle
+  std::vector<std::uint32_t> start_;   ///< per vertex: its first wedge
+  std::vector<std::uint32_t> made_;    ///< per vertex: the wedge that was made last
+  std::vector<std::uint32_t> latest_;  ///< per vertex: the wedge of its last coded corner
+  std::vector<std::uint32_t> extra_;   ///< per vertex: wedges beyond the first
+  std::vector<bool> isSplit_;          ///< per vertex: it has several wedges
   std::vector<std::uint32_t> numbers_; ///< source wedge -> wedge
 };
 

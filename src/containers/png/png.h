@@ -24,7 +24,7 @@ struct Image {
 /// Deterministic. The image is not empty and its edges are at most maxImageEdge.
 Bytes encodePng(const Image& image, int effort);
 
-/// Writes a PNG without filters or compression, for pixels that are compressed data already.
+/// Writes a PNG without filters, for pixels that are compressed data already. Deflates them only if that saves 1/256.
 Bytes encodePlainPng(const Image& image);
 
 /// Reads a PNG of 8 bits a channel: gray, RGB, RGBA, or a palette without transparency, which is expanded to RGB. The
