@@ -179,7 +179,7 @@ private:
     mesh.positions.push_back(Vec3f(vectorOf(p)));
     if (source.HasNormals() && mesh.topology == Topology::triangles) {
       mesh.normals.push_back(Vec3f(vectorOf(source.mNormals[vertex])));
-      badNormals_ += !makeUnit(mesh.normals.back());
+      unusableNormals_ += !makeUnit(mesh.normals.back());
     }
     if (source.HasTextureCoords(0)) {
       const aiVector3D& t = source.mTextureCoords[0][vertex];
@@ -228,17 +228,23 @@ private:
     Vec3d attenuation{light.mAttenuationConstant, light.mAttenuationLinear, light.mAttenuationQuadratic};
     if (!(attenuation.x + attenuation.y + attenuation.z > 0))
       attenuation = {1, 0, 0};
-    constexpr double radius = 1e6;
+    constexpr double unlimitedRadius = 1e6;
     const Vec3d position = vectorOf(light.mPosition), direction = vectorOf(light.mDirection);
     NodeContent content;
     if (light.mType == aiLightSource_DIRECTIONAL)
       content = DirectionalLight{direction, color, intensity, true};
     else if (light.mType == aiLightSource_POINT)
-      content = PointLight{position, attenuation, radius, color, intensity, true};
+      content = PointLight{position, attenuation, unlimitedRadius, color, intensity, true};
     else if (light.mType == aiLightSource_SPOT)
-      content = SpotLight{
-          position,  direction, light.mAngleInnerCone / 2.0, light.mAngleOuterCone / 2.0, attenuation, radius, color,
-          intensity, true};
+      content = SpotLight{position,
+                          direction,
+                          light.mAngleInnerCone / 2.0,
+                          light.mAngleOuterCone / 2.0,
+                          attenuation,
+                          unlimitedRadius,
+                          color,
+                          intensity,
+                          true};
     else {
       ++otherLights_;
       return;
@@ -260,7 +266,7 @@ private:
     add(furtherColors_, "mesh has further colours, which are", "meshes have further colours, which are");
     add(otherLights_, "light of a kind that X3D lacks is", "lights of kinds that X3D lacks are");
     add(lostTransforms_, "transform that is not finite is", "transforms that are not finite are");
-    warnOfNormals(warnings, badNormals_);
+    warnOfNormals(warnings, unusableNormals_);
     warnOfFans(warnings, fans_);
     addOmissions(warnings, materials_.omissions(), isStrict_, name_);
     materials_.addWarnings(warnings);
@@ -275,7 +281,7 @@ private:
   std::map<std::string, const aiCamera*> cameras_;
   std::map<std::string, const aiLight*> lights_;
   std::size_t skins_ = 0, morphTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
-              lostTransforms_ = 0, fans_ = 0, badNormals_ = 0;
+              lostTransforms_ = 0, fans_ = 0, unusableNormals_ = 0;
 };
 
 /// The last extension in lower case, with its dot. Unlike for extensionOf, that may be ".gz": Assimp reads no gzipped

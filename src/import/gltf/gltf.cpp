@@ -104,7 +104,7 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
       ": X3D's cannot scale before it rotates");
   std::ranges::copy(materials.images, std::back_inserter(warnings));
   std::ranges::copy(nodes.damage, std::back_inserter(warnings));
-  warnOfNormals(warnings, primitives.badNormals);
+  warnOfNormals(warnings, primitives.unusableNormals);
 }
 
 } // namespace

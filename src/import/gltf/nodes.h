@@ -32,7 +32,7 @@ private:
   void addCamera(const Value& node, std::vector<std::size_t>& children);
   void addLight(const Value& node, double scale, std::vector<std::size_t>& children);
   void addNavigation(const Value& extras);
-  /// Calls `read` and turns its Error into a warning, except if strict and for Error{limit}.
+  /// Calls `read` and turns its Error into a warning. If strict, and for Error{limit}, rethrows it.
   template <typename Read> void attempt(const Read& read);
 
   Document& document_;

@@ -106,7 +106,8 @@ PrimitiveData PrimitiveReader::dataOf(const Value& primitive) {
 }
 
 /// Renumbers the used vertices in the order of first use; returns them, and changes `corners` to the new numbers.
-std::vector<std::uint32_t> PrimitiveReader::compact(std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
+std::vector<std::uint32_t> PrimitiveReader::renumberVertices(std::vector<std::uint32_t>& corners,
+                                                             std::size_t vertexCount) {
   if (localVertex_.size() < vertexCount)
     localVertex_.resize(vertexCount, unset);
   std::vector<std::uint32_t> vertices;
@@ -139,7 +140,7 @@ Mesh PrimitiveReader::read(const Value& primitive) {
   Mesh mesh;
   mesh.topology = topologyOf(mode);
   mesh.corners = separated(mode, run);
-  const std::vector<std::uint32_t> vertices = compact(mesh.corners, data.vertexCount);
+  const std::vector<std::uint32_t> vertices = renumberVertices(mesh.corners, data.vertexCount);
   for (std::uint32_t i = 0; i < vertices.size(); ++i)
     mesh.wedgePositions.push_back(i);
   addVertices(primitive, data, vertices, mesh);
@@ -174,7 +175,7 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
     mesh.positions.push_back(position);
     if (normals) {
       mesh.normals.push_back(vec3(*normals, vertex));
-      omissions.badNormals += !makeUnit(mesh.normals.back());
+      omissions.unusableNormals += !makeUnit(mesh.normals.back());
     }
     if (texCoords) {
       const Vec2f texCoord{static_cast<float>(texCoords->number(vertex, 0)),

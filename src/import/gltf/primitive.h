@@ -32,7 +32,7 @@ struct PrimitiveData {
 
 /// Content of all primitives that was not carried over.
 struct PrimitiveOmissions {
-  std::uint64_t badNormals = 0, morphTargets = 0, skins = 0;
+  std::uint64_t unusableNormals = 0, morphTargets = 0, skins = 0;
   std::set<std::string> attributes; ///< names of attributes that were left out
 };
 
@@ -53,7 +53,7 @@ private:
                    Mesh& mesh);
   void addNamedAttributes(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
                           Mesh& mesh);
-  std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& corners, std::size_t vertexCount);
+  std::vector<std::uint32_t> renumberVertices(std::vector<std::uint32_t>& corners, std::size_t vertexCount);
 
   Document& document_;
   const AttributeChoice& choice_;

@@ -14,7 +14,7 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
   data.texCoords = mesh.texCoords;
   data.colors = mesh.colors;
   data.colorComponents = mesh.colorComponents;
-  std::vector<std::uint32_t> merged;
+  std::vector<std::uint32_t> mergedPositions;
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> indexOfBits;
   for (const Vec3f& p : mesh.positions) {
     const std::array bits{std::bit_cast<std::uint32_t>(p.x + 0), std::bit_cast<std::uint32_t>(p.y + 0),
@@ -22,12 +22,12 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
     const auto [found, isNew] = indexOfBits.try_emplace(bits, static_cast<std::uint32_t>(data.positions.size()));
     if (isNew)
       data.positions.push_back(p);
-    merged.push_back(found->second);
+    mergedPositions.push_back(found->second);
   }
   x3d::Faces faces;
   for (const std::uint32_t wedge : mesh.corners) {
     x3d::Corner corner;
-    corner.position = merged[mesh.wedgePositions[wedge]];
+    corner.position = mergedPositions[mesh.wedgePositions[wedge]];
     if (!mesh.texCoords.empty())
       corner.texCoord = wedge;
     if (!mesh.colors.empty())

@@ -79,7 +79,7 @@ private:
 
   void beginObject(std::string name) {
     const ObjObject& last = content_.objects.back();
-    content_.objects.push_back({std::move(name), last.material, last.number + 1, {}, {}});
+    content_.objects.push_back({std::move(name), last.material, last.index + 1, {}, {}});
     current_ = content_.objects.size() - 1;
     subsets_ = {{content_.objects[current_].material, current_}};
   }
@@ -91,7 +91,7 @@ private:
     const auto [subset, isNew] = subsets_.try_emplace(name, content_.objects.size());
     if (isNew) {
       const ObjObject& object = content_.objects[current_];
-      content_.objects.push_back({object.name, std::move(name), object.number, {}, {}});
+      content_.objects.push_back({object.name, std::move(name), object.index, {}, {}});
     }
     current_ = subset->second;
   }
@@ -214,16 +214,17 @@ private:
       materials.readLibrary(library);
     ObjMeshBuilder builder(content_);
     // Makes the subsets of each object consecutive.
-    std::ranges::stable_sort(content_.objects, {}, &ObjObject::number);
+    std::ranges::stable_sort(content_.objects, {}, &ObjObject::index);
     for (auto first = content_.objects.begin(); first != content_.objects.end();) {
       const auto last = std::find_if(first, content_.objects.end(),
-                                     [&](const ObjObject& object) { return object.number != first->number; });
+                                     [&](const ObjObject& object) { return object.index != first->index; });
       addObject(std::span(first, last), builder, materials, imported.scene);
       first = last;
     }
-    if (builder.partialNormals > 0)
-      imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
-                                              counted(builder.partialNormals, "object were", "objects were")));
+    if (builder.objectsWithPartialNormals > 0)
+      imported.warnings.push_back(
+          fmt::format("The normals of {} left out: some corners have none.",
+                      counted(builder.objectsWithPartialNormals, "object were", "objects were")));
     addOmissions(imported.warnings, materials.omissions(), isStrict_, fileName_);
     materials.addWarnings(imported.warnings);
   }

@@ -24,14 +24,14 @@ Mesh ObjMeshBuilder::build(const ObjObject& object, Topology topology) {
   hasTexCoords_ = std::ranges::any_of(corners, [](const ObjCorner& c) { return c.texCoord != none; });
   const auto normals = std::ranges::count_if(corners, [](const ObjCorner& c) { return c.normal != none; });
   hasNormals_ = static_cast<std::size_t>(normals) == corners.size();
-  partialNormals += normals > 0 && !hasNormals_;
+  objectsWithPartialNormals += normals > 0 && !hasNormals_;
   firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear(), overflowWedges_.clear();
 
   if (isOnlyMesh_)
     addAllPositions(mesh);
   mesh.corners.reserve(corners.size());
   for (const ObjCorner& corner : corners)
-    mesh.corners.push_back(wedge(mesh, corner));
+    mesh.corners.push_back(findOrAddWedge(mesh, corner));
   for (const ObjCorner& corner : corners)
     localPosition_[corner.position] = none;
   return mesh;
@@ -46,10 +46,10 @@ void ObjMeshBuilder::addAllPositions(Mesh& mesh) {
   if (hasTexCoords_ || hasNormals_)
     return;
   for (std::uint32_t i = 0; i < localPosition_.size(); ++i)
-    wedge(mesh, {i, none, none});
+    findOrAddWedge(mesh, {i, none, none});
 }
 
-std::uint32_t ObjMeshBuilder::wedge(Mesh& mesh, const ObjCorner& corner) {
+std::uint32_t ObjMeshBuilder::findOrAddWedge(Mesh& mesh, const ObjCorner& corner) {
   std::uint32_t& local = localPosition_[corner.position];
   if (local == none) {
     local = static_cast<std::uint32_t>(mesh.positions.size());

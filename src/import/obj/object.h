@@ -22,7 +22,7 @@ struct ObjCorner {
 struct ObjObject {
   std::string name;
   std::string material;             ///< empty: none
-  std::size_t number = 0;           ///< the object's index in the file; subsets share it
+  std::size_t index = 0;            ///< the object's index in the file; subsets share it
   std::vector<ObjCorner> triangles; ///< three corners each
   std::vector<ObjCorner> lines;     ///< two corners each
 };
@@ -46,17 +46,17 @@ public:
   /// coordinates where any corner has one.
   Mesh build(const ObjObject& object, Topology topology);
 
-  std::size_t partialNormals = 0; ///< number of objects whose normals were left out, since some corners have none
+  std::size_t objectsWithPartialNormals = 0; ///< some corners have no normal, so the others were left out too
 
 private:
   void addAllPositions(Mesh& mesh);
-  std::uint32_t wedge(Mesh& mesh, const ObjCorner& corner);
+  std::uint32_t findOrAddWedge(Mesh& mesh, const ObjCorner& corner);
 
   const ObjContent& content_;
   std::vector<std::uint32_t> localPosition_; ///< index in the mesh by position of the file; none: not in the mesh yet
   bool isOnlyMesh_ = false, hasTexCoords_ = false, hasNormals_ = false;
   std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< linked lists of the wedges of each local position
-  std::vector<ObjCorner> wedgeKeys_;
+  std::vector<ObjCorner> wedgeKeys_;                  ///< by wedge; the position is local
   /// Wedges beyond the maximum list length, of positions with many wedges; keeps the search from taking quadratic time.
   std::map<ObjCorner, std::uint32_t> overflowWedges_;
 };

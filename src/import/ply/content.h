@@ -15,7 +15,7 @@ struct PlyContent {
   VertexAttributes attributes;  ///< normals not normalised; all other values are finite
 
   std::vector<std::uint32_t> indices; ///< vertex indices of all polygons in order; in range
-  std::vector<std::uint32_t> sizes;   ///< corners of each polygon; empty while all are triangles
+  std::vector<std::uint32_t> sizes;   ///< corner count of each polygon; empty while all are 3
   std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
   std::vector<std::uint32_t> edges;   ///< two vertex indices each
 
