@@ -65,10 +65,8 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
       patchFiles.add(std::move(encoded.small), geometry, groups[node]);
     document.geometries[geometry] = std::move(encoded.geometry);
   }
-  for (PatchFiles::WrittenPatch& written : patchFiles.finish()) {
-    document.geometries[written.geometryIndex].patches[0].data = std::move(written.data);
-    report.normalErrorDegrees = std::max(report.normalErrorDegrees, written.normalError * (180 / std::numbers::pi));
-  }
+  const double normalError = patchFiles.finish(document.geometries);
+  report.normalErrorDegrees = std::max(report.normalErrorDegrees, normalError * (180 / std::numbers::pi));
   baseFiles.finish(document.geometries);
   return document;
 }

@@ -27,11 +27,16 @@ void PatchFiles::add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryI
   file.geometryIndices.push_back(geometryIndex);
 }
 
-std::vector<PatchFiles::WrittenPatch> PatchFiles::finish() {
+double PatchFiles::finish(std::vector<GeometryDescription>& geometries) {
   for (auto& [group, file] : open_)
     closed_.push_back(std::move(file));
   encodeClosed();
-  return std::move(written_);
+  double normalError = 0;
+  for (WrittenPatch& written : written_) {
+    geometries[written.geometryIndex].patches[0].data = std::move(written.data);
+    normalError = std::max(normalError, written.normalError);
+  }
+  return normalError;
 }
 
 void PatchFiles::encodeClosed() {

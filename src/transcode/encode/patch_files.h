@@ -19,20 +19,20 @@ public:
   PatchFiles(ContentFiles& files, const FileSharing* sharing, int effort)
       : files_(files), sharing_(sharing), effort_(effort) {}
 
+  /// Takes the only patch of a geometry. `group`: see loadGroups.
+  void add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryIndex, std::size_t group);
+
+  /// Writes the remaining files, sets the references to all patches in their geometries, and returns the maximum error
+  /// of their normals, in radians. Call it once, at the end.
+  double finish(std::vector<GeometryDescription>& geometries);
+
+private:
   /// The reference to the patch of a geometry.
   struct WrittenPatch {
     std::size_t geometryIndex = 0;
     Reference data;
     double normalError = 0; ///< maximum error of its normals, in radians
   };
-
-  /// Takes the only patch of a geometry. `group`: see loadGroups.
-  void add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryIndex, std::size_t group);
-
-  /// Writes the remaining files and returns all references. Call it once, at the end.
-  std::vector<WrittenPatch> finish();
-
-private:
   struct File {
     std::unique_ptr<SharedFile> contents; ///< nullptr: no patch yet
     std::vector<std::size_t> geometryIndices;
