@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <type_traits>
 #include <utility>
 
 namespace imgeo {
@@ -31,8 +32,22 @@ float ambientIntensityFor(const SceneGraph& graph) {
   return isPhysical ? 0.04f : 1.0f;
 }
 
+/// Whether a light adds anything to the picture: exporters write lights of intensity 0, too.
+bool shines(const auto& light) {
+  return light.intensity > 0 && (light.color.x > 0 || light.color.y > 0 || light.color.z > 0);
+}
+
+bool isShiningLight(const NodeContent& content) {
+  const auto is = [&]<typename Light>(std::type_identity<Light>) {
+    const Light* light = std::get_if<Light>(&content);
+    return light && shines(*light);
+  };
+  return is(std::type_identity<DirectionalLight>{}) || is(std::type_identity<PointLight>{}) ||
+         is(std::type_identity<SpotLight>{});
+}
+
 struct ExistingNodes {
-  bool viewpoint = false, light = false;
+  bool viewpoint = false, shiningLight = false;
 };
 
 ExistingNodes existingNodes(const SceneGraph& graph) {
@@ -40,8 +55,7 @@ ExistingNodes existingNodes(const SceneGraph& graph) {
   for (const std::size_t index : nodesInOrder(graph)) {
     const NodeContent& content = graph.nodes[index].content;
     existing.viewpoint |= std::holds_alternative<Viewpoint>(content) || std::holds_alternative<OrthoViewpoint>(content);
-    existing.light |= std::holds_alternative<DirectionalLight>(content) ||
-                      std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
+    existing.shiningLight |= isShiningLight(content);
   }
   return existing;
 }
@@ -69,7 +83,9 @@ void addDefaultNodes(SceneDocument& document, std::vector<std::string>& warnings
                                    counted(world.undrawableShapes, "shape is", "shapes are")));
   const Box3d box = world.box.empty() ? Box3d{{}, {}} : world.box;
   setCentersOfRotation(graph, box.center());
-  if (!existing.light)
+  // A source with lights is lit by them alone: a headlight would wash out what its author has lit.
+  graph.headlight = !existing.shiningLight;
+  if (!existing.shiningLight)
     addLights(graph);
   if (!existing.viewpoint)
     addFirst(graph, viewpointFraming(box));
