@@ -29,10 +29,11 @@ constexpr std::array plyExtensions{".ply"sv};
 constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 
-constexpr std::array<Format, 7> rows{{
+constexpr std::array<Format, 8> rows{{
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .read = readX3d},
     {.name = "VRML", .help = "VRML", .extensions = vrmlExtensions, .sniff = isVrml, .read = readVrml},
     {.name = "glTF", .help = "glTF, GLB", .extensions = gltfExtensions, .sniff = isGltf, .read = readGltf},
+    {.name = "glTF 1.0", .sniff = isGltf1, .read = readByAssimp},
     {.name = "PLY", .help = "PLY", .extensions = plyExtensions, .sniff = isPly, .read = readPly},
     {.name = "OBJ",
      .help = "OBJ",

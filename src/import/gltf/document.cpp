@@ -10,6 +10,13 @@ namespace imgeo::gltf {
 
 namespace {
 
+/// The member of a buffer view that says how it is compressed; a null value where it is not.
+Value meshoptOf(const Value& view) {
+  const Value extensions = view["extensions"];
+  const Value draft = extensions["KHR_meshopt_compression"];
+  return draft.isAbsent() ? extensions["EXT_meshopt_compression"] : draft;
+}
+
 // Component types, as the specification names them.
 constexpr std::uint32_t byteType = 5120, unsignedByte = 5121, shortType = 5122, unsignedShort = 5123,
                         unsignedInt = 5125, floatType = 5126;
@@ -125,7 +132,7 @@ const Bytes& Document::buffer(std::size_t index) {
 
 ByteSpan Document::view(std::size_t index) {
   const Value value = root_["bufferViews"][index];
-  const Value compression = value["extensions"]["EXT_meshopt_compression"];
+  const Value compression = meshoptOf(value);
   if (!compression.isAbsent()) {
     const auto found = unpackedViews_.find(index);
     return found != unpackedViews_.end() ? found->second
@@ -152,7 +159,7 @@ Bytes Document::unpacked(const Value& value) {
                                    : (mode == "TRIANGLES" || mode == "INDICES") && (stride == 2 || stride == 4) &&
                                          (mode == "INDICES" || count % 3 == 0);
   if (!isGood || count > UINT32_MAX)
-    value.fail(ErrorKind::malformed, "has a mode, stride or count that EXT_meshopt_compression does not allow");
+    value.fail(ErrorKind::malformed, "has a mode, stride or count that meshopt compression does not allow");
   spend(value, count * stride);
   Bytes bytes(count * stride);
   const int failure =
@@ -160,7 +167,7 @@ Bytes Document::unpacked(const Value& value) {
       : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, packed.data(), packed.size())
                             : meshopt_decodeIndexSequence(bytes.data(), count, stride, packed.data(), packed.size());
   if (failure != 0)
-    value.fail(ErrorKind::malformed, "holds data that EXT_meshopt_compression cannot decode");
+    value.fail(ErrorKind::malformed, "holds data that meshoptimizer cannot decode");
   if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
     meshopt_decodeFilterOct(bytes.data(), count, stride);
   else if (filter == "QUATERNION" && stride == 8)
@@ -168,7 +175,7 @@ Bytes Document::unpacked(const Value& value) {
   else if (filter == "EXPONENTIAL" && isAttributes)
     meshopt_decodeFilterExp(bytes.data(), count, stride);
   else if (filter != "NONE")
-    value["filter"].fail(ErrorKind::malformed, "is no filter of EXT_meshopt_compression");
+    value["filter"].fail(ErrorKind::malformed, "is no filter that meshoptimizer has");
   return bytes;
 }
 
@@ -191,7 +198,7 @@ Accessor Document::accessor(std::size_t index) {
   const bool isSparse = value.has("sparse");
   if (viewIndex) {
     const Value viewValue = root_["bufferViews"][*viewIndex];
-    const Value compression = viewValue["extensions"]["EXT_meshopt_compression"];
+    const Value compression = meshoptOf(viewValue);
     const std::uint64_t stride =
         (compression.isAbsent() ? viewValue["byteStride"] : compression["byteStride"]).whole(elementSize);
     if (stride < elementSize || stride > 65536)

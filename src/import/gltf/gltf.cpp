@@ -2,6 +2,7 @@
 
 #include "import/gltf/gltf.h"
 
+#include "import/gltf/extensions.h"
 #include "import/gltf/nodes.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <set>
 
 namespace imgeo {
 
@@ -18,13 +20,13 @@ using namespace gltf;
 
 constexpr std::uint32_t glbMagic = 0x46546c67, jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
 
-/// Extensions that a document may require, besides KHR_materials_*.
-const std::set<std::string> supportedExtensions{
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",  "KHR_lights_punctual",
-    "KHR_texture_transform",      "EXT_texture_webp",        "EXT_mesh_gpu_instancing"};
-
 bool isGlb(ByteSpan bytes) {
   return bytes.size() >= 12 && loadLittle<std::uint32_t>(bytes.data()) == glbMagic;
+}
+
+bool resemblesGltf(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos && text[first] == '{' && text.find("\"asset\"") != text.npos;
 }
 
 /// The contents of a GLB file; `binary` is empty if there is none.
@@ -66,12 +68,46 @@ void checkVersion(const Value& root) {
   if (!version.starts_with("2."))
     asset.fail(ErrorKind::unsupported,
                version.empty() ? "states no version" : "is glTF " + version + "; imgeo reads glTF 2");
-  const Value required = root["extensionsRequired"];
+}
+
+/// Throws Error{unsupported} for the first required extension that the table refuses or does not have.
+void checkRequiredExtensions(const Value& required) {
   for (std::size_t i = 0; i < required.size(); ++i) {
-    const std::string extension = required[i].text();
-    if (!supportedExtensions.contains(extension) && !extension.starts_with("KHR_materials_"))
-      required[i].fail(ErrorKind::unsupported, "is " + extension + ", which imgeo does not read");
+    const std::string name = required[i].text();
+    const ExtensionRow* row = extensionRow(name);
+    if (!row)
+      required[i].fail(ErrorKind::unsupported, fmt::format("is {}, which imgeo does not know", name));
+    if (row->treatment == ExtensionTreatment::refused)
+      required[i].fail(ErrorKind::unsupported, fmt::format("is {}: {}", name, row->note));
   }
+}
+
+/// A sentence for each extension of `names` that changes the picture and is not drawn.
+void addExtensionWarnings(const std::set<std::string>& names, std::vector<std::string>& warnings) {
+  std::vector<std::string> unknown;
+  for (const std::string& name : names) {
+    const ExtensionRow* row = extensionRow(name);
+    if (!row)
+      unknown.push_back(name);
+    else if (row->treatment == ExtensionTreatment::approximated || row->treatment == ExtensionTreatment::refused)
+      warnings.push_back(fmt::format("{}: {}.", name, row->note));
+  }
+  if (!unknown.empty())
+    warnings.push_back(fmt::format("Extensions that imgeo does not know are left out: {}.", fmt::join(unknown, ", ")));
+}
+
+/// The names in extensionsUsed, and of the extensions of materials, which some files do not list.
+std::set<std::string> usedExtensions(const Value& root) {
+  std::set<std::string> names;
+  for (const char* list : {"extensionsUsed", "extensionsRequired"})
+    for (std::size_t i = 0; i < root[list].size(); ++i)
+      names.insert(root[list][i].text());
+  const Value materials = root["materials"];
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (const Json& extensions = materials[i]["extensions"].json(); extensions.is_object())
+      for (const auto& [name, unused] : extensions.items())
+        names.insert(name);
+  return names;
 }
 
 void addInfo(const Value& asset, SceneGraph& graph) {
@@ -93,12 +129,7 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
   if (!primitives.attributes.empty())
     warnings.push_back(
         fmt::format("Attributes of vertices that are not carried over: {}.", fmt::join(primitives.attributes, ", ")));
-  std::vector<std::string> extensions;
-  for (const auto& [name, count] : materials.extensions)
-    if (count > 0)
-      extensions.push_back(fmt::format("{} ({})", name, counted(count, "material", "materials")));
-  if (!extensions.empty())
-    warnings.push_back(fmt::format("Extensions that are not carried over: {}.", fmt::join(extensions, ", ")));
+  addExtensionWarnings(usedExtensions(root), warnings);
   add(materials.furtherTexCoords, "texture is", "textures are", ": they use further texture coordinates");
   add(materials.skewedTransforms, "texture transform is", "texture transforms are",
       ": X3D's cannot scale before it rotates");
@@ -109,12 +140,19 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
 
 } // namespace
 
-bool isGltf(ByteSpan bytes) {
+bool isGltf1(ByteSpan bytes) {
   if (isGlb(bytes))
-    return true;
-  const std::string_view text = asText(bytes);
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != text.npos && text[first] == '{' && text.find("\"asset\"") != text.npos;
+    return loadLittle<std::uint32_t>(bytes.data() + 4) == 1;
+  const std::string_view text = asText(bytes), key = "\"accessors\"";
+  const auto notSpaceFrom = [&](std::size_t at) { return text.find_first_not_of(" \t\r\n", at); };
+  const std::size_t found = resemblesGltf(text) ? text.find(key) : text.npos,
+                    colon = found == text.npos ? found : notSpaceFrom(found + key.size()),
+                    value = colon == text.npos ? colon : notSpaceFrom(colon + 1);
+  return value != text.npos && text[colon] == ':' && text[value] == '{';
+}
+
+bool isGltf(ByteSpan bytes) {
+  return !isGltf1(bytes) && (isGlb(bytes) || resemblesGltf(asText(bytes)));
 }
 
 Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
@@ -123,6 +161,7 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   const References references(options, name);
   Document document(json, chunks.binary, references, name, bytes.size());
   checkVersion(document.root());
+  checkRequiredExtensions(document.root()["extensionsRequired"]);
 
   Imported imported;
   imported.format = isGlb(bytes) ? "GLB" : "glTF";
@@ -130,6 +169,9 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   MaterialReader materials(document, imported.scene.graph, options.strict);
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);
   nodes.readScene();
+  // A file of which nothing is left fails with the cause: a missing .bin, an index out of range.
+  if (nodes.firstDamage && !nodes.hasShapes())
+    throw Error(*nodes.firstDamage);
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
   addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, imported.warnings);

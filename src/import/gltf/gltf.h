@@ -7,7 +7,10 @@
 
 namespace imgeo {
 
-/// True for a GLB header, and for a JSON object that mentions "asset".
+/// True for glTF 1.0, which Assimp reads (formats.cpp): the header of a GLB file says so; in JSON, the accessors are a
+/// dictionary and no array.
+bool isGltf1(ByteSpan bytes);
+/// True for other GLB headers, and for other JSON objects that mention "asset".
 bool isGltf(ByteSpan bytes);
 Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 

@@ -11,9 +11,6 @@ namespace imgeo::gltf {
 
 namespace {
 
-const std::set<std::string> knownExtensions{"KHR_materials_unlit", "KHR_materials_emissive_strength",
-                                            "KHR_materials_pbrSpecularGlossiness"};
-
 float saturate(double value) {
   return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
@@ -123,7 +120,10 @@ std::optional<std::size_t> MaterialReader::texture(std::size_t index) {
   if (!isNew)
     return found->second;
   const Value value = document_.array("textures")[index], images = document_.array("images");
-  std::optional<std::size_t> source = value["extensions"]["EXT_texture_webp"].index("source", images);
+  std::optional<std::size_t> source;
+  for (const char* extension : {"EXT_texture_avif", "EXT_texture_webp"})
+    if (!source)
+      source = value["extensions"][extension].index("source", images);
   if (!source)
     source = value.index("source", images);
   if (!source) {
@@ -210,9 +210,6 @@ std::size_t MaterialReader::appearance(std::size_t index) {
                          : alphaMode == "MASK" ? AlphaMode::mask
                                                : AlphaMode::opaque;
   appearance.alphaCutoff = static_cast<float>(value["alphaCutoff"].real(0.5));
-  if (const Value extensions = value["extensions"]; extensions.json().is_object())
-    for (const auto& [name, unused] : extensions.json().items())
-      omissions.extensions[name] += !knownExtensions.contains(name);
   graph_.appearances.push_back(std::move(appearance));
   return appearances_[index] = graph_.appearances.size() - 1;
 }

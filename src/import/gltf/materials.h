@@ -11,10 +11,9 @@
 namespace imgeo::gltf {
 
 struct MaterialOmissions {
-  std::map<std::string, std::size_t> extensions; ///< number of materials by name of the extension that was left out
-  std::size_t furtherTexCoords = 0;              ///< textures that use further texture coordinates
-  std::size_t skewedTransforms = 0;              ///< texture transforms that X3D cannot express
-  std::vector<std::string> images;               ///< one warning for each missing image
+  std::size_t furtherTexCoords = 0; ///< textures that use further texture coordinates
+  std::size_t skewedTransforms = 0; ///< texture transforms that X3D cannot express
+  std::vector<std::string> images;  ///< one warning for each missing image
 };
 
 class MaterialReader {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <numbers>
 
 namespace imgeo::gltf {
@@ -50,6 +51,8 @@ template <typename Read> void NodeReader::attempt(const Read& read) {
   } catch (const Error& error) {
     if (isStrict_ || error.kind() == ErrorKind::limit)
       throw;
+    if (!firstDamage)
+      firstDamage = error;
     omissions.damage.push_back(fmt::format("Left out: {}.", error.what()));
   }
 }
@@ -66,11 +69,22 @@ void NodeReader::addNavigation(const Value& extras) {
     addRoot(scene_.graph, {"", GenericNode{"NavigationInfo", "", {}}, {}, "", {{"type", quoteStrings(types)}}});
 }
 
+/// The names of the variants of KHR_materials_variants, in the order of the choices of their Switches.
+void NodeReader::addVariantNames() {
+  const Value variants = document_.root()["extensions"]["KHR_materials_variants"]["variants"];
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    names.push_back(variants[i]["name"].text());
+  if (!names.empty())
+    scene_.graph.info.push_back(fmt::format("variants: {}", fmt::join(names, ", ")));
+}
+
 void NodeReader::readScene() {
   const Value nodes = document_.array("nodes"), scenes = document_.array("scenes");
   visited_.assign(nodes.size(), false);
   std::vector<std::size_t> roots;
-  const std::optional<std::size_t> chosen = document_.root().index("scene", scenes);
+  const std::optional<std::size_t> chosen =
+      scenes.size() > 0 ? document_.root().index("scene", scenes) : std::optional<std::size_t>();
   omissions.otherScenes = std::max<std::size_t>(scenes.size(), 1) - 1;
   if (scenes.size() > 0) {
     const Value scene = scenes[chosen.value_or(0)];
@@ -93,6 +107,7 @@ void NodeReader::readScene() {
       if (!isChild[i])
         roots.push_back(i);
   }
+  addVariantNames();
   for (const std::size_t root : roots)
     if (const std::optional<std::size_t> node = readNode(root, 1, 1))
       scene_.graph.roots.push_back(*node);
@@ -127,6 +142,8 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   if (const Transform* transform = std::get_if<Transform>(&node.content))
     scale *= std::cbrt(std::abs(affineOf(*transform).determinant()));
   node.extras = extrasOf(value);
+  if (!value["extensions"]["KHR_node_visibility"]["visible"].boolean(true))
+    node.fields = {{"visible", "false"}};
   if (const auto mesh = value.index("mesh", document_.array("meshes"))) {
     omissions.skins += value.has("skin");
     addInstances(value, *mesh, node.children);
@@ -143,7 +160,7 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
       node.children.push_back(*read);
   }
   // A group without name, extras and transform is replaced by its only child.
-  if (node.name.empty() && node.extras.empty() && node.children.size() == 1 &&
+  if (node.name.empty() && node.extras.empty() && node.fields.empty() && node.children.size() == 1 &&
       std::holds_alternative<Group>(node.content))
     return node.children[0];
   return addNode(scene_.graph, std::move(node));
@@ -200,10 +217,7 @@ std::optional<std::size_t> NodeReader::meshNode(std::size_t index, const std::st
   const std::string meshName = value["name"].text(), name = meshName == nodeName ? "" : meshName;
   std::vector<std::size_t> shapes;
   for (std::size_t i = 0; i < primitives.size(); ++i)
-    attempt([&] {
-      if (const auto shape = shapeNode(primitives[i], primitives.size() == 1 ? name : ""))
-        shapes.push_back(*shape);
-    });
+    attempt([&] { shapes.push_back(shapeNode(primitives[i], primitives.size() == 1 ? name : "")); });
   std::optional<std::size_t>& node = meshNodes_[index];
   if (primitives.size() == 1 && !shapes.empty())
     node = shapes[0];
@@ -212,14 +226,51 @@ std::optional<std::size_t> NodeReader::meshNode(std::size_t index, const std::st
   return node;
 }
 
-std::optional<std::size_t> NodeReader::shapeNode(const Value& primitive, const std::string& name) {
+std::size_t NodeReader::shapeNode(const Value& primitive, const std::string& name) {
   Shape shape;
   shape.mesh = meshOf(primitive);
-  if (const auto material = primitive.index("material", document_.array("materials"))) {
-    shape.appearance = materials_.appearance(*material);
-    shape.solid = materials_.isSolid(*material);
+  const std::optional<std::size_t> material = primitive.index("material", document_.array("materials"));
+  const Value mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+  if (mappings.size() > 0)
+    return variantsNode(shape, material, mappings, name);
+  return addNode(scene_.graph, {name, withMaterial(shape, material), {}, ""});
+}
+
+Shape NodeReader::withMaterial(Shape shape, std::optional<std::size_t> material) {
+  if (material)
+    attempt([&] {
+      shape.appearance = materials_.appearance(*material);
+      shape.solid = materials_.isSolid(*material);
+    });
+  return shape;
+}
+
+/// KHR_materials_variants: a Switch whose first child is the shape with the primitive's own material, and whose child
+/// i + 1 is the shape with its material in variant i. Children with the same material are one node.
+std::size_t NodeReader::variantsNode(const Shape& shape, std::optional<std::size_t> material, const Value& mappings,
+                                     const std::string& name) {
+  const Value names = document_.root()["extensions"]["KHR_materials_variants"]["variants"],
+              materials = document_.array("materials");
+  std::vector<std::optional<std::size_t>> materialOf(names.size() + 1, material);
+  for (std::size_t i = 0; i < mappings.size(); ++i)
+    for (std::size_t v = 0; v < mappings[i]["variants"].size(); ++v) {
+      const std::uint64_t variant = mappings[i]["variants"][v].whole();
+      if (variant >= names.size())
+        mappings[i]["variants"].fail(ErrorKind::malformed,
+                                     fmt::format("names variant {} of {}", variant, names.size()));
+      materialOf[variant + 1] = mappings[i].index("material", materials);
+    }
+  document_.spend(mappings, materialOf.size() * 256); // the nodes
+  Node node{name, GenericNode{"Switch", "", {}}, {}, "", {{"whichChoice", "0"}, {"class", "variants"}}};
+  std::map<std::optional<std::size_t>, std::size_t> shapes;
+  for (std::size_t i = 0; i < materialOf.size(); ++i) {
+    const auto [found, isNew] = shapes.try_emplace(materialOf[i]);
+    if (isNew)
+      found->second = addNode(scene_.graph,
+                              {i == 0 ? "" : names[i - 1]["name"].text(), withMaterial(shape, materialOf[i]), {}, ""});
+    node.children.push_back(found->second);
   }
-  return addNode(scene_.graph, {name, shape, {}, ""});
+  return addNode(scene_.graph, std::move(node));
 }
 
 /// The mesh of a primitive; primitives that differ only in material and extras share one.

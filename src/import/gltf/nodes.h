@@ -19,7 +19,11 @@ public:
   /// Reads the document's scene; without scenes, all nodes that are no node's child; without nodes, all meshes.
   void readScene();
 
+  /// Whether the scene has a shape.
+  bool hasShapes() const { return !scene_.meshes.empty(); }
+
   NodeOmissions omissions;
+  std::optional<Error> firstDamage; ///< the error of the first part that is left out
 
 private:
   /// `scale`: the scale of the parent's coordinate system relative to the scene.
@@ -27,7 +31,12 @@ private:
   NodeContent contentOf(const Value& node) const;
   void addInstances(const Value& node, std::size_t mesh, std::vector<std::size_t>& children);
   std::optional<std::size_t> meshNode(std::size_t index, const std::string& nodeName);
-  std::optional<std::size_t> shapeNode(const Value& primitive, const std::string& name);
+  std::size_t shapeNode(const Value& primitive, const std::string& name);
+  /// The shape with the material; without one, and with a warning, where the material is damaged.
+  Shape withMaterial(Shape shape, std::optional<std::size_t> material);
+  std::size_t variantsNode(const Shape& shape, std::optional<std::size_t> material, const Value& mappings,
+                           const std::string& name);
+  void addVariantNames();
   std::size_t meshOf(const Value& primitive);
   void addCamera(const Value& node, std::vector<std::size_t>& children);
   void addLight(const Value& node, double scale, std::vector<std::size_t>& children);

@@ -1,3 +1,5 @@
+#include "base/file.h"
+#include "base/testing.h"
 #include "import/gltf/testing.h"
 #include "import/testing.h"
 #include "scene/shape_instances.h"
@@ -174,11 +176,11 @@ TEST(GltfNodes, WarnAboutContentThatIsNotCarriedOver) {
   gltf.json["meshes"][0]["primitives"][0]["targets"] = GltfText::Json::array({GltfText::Json::object()});
   gltf.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = 0;
   gltf.json["animations"] = GltfText::Json::array({GltfText::Json::object(), GltfText::Json::object()});
-  gltf.json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", GltfText::Json::object()}}}}};
+  gltf.json["materials"] = {{{"extensions", {{"ADOBE_materials_clearcoat_tint", GltfText::Json::object()}}}}};
   gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
   const Imported imported = read(gltf);
   for (const char* words :
-       {"2 animations are", "1 skin is", "morph targets", "JOINTS_0", "KHR_materials_clearcoat (1 material)"})
+       {"2 animations are", "1 skin is", "morph targets", "JOINTS_0", "ADOBE_materials_clearcoat_tint: the material"})
     EXPECT_TRUE(hasWarning(imported, words)) << words;
   EXPECT_EQ(imported.warnings.size(), 5u);
 }
@@ -193,6 +195,66 @@ TEST(GltfNodes, ThatFormACycleAreLeftOutOrRefusedIfStrict) {
   EXPECT_EQ(shapeInstances(imported.scene.graph).size(), 1u);
   EXPECT_TRUE(hasWarning(imported, "nodes[0]: is the child of two nodes"));
   EXPECT_THROW(read(gltf, {.attributes = {}, .folder = {}, .outside = false, .strict = true}), Error);
+}
+
+TEST(GltfNodes, ThatAreHiddenStayHidden) {
+  GltfText gltf;
+  gltf.addNode({{"mesh", gltf.addTriangle()}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  const SceneGraph graph = read(gltf).scene.graph;
+  EXPECT_EQ(graph.nodes[graph.roots.at(0)].fields, (std::vector<FieldText>{{"visible", "false"}}));
+}
+
+TEST(GltfNodes, WithVariantsAreChoicesOfASwitch) {
+  GltfText gltf;
+  gltf.addTriangle();
+  gltf.json["materials"] = {{{"name", "red"}}, {{"name", "blue"}}};
+  gltf.json["extensions"]["KHR_materials_variants"]["variants"] = {
+      {{"name", "day"}}, {{"name", "night"}}, {{"name", "dusk"}}};
+  GltfText::Json& primitive = gltf.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["extensions"]["KHR_materials_variants"]["mappings"] =
+      GltfText::Json::array({{{"material", 1}, {"variants", {1, 2}}}});
+  gltf.show(0);
+  const SceneGraph graph = read(gltf).scene.graph;
+  const Node& choice = graph.nodes[graph.roots.at(0)];
+  EXPECT_EQ(std::get<GenericNode>(choice.content).element, "Switch");
+  EXPECT_EQ(choice.fields, (std::vector<FieldText>{{"whichChoice", "0"}, {"class", "variants"}}));
+  ASSERT_EQ(choice.children.size(), 4u);
+  EXPECT_EQ(choice.children[1], choice.children[0]); // day has no material of its own
+  EXPECT_EQ(choice.children[3], choice.children[2]);
+  const auto appearance = [&](std::size_t child) {
+    return graph.appearances[std::get<Shape>(graph.nodes[choice.children[child]].content).appearance.value()].name;
+  };
+  EXPECT_EQ(appearance(0), "red");
+  EXPECT_EQ(appearance(2), "blue");
+  EXPECT_EQ(graph.nodes[choice.children[2]].name, "night");
+  EXPECT_EQ(graph.info, std::vector<std::string>{"variants: day, night, dusk"});
+}
+
+TEST(GltfNodes, OfWhichNothingIsLeftFailWithTheCause) {
+  const TemporaryDirectory directory;
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  GltfText::Json whole = gltf.json;
+  whole["buffers"] = {{{"byteLength", 36}, {"uri", "missing.bin"}}};
+  writeFile(directory / "a.gltf", asBytes(whole.dump()));
+  try {
+    importFile(directory / "a.gltf", {});
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_NE(std::string(error.what()).find("missing.bin: cannot open"), std::string::npos) << error.what();
+  }
+}
+
+TEST(GltfNodes, StayWhereTheirMaterialIsDamaged) {
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  gltf.json["materials"] = {{{"pbrMetallicRoughness", "steel"}}};
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Imported imported = read(gltf);
+  EXPECT_EQ(shapeInstances(imported.scene.graph).size(), 1u);
+  EXPECT_TRUE(hasWarning(imported, "Left out: a.gltf, materials[0].pbrMetallicRoughness: is no object"));
 }
 
 TEST(GltfNodes, OfVersionOneAreRefused) {

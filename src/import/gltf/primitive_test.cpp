@@ -263,7 +263,7 @@ TEST(GltfPrimitive, IsDecompressedByDraco) {
   EXPECT_LE(length(box.min - expected.min) + length(box.max - expected.max), 1e-3);
   gltf.buffer[gltf.buffer.size() / 2] ^= 0xff;
   gltf.buffer.resize(gltf.buffer.size() - 20);
-  EXPECT_EQ(errorOf(gltf.text(), "a.gltf").kind(), ErrorKind::malformed);
+  EXPECT_EQ(errorOf(gltf.text(), "a.gltf").kind(), ErrorKind::truncated);
 }
 
 TEST(Glb, IsReadLikeItsGltf) {
