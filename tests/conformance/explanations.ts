@@ -6,6 +6,7 @@ export const maxEqualMean = 1;
 const otherDiagonal =
   "X3D does not specify the diagonal along which a quad is split; X_ITE uses the other one. X3DOM's npm package lacks the node";
 const otherFonts = "glyphs come from the browser's fonts; X_ITE brings its own fonts";
+const noNode = "X3DOM's npm package lacks the node";
 const noFans = "X3DOM's npm package does not draw the node";
 const noTexturesInMaterials = "X3DOM does not support X3D 4's textures of materials";
 const withoutPi =
@@ -26,11 +27,15 @@ export const explanations: Readonly<Record<string, string>> = {
   "FontStyle-family": otherFonts,
   "FontStyle-justify": otherFonts,
   "FontStyle-vertical": `${otherFonts}; X3DOM does not support \`horizontal\``,
+  "Geometry2D-lines": noNode,
+  "Geometry2D-surfaces": noNode,
+  "Geometry2D-texture": noNode,
   Grouping: "X3DOM does not display a document that contains a `StaticGroup`",
   "ImageTexture-colored-material":
     "the texture is multiplied by the diffuse colour (X3D 4); in X3DOM it replaces the diffuse colour",
   "IndexedFaceSet-creaseAngle-between":
     "edges with angles up to `creaseAngle` are smooth, others sharp; X3DOM makes all edges smooth",
+  IndexedQuadSet: noNode,
   IndexedTriangleFanSet: noFans,
   IndexedTriangleStripSet: "X3DOM does not share normals between strips",
   LineProperties: "X3DOM draws all lines one pixel wide",
@@ -45,9 +50,13 @@ export const explanations: Readonly<Record<string, string>> = {
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal reflects a grey room in imgeo and nothing in X_ITE`,
   "PointLight-of-its-group": allLightsAreGlobal,
   "PointLight-scaled": "scaling a light scales its radius and its attenuation; not in X3DOM",
+  QuadSet: noNode,
   Text: otherFonts,
   "Text-length": `${otherFonts}. Glyphs are stretched; X_ITE changes the space between them; X3DOM does not support \`length\` and compresses only one string`,
   "Text-no-material": `${otherFonts}; in X3DOM MIDDLE is slightly higher`,
+  "TextureCoordinateGenerator-COORD": "in X3DOM the texture replaces the diffuse colour",
+  "TextureCoordinateGenerator-SPHERE-LOCAL":
+    "computed from the vertices' normals; X_ITE computes it from the normal of each pixel. In X3DOM the texture replaces the diffuse colour",
   TextureTransform: "minified textures are filtered differently",
   "Transform-mirror":
     "a mirroring transform reverses the orientation of triangles, which imgeo corrects; X3DOM displays their backs",

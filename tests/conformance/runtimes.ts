@@ -32,7 +32,7 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   for (const file of [
     "x_ite.css",
     "assets/lib/mikktspace_bg.wasm",
-    "assets/components/TextComponent.js",
+    ...["CADGeometry", "Geometry2D", "NURBS", "Text"].map((name) => `assets/components/${name}Component.js`),
     "assets/lib/woff2_decoder.js",
     ...fonts,
   ])

@@ -4,6 +4,7 @@
 #include "import/x3d/elevation_grid.h"
 #include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
+#include "import/x3d/texture_coordinates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,16 @@ public:
                                  {"IndexedTriangleSet", &GeometryReader::readTriangles},
                                  {"IndexedTriangleStripSet", &GeometryReader::readStrips},
                                  {"IndexedTriangleFanSet", &GeometryReader::readFans},
+                                 {"QuadSet", &GeometryReader::readQuads},
+                                 {"IndexedQuadSet", &GeometryReader::readQuads},
                                  {"ElevationGrid", &GeometryReader::readElevationGrid},
                                  {"Extrusion", &GeometryReader::readExtrusion},
                                  {"IndexedLineSet", &GeometryReader::readIndexedLines},
                                  {"LineSet", &GeometryReader::readLines},
-                                 {"PointSet", &GeometryReader::readPoints}};
+                                 {"PointSet", &GeometryReader::readPoints},
+                                 {"TriangleSet2D", &GeometryReader::readTriangles2D},
+                                 {"Polyline2D", &GeometryReader::readPolyline2D},
+                                 {"Polypoint2D", &GeometryReader::readPolypoint2D}};
     return readers;
   }
 
@@ -86,12 +92,7 @@ private:
     data_.normals = vectors(childNamed({"Normal"}), "vector");
     for (Vec3f& normal : data_.normals)
       makeUnit(normal);
-    pugi::xml_node texCoord = childNamed({"TextureCoordinate", "MultiTextureCoordinate"});
-    if (std::string_view(texCoord.name()) == "MultiTextureCoordinate")
-      texCoord = source_.resolved(texCoord.child("TextureCoordinate"));
-    const std::vector<double> points = tuples(texCoord, "point", 2);
-    for (std::size_t i = 0; i < points.size(); i += 2)
-      data_.texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
+    readTexCoords();
     const pugi::xml_node color = childNamed({"Color", "ColorRGBA"});
     const std::size_t components = std::string_view(color.name()) == "ColorRGBA" ? 4 : 3;
     const std::vector<double> colors = tuples(color, "color", components);
@@ -103,6 +104,20 @@ private:
                               components == 4 ? byte(colors[i + 3]) : std::uint8_t{255}});
     const bool isOpaque = std::ranges::all_of(data_.colors, [](Rgba8 c) { return c.a == 255; });
     data_.colorComponents = isOpaque ? 3 : 4;
+  }
+
+  /// Reads the first set of texture coordinates.
+  void readTexCoords() {
+    const std::vector<pugi::xml_node> sets = texCoordNodes(source_, node_);
+    if (sets.empty())
+      return;
+    furtherTexCoords_ = sets.size() - 1;
+    texCoordGenerator_ = texCoordGeneratorOf(sets[0]);
+    if (texCoordGenerator_)
+      return;
+    const std::vector<double> points = tuples(sets[0], "point", 2);
+    for (std::size_t i = 0; i < points.size(); i += 2)
+      data_.texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
   }
 
   /// Adds a face of vertices, which are indices into the Coordinate node.
@@ -190,18 +205,31 @@ private:
     return runs;
   }
 
-  void readTriangles() {
+  /// All vertices, or those of `index`.
+  std::vector<std::uint32_t> vertexSequence() const {
     std::vector<std::uint32_t> vertices;
-    if (std::string_view(node_.name()) == "IndexedTriangleSet") {
+    if (std::string_view(node_.name()).starts_with("Indexed")) {
       for (const std::int32_t vertex : integers("index"))
-        if (vertex >= 0) // some programs separate triangles by -1
+        if (vertex >= 0) // some programs separate faces by -1
           vertices.push_back(static_cast<std::uint32_t>(vertex));
     } else {
       for (std::uint32_t i = 0; i < data_.positions.size(); ++i)
         vertices.push_back(i);
     }
+    return vertices;
+  }
+
+  void readTriangles() {
+    const std::vector<std::uint32_t> vertices = vertexSequence();
     for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
       addFace({vertices[i], vertices[i + 1], vertices[i + 2]});
+    addVertexAttributes();
+  }
+
+  void readQuads() {
+    const std::vector<std::uint32_t> vertices = vertexSequence();
+    for (std::size_t i = 0; i + 3 < vertices.size(); i += 4)
+      addFace({vertices[i], vertices[i + 1], vertices[i + 2], vertices[i + 3]});
     addVertexAttributes();
   }
 
@@ -234,6 +262,35 @@ private:
       addFace({i});
     addVertexAttributes();
     faces_.topology = Topology::points;
+  }
+
+  /// Reads 2D points, which lie in the plane z = 0.
+  void readPositions2D(const char* field) {
+    data_ = {};
+    const std::vector<double> numbers = tuples(node_, field, 2);
+    for (std::size_t i = 0; i < numbers.size(); i += 2)
+      data_.positions.push_back(Vec3f(Vec3d{numbers[i], numbers[i + 1], 0}));
+  }
+
+  void readTriangles2D() {
+    readPositions2D("vertices");
+    readTriangles();
+    data_.normals = {{0, 0, 1}};
+    for (Corner& corner : faces_.corners)
+      corner.normal = 0;
+  }
+
+  void readPolyline2D() {
+    readPositions2D("lineSegments");
+    for (std::uint32_t i = 0; i < data_.positions.size(); ++i)
+      faces_.corners.push_back({i, none, none, none});
+    faces_.ends.push_back(faces_.corners.size());
+    breakIntoLines();
+  }
+
+  void readPolypoint2D() {
+    readPositions2D("point");
+    readPoints();
   }
 
   /// Sets the attributes of nodes with one index per vertex, or one value per face.
@@ -328,8 +385,12 @@ private:
     const double creaseAngle = source_.real(node_, "creaseAngle", 0);
     if (isSurface && hasCreaseAngle_ && data_.normals.empty() && creaseAngle < std::numbers::pi)
       addCreaseNormals(data_, faces_, std::max(creaseAngle, 0.0));
+    if (texCoordGenerator_)
+      addGeneratedTexCoords(texCoordGenerator_->mode, data_, faces_);
     Geometry geometry;
-    geometry.solid = source_.boolean(node_, "solid", true);
+    geometry.solid = source_.boolean(node_, "solid", !std::string_view(node_.name()).ends_with("2D"));
+    geometry.furtherTexCoords = furtherTexCoords_;
+    geometry.approximatedTexCoords = texCoordGenerator_ ? texCoordGenerator_->approximated : "";
     geometry.mesh = meshOf(data_, faces_, geometry.fans);
     return geometry;
   }
@@ -347,6 +408,8 @@ private:
   pugi::xml_node node_;
   VertexData data_;
   Faces faces_;
+  std::size_t furtherTexCoords_ = 0;
+  std::optional<TexCoordGenerator> texCoordGenerator_;
   bool hasCreaseAngle_ = false; ///< the node has a creaseAngle field, or flat faces: an angle of 0
 };
 

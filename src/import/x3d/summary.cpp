@@ -12,22 +12,32 @@
 namespace imgeo::x3d {
 
 bool isDrawnInPages(std::string_view element) {
-  static const std::set<std::string_view> drawn{"Box",
+  static const std::set<std::string_view> drawn{"Arc2D",
+                                                "ArcClose2D",
+                                                "Box",
+                                                "Circle2D",
                                                 "Cone",
                                                 "Cylinder",
+                                                "Disk2D",
                                                 "ElevationGrid",
                                                 "Extrusion",
                                                 "IndexedFaceSet",
                                                 "IndexedLineSet",
+                                                "IndexedQuadSet",
                                                 "IndexedTriangleFanSet",
                                                 "IndexedTriangleSet",
                                                 "IndexedTriangleStripSet",
                                                 "LineSet",
                                                 "PointSet",
+                                                "Polyline2D",
+                                                "Polypoint2D",
+                                                "QuadSet",
+                                                "Rectangle2D",
                                                 "Sphere",
                                                 "Text",
                                                 "TriangleFanSet",
                                                 "TriangleSet",
+                                                "TriangleSet2D",
                                                 "TriangleStripSet",
                                                 "ImageGeometry",
                                                 "BinaryGeometry"};
@@ -64,6 +74,13 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
   warnOfElements(warnings, "Geometry without faces, lines or points", empty);
   warnOfElements(warnings, "Nodes that animate or interact stay as they are, and imgeo's pages do not run them",
                  interactive);
+  warnOfElements(warnings,
+                 "Texture coordinates that depend on the camera or on noise are made of the shape's own normals "
+                 "or positions instead",
+                 approximatedTexCoords);
+  if (furtherTexCoords > 0)
+    warnings.push_back(fmt::format("{} several sets of texture coordinates, of which the first is used.",
+                                   counted(furtherTexCoords, "geometry has", "geometries have")));
   if (flatTransforms > 0)
     warnings.push_back(fmt::format("{} by 0: what stands there is flat, or not seen at all.",
                                    counted(flatTransforms, "Transform scales", "Transforms scale")));

@@ -20,10 +20,12 @@ bool isInteractive(std::string_view element);
 struct Summary {
   using Counts = std::map<std::string, std::size_t>; ///< number of nodes by element name
 
-  Counts notCopied;   ///< nodes with URLs whose files are not copied
-  Counts notDrawn;    ///< geometries that the runtime does not draw
-  Counts empty;       ///< geometries without faces, lines or points
-  Counts interactive; ///< animating and interactive nodes
+  Counts notCopied;                 ///< nodes with URLs whose files are not copied
+  Counts notDrawn;                  ///< geometries that the runtime does not draw
+  Counts empty;                     ///< geometries without faces, lines or points
+  Counts interactive;               ///< animating and interactive nodes
+  Counts approximatedTexCoords;     ///< modes of TextureCoordinateGenerator that are approximated
+  std::size_t furtherTexCoords = 0; ///< geometries with sets of texture coordinates after the first
   std::size_t remoteImages = 0, remoteInlines = 0, fans = 0;
   std::size_t flatTransforms = 0, extremeTransforms = 0; ///< scales of 0, and outside of 10^-15 .. 10^15
 

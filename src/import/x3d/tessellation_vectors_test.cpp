@@ -130,6 +130,39 @@ TEST(TessellationVectors, MakeElevationGrids) {
   }
 }
 
+TEST(TessellationVectors, ReadGeometryNodes) {
+  for (const Json& vector : vectorsOf("geometryNodes")) {
+    SCOPED_TRACE(vector["name"]);
+    const std::string node = vector["node"];
+    ImportOptions options;
+    options.inlineBytes = 0;
+    const Mesh mesh =
+        testing::onlyMesh("<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>", "a.x3d", options);
+    VertexData data;
+    Numbers colors;
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+      const std::uint32_t wedge = mesh.corners[i];
+      data.positions.push_back(mesh.cornerPosition(i));
+      if (!mesh.normals.empty())
+        data.normals.push_back(mesh.normals[wedge]);
+      if (!mesh.texCoords.empty())
+        data.texCoords.push_back(mesh.texCoords[wedge]);
+      if (!mesh.colors.empty())
+        colors.insert(colors.end(),
+                      {double(mesh.colors[wedge].r), double(mesh.colors[wedge].g), double(mesh.colors[wedge].b)});
+    }
+    const Json& corners = vector["corners"];
+    const std::map<std::string, Topology> topologies{
+        {"triangles", Topology::triangles}, {"lines", Topology::lines}, {"points", Topology::points}};
+    EXPECT_EQ(mesh.topology, topologies.at(corners["primitive"]));
+    expectNear(numbersOf(data.positions), corners["positions"], 1e-6);
+    expectNear(numbersOf(data.texCoords), corners["texCoords"], 1e-6);
+    expectNear(colors, corners["colors"], 0);
+    if (!data.normals.empty()) // normals that are smooth everywhere are computed later
+      expectNear(numbersOf(data.normals), corners["normals"], 1e-6);
+  }
+}
+
 TEST(TessellationVectors, RefuseWordsThatAreNotNumbers) {
   for (const std::string node : vectorsOf("refused")) {
     const std::string scene = "<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>";

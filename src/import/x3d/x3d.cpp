@@ -347,6 +347,9 @@ private:
       ++summary_.empty[node.name()];
       return {};
     }
+    summary_.furtherTexCoords += geometry->furtherTexCoords > 0 ? 1 : 0;
+    if (!geometry->approximatedTexCoords.empty())
+      ++summary_.approximatedTexCoords[geometry->approximatedTexCoords];
     if (staysInline(node))
       return {};
     summary_.fans += geometry->fans;

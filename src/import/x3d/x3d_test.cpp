@@ -177,12 +177,28 @@ TEST(X3d, KeepsOnlyShorterGeometryWhereThereIsMuchOfIt) {
 }
 
 TEST(X3d, WarnsAboutGeometryThatPagesDoNotDraw) {
-  const Imported imported = readScene("<Shape><Circle2D/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
-                                      "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
+  const Imported imported = readScene("<Shape><GeoElevationGrid/></Shape><Shape><Appearance/><NoNode/></Shape>"
+                                      "<Shape><Circle2D/></Shape><Shape><NoNode/></Shape>");
   EXPECT_EQ(imported.warnings,
             std::vector<std::string>{
-                "Geometry that stays as it is and that imgeo's pages do not draw: Circle2D (1), NurbsCurve (2)."});
+                "Geometry that stays as it is and that imgeo's pages do not draw: GeoElevationGrid (1), NoNode (2)."});
   EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
+}
+
+TEST(X3d, WarnsOfTextureCoordinatesThatItLeavesOutOrApproximates) {
+  const std::string quad = "<Shape><IndexedFaceSet coordIndex='0 1 2 3'>" + square;
+  EXPECT_TRUE(readScene(quad + "<TextureCoordinateGenerator mode='COORD'/></IndexedFaceSet></Shape>").warnings.empty());
+  for (const std::size_t inlineBytes : {0, 1000}) {
+    ImportOptions options;
+    options.inlineBytes = inlineBytes;
+    EXPECT_EQ(readScene(quad + "<TextureCoordinateGenerator/></IndexedFaceSet></Shape>", options).warnings.size(), 1u);
+    EXPECT_EQ(readScene(quad + "<MultiTextureCoordinate><TextureCoordinate point='0 0 1 0 1 1 0 1'/>"
+                               "<TextureCoordinate point='0 0 1 0 1 1 0 1'/></MultiTextureCoordinate>"
+                               "</IndexedFaceSet></Shape>",
+                        options)
+                  .warnings.size(),
+              1u);
+  }
 }
 
 TEST(X3d, ReadsTexturesFromItsOwnFolderOnly) {

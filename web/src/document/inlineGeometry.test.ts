@@ -1,5 +1,5 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import type { GeometryDescription, Reference } from "./description.ts";
@@ -49,6 +49,122 @@ function volumeOf(positions: number[]): number {
 }
 
 const square = '<Coordinate point="0 0 0, 1 0 0, 1 1 0, 0 1 0"/>';
+
+interface NodeVector {
+  readonly name: string;
+  readonly node: string;
+  /** Whether the node has texture coordinates that are not X3D's default ones, which convert does not add. */
+  readonly hasTexCoords?: true;
+  readonly corners?: unknown;
+}
+
+/** The attributes of the corners, in the order in which they are drawn; numbers have eight digits. */
+function cornersOf({ node, hasTexCoords }: NodeVector): unknown {
+  const { geometry, warnings } = read(node);
+  assert.equal(warnings, 0, node);
+  const [patch] = geometry?.patches ?? [];
+  const floats = (reference: Reference | undefined) =>
+    reference ? [...new Float32Array(bytesOf(reference))].map((value) => Number(value.toPrecision(8))) : [];
+  return {
+    primitive: patch?.draws[0]?.primitive,
+    positions: floats(patch?.coord[0]),
+    normals: floats(patch?.normal),
+    texCoords: hasTexCoords ? floats(patch?.texCoord) : [],
+    colors: patch?.color ? [...new Uint8Array(bytesOf(patch.color))] : [],
+  };
+}
+
+// src/import/x3d/tessellation_vectors_test.cpp reads the same file. With IMGEO_REWRITE_GOLDEN=1 the corners are
+// rewritten.
+test("nodes have the corners of vectors/tessellation/geometryNodes.json", () => {
+  const path = join(import.meta.dirname, "../../../vectors/tessellation/geometryNodes.json");
+  const vectors = JSON.parse(readFileSync(path, "utf8")) as NodeVector[];
+  const actual = vectors.map((vector) => ({ ...vector, corners: cornersOf(vector) }));
+  if (process.env.IMGEO_REWRITE_GOLDEN !== undefined)
+    writeFileSync(path, `[\n${actual.map((vector) => JSON.stringify(vector)).join(",\n")}\n]\n`);
+  else for (const [i, vector] of vectors.entries()) assert.deepEqual(actual[i]?.corners, vector.corners, vector.name);
+});
+
+/** The area of a geometry's triangles in the plane z = 0, all of which face +z. */
+function areaInPlane(markup: string): number {
+  const { positions, normals } = trianglesOf(markup);
+  assert.ok(
+    normals.every((value, i) => value === (i % 3 === 2 ? 1 : 0)),
+    markup,
+  );
+  let area = 0;
+  for (let i = 0; i < positions.length; i += 9) {
+    const [ax = 0, ay = 0, , bx = 0, by = 0, , cx = 0, cy = 0] = positions.slice(i, i + 9);
+    const doubleArea = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
+    assert.ok(doubleArea > 0, `${markup} has a triangle that faces -z`);
+    area += doubleArea / 2;
+  }
+  return area;
+}
+
+describe("geometry in a plane", () => {
+  for (const [markup, area] of [
+    ['<Disk2D outerRadius="2"/>', 4 * Math.PI],
+    ['<Disk2D innerRadius="2" outerRadius="1"/>', 3 * Math.PI],
+    ['<Rectangle2D size="3 0.5"/>', 1.5],
+    ["<ArcClose2D/>", Math.PI / 4],
+    ['<ArcClose2D closureType="CHORD"/>', Math.PI / 4 - 0.5],
+    ['<ArcClose2D startAngle="1.5708" endAngle="0"/>', (3 * Math.PI) / 4],
+    ['<ArcClose2D startAngle="1" endAngle="1" radius="2"/>', 4 * Math.PI],
+    ['<TriangleSet2D vertices="0 0 4 0 0 1"/>', 2],
+  ] as const) {
+    test(`${markup} has its area and faces +z`, () => {
+      assert.ok(Math.abs(areaInPlane(markup) / area - 1) < 0.01, `${areaInPlane(markup)} instead of ${area}`);
+      assert.equal(trianglesOf(markup).geometry.solid, false);
+    });
+  }
+
+  for (const [markup, length] of [
+    ['<Circle2D radius="3"/>', 6 * Math.PI],
+    ["<Arc2D/>", Math.PI / 2],
+    ['<Arc2D startAngle="3.1415927" endAngle="0"/>', Math.PI],
+    ['<Disk2D innerRadius="1" outerRadius="1"/>', 2 * Math.PI],
+    ['<Polyline2D lineSegments="0 0 3 4 3 5"/>', 6],
+  ] as const) {
+    test(`${markup} is a line of its length`, () => {
+      const { geometry } = read(markup);
+      assert.equal(geometry?.patches[0]?.draws[0]?.primitive, "lines");
+      const positions = [...new Float32Array(bytesOf(geometry.patches[0].coord[0]))];
+      let sum = 0;
+      for (let i = 0; i < positions.length; i += 6) {
+        const [ax = 0, ay = 0, , bx = 0, by = 0] = positions.slice(i, i + 6);
+        sum += Math.hypot(bx - ax, by - ay);
+      }
+      assert.ok(Math.abs(sum / length - 1) < 0.005, `${sum} instead of ${length}`);
+    });
+  }
+
+  test("textures fill the square around a disk, and a rectangle", () => {
+    const texCoordsOf = (markup: string) => [...new Float32Array(bytesOf(read(markup).geometry?.patches[0]?.texCoord))];
+    assert.deepEqual(texCoordsOf("<Rectangle2D/>"), [0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1]);
+    assert.deepEqual(texCoordsOf('<Disk2D outerRadius="4"/>').slice(0, 4), [0.5, 0.5, 1, 0.5]);
+  });
+});
+
+test("modes of TextureCoordinateGenerator that need the camera are drawn with a warning", () => {
+  const { geometry, warnings } = read(
+    `<IndexedFaceSet coordIndex="0 1 2 3">${square}<TextureCoordinateGenerator/></IndexedFaceSet>`,
+  );
+  assert.equal(warnings, 1);
+  assert.ok(new Float32Array(bytesOf(geometry?.patches[0]?.texCoord)).every((value) => value === 0.5));
+});
+
+test("of several sets of texture coordinates the first is used, with a warning", () => {
+  const sets = '<TextureCoordinate point="0 0 1 0 1 1 0 1"/><TextureCoordinateGenerator/>';
+  const { geometry, warnings } = read(
+    `<QuadSet>${square}<MultiTextureCoordinate>${sets}</MultiTextureCoordinate></QuadSet>`,
+  );
+  assert.equal(warnings, 1);
+  assert.deepEqual(
+    [...new Float32Array(bytesOf(geometry?.patches[0]?.texCoord))],
+    [0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1],
+  );
+});
 
 describe("geometry in the document", () => {
   for (const [markup, volume, size] of [

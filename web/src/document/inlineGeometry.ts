@@ -16,6 +16,10 @@ import {
   withCreasedNormals,
   withDefaultTexCoords,
 } from "../tessellate/faces.ts";
+import { withGeneratedTexCoords } from "../tessellate/texCoordModes.ts";
+import { texCoordModeOf, texCoordsOf } from "./texCoordNodes.ts";
+import type { PlaneGeometry } from "../tessellate/geometry2d.ts";
+import { arc, circle, closedArc, disk, polyline, polypoint, rectangle, triangles2d } from "../tessellate/geometry2d.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import type { Solid } from "../tessellate/solids.ts";
@@ -42,12 +46,56 @@ const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[
   },
 };
 
+type PlaneReader = (
+  element: SceneElement,
+  warnings: Warning[],
+) => { readonly geometry: PlaneGeometry; readonly solid: boolean };
+
+/** A reader of the node's fields that makes geometry of them; lines and points have no `solid`. */
+function planeReader<Fields extends Parameters<typeof readFields>[1]>(
+  fields: Fields,
+  geometryOf: (values: Values<Fields>) => PlaneGeometry,
+): PlaneReader {
+  return (element, warnings) => {
+    const values = readFields(element, fields, warnings);
+    return { geometry: geometryOf(values), solid: "solid" in values && values.solid === true };
+  };
+}
+
+const planeReaders: Readonly<Record<string, PlaneReader>> = {
+  arc2d: planeReader(nodeFields.Arc2D, arc),
+  arcclose2d: planeReader(nodeFields.ArcClose2D, closedArc),
+  circle2d: planeReader(nodeFields.Circle2D, circle),
+  disk2d: planeReader(nodeFields.Disk2D, disk),
+  polyline2d: planeReader(nodeFields.Polyline2D, ({ lineSegments }) => polyline(lineSegments)),
+  polypoint2d: planeReader(nodeFields.Polypoint2D, ({ point }) => polypoint(point)),
+  rectangle2d: planeReader(nodeFields.Rectangle2D, rectangle),
+  triangleset2d: planeReader(nodeFields.TriangleSet2D, ({ vertices }) => triangles2d(vertices)),
+};
+
 const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => Runs>> = {
   indexedfaceset: (fields, data) => indexedRuns(fields, data),
   indexedlineset: (fields, data) => indexedRuns(fields, data),
-  triangleset: (fields, data) => runsByVertex(fields, data, triplesOf(indicesTo(data.positions.length / 3))),
+  triangleset: (fields, data) => runsByVertex(fields, data, tuplesOf(3, indicesTo(data.positions.length / 3))),
   indexedtriangleset: (fields, data) =>
-    runsByVertex(fields, data, triplesOf(fields.index.filter((vertex) => vertex >= 0))),
+    runsByVertex(
+      fields,
+      data,
+      tuplesOf(
+        3,
+        fields.index.filter((vertex) => vertex >= 0),
+      ),
+    ),
+  quadset: (fields, data) => runsByVertex(fields, data, tuplesOf(4, indicesTo(data.positions.length / 3))),
+  indexedquadset: (fields, data) =>
+    runsByVertex(
+      fields,
+      data,
+      tuplesOf(
+        4,
+        fields.index.filter((vertex) => vertex >= 0),
+      ),
+    ),
   trianglestripset: (fields, data) => runsByVertex(fields, data, consecutiveRuns(fields.stripCount).flatMap(strip)),
   indexedtrianglestripset: (fields, data) =>
     runsByVertex(fields, data, runsBetweenNegatives(fields.index).flatMap(strip)),
@@ -87,14 +135,17 @@ export type InlineGeometryReader = (
 export const readInlineGeometry: InlineGeometryReader = (element, resolve, warnings) => {
   const name = lowerNameOf(element);
   const readSolid = solids[name],
+    readPlane = planeReaders[name],
     readRuns = runReaders[name],
     readSurface = surfaces[name];
+  if (readPlane) return planeGeometryOf(readPlane, element, warnings);
   if (!readSolid && !readRuns && !readSurface) return undefined;
   const solidMesh = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings);
   if (solidMesh)
     return geometryOfArrays(vertexArraysOf("triangles", solidMesh.data, fansOf(solidMesh.faces)), fields.solid);
   const childData = vertexDataOf(element, resolve, warnings);
+  const texCoordMode = texCoordModeOf(element, resolve, warnings);
   const surface = readSurface?.(element, childData, warnings);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });
   const data = surface?.data ?? childData,
@@ -102,8 +153,24 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   const isCreased = readSurface !== undefined || name === "indexedfaceset";
   const arrays = arraysOfRuns(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
-  return geometryOfArrays(arrays, fields.solid);
+  return geometryOfArrays(arrays && withGeneratedTexCoords(arrays, texCoordMode), fields.solid);
 };
+
+function planeGeometryOf(
+  readPlane: PlaneReader,
+  element: SceneElement,
+  warnings: Warning[],
+): GeometryDescription | undefined {
+  const {
+    geometry: { primitive, data: ownData, faces: ownFaces },
+    solid,
+  } = readPlane(element, warnings);
+  if (primitive === "points") return geometryOfArrays(vertexArraysOf(primitive, ownData, ownFaces.flat()), solid);
+  if (primitive === "lines") return geometryOfArrays(vertexArraysOf(primitive, ownData, linesOf(ownFaces)), solid);
+  const { data, faces } =
+    ownData.texCoords.length > 0 ? { data: ownData, faces: ownFaces } : withDefaultTexCoords(ownData, ownFaces);
+  return geometryOfArrays(vertexArraysOf(primitive, data, fansOf(faces)), solid);
+}
 
 function arraysOfRuns(
   primitive: VertexArrays["primitive"],
@@ -127,21 +194,20 @@ function arraysOfRuns(
   return vertexArraysOf(primitive, creased.data, cornersOf(creased.faces));
 }
 
+/** The first child with one of these lower-case names, its USE resolved. */
+function childNamed(element: SceneElement, resolve: Resolve, ...names: string[]): SceneElement | undefined {
+  const child = childrenOf(element).find((candidate) => names.includes(lowerNameOf(candidate)));
+  return child && resolve(child);
+}
+
 function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): VertexData {
-  const childNamed = (...names: string[]): SceneElement | undefined => {
-    const child = childrenOf(element).find((candidate) => names.includes(lowerNameOf(candidate)));
-    return child && resolve(child);
-  };
-  const [coordinate, normal, texCoord, color] = [
-    childNamed("coordinate"),
-    childNamed("normal"),
-    childNamed("texturecoordinate"),
-    childNamed("color", "colorrgba"),
-  ];
+  const coordinate = childNamed(element, resolve, "coordinate", "coordinatedouble");
+  const normal = childNamed(element, resolve, "normal");
+  const color = childNamed(element, resolve, "color", "colorrgba");
   return {
     positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
     normals: normal ? readFields(normal, nodeFields.Normal, warnings).vector : [],
-    texCoords: texCoord ? readFields(texCoord, nodeFields.TextureCoordinate, warnings).point : [],
+    texCoords: texCoordsOf(element, resolve, warnings),
     colors: color ? readFields(color, nodeFields.Color, warnings).color : [],
     colorComponents: color && lowerNameOf(color) === "colorrgba" ? 4 : 3,
   };
@@ -186,8 +252,9 @@ function indicesTo(count: number): number[] {
   return Array.from({ length: count }, (_, index) => index);
 }
 
-function triplesOf(vertices: readonly number[]): number[][] {
-  return indicesTo(Math.floor(vertices.length / 3)).map((triple) => vertices.slice(3 * triple, 3 * triple + 3));
+/** Whole tuples of successive vertices; the rest is left out. */
+function tuplesOf(size: number, vertices: readonly number[]): number[][] {
+  return indicesTo(Math.floor(vertices.length / size)).map((tuple) => vertices.slice(size * tuple, size * (tuple + 1)));
 }
 
 /** Runs of consecutive vertices of these lengths. */

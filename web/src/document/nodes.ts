@@ -235,6 +235,20 @@ export const nodeFields = {
   Sphere: { radius: SFFloat(1) },
   Cylinder: { radius: SFFloat(1), height: SFFloat(2), side: SFBool(true), top: SFBool(true), bottom: SFBool(true) },
   Cone: { bottomRadius: SFFloat(1), height: SFFloat(2), side: SFBool(true), bottom: SFBool(true) },
+  Arc2D: { startAngle: SFFloat(0), endAngle: SFFloat(1.570796), radius: SFFloat(1) },
+  ArcClose2D: {
+    closureType: SFString("PIE"),
+    startAngle: SFFloat(0),
+    endAngle: SFFloat(1.570796),
+    radius: SFFloat(1),
+    solid: SFBool(false),
+  },
+  Circle2D: { radius: SFFloat(1) },
+  Disk2D: { innerRadius: SFFloat(0), outerRadius: SFFloat(1), solid: SFBool(false) },
+  Polyline2D: { lineSegments: MFFloat([]) },
+  Polypoint2D: { point: MFFloat([]) },
+  Rectangle2D: { size: SFVec2f([2, 2]), solid: SFBool(false) },
+  TriangleSet2D: { vertices: MFFloat([]), solid: SFBool(false) },
   /** The fields of all geometry nodes whose vertices are in the document; each node has some of them. */
   InlineGeometry: {
     solid: SFBool(true),
@@ -285,6 +299,7 @@ export const nodeFields = {
   Coordinate: { point: MFFloat([]) },
   Normal: { vector: MFFloat([]) },
   TextureCoordinate: { point: MFFloat([]) },
+  TextureCoordinateGenerator: { mode: SFString("SPHERE") },
   Color: { color: MFFloat([]) },
   GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
   ImageTexture: {

@@ -1,0 +1,63 @@
+#include "import/x3d/texture_coordinates.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace imgeo::x3d {
+
+namespace {
+
+bool isTexCoordSet(std::string_view element) {
+  return element == "TextureCoordinate" || element == "TextureCoordinateGenerator";
+}
+
+/// The modes that depend on positions; all others depend on normals.
+constexpr std::array<std::string_view, 5> positionModes{"COORD", "COORD-EYE", "CAMERASPACEPOSITION", "NOISE",
+                                                        "NOISE-EYE"};
+
+} // namespace
+
+std::vector<pugi::xml_node> texCoordNodes(const Source& source, pugi::xml_node geometry) {
+  std::vector<pugi::xml_node> nodes;
+  for (const pugi::xml_node& child : geometry.children()) {
+    const std::string_view name = child.name();
+    if (isTexCoordSet(name)) {
+      nodes.push_back(source.resolved(child));
+      break;
+    }
+    if (name == "MultiTextureCoordinate") {
+      for (const pugi::xml_node& set : source.resolved(child).children())
+        if (isTexCoordSet(set.name()))
+          nodes.push_back(source.resolved(set));
+      break;
+    }
+  }
+  return nodes;
+}
+
+std::optional<TexCoordGenerator> texCoordGeneratorOf(pugi::xml_node node) {
+  if (std::string_view(node.name()) != "TextureCoordinateGenerator")
+    return {};
+  const std::string mode = node.attribute("mode").as_string("SPHERE");
+  const bool usesPositions = std::ranges::find(positionModes, mode) != positionModes.end();
+  TexCoordGenerator generator{usesPositions ? TexCoordMode::coord : TexCoordMode::sphereLocal, ""};
+  if (mode != (usesPositions ? "COORD" : "SPHERE-LOCAL"))
+    generator.approximated = mode;
+  return generator;
+}
+
+void addGeneratedTexCoords(TexCoordMode mode, VertexData& data, Faces& faces) {
+  const bool usesNormals = mode == TexCoordMode::sphereLocal;
+  if (usesNormals && faces.topology != Topology::triangles)
+    return;
+  if (usesNormals && data.normals.empty())
+    addCreaseNormals(data, faces, std::numbers::pi);
+  data.texCoords.clear();
+  for (const Vec3f& value : usesNormals ? data.normals : data.positions)
+    data.texCoords.push_back(usesNormals ? Vec2f{value.x / 2 + 0.5f, value.y / 2 + 0.5f} : Vec2f{value.x, value.y});
+  for (Corner& corner : faces.corners)
+    corner.texCoord = usesNormals ? corner.normal : corner.position;
+}
+
+} // namespace imgeo::x3d

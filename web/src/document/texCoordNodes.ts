@@ -1,0 +1,54 @@
+// Reads the nodes of texture coordinates that a geometry node can have as children.
+
+import type { Warning } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { childrenOf, lowerNameOf } from "./element.ts";
+import type { TexCoordMode } from "../tessellate/texCoordModes.ts";
+import { nearestTexCoordMode } from "../tessellate/texCoordModes.ts";
+import { nodeFields, readFields } from "./nodes.ts";
+
+/** The element that a USE names, or the element itself; undefined where the name is unknown. */
+type Resolve = (element: SceneElement) => SceneElement | undefined;
+
+const singleNodes = ["texturecoordinate", "texturecoordinategenerator"];
+
+/**
+ * The nodes of all sets of texture coordinates, in the order of channels: the children of a MultiTextureCoordinate, or
+ * the single node.
+ */
+export function texCoordNodesOf(geometry: SceneElement, resolve: Resolve): SceneElement[] {
+  for (const child of childrenOf(geometry)) {
+    const isSingle = singleNodes.includes(lowerNameOf(child));
+    if (!isSingle && lowerNameOf(child) !== "multitexturecoordinate") continue;
+    const node = resolve(child);
+    if (isSingle || node === undefined) return node === undefined ? [] : [node];
+    return childrenOf(node).flatMap((set) => (singleNodes.includes(lowerNameOf(set)) ? (resolve(set) ?? []) : []));
+  }
+  return [];
+}
+
+/** The numbers of the first set; empty where there is none or a generator computes it. */
+export function texCoordsOf(geometry: SceneElement, resolve: Resolve, warnings: Warning[]): readonly number[] {
+  const [first, ...others] = texCoordNodesOf(geometry, resolve);
+  if (others.length > 0)
+    warnings.push({
+      element: geometry,
+      message: `has ${others.length + 1} sets of texture coordinates; the first is used`,
+    });
+  if (first === undefined || lowerNameOf(first) !== "texturecoordinate") return [];
+  return readFields(first, nodeFields.TextureCoordinate, warnings).point;
+}
+
+/** How the first set is computed from the vertices; undefined where its numbers are given or there is none. */
+export function texCoordModeOf(
+  geometry: SceneElement,
+  resolve: Resolve,
+  warnings: Warning[],
+): TexCoordMode | undefined {
+  const [first] = texCoordNodesOf(geometry, resolve);
+  if (first === undefined || lowerNameOf(first) !== "texturecoordinategenerator") return undefined;
+  const { mode } = readFields(first, nodeFields.TextureCoordinateGenerator, warnings);
+  const drawn = nearestTexCoordMode[mode] ?? "SPHERE-LOCAL";
+  if (drawn !== mode) warnings.push({ element: first, message: `mode="${mode}" is drawn as ${drawn}` });
+  return drawn;
+}
