@@ -30,15 +30,20 @@ void Source::addDefs(pugi::xml_node element, std::size_t depth) {
 
 pugi::xml_node Source::resolved(pugi::xml_node element) const {
   const pugi::xml_attribute use = element.attribute("USE");
-  if (!use)
-    return element;
-  const auto found = defs_.find(use.value());
+  return use ? defined(use.value()) : element;
+}
+
+pugi::xml_node Source::defined(std::string_view name) const {
+  const auto found = defs_.find(name);
   return found == defs_.end() ? pugi::xml_node() : found->second;
 }
 
+std::string Source::locationOf(pugi::xml_node element) const {
+  return x3d::locationOf(text_, name_, elements_.offsetOf(element));
+}
+
 void Source::fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const {
-  throw Error(kind, locationOf(text_, name_, elements_.offsetOf(element)),
-              fmt::format("{}: {}", element.name(), message));
+  throw Error(kind, locationOf(element), fmt::format("{}: {}", element.name(), message));
 }
 
 std::vector<double> Source::reals(pugi::xml_node element, const char* field) const {

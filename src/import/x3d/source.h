@@ -21,6 +21,11 @@ public:
   /// The element that a USE names, or the element itself without USE. A null node where no DEF has the name.
   pugi::xml_node resolved(pugi::xml_node element) const;
 
+  /// The first element that has this DEF; a null node where there is none.
+  pugi::xml_node defined(std::string_view name) const;
+
+  /// "hall.wrl:12:3", the place of an element.
+  std::string locationOf(pugi::xml_node element) const;
   [[noreturn]] void fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const;
 
   // Fields of an element, by their X3D name. Throw Error{malformed} for values of another type.

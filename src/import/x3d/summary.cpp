@@ -2,53 +2,25 @@
 
 #include "import/warnings.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <set>
 
 namespace imgeo::x3d {
 
 bool isDrawnInPages(std::string_view element) {
-  static const std::set<std::string_view> drawn{"Arc2D",
-                                                "ArcClose2D",
-                                                "Box",
-                                                "Circle2D",
-                                                "Cone",
-                                                "Cylinder",
-                                                "Disk2D",
-                                                "ElevationGrid",
-                                                "Extrusion",
-                                                "IndexedFaceSet",
-                                                "IndexedLineSet",
-                                                "IndexedQuadSet",
-                                                "IndexedTriangleFanSet",
-                                                "IndexedTriangleSet",
-                                                "IndexedTriangleStripSet",
-                                                "LineSet",
-                                                "PointSet",
-                                                "Polyline2D",
-                                                "Polypoint2D",
-                                                "QuadSet",
-                                                "Rectangle2D",
-                                                "Sphere",
-                                                "Text",
-                                                "TriangleFanSet",
-                                                "TriangleSet",
-                                                "TriangleSet2D",
-                                                "TriangleStripSet",
-                                                "ImageGeometry",
-                                                "BinaryGeometry"};
-  return drawn.contains(element);
+  const NodeRow* row = nodeRow(element);
+  return row && row->containerField == "geometry" && row->treatment == NodeTreatment::drawn;
 }
 
-bool isInteractive(std::string_view element) {
-  static constexpr std::array endings{"Interpolator", "Interpolator2D", "Sequencer", "Sensor",
-                                      "Trigger",      "Chaser",         "Damper",    "Follower"};
-  return element == "ROUTE" || element == "Script" ||
-         std::ranges::any_of(endings, [&](const char* ending) { return element.ends_with(ending); });
+bool isLeftOut(std::string_view element) {
+  const NodeRow* row = nodeRow(element);
+  return !row || row->treatment == NodeTreatment::dropped;
+}
+
+std::string_view reasonToLeaveOut(std::string_view element) {
+  const NodeRow* row = nodeRow(element);
+  return row ? row->note : "it is no node of X3D 4.0";
 }
 
 void Summary::noteScale(Vec3d scale) {
@@ -60,20 +32,34 @@ void Summary::noteScale(Vec3d scale) {
     isFlat |= size == 0;
     isExtreme |= size > maxScale || (size > 0 && size < minScale);
   }
-  flatTransforms += isFlat;
-  extremeTransforms += isExtreme;
+  flatTransforms_ += isFlat;
+  extremeTransforms_ += isExtreme;
+}
+
+void Summary::noteKept(std::string_view element) {
+  const NodeRow* row = nodeRow(element);
+  if (row && row->treatment == NodeTreatment::kept && !row->note.empty())
+    ++kept_[std::string(row->note)][std::string(element)];
+}
+
+void Summary::noteLeftOut(std::string_view element, const std::string& where) {
+  LeftOut& kind = leftOut_[std::string(element)];
+  if (++kind.count == 1)
+    kind.first = where;
 }
 
 void Summary::addTo(std::vector<std::string>& warnings) const {
+  for (const auto& [element, kind] : leftOut_)
+    warnings.push_back(fmt::format("{} ({}) left out, since {}; {} at {}.", element, kind.count,
+                                   reasonToLeaveOut(element), kind.count == 1 ? "it is" : "the first is", kind.first));
+  for (const auto& [reason, counts] : kept_)
+    warnOfElements(warnings, fmt::format("Kept without effect, since {}", reason), counts);
   if (remoteImages > 0)
     warnings.push_back(fmt::format("{} left on other hosts.", counted(remoteImages, "texture is", "textures are")));
   if (remoteInlines > 0)
     warnings.push_back(fmt::format("{} left on other hosts.", counted(remoteInlines, "Inline is", "Inlines are")));
   warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
-  warnOfElements(warnings, "Geometry that stays as it is and that imgeo's pages do not draw", notDrawn);
   warnOfElements(warnings, "Geometry without faces, lines or points", empty);
-  warnOfElements(warnings, "Nodes that animate or interact stay as they are, and imgeo's pages do not run them",
-                 interactive);
   warnOfElements(warnings,
                  "Texture coordinates that depend on the camera or on noise are made of the shape's own normals "
                  "or positions instead",
@@ -81,16 +67,16 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
   if (furtherTexCoords > 0)
     warnings.push_back(fmt::format("{} several sets of texture coordinates, of which the first is used.",
                                    counted(furtherTexCoords, "geometry has", "geometries have")));
-  if (flatTransforms > 0)
+  if (flatTransforms_ > 0)
     warnings.push_back(fmt::format("{} by 0: what stands there is flat, or not seen at all.",
-                                   counted(flatTransforms, "Transform scales", "Transforms scale")));
-  if (extremeTransforms > 0)
+                                   counted(flatTransforms_, "Transform scales", "Transforms scale")));
+  if (extremeTransforms_ > 0)
     warnings.push_back(fmt::format("{} by more than 10^15 or less than 10^-15: what stands there cannot be drawn.",
-                                   counted(extremeTransforms, "Transform scales", "Transforms scale")));
+                                   counted(extremeTransforms_, "Transform scales", "Transforms scale")));
   warnOfFans(warnings, fans);
 }
 
-void warnOfElements(std::vector<std::string>& warnings, const char* what, const Summary::Counts& counts) {
+void warnOfElements(std::vector<std::string>& warnings, const std::string& what, const Summary::Counts& counts) {
   std::vector<std::string> elements;
   for (const auto& [element, count] : counts)
     elements.push_back(fmt::format("{} ({})", element, count));

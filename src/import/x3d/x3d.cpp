@@ -5,10 +5,12 @@
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/inlines.h"
+#include "import/x3d/node_conversions.h"
 #include "import/x3d/prototypes.h"
 #include "import/x3d/summary.h"
 #include "scene/mf_string.h"
 
+#include <array>
 #include <fmt/format.h>
 #include <set>
 
@@ -36,11 +38,6 @@ std::vector<FieldText> fieldsOf(pugi::xml_node element, std::initializer_list<st
         !isNameField(name) && std::ranges::find(without, name) == without.end())
       fields.push_back({std::string(name), attribute.value()});
   return fields;
-}
-
-/// Whether a child of a Shape is not its geometry.
-bool isAppearanceOrMetadata(std::string_view element) {
-  return element == "Appearance" || element.starts_with("Metadata");
 }
 
 class SceneReader {
@@ -95,11 +92,34 @@ private:
   std::optional<std::size_t> readElement(pugi::xml_node element) {
     if (element.type() == pugi::node_comment)
       return addNode(imported_.scene.graph, {"", GenericNode{commentElement, element.value(), {}}, {}, ""});
-    if (element.type() != pugi::node_element)
+    if (element.type() != pugi::node_element || isRouteOfLeftOut(element))
       return {};
     if (const pugi::xml_attribute use = element.attribute("USE"))
       return resolveUse(element, use.value());
+    if (isLeftOut(element.name())) {
+      leaveOut(element);
+      return {};
+    }
     return define(element, readNode(element));
+  }
+
+  void leaveOut(pugi::xml_node element) {
+    if (isStrict_)
+      source_.fail(element, ErrorKind::unsupported,
+                   fmt::format("left out, since {}", reasonToLeaveOut(element.name())));
+    summary_.noteLeftOut(element.name(), source_.locationOf(element));
+  }
+
+  /// Whether a ROUTE connects a node that is left out, alone or within another.
+  bool isRouteOfLeftOut(pugi::xml_node element) const {
+    if (std::string_view(element.name()) != "ROUTE")
+      return false;
+    return std::ranges::any_of(std::array{"fromNode", "toNode"}, [&](const char* end) {
+      pugi::xml_node node = source_.defined(element.attribute(end).value());
+      while (node && node != source_.root() && !isLeftOut(node.name()))
+        node = node.parent();
+      return node && node != source_.root();
+    });
   }
 
   std::size_t define(pugi::xml_node element, std::size_t node) {
@@ -114,6 +134,8 @@ private:
     if (const auto found = defined_.find(name); found != defined_.end())
       return found->second;
     const pugi::xml_node target = source_.resolved(element);
+    if (target && isLeftOut(target.name()))
+      return {}; // a consequence of what the summary says of its DEF
     const bool isEnclosing = reading_.contains(target.internal_object());
     if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
       return define(target, readNode(target));
@@ -154,25 +176,31 @@ private:
       addInlined(element, node);
     else
       addChildren(element, node, {});
+    summary_.noteKept(name);
     return addNode(imported_.scene.graph, std::move(node));
   }
 
   void addChildren(pugi::xml_node element, Node& node, pugi::xml_node without) {
     for (const pugi::xml_node& child : element.children())
-      if (child != without)
+      if (child != without && !wouldAppear(child, element))
         addTo(node.children, child);
+  }
+
+  /// Whether a node of the scene is a child of a node without effect (a sensor's target): pages would draw it there.
+  static bool wouldAppear(pugi::xml_node child, pugi::xml_node parent) {
+    const NodeRow *row = nodeRow(child.name()), *parentRow = nodeRow(parent.name());
+    const bool isOfScene = row && row->containerField == "children" && row->treatment == NodeTreatment::drawn;
+    return isOfScene && parentRow && parentRow->level > 0 && parentRow->treatment == NodeTreatment::kept;
   }
 
   GenericNode genericNodeOf(pugi::xml_node element) {
     GenericNode node{element.name(), element.text().get(), {}};
-    if (isInteractive(node.element))
-      ++summary_.interactive[node.element];
     const pugi::xml_attribute url = element.attribute("url");
     if (!url || node.element == "Inline")
       return node;
     if (node.element == "ImageTexture")
       node.image = attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
-    else if (node.element != "Script")
+    else
       ++summary_.notCopied[node.element];
     return node;
   }
@@ -288,9 +316,6 @@ private:
       addChildren(element, node, child);
       return addNode(imported_.scene.graph, std::move(node));
     }
-    for (const pugi::xml_node& child : element.children())
-      if (child.type() == pugi::node_element && !isAppearanceOrMetadata(child.name()) && !isDrawnInPages(child.name()))
-        ++summary_.notDrawn[child.name()];
     return {};
   }
 
@@ -386,6 +411,7 @@ private:
 
 Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const PrototypeReport prototypes = expandPrototypes(elements, name);
+  const NodeConversions conversions = convertNodes(elements);
   const std::string format = elements.format;
   const Source source(std::move(elements), asText(bytes), name);
   Imported imported = SceneReader(source, References(options, name), options).read();
@@ -395,6 +421,8 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
                                             counted(prototypes.instances, "instance", "instances"),
                                             counted(prototypes.prototypes, "prototype is", "prototypes are")));
   warnOfElements(imported.warnings, "Left out of prototypes", prototypes.leftOut);
+  warnOfElements(imported.warnings, "Written as other nodes", conversions.converted);
+  warnOfElements(imported.warnings, "Left out of materials", conversions.leftOut);
   return imported;
 }
 

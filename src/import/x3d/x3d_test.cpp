@@ -176,15 +176,6 @@ TEST(X3d, KeepsOnlyShorterGeometryWhereThereIsMuchOfIt) {
   EXPECT_EQ(meshesOf(500), 500u);
 }
 
-TEST(X3d, WarnsAboutGeometryThatPagesDoNotDraw) {
-  const Imported imported = readScene("<Shape><GeoElevationGrid/></Shape><Shape><Appearance/><NoNode/></Shape>"
-                                      "<Shape><Circle2D/></Shape><Shape><NoNode/></Shape>");
-  EXPECT_EQ(imported.warnings,
-            std::vector<std::string>{
-                "Geometry that stays as it is and that imgeo's pages do not draw: GeoElevationGrid (1), NoNode (2)."});
-  EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
-}
-
 TEST(X3d, WarnsOfTextureCoordinatesThatItLeavesOutOrApproximates) {
   const std::string quad = "<Shape><IndexedFaceSet coordIndex='0 1 2 3'>" + square;
   EXPECT_TRUE(readScene(quad + "<TextureCoordinateGenerator mode='COORD'/></IndexedFaceSet></Shape>").warnings.empty());
@@ -199,6 +190,48 @@ TEST(X3d, WarnsOfTextureCoordinatesThatItLeavesOutOrApproximates) {
                   .warnings.size(),
               1u);
   }
+}
+
+TEST(X3d, KeepsNodesWithoutEffectAndSaysSoInOneLineForEachReason) {
+  const Imported imported =
+      readScene("<TimeSensor DEF='T'/><AudioClip/><PositionInterpolator DEF='P'/><Shape><Sphere/></Shape><TimeSensor/>"
+                "<ROUTE fromNode='T' fromField='fraction_changed' toNode='P' toField='set_fraction'/>");
+  EXPECT_EQ(imported.warnings,
+            (std::vector<std::string>{"Kept without effect, since pages do not animate or interact: "
+                                      "PositionInterpolator (1), ROUTE (1), TimeSensor (2).",
+                                      "Kept without effect, since pages play no sound: AudioClip (1)."}));
+  EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
+}
+
+TEST(X3d, LeavesOutNodesThatPagesCannotDrawAndUnknownOnesWithTheirChildren) {
+  const std::string scene = "<VolumeData DEF='V'><ImageTexture3D/></VolumeData>\n<Script DEF='S'/><Foo><Shape DEF='B'>"
+                            "<Box/></Shape></Foo>\n<Foo/><Transform><VolumeData USE='V'/><Shape USE='B'/></Transform>"
+                            "<ROUTE fromNode='S' fromField='a' toNode='V' toField='b'/>";
+  const Imported imported = readScene(scene);
+  EXPECT_EQ(imported.warnings,
+            (std::vector<std::string>{
+                "Foo (2) left out, since it is no node of X3D 4.0; the first is at a.x3d:2:19.",
+                "Script (1) left out, since pages run no scripts; it is at a.x3d:2:2.",
+                "VolumeData (1) left out, since pages render no volumes and no three-dimensional textures; it is at "
+                "a.x3d:1:28."}));
+  const SceneGraph& graph = imported.scene.graph;
+  ASSERT_EQ(graph.roots.size(), 1u);
+  const Node& transform = graph.nodes[graph.roots[0]];
+  ASSERT_EQ(transform.children.size(), 1u) << "the Shape that an unknown node contains can be used";
+  EXPECT_EQ(std::get<GenericNode>(graph.nodes[transform.children[0]].content).element, "Shape");
+  ImportOptions strict;
+  strict.strict = true;
+  const Error error = testing::errorOf("<X3D><Scene>" + scene + "</Scene></X3D>", "a.x3d", strict);
+  EXPECT_EQ(error.kind(), ErrorKind::unsupported);
+  EXPECT_EQ(error.location(), "a.x3d:1:14");
+}
+
+TEST(X3d, DrawsNoTargetOfASensorASecondTime) {
+  const SceneGraph graph = readScene("<Shape DEF='S'><Box/></Shape><TransformSensor><Shape USE='S'/>"
+                                     "<MetadataString name='m'/></TransformSensor>")
+                               .scene.graph;
+  ASSERT_EQ(graph.roots.size(), 2u);
+  ASSERT_EQ(graph.nodes[graph.roots[1]].children.size(), 1u);
 }
 
 TEST(X3d, ReadsTexturesFromItsOwnFolderOnly) {
