@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/convert_options.h"
 #include "cli/convert_report.h"
+#include "cli/embed_snippet.h"
 #include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "imgeo/convert.h"
@@ -49,6 +50,8 @@ int runConvert(const Arguments& arguments) {
     printFiles(output);
   printCosts(report);
   fmt::print("\nTo look at it: imgeo serve {}\n", output);
+  if (report.x3domUrl.empty())
+    fmt::print("To embed it in a page beside this folder:\n{}\n", embedSnippet(output));
   return 0;
 }
 

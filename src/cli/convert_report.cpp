@@ -2,6 +2,7 @@
 
 #include "cli/choices.h"
 #include "cli/element_counts.h"
+#include "cli/embed_snippet.h"
 #include "cli/terminal.h"
 #include "containers/encodings.h"
 
@@ -161,6 +162,8 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   Json json;
   json["input"] = arguments.text("input");
   json["output"] = arguments.text("output");
+  if (report.x3domUrl.empty())
+    json["embed"] = embedSnippet(arguments.text("output"));
   json["format"] = report.format;
   json["sourceBytes"] = report.sourceBytes;
   json["container"] = arguments.text("container");

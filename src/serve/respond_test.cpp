@@ -108,6 +108,8 @@ TEST_F(Respond, HiddenFilesAndPipesAreNotServed) {
 TEST_F(Respond, ContentNamedFilesAreImmutableAndOthersAreRevalidated) {
   EXPECT_EQ(get("/coord0-0123456789abcdef.png").field("Cache-Control"), "public, max-age=31536000, immutable");
   EXPECT_EQ(get("/plane.bin").field("Cache-Control"), "no-cache");
+  put("imgeo.js", "the module that other people's pages name");
+  EXPECT_EQ(get("/imgeo.js").field("Cache-Control"), "no-cache");
   EXPECT_EQ(get("/").field("Cache-Control"), "no-cache");
   EXPECT_EQ(get("/missing-0123456789abcdef.png").field("Cache-Control"), "no-cache");
 }

@@ -35,6 +35,21 @@ TEST_F(Convert, ReportsWhatItChose) {
             (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html", "runtime", "scene.x3d"}));
 }
 
+TEST_F(Convert, PrintsHowToEmbedTheSiteInAPageBesideItsFolder) {
+  const std::string site = directory_ / "A & B";
+  const std::string snippet = "<script type=\"module\" src=\"A%20%26%20B/runtime/imgeo.js\"></script>\n"
+                              "<imgeo-viewer src=\"A%20%26%20B/\"></imgeo-viewer>";
+  EXPECT_NE(run({"convert", input_, "-o", site}).out.find(snippet), std::string::npos);
+  EXPECT_EQ(Json::parse(run({"convert", input_, "-o", site + "/", "--json"}).out)["embed"], snippet);
+  // The module of that name leads to the one that the site's own page loads.
+  const std::string page = textOf(site + "/index.html"), module = textOf(site + "/runtime/imgeo.js");
+  const std::size_t begin = page.find("src=\"runtime/imgeo-") + std::string("src=\"runtime/").size();
+  EXPECT_NE(module.find("\"./" + page.substr(begin, page.find('"', begin) - begin) + "\""), std::string::npos)
+      << module;
+  EXPECT_EQ(run({"convert", input_, "-o", site, "--target", "x3dom"}).out.find("imgeo-viewer"), std::string::npos)
+      << "that site has no runtime of ours";
+}
+
 TEST_F(Convert, ReportsTheErrorOfEverythingThatItRounds) {
   const std::string input = directory_ / "painted.ply", points = directory_ / "points.ply";
   write(input, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

@@ -54,4 +54,12 @@ Runtime runtimeOfSite() {
   return site;
 }
 
+std::string runtimeModuleText(const Runtime& runtime) {
+  // The page's module imports the shared one itself; named here too, both are requested at once.
+  return fmt::format(
+      "// The runtime of imgeo. Servers should have this file revalidated (Cache-Control: no-cache), and may "
+      "keep the files\n// that it names forever.\nimport \"./{}\";\nimport \"./{}\";\n",
+      runtime.shared.name, runtime.page.name);
+}
+
 } // namespace imgeo

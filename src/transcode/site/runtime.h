@@ -27,4 +27,8 @@ struct RuntimeFile {
 using Runtime = RuntimeModules<RuntimeFile>;
 Runtime runtimeOfSite();
 
+/// The text of the module that other people's pages load, `runtimeModuleName` (site_files.h). Its name never changes,
+/// so no page has to be edited after an upgrade; it imports the modules of `runtime`, which lie in the same folder.
+std::string runtimeModuleText(const Runtime& runtime);
+
 } // namespace imgeo

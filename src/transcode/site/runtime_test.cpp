@@ -45,5 +45,12 @@ TEST(Runtime, ModulesOfASiteAreNamedByTheirContentAndImportEachOtherByTheseNames
   }
 }
 
+TEST(Runtime, TheModuleOfOtherPagesImportsThoseOfTheSite) {
+  const Runtime runtime = runtimeOfSite();
+  const std::string text = runtimeModuleText(runtime);
+  for (const RuntimeFile* file : {&runtime.shared, &runtime.page})
+    EXPECT_NE(text.find("import \"./" + file->name + "\";"), std::string::npos) << text;
+}
+
 } // namespace
 } // namespace imgeo

@@ -116,6 +116,9 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document) {
   if (document.name == sceneName)
     return {};
   std::vector<std::string> urls = pageFilesOf(document.text);
+  const std::string runtimePrefix = std::string(runtimeFolder) + "/";
+  if (std::ranges::any_of(urls, [&](const std::string& url) { return url.starts_with(runtimePrefix); }))
+    urls.push_back(runtimePrefix + runtimeModuleName);
   // Modules import others as "./imgeo-....js".
   constexpr std::string_view name = "\"./imgeo-";
   for (std::size_t i = 0; i < urls.size(); ++i) {

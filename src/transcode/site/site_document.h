@@ -48,7 +48,8 @@ std::vector<std::string> previewFilesOf(const SceneDocument& scene);
 /// URLs of the runtime modules and the stylesheet that a page names, without those of other hosts and of X3DOM.
 std::vector<std::string> pageFilesOf(std::string_view html);
 
-/// The same for a site, with the modules that those modules import. Empty if the document is not a page.
+/// The same for a site, with the modules that those modules import, and the one that other people's pages load. Empty
+/// if the document is not a page.
 std::vector<std::string> pageFilesOf(const SiteDocument& document);
 
 /// The path of a relative URL. Throws Error{unsupported} for a URL that leads out of the document's folder.

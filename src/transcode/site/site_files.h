@@ -13,4 +13,7 @@ inline constexpr const char* geometryFolder = "geometry";
 inline constexpr const char* textureFolder = "textures";
 inline constexpr const char* runtimeFolder = "runtime";
 
+/// The only file of runtimeFolder whose name does not change with its content: other people's pages name it.
+inline constexpr const char* runtimeModuleName = "imgeo.js";
+
 } // namespace imgeo

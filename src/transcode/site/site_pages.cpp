@@ -50,6 +50,7 @@ void writePages(const SceneDocument& document, const fs::path& site) {
   fs::create_directory(site / runtimeFolder);
   for (const RuntimeFile& file : {runtime.page, runtime.shared, runtime.scene, runtime.worker})
     writeFile(site / runtimeFolder / file.name, asBytes(file.text));
+  writeFile(site / runtimeFolder / runtimeModuleName, asBytes(runtimeModuleText(runtime)));
   writeFile(site / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
   writeFile(site / pageName,

@@ -33,7 +33,7 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
       allPresent = false;
       continue;
     }
-    if (isForeign || file.extension() == ".css")
+    if (isForeign || file.extension() == ".css" || file.filename() == runtimeModuleName)
       continue;
     const std::string stem = file.stem(), content = contentName(readFile(file));
     if (!stem.ends_with(content))

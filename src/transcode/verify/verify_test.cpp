@@ -265,6 +265,14 @@ TEST(Verify, SeesAnotherRuntime) {
   expectFinding(site, "does not hold what its name says");
 }
 
+TEST(Verify, SeesThatTheModuleOfOtherPagesIsGoneOrLeadsNowhere) {
+  DamagedSite gone, old;
+  std::filesystem::remove(gone.site() / runtimeFolder / runtimeModuleName);
+  expectFinding(gone, "runtime/imgeo.js is named by the document but is not there");
+  writeFile(old.site() / runtimeFolder / runtimeModuleName, asBytes("import \"./imgeo-0123456789abcdef.js\";\n"));
+  expectFinding(old, "runtime/imgeo-0123456789abcdef.js is named by the document but is not there");
+}
+
 TEST(Verify, ReadsNoFileOutsideTheSite) {
   DamagedSite site;
   site.geometry().patches[0].index->url = "../input.ply";

@@ -8,34 +8,34 @@ export interface WritableElement extends SceneElement {
   setAttribute(name: string, value: string): void;
 }
 
-/** URL fields by element; for geometry nodes all reference fields. */
+/** Our fields that hold URLs, by element. X3D's own end in "url": url, frontUrl, backUrl … */
 const referenceFields = ["index", "coord", ...vertexRoles.map((role) => role.toLowerCase()), "data", "base", "attrib"];
-const urlFields: Readonly<Record<string, readonly string[]>> = {
+const ownUrlFields: Readonly<Record<string, readonly string[]>> = {
   imagegeometry: referenceFields,
   binarygeometry: referenceFields,
   geometrypatch: referenceFields,
-  imagetexture: ["url", "preview"],
-  inline: ["url"],
-  anchor: ["url"],
-  movietexture: ["url"],
-  audioclip: ["url"],
+  imagetexture: ["preview"],
 };
 
 export function absoluteUrls(element: WritableElement, base: string): void {
-  const fields = urlFields[lowerNameOf(element)] ?? [];
+  const ownFields = ownUrlFields[lowerNameOf(element)] ?? [];
   for (const name of element.getAttributeNames()) {
-    if (!fields.includes(name.toLowerCase())) continue;
+    const field = name.toLowerCase();
+    if (!field.endsWith("url") && !ownFields.includes(field)) continue;
     element.setAttribute(name, withAbsoluteUrls(element.getAttribute(name) ?? "", base));
   }
   for (const child of childrenOf(element)) absoluteUrls(child as WritableElement, base);
 }
 
-/** Resolves one bare URL, or each of several quoted ones. Text that is no URL stays unchanged. */
+/**
+ * Resolves one bare URL, or each of several quoted ones. Text that is no URL stays unchanged, and so does a fragment,
+ * with which an Anchor names a viewpoint of its own document.
+ */
 export function withAbsoluteUrls(text: string, base: string): string {
   if (!text.includes('"')) return text.trim() === "" ? text : absolute(text.trim(), base);
   return text.replace(/"((?:[^"\\]|\\.)*)"/g, (_, quoted: string) => `"${absolute(quoted, base)}"`);
 }
 
 function absolute(url: string, base: string): string {
-  return url !== "" && URL.canParse(url, base) ? new URL(url, base).href : url;
+  return url !== "" && !url.startsWith("#") && URL.canParse(url, base) ? new URL(url, base).href : url;
 }

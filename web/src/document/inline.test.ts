@@ -40,7 +40,6 @@ describe("Inline", () => {
         [null, "in"],
       ],
     );
-    assert.equal(scene.navigation.headlight, true, "the NavigationInfo of an inlined document is ignored");
     assert.deepEqual(
       scene.inlines.map(({ urls, visible }) => [urls[0], visible]),
       [
@@ -50,6 +49,22 @@ describe("Inline", () => {
       ],
     );
     assert.deepEqual(scene.warnings, []);
+  });
+
+  test("takes NavigationInfo and Background from inlined documents only where the scene has none of its own", () => {
+    const inlined = inlinedFrom({
+      "outer.x3d": `<X3D><Inline url="inner.x3d"/><Background skyColor="0 1 0"/></X3D>`,
+      "inner.x3d": `<X3D><NavigationInfo headlight="false"/><Background skyColor="1 0 0"/></X3D>`,
+    });
+    const sceneOf = (own: string) => {
+      const { navigation, background } = readScene(
+        elementsOf(`<X3D><Scene><Inline url="outer.x3d"/><Inline url="inner.x3d"/>${own}</Scene></X3D>`),
+        { inlined },
+      );
+      return [navigation.headlight, background?.sky[0]?.color];
+    };
+    assert.deepEqual(sceneOf(""), [false, [0, 1, 0]]);
+    assert.deepEqual(sceneOf('<NavigationInfo/><Background skyColor="0 0 1"/>'), [true, [0, 0, 1]]);
   });
 
   test("warns of documents that inline one another in a circle, or too deeply", () => {
@@ -77,7 +92,8 @@ describe("Inline", () => {
     const x3d =
       elementsOf(`<X3D><ImageTexture url='"a.png" "../b.png" "https://c.org/d.png"'/><ImageGeometry base="g/b.png#12">
       <GeometryPatch index="g/i.png#7" coord='"g/x.png#1" "g/y.png"' bboxCenter="1 2 3"/></ImageGeometry>
-      <IndexedTriangleSet index="0 1 2"/><Inline url="deep.x3d"/></X3D>`);
+      <IndexedTriangleSet index="0 1 2"/><Inline url="deep.x3d"/><Background frontUrl='"sky.png"'/>
+      <Anchor url='"#Tower" "more.html"'/></X3D>`);
     absoluteUrls(asWritable(x3d), "https://h.org/w/a.x3d");
     const attributes: string[] = [];
     const collect = (element: TestElement) => {
@@ -93,6 +109,8 @@ describe("Inline", () => {
       "1 2 3",
       "0 1 2",
       "https://h.org/w/deep.x3d",
+      '"https://h.org/w/sky.png"',
+      '"#Tower" "https://h.org/w/more.html"',
     ]);
   });
 });

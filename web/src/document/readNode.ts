@@ -281,7 +281,10 @@ function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
   };
 }
 
-/** The document replaces the Inline and has its own DEF names; its NavigationInfo and Background are ignored. */
+/**
+ * The document replaces the Inline and has its own DEF names; its NavigationInfo and Background hold where the documents
+ * that contain it have none.
+ */
 function inlineReader(node: SceneElement, { warnings, inlined }: NodeReadingContext): FragmentReader {
   const { load, url, ...fields } = readFields(node, nodeFields.Inline, warnings);
   const x3d = load ? inlined(node) : undefined;
@@ -291,7 +294,14 @@ function inlineReader(node: SceneElement, { warnings, inlined }: NodeReadingCont
     const inlines =
       load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
     const { nodes, declarations } = readChildren(x3d ? [x3d] : [], inner);
-    const localDeclarations = { ...declarations, navigation: undefined, background: undefined };
+    const { navigation, background, inlinedNavigation, inlinedBackground } = declarations;
+    const localDeclarations = {
+      ...declarations,
+      navigation: undefined,
+      background: undefined,
+      inlinedNavigation: navigation ?? inlinedNavigation,
+      inlinedBackground: background ?? inlinedBackground,
+    };
     return {
       nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }],
       declarations: joinDeclarations([declarationsOf({ inlines }), ownDeclarations, localDeclarations]),

@@ -23,6 +23,9 @@ export interface SceneDeclarations {
   readonly navigation: NavigationDescription | undefined;
   /** The first Background. */
   readonly background: BackgroundDescription | undefined;
+  /** Those of inlined documents, for scenes that have none of their own. */
+  readonly inlinedNavigation: NavigationDescription | undefined;
+  readonly inlinedBackground: BackgroundDescription | undefined;
 }
 
 /** The only object for empty declarations, so that they are compared by identity. */
@@ -31,6 +34,8 @@ export const noDeclarations: SceneDeclarations = {
   inlines: [],
   navigation: undefined,
   background: undefined,
+  inlinedNavigation: undefined,
+  inlinedBackground: undefined,
 };
 
 /** State that groups pass down to their descendants. */
@@ -65,6 +70,8 @@ export function joinDeclarations(all: readonly SceneDeclarations[]): SceneDeclar
     inlines: nonEmpty.flatMap(({ inlines }) => inlines),
     navigation: nonEmpty.map(({ navigation }) => navigation).reduce(boundOf),
     background: nonEmpty.find(({ background }) => background)?.background,
+    inlinedNavigation: nonEmpty.map(({ inlinedNavigation }) => inlinedNavigation).reduce(boundOf),
+    inlinedBackground: nonEmpty.find(({ inlinedBackground }) => inlinedBackground)?.inlinedBackground,
   };
 }
 

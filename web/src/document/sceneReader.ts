@@ -104,8 +104,8 @@ export class SceneReader {
     const { chunkPriority } = readFields(this.#x3d, nodeFields.X3D, warnings);
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
-      navigation: declarations.navigation ?? defaultNavigation,
-      background: declarations.background,
+      navigation: declarations.navigation ?? declarations.inlinedNavigation ?? defaultNavigation,
+      background: declarations.background ?? declarations.inlinedBackground,
       chunkPriority,
       inlines: declarations.inlines,
       warnings,

@@ -4,6 +4,8 @@
 import type { Orbit } from "../navigation/orbit.ts";
 import { orbitOf } from "../navigation/orbit.ts";
 import { contextOf } from "../render/context.ts";
+import type { ImgeoViewer } from "../element/imgeoViewer.ts";
+import { viewMethods, viewProperties } from "../element/viewMembers.ts";
 import { makeUserInterface } from "./userInterface.ts";
 import { takePreview } from "../preview/previewRegistry.ts";
 import type { Loadable } from "./loadingEvents.ts";
@@ -164,31 +166,20 @@ export class ImgeoView extends HTMLElement {
   }
 }
 
-/** Members that <x3d> gets too: pages need not look for the <imgeo-view> in it. */
-const sharedMethods = [
-  "play",
-  "pause",
-  "dismissPoster",
-  "bindViewpoint",
-  "resetView",
-  "showAll",
-  "getCameraOrbit",
-  "getCameraPosition",
-  "toBlob",
-  "positionAndNormalFromPoint",
-] as const;
-const sharedProperties = ["statistics", "viewpoints", "paused"] as const;
-
 /** The properties that the runtime gives to <x3d>. */
 export type ViewElement = Element &
   Loadable &
-  Pick<ImgeoView, (typeof sharedMethods)[number] | (typeof sharedProperties)[number]>;
+  Pick<ImgeoView, (typeof viewMethods)[number] | (typeof viewProperties)[number]>;
 
+/** An <imgeo-viewer>, which has the same properties. They are undefined until the runtime has been loaded. */
+export type ViewerElement = ImgeoViewer & Omit<ViewElement, keyof Element>;
+
+/** Pages need not look for the <imgeo-view> in an <x3d>. */
 function addMembersTo(x3d: Element, view: ImgeoView): void {
-  for (const name of sharedMethods) {
+  for (const name of viewMethods) {
     Object.defineProperty(x3d, name, { value: view[name].bind(view), configurable: true, enumerable: true });
   }
-  for (const name of sharedProperties) {
+  for (const name of viewProperties) {
     Object.defineProperty(x3d, name, { get: () => view[name], configurable: true, enumerable: true });
   }
 }

@@ -1,7 +1,9 @@
 // The module that a page loads first: it draws previews, which need no runtime, and
 // loads the runtime, which takes them over.
 
-import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
+import { defineViewer } from "../element/imgeoViewer.ts";
+import { adoptPageStyle } from "../element/viewStyle.ts";
+import { isNearViewport } from "../element/visibility.ts";
 import type { Preview } from "../preview/preview.ts";
 import { startPreviews } from "../preview/startPreviews.ts";
 
@@ -13,6 +15,7 @@ const maxWaitMs = 3000;
 
 async function start(): Promise<void> {
   adoptPageStyle(document);
+  preloadInlined();
   const previews = startPreviewsIfPossible();
   if (previews.length > 0) await waitForPreviews(previews);
   const { registerViews } = await import("./register.ts");
@@ -20,6 +23,18 @@ async function start(): Promise<void> {
   await Promise.all(previews.filter(({ isDue }) => isDue).map(({ settled }) => settled));
   registerViews();
   for (const preview of previews) if (!preview.canvas.isConnected) preview.end(); // the page has removed it
+}
+
+/** Requests the documents of Inlines in the viewport, which the runtime needs first, while the runtime is being loaded. */
+function preloadInlined(): void {
+  for (const inline of document.querySelectorAll("x3d inline[url]")) {
+    const [url = ""] = /^[^"]+$|(?<=")[^"]+(?=")/.exec(inline.getAttribute("url") ?? "") ?? [];
+    const x3d = inline.closest("x3d");
+    if (url === "" || x3d === null || !isNearViewport(x3d.getBoundingClientRect(), 0)) continue;
+    const link = document.createElement("link");
+    Object.assign(link, { rel: "preload", as: "fetch", crossOrigin: "anonymous", href: url.trim() });
+    document.head.append(link);
+  }
 }
 
 /**
@@ -49,7 +64,8 @@ function startPreviewsIfPossible(): readonly Preview[] {
   }
 }
 
-if (customElements.get(viewTag) === undefined) {
+// A page with scenes of several sites names the module of each; the first one displays all of them.
+if (defineViewer()) {
   start().catch((error: unknown) => {
     console.error("imgeo: the runtime could not be loaded:", error);
   });

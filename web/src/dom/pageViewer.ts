@@ -208,6 +208,15 @@ export class PageViewer {
     return shapes.every(({ element, patches }) => this.#shapes.displays(element, patches));
   }
 
+  /** The title of the first inlined document that has one; undefined if there is none, or none has loaded. */
+  get inlinedTitle(): string | undefined {
+    const documents = (this.#core.scene?.inlines ?? []).map(({ element }) => this.#core.inlines.documentOf(element));
+    const titles = documents.map((document) =>
+      (document?.x3d as Element | undefined)?.querySelector("WorldInfo")?.getAttribute("title"),
+    );
+    return titles.find((title) => title) ?? undefined;
+  }
+
   /** Sets the GPU memory, in bytes, that vertex data and textures may take. */
   setBudget(bytes: number): void {
     this.#core.control.setBudget(bytes);
@@ -278,6 +287,9 @@ export class PageViewer {
         this.#inlines.onEnd(inline, error, (failure, element, loading) => {
           this.#fail(failure, element, loading);
         });
+      },
+      onInlineRead: () => {
+        this.#listener.onNavigation(); // the title may be the document's
       },
       onInlineRemoved: (inline) => {
         this.#inlines.onRemoved(inline);

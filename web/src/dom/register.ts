@@ -1,5 +1,6 @@
 // Adds a view to every <x3d> of the page, now and later.
 
+import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
@@ -8,9 +9,10 @@ function addMissingViews(): void {
   for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
 }
 
-/** Defines <imgeo-view> and adds one to every <x3d>. A second call has no effect. */
+/** Defines <imgeo-viewer> and <imgeo-view>, and adds an <imgeo-view> to every <x3d>. A second call has no effect. */
 export function registerViews(): void {
   if (customElements.get(viewTag) !== undefined) return;
+  defineViewer();
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);
   addMissingViews();

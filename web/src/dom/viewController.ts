@@ -215,6 +215,7 @@ export class ViewController {
       this.#settings.alt,
       ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
       this.#x3d.querySelector("worldinfo")?.getAttribute("title"),
+      this.viewer.inlinedTitle,
     ];
     return labels.find((label) => label !== "" && label !== null && label !== undefined) ?? "3D scene";
   }

@@ -51,8 +51,11 @@ export const viewStyle = sheetOf(`
 
 /** Default rules, with a specificity of zero: without them <x3d> is an unknown inline element. */
 const pageStyle = sheetOf(`
-  :where(x3d) { display: block; position: relative; width: 100%; aspect-ratio: 4 / 3; }
+  :where(x3d, imgeo-viewer) { display: block; position: relative; width: 100%; aspect-ratio: 4 / 3; }
+  :where(x3d, imgeo-viewer):where([hidden]) { display: none; }
   :where(x3d) > :where(:not(${viewTag})) { display: none; }
+  :where(imgeo-viewer) > :where(x3d) { position: absolute; inset: 0; width: auto; aspect-ratio: auto; }
+  :where(imgeo-viewer) > :where(:not(x3d)) { display: none; }
 `);
 
 export function adoptPageStyle(document: Document): void {
