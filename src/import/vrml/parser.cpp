@@ -47,8 +47,6 @@ private:
     pugi::xml_node x3d = elements_.add(elements_.top(), "X3D", tokens_.next());
     const std::string_view line = text_.substr(0, text_.find_first_of("\r\n"));
     const bool isX3d = line.starts_with("#X3D V");
-    if (line.starts_with("#VRML V1"))
-      tokens_.fail({}, ErrorKind::unsupported, "is VRML 1.0; imgeo reads VRML97 (VRML 2.0) and X3D");
     if (!isX3d && !line.starts_with("#VRML V2"))
       tokens_.fail({}, ErrorKind::malformed,
                    "begins neither with \"#VRML V2.0 utf8\" nor with \"#X3D V3\" or \"#X3D V4\"");

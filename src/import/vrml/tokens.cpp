@@ -81,8 +81,12 @@ Token VrmlTokens::take(TokenKind kind, const char* what) {
   return take();
 }
 
+std::string VrmlTokens::locationOf(const Token& token) const {
+  return x3d::locationOf(text_, name_, token.offset);
+}
+
 void VrmlTokens::fail(const Token& token, ErrorKind kind, const std::string& message) const {
-  throw Error(kind, locationOf(text_, name_, token.offset), message);
+  throw Error(kind, locationOf(token), message);
 }
 
 void VrmlTokens::failExpecting(const std::string& what) const {

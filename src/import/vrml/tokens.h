@@ -35,6 +35,8 @@ public:
   /// The comments that were skipped since the last call, without their #.
   std::vector<std::string_view> takeComments() { return std::exchange(comments_, {}); }
 
+  /// "hall.wrl:12:3"
+  std::string locationOf(const Token& token) const;
   [[noreturn]] void fail(const Token& token, ErrorKind kind, const std::string& message) const;
   /// Throws an Error that names the expected token.
   [[noreturn]] void failExpecting(const std::string& what) const;

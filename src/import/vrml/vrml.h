@@ -1,5 +1,6 @@
 #pragma once
-// VRML97, and X3D in classic VRML encoding: parsed into the elements of X3D's XML encoding, then read as X3D.
+// VRML97, and X3D in classic VRML encoding: parsed into the elements of X3D's XML encoding, then read as X3D. VRML 1.0
+// is translated into those elements by vrml1/.
 
 #include "import/import.h"
 

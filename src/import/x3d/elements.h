@@ -6,14 +6,17 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace imgeo::x3d {
 
 struct Elements {
   pugi::xml_document document; ///< its document element is <X3D>
-  std::string format;          ///< "X3D", "X3D Classic" or "VRML97": for reports
+  std::string format;          ///< "X3D", "X3D Classic", "VRML97" or "VRML 1.0": for reports
   /// Byte offsets in the text of elements that pugixml did not parse.
   std::unordered_map<pugi::xml_node_struct*, std::size_t> offsets;
+
+  std::vector<std::string> warnings; ///< of the parser
 
   pugi::xml_node root() const { return document.document_element(); }
   std::size_t offsetOf(pugi::xml_node element) const;

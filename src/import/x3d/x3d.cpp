@@ -413,9 +413,11 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
   const PrototypeReport prototypes = expandPrototypes(elements, name);
   const NodeConversions conversions = convertNodes(elements);
   const std::string format = elements.format;
+  std::vector<std::string> warnings = std::move(elements.warnings);
   const Source source(std::move(elements), asText(bytes), name);
   Imported imported = SceneReader(source, References(options, name), options).read();
   imported.format = format;
+  imported.warnings.insert(imported.warnings.begin(), warnings.begin(), warnings.end());
   if (prototypes.instances + prototypes.prototypes > 0)
     imported.warnings.push_back(fmt::format("{} of {} written out as the nodes that they stand for.",
                                             counted(prototypes.instances, "instance", "instances"),
