@@ -15,7 +15,6 @@ struct Elements {
   std::string format;          ///< "X3D", "X3D Classic", "VRML97" or "VRML 1.0": for reports
   /// Byte offsets in the text of elements that pugixml did not parse.
   std::unordered_map<pugi::xml_node_struct*, std::size_t> offsets;
-
   std::vector<std::string> warnings; ///< of the parser
 
   pugi::xml_node root() const { return document.document_element(); }
