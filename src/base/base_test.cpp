@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/shortest_decimal.h"
 #include "base/testing.h"
+#include "base/unfinished_files.h"
 #include "base/vec.h"
 
 #include <atomic>
@@ -12,6 +13,8 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace imgeo {
 namespace {
@@ -161,6 +164,54 @@ TEST(ShortestWithin, StaysWithinTheTolerance) {
   for (double value = 1e-12; value < 1e12; value *= 1.37)
     for (const double tolerance : {value * 1e-9, value * 1e-4, 0.3 * value})
       EXPECT_LE(std::abs(shortestWithin(value, tolerance) - value), tolerance) << value;
+}
+
+TEST(File, AFileNamedByItsContentIsRecognised) {
+  const std::string hash = contentName(asBytes("content"));
+  EXPECT_TRUE(isContentNamed(hash + ".png"));
+  EXPECT_TRUE(isContentNamed("coord-0-" + hash + ".bin"));
+  EXPECT_TRUE(isContentNamed("imgeo." + hash + ".js"));
+}
+
+TEST(File, OtherNamesAreNotContentNames) {
+  const std::string hash = contentName(asBytes("content"));
+  for (const std::string& name : {std::string("index.html"), hash + "-old.png", "a" + hash + ".png",
+                                  hash.substr(1) + ".png", std::string("0123456789ABCDEF.png"), std::string()})
+    EXPECT_FALSE(isContentNamed(name)) << name;
+}
+
+TEST(UnfinishedFiles, OnlyTheRegisteredOnesAreRemoved) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path made = directory / "made", staging = made / "staging", kept = directory / "kept";
+  std::filesystem::create_directories(staging);
+  writeFile(staging / "patch.png", asBytes("patch"));
+  writeFile(kept, asBytes("kept"));
+  const pid_t child = fork();
+  if (child == 0) {
+    const UnfinishedFile folder(made, Removal::ifEmpty), site(staging);
+    { const UnfinishedFile finished(kept); }
+    removeUnfinishedFiles();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_FALSE(std::filesystem::exists(made));
+  EXPECT_TRUE(std::filesystem::exists(kept));
+}
+
+TEST(UnfinishedFiles, AFolderThatHoldsOtherFilesIsKept) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directories(directory / "made");
+  writeFile(directory / "made/other", asBytes("other"));
+  const pid_t child = fork();
+  if (child == 0) {
+    const UnfinishedFile folder(directory / "made", Removal::ifEmpty);
+    removeUnfinishedFiles();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory / "made/other"));
 }
 
 } // namespace

@@ -1,12 +1,15 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "base/unfinished_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <sys/stat.h>
 #include <xxhash.h>
 
@@ -18,6 +21,10 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
+
+bool isHexDigit(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+}
 
 [[noreturn]] void failWithErrno(const std::filesystem::path& path, const char* action) {
   throw Error(ErrorKind::io, path.string(), fmt::format("cannot {}: {}", action, std::strerror(errno)));
@@ -63,11 +70,15 @@ void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
   File file(std::fopen(path.c_str(), "wb"));
   if (!file)
     failWithErrno(path, "write");
+  struct stat status {};
+  std::optional<UnfinishedFile> unfinished; // devices and pipes are not removed
+  if (fstat(fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode))
+    unfinished.emplace(path);
   const bool wrote = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!wrote || std::fclose(file.release()) != 0) {
     const int reason = errno;
-    std::error_code ignored; // devices and pipes are not removed
-    if (std::filesystem::is_regular_file(path, ignored))
+    std::error_code ignored;
+    if (unfinished)
       std::filesystem::remove(path, ignored);
     errno = reason;
     failWithErrno(path, "write");
@@ -77,6 +88,14 @@ void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
 std::string contentName(ByteSpan bytes) {
   const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
   return fmt::format("{:016x}", hash.high64);
+}
+
+bool isContentNamed(std::string_view fileName) {
+  constexpr std::size_t digits = 16;
+  const std::string_view stem = fileName.substr(0, fileName.rfind('.'));
+  if (stem.size() < digits || !std::all_of(stem.end() - digits, stem.end(), isHexDigit))
+    return false;
+  return stem.size() == digits || !isHexDigit(stem[stem.size() - digits - 1]);
 }
 
 } // namespace imgeo

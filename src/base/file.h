@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace imgeo {
 
@@ -19,5 +20,8 @@ void writeFile(const std::filesystem::path& path, ByteSpan bytes);
 /// The first 16 hexadecimal digits of the content's 128-bit xxHash (XXH3). Files named by it never change, so that
 /// caches may keep them indefinitely.
 std::string contentName(ByteSpan bytes);
+
+/// Whether the stem of a file name ends in exactly 16 lower-case hexadecimal digits, the result of contentName().
+bool isContentNamed(std::string_view fileName);
 
 } // namespace imgeo

@@ -24,8 +24,8 @@ void printFiles(const std::filesystem::path& site) {
 } // namespace
 
 int runConvert(const Arguments& arguments) {
+  handleSignals();
   limitThreads(static_cast<std::size_t>(arguments.integer("threads")));
-  installSignalHandlers();
   const std::string& output = arguments.text("output");
   ConvertReport report;
   {

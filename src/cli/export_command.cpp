@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/element_counts.h"
+#include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "transcode/export/export_site.h"
 #include "transcode/sample/sample_file.h"
@@ -37,10 +38,12 @@ int print(const Arguments& arguments, const ExportReport& report) {
 } // namespace
 
 int runExport(const Arguments& arguments) {
+  handleSignals();
   return print(arguments, exportSite(arguments.text("site"), arguments.text("output")));
 }
 
 int runSample(const Arguments& arguments) {
+  handleSignals();
   const auto seats = static_cast<std::uint32_t>(arguments.integer("seats"));
   return print(arguments, writeSampleHall(seats, arguments.text("output")));
 }

@@ -1,43 +1,80 @@
 #include "cli/interruption.h"
 
+#include "base/unfinished_files.h"
+
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fmt/format.h>
+#include <thread>
+#include <unistd.h>
 
 namespace imgeo::cli {
 
 namespace {
 
-std::atomic<int> notedSignal{0};
-static_assert(std::atomic<int>::is_always_lock_free, "signal handlers may touch nothing else");
+using namespace std::chrono_literals;
 
-void note(int signal) {
-  notedSignal = signal;
+/// Time for the work to end by itself, through throwIfInterrupted().
+constexpr auto unwindingTime = 100ms;
+
+std::atomic<int> receivedSignal{0};
+std::atomic<bool> isEnding{false};
+
+/// Ends the process by `signal`. Only the first of several threads does; the others wait for the end.
+[[noreturn]] void endProcessBy(int signal) {
+  if (isEnding.exchange(true))
+    for (;;)
+      pause();
+  removeUnfinishedFiles();
+  fmt::print(stderr, "imgeo: interrupted; nothing has changed\n");
+  std::signal(signal, SIG_DFL);
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, signal);
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  std::raise(signal);
+  std::abort();
+}
+
+void waitForSignals(const sigset_t& signals) {
+  int signal = 0;
+  if (sigwait(&signals, &signal) != 0)
+    return;
+  receivedSignal = signal;
+  // From now on a second signal has its default effect, in this thread.
+  for (const int each : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(each, SIG_DFL);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  std::this_thread::sleep_for(unwindingTime);
+  endProcessBy(signal);
 }
 
 } // namespace
 
-void installSignalHandlers() {
-  struct sigaction action {};
-  action.sa_handler = note;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+void handleSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN)
-      sigaction(signal, &action, nullptr); // a signal that nohup ignores stays ignored
+    if (before.sa_handler != SIG_IGN) // a signal that nohup ignores stays ignored
+      sigaddset(&signals, signal);
   }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals] { waitForSignals(signals); }).detach();
 }
 
 void throwIfInterrupted() {
-  if (const int signal = notedSignal)
-    throw Interrupted{signal};
+  if (receivedSignal != 0)
+    throw Interrupted{};
 }
 
-void endProcessBySignal(Interrupted interrupted) {
-  std::signal(interrupted.signal, SIG_DFL);
-  std::raise(interrupted.signal);
-  std::abort();
+void endProcessIfInterrupted() {
+  if (const int signal = receivedSignal)
+    endProcessBy(signal);
 }
 
 } // namespace imgeo::cli

@@ -1,20 +1,22 @@
 #pragma once
-// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into an exception, so that destructors remove unfinished files.
+// Ctrl-C (SIGINT), SIGTERM and SIGHUP: the process ends within 200 ms and leaves no unfinished files, whatever it is
+// doing. Where the work reports progress, an exception unwinds it; where it does not, such as inside a library that
+// reads a file, a thread of its own removes the unfinished files and ends the process.
 
 namespace imgeo::cli {
 
 /// Thrown by throwIfInterrupted and caught in main. It is not an Error.
-struct Interrupted {
-  int signal;
-};
+struct Interrupted {};
 
-/// Makes SIGINT, SIGTERM and SIGHUP set a flag instead of ending the process. A second signal of the same kind ends it.
-void installSignalHandlers();
+/// Makes SIGINT, SIGTERM and SIGHUP end the process as described above. A second signal ends it at once. Called before
+/// other threads start, since they must inherit the set of blocked signals.
+void handleSignals();
 
 /// Throws Interrupted if a signal has arrived. Safe from any thread.
 void throwIfInterrupted();
 
-/// Ends the process by the signal, so that its parent process sees that a signal ended it.
-[[noreturn]] void endProcessBySignal(Interrupted interrupted);
+/// Returns at once if no signal has arrived. Otherwise says so and ends the process by the signal, so that its parent
+/// process sees that a signal ended it.
+void endProcessIfInterrupted();
 
 } // namespace imgeo::cli

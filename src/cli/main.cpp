@@ -42,6 +42,16 @@ int run(const Arguments& arguments) {
   return runManual(arguments);
 }
 
+/// Ends the process by a signal that has arrived, whatever exception its arrival has caused.
+int runUnlessInterrupted(const Arguments& arguments) {
+  try {
+    return run(arguments);
+  } catch (...) {
+    endProcessIfInterrupted();
+    throw;
+  }
+}
+
 int report(int code, const std::string& message) {
   fmt::print(stderr, "imgeo: {}\n", message);
   return code;
@@ -50,13 +60,10 @@ int report(int code, const std::string& message) {
 /// Runs the command. Reports every exception as one sentence and the documented exit code.
 int runAndReport(int count, char** words) {
   try {
-    const int code = run(parseArguments({words + 1, words + count}));
+    const int code = runUnlessInterrupted(parseArguments({words + 1, words + count}));
     if (std::fflush(stdout) != 0)
       return report(exitCode(ErrorKind::io), "standard output cannot be written");
     return code;
-  } catch (const Interrupted& interrupted) {
-    report(0, "interrupted; nothing has changed");
-    endProcessBySignal(interrupted);
   } catch (const Error& error) {
     return report(exitCode(error.kind()), error.what());
   } catch (const std::bad_alloc&) {

@@ -294,6 +294,38 @@ TEST_F(Convert, RemovesItsFilesWhenInterrupted) {
   }
 }
 
+TEST_F(Convert, CanBeInterruptedWhileItReadsAndLeavesNothing) {
+  // Readers report no progress; this file keeps one busy for seconds.
+  std::string lines = "ply\nformat ascii 1.0\nelement vertex 3000000\nproperty float x\nproperty float y\n"
+                      "property float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < 3000000; ++i)
+    lines += "0.123456789 1.23456789 2.3456789\n";
+  write(input_, lines);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t child = start({"convert", input_, "-o", directory_ / "new/folder/site", "--threads", "1"}, "/dev/null",
+                              directory_ / "err");
+    for (int waited = 0; !std::filesystem::exists(directory_ / "new") && waited < 5000; ++waited)
+      usleep(1000);
+    kill(child, signal);
+    EXPECT_EQ(wait(child), 128 + signal);
+    EXPECT_EQ(textOf(directory_ / "err"), "imgeo: interrupted; nothing has changed\n");
+    EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"err", "statue.ply"}));
+  }
+}
+
+TEST_F(Convert, RefusesASiteWithAFileOfSomebodyElse) {
+  ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
+  write(site_ + "/geometry/notes.txt", "mine");
+  const Outcome refused = run({"convert", input_, "-o", site_});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.err.find("site/geometry/notes.txt: is in the site but was not written by imgeo"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(textOf(site_ + "/geometry/notes.txt"), "mine");
+  EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+  EXPECT_EQ(run({"convert", input_, "-o", site_, "--force"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(site_ + "/geometry/notes.txt"));
+}
+
 TEST_F(Convert, InfoHasItsDocumentedKeysAndConsistentSums) {
   ASSERT_EQ(run({"convert", input_, "-o", site_, "--patch-vertices", "256"}).code, 0);
   const Outcome outcome = run({"info", site_, "--json"});

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <new>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,15 +41,20 @@ constexpr bool isSanitized() {
 }
 
 void applyLimits(const ChildProcessLimits& limits) {
-  const rlimit noCore{0, 0}, seconds{limits.seconds, limits.seconds};
+  // At the first limit the process gets SIGXCPU. The second is beyond it, so that SIGKILL has other causes.
+  const rlimit noCore{0, 0}, seconds{limits.seconds, limits.seconds + 10};
   setrlimit(RLIMIT_CORE, &noCore);
   setrlimit(RLIMIT_CPU, &seconds);
   const rlim_t maxBytes = addressSpaceInUse() + limits.memoryBytes;
   const rlimit memory{maxBytes, maxBytes};
   if (!isSanitized())
     setrlimit(RLIMIT_AS, &memory);
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGINT, SIGTERM})
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGINT, SIGTERM, SIGXCPU})
     std::signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr); // the parent process may block signals
+  prctl(PR_SET_PDEATHSIG, SIGKILL);         // an interrupted parent process does not wait for its child
 }
 
 bool writeAll(int descriptor, ByteSpan bytes) {
@@ -137,8 +143,9 @@ Imported readInChildProcess(const std::function<Imported()>& read, const std::st
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  const bool tookTooLong = WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
-  if (tookTooLong)
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    throw Error(ErrorKind::limit, location, "the system ended the process that reads it, perhaps for lack of memory");
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     throw Error(ErrorKind::limit, location, fmt::format("reading it took more than {} seconds", limits.seconds));
   if (WIFSIGNALED(status) || answer.empty())
     throw Error(ErrorKind::malformed, location, "the library that reads its format crashed or failed");

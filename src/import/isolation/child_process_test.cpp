@@ -107,6 +107,16 @@ TEST(ReadInChildProcess, StopsAChildThatTakesTooLong) {
       {.seconds = 1, .memoryBytes = 1u << 30});
   EXPECT_EQ(error.kind(), ErrorKind::limit);
   EXPECT_EQ(error.location(), "a.fbx");
+  EXPECT_EQ(error.message(), "reading it took more than 1 seconds");
+}
+
+TEST(ReadInChildProcess, SaysThatTheSystemEndedTheChild) {
+  const Error error = errorOf([]() -> Imported {
+    raise(SIGKILL);
+    return {};
+  });
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_EQ(error.message(), "the system ended the process that reads it, perhaps for lack of memory");
 }
 
 } // namespace
