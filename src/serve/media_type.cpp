@@ -51,10 +51,6 @@ constexpr Row rows[] = {
     {"zip", {"application/zip", false}},
 };
 
-bool isHexDigit(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-}
-
 } // namespace
 
 MediaType mediaTypeOf(std::string_view fileName) {
@@ -69,14 +65,6 @@ MediaType mediaTypeOf(std::string_view fileName) {
     }
   }
   return {"application/octet-stream", false};
-}
-
-bool isContentNamed(std::string_view fileName) {
-  constexpr std::size_t digits = 16;
-  const std::string_view stem = fileName.substr(0, fileName.rfind('.'));
-  if (stem.size() < digits || !std::all_of(stem.end() - digits, stem.end(), isHexDigit))
-    return false;
-  return stem.size() == digits || !isHexDigit(stem[stem.size() - digits - 1]);
 }
 
 } // namespace imgeo

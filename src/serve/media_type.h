@@ -13,8 +13,4 @@ struct MediaType {
 /// By the extension, ignoring case; "application/octet-stream" for unknown ones.
 MediaType mediaTypeOf(std::string_view fileName);
 
-/// Whether the stem ends in exactly 16 lower-case hex digits, the result of contentName (base/file.h): a file with such
-/// a name does not change.
-bool isContentNamed(std::string_view fileName);
-
 } // namespace imgeo

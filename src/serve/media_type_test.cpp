@@ -1,7 +1,5 @@
 #include "serve/media_type.h"
 
-#include "base/file.h"
-
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -24,20 +22,6 @@ TEST(MediaType, TextIsCompressibleAndVertexDataIsNot) {
   EXPECT_TRUE(mediaTypeOf("a.x3d").isCompressible);
   EXPECT_FALSE(mediaTypeOf("a.png").isCompressible);
   EXPECT_FALSE(mediaTypeOf("a.bin").isCompressible);
-}
-
-TEST(MediaType, AFileNamedByItsContentIsRecognised) {
-  const std::string hash = contentName(asBytes("content"));
-  EXPECT_TRUE(isContentNamed(hash + ".png"));
-  EXPECT_TRUE(isContentNamed("coord-0-" + hash + ".bin"));
-  EXPECT_TRUE(isContentNamed("imgeo." + hash + ".js"));
-}
-
-TEST(MediaType, OtherNamesAreNotContentNames) {
-  const std::string hash = contentName(asBytes("content"));
-  for (const std::string& name : {std::string("index.html"), hash + "-old.png", "a" + hash + ".png",
-                                  hash.substr(1) + ".png", std::string("0123456789ABCDEF.png"), std::string()})
-    EXPECT_FALSE(isContentNamed(name)) << name;
 }
 
 } // namespace

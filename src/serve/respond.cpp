@@ -1,5 +1,6 @@
 #include "serve/respond.h"
 
+#include "base/file.h"
 #include "serve/media_type.h"
 #include "serve/range_header.h"
 

@@ -35,7 +35,8 @@ bool isSite(const fs::path& directory) {
   return fs::is_regular_file(directory / manifestName, ignored);
 }
 
-/// Refuses to replace a directory that is neither empty nor a site, unless forced.
+/// Refuses to replace a directory that is neither empty nor a site, or a site with files of somebody else, unless
+/// forced.
 void requireReplaceable(const fs::path& target, bool force) {
   std::error_code reason;
   const fs::file_status status = fs::status(target, reason);
@@ -43,8 +44,14 @@ void requireReplaceable(const fs::path& target, bool force) {
     return;
   if (!fs::is_directory(status))
     throw Error(ErrorKind::io, target.string(), "exists and is not a directory");
-  if (force || isSite(target))
+  if (force)
     return;
+  if (isSite(target)) {
+    if (const std::optional<fs::path> foreign = foreignFileIn(target))
+      throw Error(ErrorKind::usage, (target / *foreign).string(),
+                  "is in the site but was not written by imgeo; --force replaces the site with everything in it");
+    return;
+  }
   const bool empty = fs::is_empty(target, reason);
   if (reason)
     fail(target, "read", reason.value());
@@ -108,10 +115,7 @@ std::string randomSuffix() {
 
 /// Every file of a staged site, relative to its root, each after the files that it refers to: the page comes last.
 std::vector<fs::path> filesInDependencyOrder(const fs::path& staging) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging))
-    if (!entry.is_directory())
-      files.push_back(fs::relative(entry.path(), staging));
+  std::vector<fs::path> files = filesIn(staging);
   const auto rank = [](const fs::path& file) {
     return file == pageName ? 3 : file == manifestName ? 2 : file.has_parent_path() ? 0 : 1;
   };
@@ -142,7 +146,7 @@ StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
     if (!exists)
       makeParentFolders();
     if (keepsTarget_)
-      create(target_, ".imgeo-");
+      create(target_, stagingPrefix);
     else
       create(parent, fmt::format(".{}.imgeo-", target_.filename().string()));
   } catch (...) {
@@ -164,6 +168,7 @@ void StagedSite::makeParentFolders() {
     if (mkdir(folder->c_str(), 0777) != 0 && errno != EEXIST)
       fail(*folder, "make the directory", errno);
     foldersMade_.push_back(*folder);
+    unfinishedFolders_.emplace_back(*folder, Removal::ifEmpty);
   }
 }
 
@@ -180,6 +185,7 @@ void StagedSite::create(const fs::path& folder, const std::string& prefix) {
     }
     // Another run may remove the directory as abandoned before this run locks it. Then lockDirectory fails, and the
     // loop makes another directory.
+    unfinished_.emplace(staging_);
     lock_ = lockDirectory(staging_, LOCK_EX);
     std::error_code ignored;
     if (lock_ < 0 && fs::exists(staging_, ignored))
@@ -188,6 +194,7 @@ void StagedSite::create(const fs::path& folder, const std::string& prefix) {
 }
 
 void StagedSite::publish(const Rename& rename) {
+  const auto publishing = holdUnfinishedFiles();
   std::error_code ignored;
   struct stat old {};
   if (stat(target_.c_str(), &old) == 0)
@@ -239,14 +246,9 @@ void StagedSite::publishFileByFile(const Rename& rename) {
     kept.insert(file);
   }
   std::error_code ignored;
-  for (const char* folder : {geometryFolder, textureFolder, runtimeFolder}) {
-    std::vector<fs::path> stale;
-    for (const fs::directory_entry& entry : fs::directory_iterator(target_ / folder, ignored))
-      if (!entry.is_directory(ignored) && !kept.contains(fs::path(folder) / entry.path().filename()))
-        stale.push_back(entry.path());
-    for (const fs::path& file : stale)
-      fs::remove(file, ignored);
-  }
+  for (const fs::path& file : filesIn(target_))
+    if (isSiteFile(file) && !kept.contains(file))
+      fs::remove(target_ / file, ignored);
 }
 
 /// Removes the directory at the staging path: an unfinished site or, after an exchange, the old site.

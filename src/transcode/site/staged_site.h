@@ -2,8 +2,12 @@
 // Atomic publication of a site: the directory is built beside its target and replaces it in one step. After a crash the
 // target is the old site or the new one; the next run removes what a crashed run left.
 
+#include "base/unfinished_files.h"
+
+#include <deque>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace imgeo {
@@ -24,8 +28,9 @@ public:
   /// or its parent is not writable), the staging directory is inside the target, and is published as on file systems
   /// without renameat2.
   ///
-  /// Throws Error{usage} if the target is a directory that is neither empty nor a site, unless `force` allows to
-  /// replace it with everything in it; Error{io} if the target is a file or nothing can be written.
+  /// Throws Error{usage} if the target is a directory that is neither empty nor a site, or a site with a file that is
+  /// not of a site, unless `force` allows to replace it with everything in it; Error{io} if the target is a file or
+  /// nothing can be written.
   StagedSite(const std::filesystem::path& target, bool force);
   ~StagedSite();
   StagedSite(const StagedSite&) = delete;
@@ -35,7 +40,7 @@ public:
 
   /// Renames the staging directory to the target: a new target by RENAME_NOREPLACE; an existing one by RENAME_EXCHANGE,
   /// after which the destructor removes the old one. On file systems that support neither, moves the files one by one,
-  /// the page last, and then deletes the old site's geometry, textures and runtime. Throws Error; the target's page is
+  /// the page last, and then deletes what else the old site consists of. Throws Error; the target's page is
   /// then the old one.
   void publish(const Rename& rename = renameBySystem);
 
@@ -47,7 +52,9 @@ private:
   void discard() noexcept;
 
   std::filesystem::path target_, staging_;
+  std::optional<UnfinishedFile> unfinished_;       ///< staging_
   std::vector<std::filesystem::path> foldersMade_; ///< above the target, outermost first
+  std::deque<UnfinishedFile> unfinishedFolders_;   ///< the same folders
   bool force_ = false, keepsTarget_ = false, published_ = false;
   int lock_ = -1; ///< held on the staging directory: tells a living run from a killed one
 };

@@ -2,8 +2,10 @@
 #include "transcode/site/staged_site.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "transcode/site/testing.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -19,13 +21,32 @@ using testing::contentsOf;
 using testing::namesIn;
 using testing::TemporaryDirectory;
 
+std::string geometryName(const std::string& version, const std::string& part) {
+  return contentName(asBytes(version + part)) + ".png";
+}
+
+std::string runtimeName(const std::string& version) {
+  return "imgeo-" + contentName(asBytes(version)) + ".js";
+}
+
+std::string inlinedName(const std::string& version) {
+  return contentName(asBytes(version)) + ".x3d";
+}
+
+std::vector<std::string> geometryNames(const std::string& version) {
+  std::vector<std::string> names{geometryName(version, "a"), geometryName(version, "b")};
+  std::ranges::sort(names);
+  return names;
+}
+
 /// A site of one version: its containers and its document say which.
 void fill(const fs::path& site, const std::string& version) {
   fs::create_directories(site / geometryFolder);
   fs::create_directories(site / runtimeFolder);
   for (const std::string part : {"a", "b"})
-    writeFile(site / geometryFolder / (version + part + ".png"), asBytes(version));
-  writeFile(site / runtimeFolder / ("imgeo-" + version + ".js"), asBytes(version));
+    writeFile(site / geometryFolder / geometryName(version, part), asBytes(version));
+  writeFile(site / runtimeFolder / runtimeName(version), asBytes(version));
+  writeFile(site / inlinedName(version), asBytes(version));
   writeFile(site / stylesheetName, asBytes("style"));
   writeFile(site / sceneName, asBytes(version));
   writeFile(site / manifestName, asBytes("{}"));
@@ -43,9 +64,9 @@ void publish(const fs::path& target, const std::string& version, bool force = fa
 std::string wholeVersionAt(const fs::path& site) {
   const std::string version(asText(readFile(site / pageName)));
   for (const std::string part : {"a", "b"})
-    if (!fs::exists(site / geometryFolder / (version + part + ".png")))
+    if (!fs::exists(site / geometryFolder / geometryName(version, part)))
       return version + " without its containers";
-  return fs::exists(site / runtimeFolder / ("imgeo-" + version + ".js")) ? version : version + " without runtime";
+  return fs::exists(site / runtimeFolder / runtimeName(version)) ? version : version + " without runtime";
 }
 
 int withoutExchange(const fs::path& from, const fs::path& to, unsigned flags) {
@@ -69,7 +90,7 @@ TEST(StagedSite, IsPublishedAsANewDirectoryAndReplacesAnOldSite) {
   EXPECT_EQ(wholeVersionAt(target), "old");
   publish(target, "new");
   EXPECT_EQ(wholeVersionAt(target), "new");
-  EXPECT_EQ(namesIn(target / geometryFolder), (std::vector<std::string>{"newa.png", "newb.png"}));
+  EXPECT_EQ(namesIn(target / geometryFolder), geometryNames("new"));
   EXPECT_EQ(namesIn(directory.path()), std::vector<std::string>{"site"});
 }
 
@@ -85,7 +106,7 @@ TEST(StagedSite, IsPublishedWithoutRenameat2) {
 }
 
 TEST(StagedSite, IsOldOrNewWhereverTheFallbackIsKilled) {
-  for (int renamesBeforeKill = 0; renamesBeforeKill < 8; ++renamesBeforeKill) {
+  for (int renamesBeforeKill = 0; renamesBeforeKill < 9; ++renamesBeforeKill) {
     const TemporaryDirectory directory;
     const fs::path target = directory / "site";
     publish(target, "old");
@@ -105,7 +126,7 @@ TEST(StagedSite, IsOldOrNewWhereverTheFallbackIsKilled) {
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(wholeVersionAt(target), WEXITSTATUS(status) == 0 ? "new" : "old");
-    EXPECT_EQ(WEXITSTATUS(status), renamesBeforeKill < 7 ? 9 : 0) << "seven files are renamed";
+    EXPECT_EQ(WEXITSTATUS(status), renamesBeforeKill < 8 ? 9 : 0) << "eight files are renamed";
 
     publish(target, "last");
     EXPECT_EQ(wholeVersionAt(target), "last");
@@ -147,6 +168,37 @@ TEST(StagedSite, DoesNotReplaceADirectoryThatIsNotASite) {
   EXPECT_FALSE(fs::exists(directory / "photos/cat.jpg"));
 }
 
+TEST(StagedSite, DoesNotReplaceASiteWithAFileOfSomebodyElse) {
+  for (const std::string name : {"CNAME", "geometry/notes.txt", "photos/cat.jpg"}) {
+    const TemporaryDirectory directory;
+    const fs::path target = directory / "site", file = target / name;
+    publish(target, "old");
+    fs::create_directories(file.parent_path());
+    writeFile(file, asBytes("mine"));
+    try {
+      const StagedSite site(target, false);
+      ADD_FAILURE() << name << " was not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_EQ(error.location(), file.string());
+    }
+    EXPECT_EQ(wholeVersionAt(target), "old");
+    EXPECT_TRUE(fs::exists(file));
+    publish(target, "new", true);
+    EXPECT_EQ(wholeVersionAt(target), "new");
+    EXPECT_FALSE(fs::exists(file));
+  }
+}
+
+TEST(StagedSite, RemovesEveryFileOfTheOldSiteWithoutRenameat2) {
+  const TemporaryDirectory directory;
+  const fs::path target = directory / "site";
+  publish(target, "old", false, withoutExchange);
+  publish(target, "new", false, withoutExchange);
+  EXPECT_FALSE(fs::exists(target / inlinedName("old")));
+  EXPECT_TRUE(fs::exists(target / inlinedName("new")));
+}
+
 TEST(StagedSite, FollowsASymbolicLink) {
   const TemporaryDirectory directory;
   publish(directory / "releases/one", "old");
@@ -164,7 +216,7 @@ TEST(StagedSite, IsPublishedFileByFileIfTheTargetIsTheWorkingDirectory) {
   publish(".", "new");
   EXPECT_EQ(wholeVersionAt("."), "new") << "seen through the directory that was entered before";
   EXPECT_EQ(wholeVersionAt(directory / "site"), "new");
-  EXPECT_EQ(namesIn("./geometry"), (std::vector<std::string>{"newa.png", "newb.png"}));
+  EXPECT_EQ(namesIn("./geometry"), geometryNames("new"));
   for (const std::string& name : namesIn("."))
     EXPECT_FALSE(name.starts_with(".")) << name;
   fs::current_path(before);
