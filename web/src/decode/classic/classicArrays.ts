@@ -2,6 +2,7 @@
 // integers become the numbers that the vertex shader would read (render/shaders/vertexChunk.ts), so that both paths
 // draw the same. Pure functions, for workers.
 
+import { makeIndex } from "../indexArray.ts";
 import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
 import type { Pixels } from "../pngPixels.ts";
@@ -112,7 +113,7 @@ export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; 
   const count = draws.reduce((sum, draw) => sum + draw.count, 0);
   const image = await imageOf(file, 3);
   const texelOf = texelsOf(image, { count, rowLength });
-  const index = recordCount <= 2 ** 16 ? new Uint16Array(count) : new Uint32Array(count);
+  const index = makeIndex(recordCount, count);
   const { data, channels } = image;
   for (let n = 0; n < count; ++n) {
     const at = texelOf(n) * channels;

@@ -1,6 +1,7 @@
 // Decodes grids of texels on the CPU: writes the vertices, normals and triangles that the vertex shader computes
 // without an index (render/shaders/vertexChunk.ts) to arrays for buffers.
 
+import { makeIndex } from "../indexArray.ts";
 import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { CoordJob } from "./classicArrays.ts";
 import { sumsOf } from "./classicArrays.ts";
@@ -52,7 +53,7 @@ export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): P
 export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
   const cellsAcross = kind === "sculpt" ? columns : columns - 1;
   const count = 6 * cellsAcross * (rows - 1);
-  const index = columns * rows <= 2 ** 16 ? new Uint16Array(count) : new Uint32Array(count);
+  const index = makeIndex(columns * rows, count);
   let at = 0;
   for (let row = 0; row + 1 < rows; ++row) {
     for (let column = 0; column < cellsAcross; ++column) {

@@ -1,6 +1,7 @@
 // Converts a decoded patch to arrays for the GPU: its wedges are the vertices. Attributes keep the smallest type that
 // holds their bits; positions stay lattice integers.
 
+import { makeIndex } from "../indexArray.ts";
 import type { ByVertexRole, VertexRole } from "../../stage/attributeRows.ts";
 import { byVertexRole } from "../../stage/attributeRows.ts";
 import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
@@ -27,9 +28,6 @@ export interface OtherValues {
   readonly bits: number;
   readonly vertices: VertexArray;
 }
-
-/** Index 65,535 of type Uint16 is the primitive restart index. */
-const maxUint16VertexCount = 65535;
 
 /** Uses the first normals, colours and texture coordinates of the patch. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
@@ -66,17 +64,13 @@ export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
 
 function orderedIndexOf({ header, wedges: { wedge }, connectivity: { fans } }: CompactPatch): IndexArray {
   if (header.topology !== "triangles") return indexOf(wedge, header.wedgeCount);
-  return orderForVertexCache(wedge, fans, emptyIndex(wedge.length, header.wedgeCount));
+  return orderForVertexCache(wedge, fans, makeIndex(header.wedgeCount, wedge.length));
 }
 
 export function indexOf(corners: Int32Array, vertexCount: number): IndexArray {
-  const index = emptyIndex(corners.length, vertexCount);
+  const index = makeIndex(vertexCount, corners.length);
   index.set(corners);
   return index;
-}
-
-function emptyIndex(length: number, vertexCount: number): IndexArray {
-  return vertexCount <= maxUint16VertexCount ? new Uint16Array(length) : new Uint32Array(length);
 }
 
 function coordOf({ header, coordinates, connectivity, wedges: { seams } }: CompactPatch): VertexArray {

@@ -200,7 +200,7 @@ function pickOf(stage: Stage, range: DrawRange, currentContext: () => PatchConte
         request: pickRequestOf(
           stage,
           range,
-          geometry.solid ? FrontSide : DoubleSide,
+          geometry.solid && range.isWide !== true ? FrontSide : DoubleSide,
           uniformsOf(stage, currentContext()).of(range),
           currentContext().appearance,
           currentContext().surfaceTextures,
