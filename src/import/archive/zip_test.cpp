@@ -5,6 +5,7 @@
 #include "import/testing.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace imgeo::testing {
 namespace {
@@ -39,7 +40,32 @@ Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view commen
 TEST(Zip, SumsTheUnpackedSizesOfItsEntries) {
   EXPECT_EQ(unpackedZipBytes(archiveOf({})), 0u);
   EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 20, 3})), 1023u);
-  EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 0xffffffff}, "a comment")), 1000 + 0xffffffffull);
+  EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 20}, "a comment")), 1020u);
+}
+
+TEST(Zip, ReadsSizesBeyond32BitsFromTheZip64Field) {
+  Bytes archive;
+  append(archive, "PK\3\4 what it holds ");
+  const auto directory = static_cast<std::uint32_t>(archive.size());
+  append(archive, "PK\1\2");
+  archive.resize(archive.size() + 20);
+  appendLittle(archive, std::uint32_t{0xffffffff});
+  for (const int length : {5, 4 + 2 + 4 + 8, 0})
+    appendLittle(archive, static_cast<std::uint16_t>(length));
+  archive.resize(archive.size() + 12);
+  append(archive, "a.xml");
+  for (const int value : {0x7075, 2, 0}) // another extra field comes first
+    appendLittle(archive, static_cast<std::uint16_t>(value));
+  for (const int value : {1, 8})
+    appendLittle(archive, static_cast<std::uint16_t>(value));
+  appendLittle(archive, std::uint64_t{7} << 32);
+  append(archive, "PK\5\6");
+  archive.resize(archive.size() + 12);
+  appendLittle(archive, directory);
+  appendLittle(archive, std::uint16_t{0});
+  EXPECT_EQ(unpackedZipBytes(archive), std::uint64_t{7} << 32);
+  EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 0xffffffff})), std::numeric_limits<std::uint64_t>::max())
+      << "an entry without the field is beyond every limit";
 }
 
 TEST(Zip, ReadsEveryTruncationSafely) {
@@ -54,12 +80,12 @@ TEST(Zip, RefusesAnArchiveBeyondTheLimit) {
   EXPECT_NO_THROW(refuseZipBomb(archiveOf({limit}, "", limit / 500), "m.3mf"));
   EXPECT_NO_THROW(refuseZipBomb(Bytes(1000), "m.3mf")) << "not an archive";
   try {
-    refuseZipBomb(archiveOf({limit, 0xffffffff}), "m.3mf");
+    refuseZipBomb(archiveOf({limit, 0xfffffffe}), "m.3mf");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_EQ(error.location(), "m.3mf");
-    EXPECT_NE(error.message().find("unpacks to 4362076159 bytes"), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("unpacks to 4362076158 bytes"), std::string::npos) << error.message();
   }
   EXPECT_EQ(errorOf(archiveOf({0xffffffff}), "m.3mf").kind(), ErrorKind::limit);
 }

@@ -1,6 +1,7 @@
 #include "import/gltf/primitive.h"
 
 #include "import/mesh/unit_normal.h"
+#include "import/text/text_scanner.h"
 #include "scene/color.h"
 
 #include <algorithm>
@@ -69,8 +70,10 @@ void PrimitiveReader::addAccessors(const Value& primitive, PrimitiveData& data) 
     names.fail(ErrorKind::malformed, "is missing");
   std::optional<std::size_t> vertexCount;
   for (const auto& [name, unused] : names.json().items()) {
-    const std::size_t index = names.index(name.c_str(), document_.array("accessors")).value();
-    const auto accessor = std::make_shared<Accessor>(document_.accessor(index));
+    const std::optional<std::size_t> index = names.index(name.c_str(), document_.array("accessors"));
+    if (!index)
+      names.fail(ErrorKind::malformed, fmt::format("has no accessor for '{}'", asPrintable(name)));
+    const auto accessor = std::make_shared<Accessor>(document_.accessor(*index));
     if (vertexCount && *vertexCount != accessor->count())
       names[name.c_str()].fail(ErrorKind::malformed, fmt::format("has {} elements, another attribute has {}",
                                                                  accessor->count(), *vertexCount));

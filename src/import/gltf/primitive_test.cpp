@@ -276,5 +276,17 @@ TEST(Glb, IsReadLikeItsGltf) {
     EXPECT_THROW(importBytes(ByteSpan(glb).first(length), "x.glb"), Error) << length;
 }
 
+TEST(GltfPrimitive, AnAttributeWithoutAnAccessorIsMalformed) {
+  GltfText gltf;
+  gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", nullptr}}}}}));
+  try {
+    onlyMeshOf(gltf);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::malformed);
+    EXPECT_NE(std::string(error.what()).find("has no accessor for 'POSITION'"), std::string::npos) << error.what();
+  }
+}
+
 } // namespace
 } // namespace imgeo::testing

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <unordered_set>
 
 namespace imgeo {
 
@@ -77,23 +78,38 @@ PlyEncoding readEncoding(TextScanner& line) {
   line.fail(ErrorKind::unsupported, fmt::format("the header names an unknown encoding '{}'", asPrintable(word)));
 }
 
-void addElement(PlyHeader& header, TextScanner& line) {
-  PlyElement element = readElement(line);
-  if (header.find(element.name))
-    line.fail(ErrorKind::malformed, fmt::format("the header has two elements '{}'", asPrintable(element.name)));
-  header.elements.push_back(std::move(element));
-}
+/// Adds the elements and properties of the header's lines, whose names it looks up in constant time.
+class HeaderBuilder {
+public:
+  PlyHeader header;
 
-void addProperty(PlyHeader& header, TextScanner& line) {
-  PlyProperty property = readProperty(line);
-  if (header.elements.empty())
-    line.fail(ErrorKind::malformed, "the header has a property before any element");
-  PlyElement& element = header.elements.back();
-  if (element.find(property.name))
-    line.fail(ErrorKind::malformed,
-              fmt::format("the header gives '{}' two properties '{}'", element.name, property.name));
-  element.properties.push_back(std::move(property));
-}
+  void addElement(TextScanner& line) {
+    PlyElement element = readElement(line);
+    if (header.elements.size() == maxPlyElements)
+      line.fail(ErrorKind::limit, fmt::format("the header has more than {} elements", maxPlyElements));
+    if (!elementNames_.insert(element.name).second)
+      line.fail(ErrorKind::malformed, fmt::format("the header has two elements '{}'", asPrintable(element.name)));
+    propertyNames_.clear();
+    header.elements.push_back(std::move(element));
+  }
+
+  void addProperty(TextScanner& line) {
+    PlyProperty property = readProperty(line);
+    if (header.elements.empty())
+      line.fail(ErrorKind::malformed, "the header has a property before any element");
+    if (++propertyCount_ > maxPlyProperties)
+      line.fail(ErrorKind::limit, fmt::format("the header has more than {} properties", maxPlyProperties));
+    PlyElement& element = header.elements.back();
+    if (!propertyNames_.insert(property.name).second)
+      line.fail(ErrorKind::malformed, fmt::format("the header gives '{}' two properties '{}'",
+                                                  asPrintable(element.name), asPrintable(property.name)));
+    element.properties.push_back(std::move(property));
+  }
+
+private:
+  std::unordered_set<std::string> elementNames_, propertyNames_; ///< of the header; of its last element
+  std::size_t propertyCount_ = 0;
+};
 
 } // namespace
 
@@ -117,7 +133,7 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
     scanner.fail(ErrorKind::malformed, "a PLY file begins with the line 'ply'");
   scanner.skipLine();
 
-  PlyHeader header;
+  HeaderBuilder builder;
   bool hasEncoding = false;
   for (;;) {
     const std::string keyword = nextWord(scanner);
@@ -126,12 +142,12 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
       continue;
     }
     if (keyword == "format") {
-      header.encoding = readEncoding(scanner);
+      builder.header.encoding = readEncoding(scanner);
       hasEncoding = true;
     } else if (keyword == "element") {
-      addElement(header, scanner);
+      builder.addElement(scanner);
     } else if (keyword == "property") {
-      addProperty(header, scanner);
+      builder.addProperty(scanner);
     } else if (keyword != "end_header" && !scanner.atEnd()) {
       scanner.fail(ErrorKind::malformed, fmt::format("'{}' is no keyword of a PLY header", asPrintable(keyword)));
     }
@@ -146,8 +162,8 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
   }
   if (!hasEncoding)
     scanner.fail(ErrorKind::malformed, "the header has no line 'format'");
-  header.bodyOffset = scanner.byteOffset();
-  return header;
+  builder.header.bodyOffset = scanner.byteOffset();
+  return std::move(builder.header);
 }
 
 } // namespace imgeo

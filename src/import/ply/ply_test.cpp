@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "import/ply/header.h"
 #include "import/ply/testing.h"
 #include "import/testing.h"
 
@@ -475,6 +476,25 @@ TEST(Ply, RefusesOtherVersionsAndEncodings) {
   EXPECT_EQ(errorOf("ply\nformat binary 1.0\nend_header\n", "m.ply").kind(), ErrorKind::unsupported);
   EXPECT_EQ(errorOf("ply\nelement vertex 0\nend_header\n", "m.ply").kind(), ErrorKind::malformed);
   EXPECT_EQ(errorOf("plyers\n", "m.ply").kind(), ErrorKind::malformed);
+}
+
+TEST(Ply, AHeaderWithTooManyPropertiesOrElementsIsRefusedAtTheLineThatHasOneTooMany) {
+  const auto messageOf = [](const std::string& header) -> std::string {
+    try {
+      readPlyHeader(asBytes(header), "a.ply");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::limit);
+      return error.what();
+    }
+    return "was read";
+  };
+  std::string properties = "ply\nformat ascii 1.0\nelement vertex 1\n", elements = "ply\nformat ascii 1.0\n";
+  for (std::size_t i = 0; i <= maxPlyProperties; ++i)
+    properties += fmt::format("property float p{}\n", i);
+  for (std::size_t i = 0; i <= maxPlyElements; ++i)
+    elements += fmt::format("element e{} 0\n", i);
+  EXPECT_EQ(messageOf(properties + "end_header\n"), "a.ply:10004: the header has more than 10000 properties");
+  EXPECT_EQ(messageOf(elements + "end_header\n"), "a.ply:1003: the header has more than 1000 elements");
 }
 
 } // namespace
