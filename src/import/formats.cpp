@@ -9,6 +9,7 @@
 #include "import/stl/stl.h"
 #include "import/vrml/vrml.h"
 #include "import/x3d/x3d.h"
+#include "import/x3d_json/x3d_json.h"
 
 #include <algorithm>
 #include <array>
@@ -24,14 +25,16 @@ using namespace std::string_view_literals;
 
 constexpr std::array x3dExtensions{".x3d"sv, ".x3dz"sv};
 constexpr std::array vrmlExtensions{".wrl"sv, ".wrz"sv, ".vrml"sv, ".x3dv"sv, ".x3dvz"sv};
+constexpr std::array x3dJsonExtensions{".x3dj"sv, ".x3djz"sv, ".json"sv};
 constexpr std::array gltfExtensions{".gltf"sv, ".glb"sv};
 constexpr std::array plyExtensions{".ply"sv};
 constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 
-constexpr std::array<Format, 8> rows{{
+constexpr std::array<Format, 9> rows{{
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .read = readX3d},
     {.name = "VRML", .help = "VRML", .extensions = vrmlExtensions, .sniff = isVrml, .read = readVrml},
+    {.name = "X3D JSON", .extensions = x3dJsonExtensions, .sniff = isX3dJson, .read = readX3dJson},
     {.name = "glTF", .help = "glTF, GLB", .extensions = gltfExtensions, .sniff = isGltf, .read = readGltf},
     {.name = "glTF 1.0", .sniff = isGltf1, .read = readByAssimp},
     {.name = "PLY", .help = "PLY", .extensions = plyExtensions, .sniff = isPly, .read = readPly},

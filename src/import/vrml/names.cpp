@@ -44,9 +44,4 @@ std::string_view accessTypeOf(std::string_view word) {
   return found == types.end() ? "" : found->second;
 }
 
-bool declaresFields(std::string_view element) {
-  return element == "Script" || element == "ComposedShader" || element == "PackagedShader" ||
-         element == "ShaderProgram";
-}
-
 } // namespace imgeo::x3d

@@ -22,7 +22,4 @@ bool isNodeList(std::string_view field);
 /// X3D's name of an access type of VRML97 or X3D; "" for other words.
 std::string_view accessTypeOf(std::string_view word);
 
-/// Whether nodes of this name declare fields of their own.
-bool declaresFields(std::string_view element);
-
 } // namespace imgeo::x3d

@@ -29,6 +29,11 @@ bool isNodesType(std::string_view type) {
   return type == "SFNode" || type == "MFNode";
 }
 
+/// Whether a token can be the type of a field that a node declares.
+bool isFieldType(const Token& token) {
+  return token.kind == TokenKind::word && (token.text.starts_with("SF") || token.text.starts_with("MF"));
+}
+
 class VrmlParser {
 public:
   VrmlParser(std::string_view text, const std::string& name) : tokens_(text, name), text_(text), elements_(tokens_) {}
@@ -185,11 +190,11 @@ private:
     if (isStatement)
       return readStatement(element, "");
     const Token token = tokens_.take(TokenKind::word, "a field or }");
-    if (declaresFields(element.name()) && !accessTypeOf(token.text).empty())
+    if (!accessTypeOf(token.text).empty() && isFieldType(tokens_.next())) // of a script, a shader, or an unknown node
       return readDeclaration(element, token, true);
-    elements_.requireName(token, token.text);
     if (prototype)
       return readFieldOfInstance(element, token, prototype);
+    elements_.requireName(token, token.text);
     const std::string field(currentFieldName(element.name(), token.text));
     if (tokens_.nextIs("IS"))
       return readConnection(element, field, token);

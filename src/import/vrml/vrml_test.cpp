@@ -1,6 +1,7 @@
 // Compares the scenes of VRML texts and of their equivalents in XML encoding.
 
 #include "base/file.h"
+#include "base/testing.h"
 #include "import/testing.h"
 #include "scene/testing.h"
 
@@ -71,10 +72,29 @@ TEST(Vrml, KeepsRoutesAndLeavesOutScripts) {
       "field SFNode n USE T directOutput TRUE } ROUTE T.time TO S.now DEF U TimeSensor { } ROUTE T.time TO U.startTime";
   expectSame(vrml, "<TimeSensor DEF='T'/><Script DEF='S'/><TimeSensor DEF='U'/>"
                    "<ROUTE fromNode='T' fromField='time' toNode='U' toField='startTime'/>");
-  EXPECT_EQ(readVrml(vrml).warnings,
+  EXPECT_EQ(
+      readVrml(vrml).warnings,
+      (std::vector<std::string>{"Script (1) left out, since pages run no scripts; it is at a.wrl:2:28.",
+                                "Without effect, since pages do not animate or interact: ROUTE (1), TimeSensor (2)."}));
+}
+
+TEST(Vrml, LeavesOutUnknownNodesWithTheFieldsThatTheyDeclare) {
+  const Imported imported = readVrml(
+      "Shape { appearance Appearance {\n"
+      "  material Material { diffuseColor 1 0 0 }\n"
+      "  effects [ Effect { language \"GLSL\" inputOutput SFFloat k 0.5 exposedField MFNode n [ Group { } ]\n"
+      "    initializeOnly SFNode map ImageTexture { } parts EffectPart { type \"FRAGMENT\" url \"a.fs\" } } ]\n"
+      "} geometry Box { } }\n"
+      "Strange { field SFVec3f size 1 2 3 eventIn SFBool on children [ DEF S Shape { geometry Sphere { } } ] }\n"
+      "Group { children [ USE S ] }");
+  EXPECT_EQ(imported.warnings,
             (std::vector<std::string>{
-                "Script (1) left out, since pages run no scripts; it is at a.wrl:2:28.",
-                "Kept without effect, since pages do not animate or interact: ROUTE (1), TimeSensor (2)."}));
+                "Effect (1) left out, since pages run no shaders of others; the material beside it is drawn; it is at "
+                "a.wrl:4:13.",
+                "Strange (1) left out, since it is no node of X3D 4.0; it is at a.wrl:7:1."}));
+  const SceneGraph& graph = imported.scene.graph;
+  ASSERT_EQ(graph.roots.size(), 2u);
+  EXPECT_EQ(graph.nodes[graph.roots[1]].children.size(), 1u) << "the Sphere";
 }
 
 TEST(Vrml, ResolvesARepeatedNameToTheLatestNode) {
@@ -119,16 +139,55 @@ TEST(Vrml, ExpandsPrototypes) {
   EXPECT_NE(all.find("Left out of prototypes: TimeSensor (1)."), std::string::npos) << all;
 }
 
-TEST(Vrml, KeepsInstancesOfExternalPrototypes) {
-  const SceneGraph graph =
-      readVrml("EXTERNPROTO Door [ field SFVec3f size field MFNode parts ] [ \"doors.wrl#Door\" ]\n"
-               "Door { size 1 2 3 parts [ Group { } ] }")
-          .scene.graph;
-  const Node& instance = graph.nodes[graph.roots.at(1)];
-  EXPECT_EQ(std::get<GenericNode>(instance.content).element, "ProtoInstance");
-  EXPECT_EQ(instance.fields, (std::vector<FieldText>{{"name", "Door"}}));
-  EXPECT_EQ(graph.nodes[instance.children.at(0)].fields,
-            (std::vector<FieldText>{{"name", "size"}, {"value", "1 2 3"}}));
+TEST(Vrml, ReadsExternalPrototypesOfTheInputsFolder) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "lib");
+  writeFile(
+      directory / "lib/doors.wrl",
+      asBytes("#VRML V2.0 utf8\nPROTO Handle [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } }\n"
+              "PROTO Door [ field SFVec3f size 1 1 1 field MFNode parts [ ] ] { Group { children [\n"
+              "  Shape { appearance Appearance { texture ImageTexture { url \"wood.png\" } }\n"
+              "    geometry Box { size IS size } } Handle { r 2 } Group { children IS parts } ] } }"));
+  writeFile(directory / "lib/wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  const auto read = [&](const std::string& url, const std::string& format) {
+    const bool isVrml = format == "wrl";
+    writeFile(directory / ("a." + format),
+              asBytes(isVrml ? "#VRML V2.0 utf8\nEXTERNPROTO Door [ field SFVec3f size field MFNode parts ] [ " + url +
+                                   " ]\nDoor { size 1 2 3 parts [ Group { } ] }"
+                             : "<X3D><Scene>\n<ExternProtoDeclare name='Door' url='" + url +
+                                   "'/><ProtoInstance name='Door'><fieldValue name='size' value='1 2 3'/><fieldValue "
+                                   "name='parts'><Group/></fieldValue></ProtoInstance></Scene></X3D>"));
+    return importFile(directory / ("a." + format));
+  };
+  for (const char* format : {"wrl", "x3d"}) {
+    const Imported imported = read("\"lost.wrl#Door\" \"lib/doors.wrl#Door\"", format);
+    const SceneGraph& graph = imported.scene.graph;
+    ASSERT_EQ(imported.warnings, std::vector<std::string>{
+                                     "2 instances of 2 prototypes are written out as the nodes that they stand for."});
+    const Node& door = graph.nodes[graph.roots.at(0)];
+    ASSERT_EQ(door.children.size(), 3u);
+    const Node& panel = graph.nodes[door.children[0]];
+    EXPECT_EQ(graph.nodes[panel.children.at(1)].fields, (std::vector<FieldText>{{"size", "1 2 3"}}));
+    EXPECT_EQ(graph.images.size(), 1u) << "its URL is relative to the prototype's file";
+    const Node& handle = graph.nodes[door.children[1]];
+    EXPECT_EQ(graph.nodes[handle.children.at(0)].fields, (std::vector<FieldText>{{"radius", "2"}}));
+    EXPECT_EQ(graph.nodes[door.children[2]].children.size(), 1u);
+  }
+  const auto refused = [&](const std::string& url, const std::string& cause) {
+    const Imported imported = read(url, "wrl");
+    ASSERT_EQ(imported.warnings.size(), 2u);
+    EXPECT_EQ(imported.warnings[0], "ProtoInstance (1) left out, since no prototype for it could be read; it is at " +
+                                        (directory / "a.wrl").string() + ":3:1.");
+    EXPECT_NE(imported.warnings[1].find("The instances of the external prototype Door are left out: "),
+              std::string::npos);
+    EXPECT_NE(imported.warnings[1].find(cause), std::string::npos) << imported.warnings[1];
+    EXPECT_TRUE(imported.scene.graph.roots.empty());
+  };
+  refused("\"http://example.org/doors.wrl#Door\"", "example.org");
+  refused("\"lib/doors.wrl#Window\"", "has no prototype Window");
+  refused("\"../doors.wrl#Door\"", "outside");
+  writeFile(directory / "lib/broken.wrl", asBytes("#VRML V2.0 utf8\nPROTO Door [ ] {\n ]"));
+  refused("\"lib/broken.wrl#Door\"", (directory / "lib/broken.wrl").string() + ":3:2");
 }
 
 TEST(Vrml, RefusesPrototypesThatExpandTooFar) {

@@ -10,7 +10,7 @@ namespace {
 
 using enum NodeTreatment;
 
-// Reasons that several nodes share. Summaries say "Kept without effect, since …: …" and "… left out, since …".
+// Reasons that several nodes share. Summaries say "Without effect, since …: …" and "… left out, since …".
 constexpr std::string_view animates = "pages do not animate or interact", sounds = "pages play no sound",
                            notDrawn = "pages do not draw this geometry",
                            noVolumes = "pages render no volumes and no three-dimensional textures",
@@ -21,7 +21,8 @@ constexpr std::string_view animates = "pages do not animate or interact", sounds
                            noLayout = "pages lay out nothing on the screen";
 
 // What several nodes become.
-constexpr std::string_view asGroup = "Group", asTransform = "Transform";
+constexpr std::string_view asGroup = "Group", asTransform = "Transform",
+                           asExpanded = "the nodes that instances of the prototype stand for";
 
 constexpr NodeRow x3dNodes[] = {
     {"AcousticProperties", "Shape", 5, "acousticProperties", kept, ""},
@@ -99,8 +100,7 @@ constexpr NodeRow x3dNodes[] = {
     {"ExplosionEmitter", "ParticleSystems", 1, "emitter", dropped, noParticles},
     {"Extrusion", "Geometry3D", 4, "geometry", drawn, ""},
     {"FillProperties", "Shape", 3, "fillProperties", kept, "pages fill every face"},
-    {"FloatVertexAttribute", "Shaders", 1, "attrib", drawn,
-     "colours by value; large geometry keeps it with --keep-attributes"},
+    {"FloatVertexAttribute", "Shaders", 1, "attrib", kept, "pages colour by attributes of other formats alone"},
     {"Fog", "EnvironmentalEffects", 2, "children", kept, "pages draw no fog"},
     {"FogCoordinate", "EnvironmentalEffects", 4, "fogCoord", kept, "pages draw no fog"},
     {"FontStyle", "Text", 1, "fontStyle", drawn, ""},
@@ -302,20 +302,20 @@ constexpr NodeRow nodesOfOthers[] = {
 
 constexpr NodeRow statements[] = {
     {"EXPORT", "statement", 0, "children", kept, animates},
-    {"ExternProtoDeclare", "statement", 0, "children", converted, "the nodes that its instances stand for"},
+    {"ExternProtoDeclare", "statement", 0, "children", converted, asExpanded},
     {"IMPORT", "statement", 0, "children", kept, animates},
-    {"IS", "statement", 0, "children", kept, ""},
-    {"ProtoBody", "statement", 0, "children", kept, ""},
-    {"ProtoDeclare", "statement", 0, "children", converted, "the nodes that its instances stand for"},
-    {"ProtoInstance", "statement", 0, "children", converted, "the nodes that it stands for"},
-    {"ProtoInterface", "statement", 0, "children", kept, ""},
+    {"IS", "statement", 0, "children", converted, asExpanded},
+    {"ProtoBody", "statement", 0, "children", converted, asExpanded},
+    {"ProtoDeclare", "statement", 0, "children", converted, asExpanded},
+    {"ProtoInstance", "statement", 0, "children", converted, asExpanded},
+    {"ProtoInterface", "statement", 0, "children", converted, asExpanded},
     {"ROUTE", "statement", 0, "children", kept, animates},
-    {"Scene", "statement", 0, "children", kept, ""},
-    {"X3D", "statement", 0, "children", kept, ""},
+    {"Scene", "statement", 0, "children", drawn, ""},
+    {"X3D", "statement", 0, "children", drawn, ""},
     {"component", "statement", 0, "children", kept, ""},
-    {"connect", "statement", 0, "children", kept, ""},
-    {"field", "statement", 0, "children", kept, ""},
-    {"fieldValue", "statement", 0, "children", kept, ""},
+    {"connect", "statement", 0, "children", converted, asExpanded},
+    {"field", "statement", 0, "children", converted, asExpanded},
+    {"fieldValue", "statement", 0, "children", converted, asExpanded},
     {"head", "statement", 0, "children", kept, ""},
     {"meta", "statement", 0, "children", kept, ""},
     {"unit", "statement", 0, "children", kept, ""},

@@ -2,11 +2,13 @@
 
 #include "base/error.h"
 #include "import/vrml/names.h"
+#include "scene/mf_string.h"
 
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace imgeo::x3d {
@@ -40,24 +42,32 @@ std::vector<pugi::xml_node> elementsIn(pugi::xml_node parent) {
   return elements;
 }
 
-/// A declaration and the declarations in its body. A body may use only prototypes that were declared before it, so that
-/// no prototype can contain itself.
+/// A declaration and the prototypes that its body declares; or the scope of a document.
 struct Prototype {
+  /// The meaning of a name. A body may use only names that were declared before it, so that no prototype of one file
+  /// can contain itself.
+  struct Entry {
+    Prototype* prototype = nullptr; ///< null for an external one that has not been read
+    pugi::xml_node externDeclaration;
+    std::size_t order = 0; ///< its number in the order of declarations
+  };
+
   pugi::xml_node declaration;
-  const Prototype* enclosing = nullptr; ///< the prototype whose body contains the declaration
-  std::size_t order =
-      std::numeric_limits<std::size_t>::max(); ///< its number in the order of declarations; max for the document
-  std::map<std::string, std::unique_ptr<Prototype>> inner;
+  Prototype* enclosing = nullptr;                              ///< the scope that contains the declaration
+  std::size_t order = std::numeric_limits<std::size_t>::max(); ///< as in Entry; max for a document
+  std::map<std::string, Entry> inner;
+  bool isExpanding = false; ///< an instance of it is being written out
 };
 
 class PrototypeExpander {
 public:
-  PrototypeExpander(Elements& elements, const std::string& name) : elements_(elements), name_(name) {}
+  PrototypeExpander(Elements& elements, const std::string& name, ExternPrototypes& externals)
+      : elements_(elements), name_(name), externals_(externals) {}
 
   PrototypeReport run() {
     noteNames(elements_.root(), 0, true);
     declarations_ = elements_.document.append_child("declarations");
-    expandIn(elements_.root(), document_, 0);
+    expandIn(elements_.root(), *addScope(), 0);
     elements_.document.remove_child(declarations_);
     return std::move(report_);
   }
@@ -77,64 +87,121 @@ private:
       noteNames(child, depth + 1, isInScene && !isElement(element, "ProtoDeclare"));
   }
 
-  /// `enclosing`: the prototype whose body contains `parent`.
-  void expandIn(pugi::xml_node parent, Prototype& enclosing, std::size_t depth) {
+  Prototype* addScope() { return prototypes_.emplace_back(std::make_unique<Prototype>()).get(); }
+
+  /// `scope`: the prototype whose body contains `parent`, or the document's.
+  void expandIn(pugi::xml_node parent, Prototype& scope, std::size_t depth) {
     if (depth > maxNesting)
       failTooDeep();
     for (const pugi::xml_node& child : elementsIn(parent))
-      if (isElement(child, "ProtoDeclare"))
-        declare(child, enclosing);
+      if (isDeclaration(child))
+        declare(child, scope, declarations_);
       else if (isElement(child, "ProtoInstance"))
-        expand(child, enclosing, depth);
+        expand(child, scope, depth);
       else
-        expandIn(child, enclosing, depth + 1);
+        expandIn(child, scope, depth + 1);
   }
 
-  void declare(pugi::xml_node declaration, Prototype& enclosing) {
-    const pugi::xml_node first = firstNodeOf(declaration);
-    if (!first)
+  /// Declares a prototype and moves its declaration to `removed`, from where it is copied.
+  void declare(pugi::xml_node declaration, Prototype& scope, pugi::xml_node removed) {
+    const std::string name = declaration.attribute("name").value();
+    if (isElement(declaration, "ExternProtoDeclare")) {
+      scope.inner[name] = {nullptr, declaration, ++order_};
+      removed.append_move(declaration);
       return;
-    auto prototype = std::make_unique<Prototype>();
+    }
+    Prototype* const prototype = addScope();
     prototype->declaration = declaration;
-    prototype->enclosing = &enclosing;
+    prototype->enclosing = &scope;
+    const pugi::xml_node first = firstNodeOf(declaration);
     for (const pugi::xml_node& other : elementsIn(declaration.child("ProtoBody")))
-      if (isElement(other, "ProtoDeclare"))
-        declare(other, *prototype);
+      if (isDeclaration(other))
+        declare(other, *prototype, removed);
       else if (other != first)
         ++report_.leftOut[other.name()];
     prototype->order = ++order_;
-    declarations_.append_move(declaration); // removed from the scene but kept for copying
-    ++report_.prototypes;
-    enclosing.inner[declaration.attribute("name").value()] = std::move(prototype);
+    removed.append_move(declaration);
+    scope.inner[name] = {prototype, {}, prototype->order};
   }
 
-  Prototype* prototypeOf(pugi::xml_node instance, const Prototype& enclosing) const {
+  /// The prototype of an instance within `scope`; null where there is none.
+  Prototype* prototypeOf(pugi::xml_node instance, Prototype& scope) {
     const char* name = instance.attribute("name").value();
-    for (const Prototype* scope = &enclosing; scope; scope = scope->enclosing)
-      if (const auto found = scope->inner.find(name);
-          found != scope->inner.end() && found->second->order < enclosing.order)
-        return found->second.get();
+    for (Prototype* at = &scope; at; at = at->enclosing)
+      if (const auto found = at->inner.find(name); found != at->inner.end() && found->second.order < scope.order) {
+        Prototype::Entry& entry = found->second;
+        if (!entry.prototype && entry.externDeclaration)
+          entry.prototype = readExternal(std::exchange(entry.externDeclaration, {}), instance);
+        return entry.prototype;
+      }
     return nullptr;
   }
 
-  void expand(pugi::xml_node instance, Prototype& enclosing, std::size_t depth) {
-    expandIn(instance, enclosing, depth + 1); // its field values may contain instances too
-    Prototype* const prototype = prototypeOf(instance, enclosing);
+  /// Reads the first file of an EXTERNPROTO that can be read; null where none can.
+  Prototype* readExternal(pugi::xml_node declaration, pugi::xml_node instance) {
+    std::string cause = "it has no url";
+    for (const std::string& url : parseStrings(declaration.attribute("url").value()))
+      try {
+        const ExternPrototypes::Named named = externals_.find(url);
+        if (Prototype* found = prototypeIn(*named.file, named.prototype))
+          return found;
+        cause = fmt::format("{} has no prototype {}", url, named.prototype);
+      } catch (const Error& error) {
+        if (error.kind() == ErrorKind::limit)
+          throw;
+        cause = error.what();
+      }
+    report_.failures.push_back(fmt::format("The instances of the external prototype {} are left out: {}",
+                                           instance.attribute("name").value(), cause));
+    return nullptr;
+  }
+
+  /// A prototype of a file by its name, or its first; null where there is none.
+  Prototype* prototypeIn(ExternPrototypes::File& file, const std::string& name) {
+    Prototype*& scope = scopes_[&file];
+    if (!scope) {
+      scope = addScope();
+      pugi::xml_node removed = file.elements.document.append_child("declarations");
+      for (const pugi::xml_node& child : elementsIn(file.elements.root().child("Scene")))
+        if (isDeclaration(child))
+          declare(child, *scope, removed);
+    }
+    Prototype::Entry* first = nullptr;
+    for (auto& [each, entry] : scope->inner)
+      if (each == name || (name.empty() && (!first || entry.order < first->order)))
+        first = &entry;
+    return first ? first->prototype : nullptr;
+  }
+
+  void expand(pugi::xml_node instance, Prototype& scope, std::size_t depth) {
+    expandIn(instance, scope, depth + 1); // its field values may contain instances too
+    Prototype* const prototype = prototypeOf(instance, scope);
     if (!prototype)
       return;
-    pugi::xml_node copy = instance.parent().insert_copy_before(firstNodeOf(prototype->declaration), instance);
+    const pugi::xml_node first = firstNodeOf(prototype->declaration);
+    if (prototype->isExpanding || !first) {
+      report_.failures.push_back(fmt::format("The instances of the prototype {} are left out: it {}",
+                                             instance.attribute("name").value(),
+                                             first ? "contains itself" : "has no node"));
+      return;
+    }
+    pugi::xml_node copy = instance.parent().insert_copy_before(first, instance);
     ++report_.instances;
+    report_.prototypes += expanded_.insert(prototype).second;
     std::map<std::string, std::string> names;
-    rename(copy, names, elements_.offsetOf(instance));
-    connect(copy, instance, prototype->declaration.child("ProtoInterface"));
+    const std::size_t offset = elements_.offsetOf(instance);
+    rename(copy, names, offset);
+    connect(copy, instance, prototype->declaration.child("ProtoInterface"), offset);
     for (const char* field : {"DEF", "containerField"})
       if (const pugi::xml_attribute given = instance.attribute(field))
         set(copy, field, given.value());
     instance.parent().remove_child(instance);
+    prototype->isExpanding = true;
     if (isElement(copy, "ProtoInstance"))
       expand(copy, *prototype, depth + 1);
     else
       expandIn(copy, *prototype, depth + 1);
+    prototype->isExpanding = false;
   }
 
   static void set(pugi::xml_node element, const char* attribute, const char* value) {
@@ -164,23 +231,23 @@ private:
   }
 
   /// Sets the fields that nodes of the body connect to fields of the prototype.
-  void connect(pugi::xml_node element, pugi::xml_node instance, pugi::xml_node interface) {
+  void connect(pugi::xml_node element, pugi::xml_node instance, pugi::xml_node interface, std::size_t offset) {
     for (const pugi::xml_node& child : elementsIn(element))
       if (!isElement(child, "IS"))
-        connect(child, instance, interface);
+        connect(child, instance, interface, offset);
     const pugi::xml_node is = element.child("IS");
     for (const pugi::xml_node& connection : is.children("connect")) {
       const char* protoField = connection.attribute("protoField").value();
       pugi::xml_node value = instance.find_child_by_attribute("fieldValue", "name", protoField);
       if (!value)
         value = interface.find_child_by_attribute("field", "name", protoField);
-      fill(element, connection.attribute("nodeField").value(), value);
+      fill(element, connection.attribute("nodeField").value(), value, offset);
     }
     if (is)
       element.remove_child(is);
   }
 
-  void fill(pugi::xml_node element, const char* field, pugi::xml_node value) {
+  void fill(pugi::xml_node element, const char* field, pugi::xml_node value, std::size_t offset) {
     pugi::xml_node target = element;
     if (isElement(element, "ProtoInstance")) { // the value is passed on to a nested instance
       target = element.append_child("fieldValue");
@@ -194,7 +261,7 @@ private:
         throw Error(ErrorKind::limit, name_,
                     fmt::format("prototypes expand to more than {} elements", maxExpandedElements));
       pugi::xml_node copy = target.append_copy(node);
-      elements_.offsets[copy.internal_object()] = elements_.offsetOf(node);
+      elements_.offsets[copy.internal_object()] = offset;
       const bool needsContainerField = target == element && field != defaultContainerField(copy.name());
       if (needsContainerField && !copy.attribute("containerField"))
         copy.append_attribute("containerField") = field;
@@ -203,7 +270,10 @@ private:
 
   Elements& elements_;
   const std::string& name_;
-  Prototype document_; ///< the document, treated like a body
+  ExternPrototypes& externals_;
+  std::vector<std::unique_ptr<Prototype>> prototypes_; ///< all, and the scopes of documents
+  std::map<ExternPrototypes::File*, Prototype*> scopes_;
+  std::set<Prototype*> expanded_;
   std::size_t order_ = 0;
   PrototypeReport report_;
   pugi::xml_node declarations_;
@@ -214,8 +284,8 @@ private:
 
 } // namespace
 
-PrototypeReport expandPrototypes(Elements& elements, const std::string& name) {
-  return PrototypeExpander(elements, name).run();
+PrototypeReport expandPrototypes(Elements& elements, const std::string& name, ExternPrototypes& externals) {
+  return PrototypeExpander(elements, name, externals).run();
 }
 
 } // namespace imgeo::x3d

@@ -8,6 +8,15 @@
 
 namespace imgeo::x3d {
 
+namespace {
+
+/// Whether an element is a part of a prototype that has not been expanded, since it is still there.
+bool isUnexpanded(const NodeRow& row) {
+  return row.component == "statement" && row.treatment == NodeTreatment::converted;
+}
+
+} // namespace
+
 bool isDrawnInPages(std::string_view element) {
   const NodeRow* row = nodeRow(element);
   return row && row->containerField == "geometry" && row->treatment == NodeTreatment::drawn;
@@ -15,12 +24,12 @@ bool isDrawnInPages(std::string_view element) {
 
 bool isLeftOut(std::string_view element) {
   const NodeRow* row = nodeRow(element);
-  return !row || row->treatment == NodeTreatment::dropped;
+  return !row || row->treatment == NodeTreatment::dropped || isUnexpanded(*row);
 }
 
 std::string_view reasonToLeaveOut(std::string_view element) {
   const NodeRow* row = nodeRow(element);
-  return row ? row->note : "it is no node of X3D 4.0";
+  return !row ? "it is no node of X3D 4.0" : isUnexpanded(*row) ? "no prototype for it could be read" : row->note;
 }
 
 void Summary::noteScale(Vec3d scale) {
@@ -53,7 +62,7 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
     warnings.push_back(fmt::format("{} ({}) left out, since {}; {} at {}.", element, kind.count,
                                    reasonToLeaveOut(element), kind.count == 1 ? "it is" : "the first is", kind.first));
   for (const auto& [reason, counts] : kept_)
-    warnOfElements(warnings, fmt::format("Kept without effect, since {}", reason), counts);
+    warnOfElements(warnings, fmt::format("Without effect, since {}", reason), counts);
   if (remoteImages > 0)
     warnings.push_back(fmt::format("{} left on other hosts.", counted(remoteImages, "texture is", "textures are")));
   if (remoteInlines > 0)

@@ -377,11 +377,21 @@ private:
       ++summary_.approximatedTexCoords[geometry->approximatedTexCoords];
     if (staysInline(node))
       return {};
+    noteDataOf(node);
     summary_.fans += geometry->fans;
     std::vector<Mesh>& meshes = imported_.scene.meshes;
     meshes.push_back(std::move(geometry->mesh));
     found->second = Shape{meshes.size() - 1, {}, geometry->solid};
     return found->second;
+  }
+
+  /// Notes the children of a geometry node that its mesh does not hold.
+  void noteDataOf(pugi::xml_node geometry) {
+    for (const pugi::xml_node& child : geometry.children())
+      if (child.type() == pugi::node_element && isLeftOut(child.name()))
+        leaveOut(child);
+      else
+        summary_.noteKept(child.name());
   }
 
   void addTitle() {
@@ -410,15 +420,21 @@ private:
 } // namespace
 
 Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  const PrototypeReport prototypes = expandPrototypes(elements, name);
+  const References references(options, name);
+  ExternPrototypes externals(references);
+  const PrototypeReport prototypes = expandPrototypes(elements, name, externals);
+  if (options.strict && !prototypes.failures.empty())
+    throw Error(ErrorKind::unsupported, name, prototypes.failures[0]);
   const NodeConversions conversions = convertNodes(elements);
   const std::string format = elements.format;
   std::vector<std::string> warnings = std::move(elements.warnings);
   const Source source(std::move(elements), asText(bytes), name);
-  Imported imported = SceneReader(source, References(options, name), options).read();
+  Imported imported = SceneReader(source, references, options).read();
   imported.format = format;
   imported.warnings.insert(imported.warnings.begin(), warnings.begin(), warnings.end());
-  if (prototypes.instances + prototypes.prototypes > 0)
+  for (const std::string& failure : prototypes.failures)
+    imported.warnings.push_back(failure + ".");
+  if (prototypes.instances > 0)
     imported.warnings.push_back(fmt::format("{} of {} written out as the nodes that they stand for.",
                                             counted(prototypes.instances, "instance", "instances"),
                                             counted(prototypes.prototypes, "prototype is", "prototypes are")));

@@ -196,10 +196,9 @@ TEST(X3d, KeepsNodesWithoutEffectAndSaysSoInOneLineForEachReason) {
   const Imported imported =
       readScene("<TimeSensor DEF='T'/><AudioClip/><PositionInterpolator DEF='P'/><Shape><Sphere/></Shape><TimeSensor/>"
                 "<ROUTE fromNode='T' fromField='fraction_changed' toNode='P' toField='set_fraction'/>");
-  EXPECT_EQ(imported.warnings,
-            (std::vector<std::string>{"Kept without effect, since pages do not animate or interact: "
-                                      "PositionInterpolator (1), ROUTE (1), TimeSensor (2).",
-                                      "Kept without effect, since pages play no sound: AudioClip (1)."}));
+  EXPECT_EQ(imported.warnings, (std::vector<std::string>{"Without effect, since pages do not animate or interact: "
+                                                         "PositionInterpolator (1), ROUTE (1), TimeSensor (2).",
+                                                         "Without effect, since pages play no sound: AudioClip (1)."}));
   EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
 }
 
