@@ -68,14 +68,15 @@ public:
     const char* version = elements_.root().attribute("version").value();
     hasVisiblePerChild_ = *version != '\0' && *version < '4';
     convertBelow(elements_.root().child("Scene"));
+    convertBelow(takenOut_);
     return std::move(result_);
   }
 
 private:
   void convertBelow(pugi::xml_node parent) {
     for (const pugi::xml_node& element : elementsOf(parent)) {
+      convert(element); // before its children, which lose the field of it that they are in
       convertBelow(element);
-      convert(element);
     }
   }
 
