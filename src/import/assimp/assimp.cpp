@@ -3,6 +3,7 @@
 #include "import/assimp/files.h"
 #include "import/assimp/library.h"
 #include "import/assimp/materials.h"
+#include "import/assimp/reported_errors.h"
 #include "import/isolation/child_process.h"
 #include "import/mesh/crease_normals.h"
 #include "import/mesh/triangulate.h"
@@ -303,18 +304,20 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
   const std::unique_ptr<aiPropertyStore, Release> properties(assimp().createPropertyStore());
   assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
                                     false); // otherwise Assimp splits each node into several
+  const ReportedErrors errors;
   const std::unique_ptr<const aiScene, Release> scene(
       assimp().importFile(name.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));
-  if (!scene) {
-    std::string reason = assimp().getErrorString();
-    std::ranges::replace(reason, '\n', ' ');
-    throw Error(ErrorKind::malformed, name, fmt::format("Assimp cannot read it: {}", reason));
-  }
   const std::string extension = lastExtensionOf(name).substr(1);
   std::string format = extension;
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+  if (!scene) {
+    std::string reason = assimp().getErrorString();
+    std::ranges::replace(reason, '\n', ' ');
+    throw Error(ErrorKind::malformed, name,
+                fmt::format("is damaged or no {} file; Assimp, which reads the format, says: {}", format, reason));
+  }
   Imported imported = SceneReader(*scene, name, references, options.strict, extension).read(format);
-  std::vector<std::string> omissions;
+  std::vector<std::string> omissions = errors.sentences();
   for (const std::string& refused : files.refused())
     omissions.push_back(fmt::format("Not read: {}.", refused));
   addOmissions(imported.warnings, omissions, options.strict, name);

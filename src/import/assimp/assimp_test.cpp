@@ -4,6 +4,7 @@
 #include "scene/shape_instances.h"
 #include "scene/testing.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace imgeo::testing {
@@ -132,11 +133,48 @@ TEST(Assimp, MergesEqualMaterials) {
   EXPECT_EQ(graph.appearances.size(), 2u);
 }
 
+TEST(Assimp, ReadsTheTransparencyOfColladaInTheWayOfItsWriter) {
+  const auto read = [](const std::string& transparency, const std::string& opaque) {
+    std::string text = collada;
+    const std::string before = "</phong>";
+    text.insert(text.find(before), "<transparent opaque=\"" + opaque +
+                                       "\"><color>1 1 1 1</color></transparent><transparency><float>" + transparency +
+                                       "</float></transparency>");
+    return importBytes(asBytes(text), "a.dae");
+  };
+  const auto transparencyOf = [](const Imported& imported) {
+    return std::get<Material>(appearanceOf(imported.scene.graph, 0).material).transparency;
+  };
+  const auto isWarned = [](const Imported& imported) {
+    return std::ranges::any_of(imported.warnings,
+                               [](const std::string& w) { return w.find("COLLADA's rule") != w.npos; });
+  };
+  EXPECT_EQ(transparencyOf(read("1", "A_ONE")), 0);
+  EXPECT_EQ(transparencyOf(read("0.75", "A_ONE")), 0.25f);
+  EXPECT_EQ(transparencyOf(read("0.75", "RGB_ZERO")), 0.75f);
+  EXPECT_FALSE(isWarned(read("0.75", "A_ONE")));
+  // By the rule the whole model would be invisible.
+  EXPECT_EQ(transparencyOf(read("0", "A_ONE")), 0);
+  EXPECT_TRUE(isWarned(read("0", "A_ONE")));
+}
+
+TEST(Assimp, SaysWhatItsLibraryHasRepaired) {
+  const std::string off = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n3 0 1 2\n";
+  const Imported imported = importBytes(asBytes(off), "a.off");
+  ASSERT_EQ(imported.warnings.size(), 1u);
+  EXPECT_EQ(imported.warnings[0], "Assimp, which reads the format, reports: OFF: Vertex index is out of range.");
+  ImportOptions strict;
+  strict.strict = true;
+  EXPECT_THROW(importBytes(asBytes(off), "a.off", strict), Error);
+}
+
 TEST(Assimp, RefusesUnreadableFiles) {
   const Error error = errorOf(collada.substr(0, 900), "a.dae");
   EXPECT_EQ(error.kind(), ErrorKind::malformed);
   EXPECT_EQ(error.location(), "a.dae");
   EXPECT_EQ(errorOf("nothing", "a.fbx").kind(), ErrorKind::malformed);
+  EXPECT_EQ(errorOf("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n", "a.off").message().substr(0, 63),
+            "is damaged or no OFF file; Assimp, which reads the format, says");
 }
 
 } // namespace

@@ -11,7 +11,9 @@ namespace imgeo {
 struct AssimpLibrary : DynamicLibrary {
   AssimpLibrary() : DynamicLibrary(IMGEO_ASSIMP) {}
 
+  decltype(&::aiAttachLogStream) attachLogStream = find("aiAttachLogStream");
   decltype(&::aiCreatePropertyStore) createPropertyStore = find("aiCreatePropertyStore");
+  decltype(&::aiDetachLogStream) detachLogStream = find("aiDetachLogStream");
   decltype(&::aiGetErrorString) getErrorString = find("aiGetErrorString");
   decltype(&::aiGetMaterialColor) getMaterialColor = find("aiGetMaterialColor");
   decltype(&::aiGetMaterialFloatArray) getMaterialFloats = find("aiGetMaterialFloatArray");

@@ -52,6 +52,23 @@ std::optional<std::size_t> embeddedIndex(const std::string& path) {
   return fault == std::errc{} && end == path.data() + path.size() ? std::optional(index) : std::nullopt;
 }
 
+/// Whether the writer of a COLLADA document counts transparency from 0, opaque, upwards, as several exporters do. By
+/// the specification (COLLADA 1.4.1, "transparent") 1 is opaque, and so the materials that these exporters write as
+/// opaque would be invisible: the document is read in their way where most of the materials that state a transparency
+/// would be.
+bool countsTransparencyFromOpaque(const aiScene& source, std::string_view extension) {
+  if (extension != "dae")
+    return false;
+  std::size_t invisible = 0, others = 0;
+  constexpr float unstated = -1;
+  for (unsigned i = 0; i < source.mNumMaterials; ++i) {
+    const float opacity = numberOf(*source.mMaterials[i], AI_MATKEY_OPACITY, unstated);
+    invisible += opacity == 0;
+    others += opacity > 0;
+  }
+  return invisible > others;
+}
+
 /// Whether a format's viewers multiply all light by the texture, emission included (fixed-function OpenGL and
 /// Direct3D). An untextured emissiveColor would wash the texture out.
 bool multipliesAllLight(std::string_view extension) {
@@ -77,6 +94,7 @@ void useColorTextureAsEmissive(Appearance& appearance) {
 AssimpMaterials::AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references,
                                  std::string_view extension)
     : source_(source), graph_(graph), references_(references), images_(graph),
+      invertsTransparency_(countsTransparencyFromOpaque(source, extension)),
       colorTextureIsEmissive_(multipliesAllLight(extension)) {}
 
 AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
@@ -86,8 +104,13 @@ AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
                         std::clamp(numberOf(material, AI_MATKEY_SHININESS_STRENGTH, 1), 0.0f, 1.0f);
   phong.emissiveColor = colorOf(material, AI_MATKEY_COLOR_EMISSIVE, phong.emissiveColor);
   phong.shininess = std::clamp(numberOf(material, AI_MATKEY_SHININESS, 128 * phong.shininess) / 128, 0.0f, 1.0f);
-  phong.transparency = 1 - std::clamp(numberOf(material, AI_MATKEY_OPACITY, 1), 0.0f, 1.0f);
+  phong.transparency = transparencyOf(material);
   return phong;
+}
+
+float AssimpMaterials::transparencyOf(const aiMaterial& material) const {
+  const float opacity = std::clamp(numberOf(material, AI_MATKEY_OPACITY, invertsTransparency_ ? 0 : 1), 0.0f, 1.0f);
+  return invertsTransparency_ ? opacity : 1 - opacity;
 }
 
 /// The bytes of a texture's file. Absolute paths of the authoring machine do not exist here, so the file's name is
@@ -183,6 +206,9 @@ bool AssimpMaterials::isSolid(unsigned index) const {
 }
 
 void AssimpMaterials::addWarnings(std::vector<std::string>& warnings) const {
+  if (invertsTransparency_)
+    warnings.push_back("Most materials with a transparency would be invisible by COLLADA's rule, so transparency 0 is "
+                       "read as opaque.");
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : others_)
     kinds.push_back(fmt::format("{} ({})", kind, count));

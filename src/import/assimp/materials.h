@@ -29,6 +29,8 @@ public:
 
 private:
   AnyMaterial materialOf(const aiMaterial& material) const;
+  /// 0 … 1
+  float transparencyOf(const aiMaterial& material) const;
   void addTexture(const aiMaterial& material, aiTextureType type, TextureRole role, Appearance& appearance);
   std::optional<std::size_t> image(const std::string& path);
   Bytes bytesOf(const std::string& path) const;
@@ -37,6 +39,7 @@ private:
   SceneGraph& graph_;
   const References& references_;
   SourceImages images_;
+  const bool invertsTransparency_;    ///< COLLADA whose writer counts transparency from 0, opaque, upwards
   const bool colorTextureIsEmissive_; ///< the colour texture also modulates the emissive colour
   std::map<unsigned, std::optional<std::size_t>> appearances_;
   std::map<std::string, std::size_t> others_; ///< textures of other kinds, by kind
