@@ -31,6 +31,8 @@ export interface PageOptions {
   motion?: boolean;
   /** Runs in the page before its scripts; self-contained. */
   before?: () => void;
+  /** The view has its toolbar. Pictures are compared without it, because it appears while the mouse is over the view. */
+  hasToolbar?: boolean;
   /** Sets up the server (rules, bodies) before the page sends requests. */
   server?: (server: TestServer) => void;
   /** The page may send requests to other servers. */
@@ -108,6 +110,7 @@ export async function withPage(
   try {
     await page.setViewportSize(size);
     await page.addInitScript(observe);
+    if (options.hasToolbar !== true) await page.addInitScript(hideToolbar);
     if (options.before) await page.addInitScript(options.before);
     const view = watch(page, server);
     await page.goto(server.origin + (options.path ?? ""), { waitUntil: "commit" });
@@ -121,6 +124,12 @@ export async function withPage(
     await page.close();
     await server.close();
   }
+}
+
+function hideToolbar(): void {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync("imgeo-view::part(tools) { display: none }");
+  document.adoptedStyleSheets.push(sheet);
 }
 
 function watch(page: Page, server: TestServer): View {

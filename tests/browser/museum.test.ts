@@ -47,7 +47,7 @@ test("the museum example has notes that are readable from everywhere, displays i
     assert.ok(!(await page.getByText("Its other side.").isVisible()));
 
     await page.evaluate(() => {
-      document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg auto");
+      document.querySelector("x3d")!.setAttribute("camera-orbit", "150deg 90deg auto");
     });
     await until(
       "the other note has faded",

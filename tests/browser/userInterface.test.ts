@@ -427,8 +427,11 @@ describe("hotspots", () => {
         [await visible("#surface"), await visible("#within"), await visible("#back")],
         [true, false, true],
       );
-      await until("it has faded", () =>
-        view.page.evaluate(() => getComputedStyle(document.querySelector("#within")!).opacity === "0.25"),
+      await until("it gives way to the one in front of it", () =>
+        view.page.evaluate(() => getComputedStyle(document.querySelector("#within")!).opacity === "0"),
+      );
+      await until("one that is covered and free has faded", () =>
+        view.page.evaluate(() => getComputedStyle(document.querySelector("#front")!).opacity === "0.25"),
       );
       assert.ok(
         (await view.page.evaluate(

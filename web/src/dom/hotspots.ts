@@ -1,9 +1,13 @@
 // Hotspots: children of the view with slot="hotspot-…" at positions in the scene. They
 // remain the page's own elements, readable and focusable. This file positions them on
-// the canvas and tells whether they are visible: whether their surface faces the camera
-// and the scene does not cover them.
+// the canvas and tells whether they are visible: whether their shape is, their surface
+// faces the camera, and the scene does not cover them. Where labels would overlap, the
+// nearer one stays.
 
 import type { View } from "../render/view.ts";
+import type { LabelBox } from "./hotspotLabels.ts";
+import { displacedLabels } from "./hotspotLabels.ts";
+import { hotspotsLabel } from "./labels.ts";
 
 type Point = readonly [number, number, number];
 
@@ -13,10 +17,16 @@ interface Hotspot {
   readonly container: HTMLElement;
   readonly position: Point;
   readonly normal: Point | undefined;
+  /** DEF or id of the shape that the hotspot is about; empty: no particular one. */
+  readonly shapeName: string;
+  /** The one of higher priority stays where two overlap. */
+  readonly priority: number;
   /** The position on the canvas in CSS pixels; undefined outside of it. */
   pixel: readonly [x: number, y: number] | undefined;
   isFacing: boolean;
   isCovered: boolean;
+  isShapeVisible: boolean;
+  isDisplaced: boolean;
   /** As last reported to the element; undefined before. */
   isVisible: boolean | undefined;
 }
@@ -27,6 +37,8 @@ export interface HotspotView {
   readonly isStill: () => boolean;
   /** The visible point of the scene at a CSS pixel; undefined where there is none. */
   readonly pointAt: (x: number, y: number) => Promise<Point | undefined>;
+  /** Whether the shape of this DEF or id is visible; undefined if the scene has no such shape. */
+  readonly isShapeVisible: (name: string) => boolean | undefined;
 }
 
 /** A surface nearer than a hotspot by at most this share of the hotspot's distance counts as the hotspot's own. */
@@ -40,6 +52,14 @@ export class Hotspots {
   #frameRequest = 0;
   /** Number of the current frame: results for an earlier frame are dropped. */
   #frameNumber = 0;
+  /** Sizes in CSS pixels. They are observed, because to ask for one would lay out the page in each frame. */
+  readonly #sizes = new Map<Element, { readonly width: number; readonly height: number }>();
+  readonly #sizeObserver = new ResizeObserver((entries) => {
+    for (const { target, borderBoxSize } of entries)
+      this.#sizes.set(target, { width: borderBoxSize[0]?.inlineSize ?? 0, height: borderBoxSize[0]?.blockSize ?? 0 });
+    this.#displace();
+  });
+  #eye: Point = [0, 0, 0];
 
   constructor(host: Element, layer: HTMLElement, hotspotView: HotspotView) {
     this.#host = host;
@@ -49,11 +69,12 @@ export class Hotspots {
 
   /** Reads the page's hotspots again, after they have changed. */
   read(): void {
-    const containers = new Map(this.#hotspots.map(({ element, container }) => [element, container]));
+    const known = new Map(this.#hotspots.map((hotspot) => [hotspot.element, hotspot]));
     this.#hotspots = Array.from(this.#host.children).flatMap((child) => {
       const position = pointOf(child.getAttribute("data-position"));
       if (!(child instanceof HTMLElement) || !child.slot.startsWith("hotspot") || position === undefined) return [];
-      const container = containers.get(child) ?? document.createElement("div");
+      const container = known.get(child)?.container ?? document.createElement("div");
+      container.role = "listitem";
       const slot = container.querySelector("slot") ?? container.appendChild(document.createElement("slot"));
       slot.name = child.slot;
       return [
@@ -62,14 +83,27 @@ export class Hotspots {
           container,
           position,
           normal: pointOf(child.getAttribute("data-normal")),
+          shapeName: child.getAttribute("data-shape")?.trim() ?? "",
+          priority: Number(child.getAttribute("data-priority")) || 0,
           pixel: undefined,
           isFacing: true,
           isCovered: false,
+          isShapeVisible: true,
+          isDisplaced: known.get(child)?.isDisplaced ?? false,
           isVisible: undefined,
         },
       ];
     });
     this.#layer.replaceChildren(...this.#hotspots.map(({ container }) => container));
+    this.#layer.role = this.#hotspots.length > 0 ? "list" : null; // a list must not be empty
+    this.#layer.ariaLabel = this.#hotspots.length > 0 ? hotspotsLabel : null;
+    const elements = new Set<Element>(this.#hotspots.map(({ element }) => element));
+    for (const element of this.#sizes.keys()) {
+      if (elements.has(element)) continue;
+      this.#sizes.delete(element);
+      this.#sizeObserver.unobserve(element);
+    }
+    for (const element of elements) this.#sizeObserver.observe(element, { box: "border-box" });
   }
 
   /**
@@ -79,7 +113,13 @@ export class Hotspots {
   update(view: View, width: number, height: number): void {
     this.#invalidateFrame();
     if (this.#hotspots.length === 0) return;
-    for (const hotspot of this.#hotspots) projectInto(view, width, height, hotspot);
+    this.#eye = view.position;
+    for (const hotspot of this.#hotspots) {
+      hotspot.isShapeVisible =
+        hotspot.shapeName === "" || this.#hotspotView.isShapeVisible(hotspot.shapeName) !== false;
+      projectInto(view, width, height, hotspot);
+    }
+    this.#displace();
     this.#frameRequest = requestAnimationFrame(() => {
       if (this.#hotspotView.isStill()) void this.#testVisibility(view.position, this.#frameNumber);
     });
@@ -87,6 +127,25 @@ export class Hotspots {
 
   dispose(): void {
     this.#invalidateFrame();
+    this.#sizeObserver.disconnect();
+  }
+
+  /** Has labels give way to labels that are visible, of higher priority, or nearer. */
+  #displace(): void {
+    const labels = this.#hotspots.flatMap((hotspot) => {
+      const size = this.#sizes.get(hotspot.element);
+      const { pixel, position, priority, isVisible, isShapeVisible, isDisplaced } = hotspot;
+      if (pixel === undefined || size === undefined || !isShapeVisible) return [];
+      const order = [isVisible === true ? 0 : 1, -priority, distanceOf(this.#eye, position)];
+      return [
+        { hotspot, x: pixel[0], y: pixel[1], ...size, order, isDisplaced } satisfies LabelBox & { hotspot: Hotspot },
+      ];
+    });
+    const displaced = new Set(Array.from(displacedLabels(labels), ({ hotspot }) => hotspot));
+    for (const hotspot of this.#hotspots) {
+      hotspot.isDisplaced = displaced.has(hotspot);
+      hotspot.container.classList.toggle("displaced", hotspot.isDisplaced);
+    }
   }
 
   #invalidateFrame(): void {
@@ -97,13 +156,14 @@ export class Hotspots {
   /** Tests one hotspot after the other by picking, which draws no frame. */
   async #testVisibility(eye: Point, frameNumber: number): Promise<void> {
     for (const hotspot of this.#hotspots) {
-      if (hotspot.pixel === undefined || !hotspot.isFacing) continue;
+      if (hotspot.pixel === undefined || !hotspot.isFacing || !hotspot.isShapeVisible) continue;
       const found = await this.#hotspotView.pointAt(...hotspot.pixel);
       if (frameNumber !== this.#frameNumber) return;
       hotspot.isCovered =
         found !== undefined && distanceOf(eye, found) < (1 - coverTolerance) * distanceOf(eye, hotspot.position);
       sendVisibility(hotspot);
     }
+    this.#displace();
   }
 }
 
@@ -111,7 +171,7 @@ function projectInto(view: View, width: number, height: number, hotspot: Hotspot
   const { container, position } = hotspot;
   const [x, y, , w] = clipOf(view.clipFromScene, position);
   const isInView = w > 0 && Math.abs(x) <= w && Math.abs(y) <= w;
-  container.classList.toggle("out-of-view", !isInView);
+  container.classList.toggle("out-of-view", !isInView || !hotspot.isShapeVisible);
   hotspot.pixel = isInView ? [((x / w + 1) / 2) * width, ((1 - y / w) / 2) * height] : undefined;
   if (hotspot.pixel) container.style.transform = `translate(${hotspot.pixel[0]}px, ${hotspot.pixel[1]}px)`;
   hotspot.isFacing = hotspot.normal === undefined || isFacingCamera(view.position, position, hotspot.normal);
@@ -119,8 +179,8 @@ function projectInto(view: View, width: number, height: number, hotspot: Hotspot
 }
 
 function sendVisibility(hotspot: Hotspot): void {
-  const { container, element, isFacing, isCovered } = hotspot;
-  const isVisible = isFacing && !isCovered;
+  const { container, element, isFacing, isCovered, isShapeVisible } = hotspot;
+  const isVisible = isFacing && !isCovered && isShapeVisible;
   if (isVisible === hotspot.isVisible) return;
   hotspot.isVisible = isVisible;
   container.classList.toggle("unseen", !isVisible);

@@ -6,6 +6,7 @@ import { orbitOf } from "../navigation/orbit.ts";
 import { contextOf } from "../render/context.ts";
 import type { ImgeoViewer } from "../element/imgeoViewer.ts";
 import { viewMethods, viewProperties } from "../element/viewMembers.ts";
+import { regionLabelOf } from "./labels.ts";
 import { makeUserInterface } from "./userInterface.ts";
 import { takePreview } from "../preview/previewRegistry.ts";
 import type { Loadable } from "./loadingEvents.ts";
@@ -43,6 +44,12 @@ export interface SurfacePoint {
 export class ImgeoView extends HTMLElement {
   #controller: ViewController | undefined;
   #canvas: HTMLCanvasElement | undefined;
+  readonly #internals = this.attachInternals();
+
+  constructor() {
+    super();
+    this.#internals.role = "region"; // a landmark of the page
+  }
 
   /** Counts of frames, requests and GPU memory; undefined while the view is not connected. */
   get statistics(): ViewStatistics | undefined {
@@ -150,7 +157,9 @@ export class ImgeoView extends HTMLElement {
       return;
     }
     this.#canvas = ui.canvas;
-    this.#controller = new ViewController(x3d, this, ui, context, preview);
+    this.#controller = new ViewController(x3d, this, ui, context, preview, (label) => {
+      this.#internals.ariaLabel = regionLabelOf(label);
+    });
     addMembersTo(x3d, this);
     this.#controller.start();
   }

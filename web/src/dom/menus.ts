@@ -43,7 +43,7 @@ export class Menus {
   /** Updates the menus from the camera controller. */
   update(): void {
     const { viewpoints, bound, type } = this.#cameraController;
-    this.#namedViewpoints = viewpoints.filter(({ viewpoint }) => viewpoint.description !== "");
+    this.#namedViewpoints = viewpoints.filter(({ viewpoint }) => viewpoint.description.trim() !== "");
     this.#listedTypes = this.#cameraController.listedTypes;
     fillMenu(
       this.#viewpointMenu,

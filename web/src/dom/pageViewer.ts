@@ -5,7 +5,8 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resourcePool.ts";
-import type { AnchorDescription, SceneDescription } from "../document/description.ts";
+import type { AnchorDescription, NodeDescription, SceneDescription } from "../document/description.ts";
+import { attributeOf } from "../document/element.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import type { NavigatedScene } from "../navigation/cameraController.ts";
 import { CameraController } from "../navigation/cameraController.ts";
@@ -83,6 +84,8 @@ export class PageViewer {
   #isLoading = false;
   #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
   #hasAnchors = false;
+  /** The shapes of `scene`; listed when a hotspot asks for one. */
+  #shapeVisibility: { readonly scene: SceneDescription; readonly byName: ReadonlyMap<string, boolean> } | undefined;
   /** Nesting depth of calls of `core.read`: LODs of the scene that one call has read cause the next. */
   #nestedReads = 0;
   readonly #progress = new Throttle(progressIntervalMs, () => {
@@ -215,6 +218,17 @@ export class PageViewer {
       (document?.x3d as Element | undefined)?.querySelector("WorldInfo")?.getAttribute("title"),
     );
     return titles.find((title) => title) ?? undefined;
+  }
+
+  /**
+   * Whether the shape with this DEF or id is visible, inlined documents included; undefined if there is none. Of several
+   * instances one is enough.
+   */
+  isShapeVisible(name: string): boolean | undefined {
+    const scene = this.#core.scene;
+    if (scene === undefined) return undefined;
+    if (this.#shapeVisibility?.scene !== scene) this.#shapeVisibility = { scene, byName: visibilityByName(scene.root) };
+    return this.#shapeVisibility.byName.get(name);
   }
 
   /** Sets the GPU memory, in bytes, that vertex data and textures may take. */
@@ -430,6 +444,21 @@ export class PageViewer {
   #warn(message: string): void {
     this.#core.log.warn(`<${this.#x3d.localName}> ${message}`);
   }
+}
+
+/** Whether the shapes with a DEF or an id are visible. */
+function visibilityByName(root: NodeDescription): Map<string, boolean> {
+  const byName = new Map<string, boolean>();
+  const add = (node: NodeDescription): void => {
+    if (node.kind === "group") node.children.forEach(add);
+    if (node.kind !== "shape") return;
+    for (const attribute of ["DEF", "id"]) {
+      const name = attributeOf(node.element, attribute);
+      if (name !== undefined) byName.set(name, node.visible || byName.get(name) === true);
+    }
+  };
+  add(root);
+  return byName;
 }
 
 /** Returns an invalid URL unchanged: its request fails with a message. */

@@ -2,6 +2,7 @@
 // and a message. Pages replace or style its elements through slots and parts.
 
 import { viewStyle } from "../element/viewStyle.ts";
+import { linksLabel } from "./labels.ts";
 
 export interface UserInterface {
   readonly canvas: HTMLCanvasElement;
@@ -12,6 +13,8 @@ export interface UserInterface {
   readonly controls: HTMLElement;
   /** Holds a link for each Anchor of the scene, for keyboards and screen readers. */
   readonly links: HTMLElement;
+  /** The dialog for help. */
+  readonly help: HTMLDialogElement;
   /** Sets the progress bar, 0 … 1; at 1 it disappears. Screen readers read `label`. */
   showProgress(share: number, label: string): void;
   /** Has screen readers read a text. */
@@ -49,10 +52,11 @@ export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement)
   const barSlot = slotOf("progress-bar", bar);
 
   const controls = elementOf("div", { class: "controls", part: "default-controls" });
-  const links = elementOf("nav", { class: "links", "aria-label": "Links in the scene", hidden: "" });
+  const links = elementOf("nav", { class: "links", "aria-label": linksLabel, hidden: "" });
   const spoken = elementOf("p", { class: "spoken", role: "status" });
   const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
-  const overCanvas = [hotspots, poster, links, slotOf("controls", controls), barSlot, spoken, message];
+  const help = elementOf("dialog", { class: "help", part: "help" });
+  const overCanvas = [hotspots, poster, links, slotOf("controls", controls), barSlot, spoken, message, help];
   if (preview?.parentNode === root) {
     preview.before(canvas);
     preview.after(...overCanvas);
@@ -67,6 +71,7 @@ export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement)
     hotspots,
     controls,
     links,
+    help,
     showProgress(share, label) {
       const percent = Math.floor(share * 100); // 100 only when everything is loaded
       fill.style.transform = `scaleX(${share})`;

@@ -10,6 +10,7 @@ import type { UserInterface } from "./userInterface.ts";
 import type { Preview } from "../preview/preview.ts";
 import type { CameraInputLimits } from "./cameraInput.ts";
 import { CameraInput } from "./cameraInput.ts";
+import { HelpDialog } from "./helpDialog.ts";
 import { Hotspots } from "./hotspots.ts";
 import { AnchorLinks } from "./anchorLinks.ts";
 import { Menus } from "./menus.ts";
@@ -20,7 +21,17 @@ import { keepTouchAction } from "./touchAction.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import { deviceSizeOf, observeDeviceSize, whenNearViewport } from "../element/visibility.ts";
 import { ResetButtons } from "./resetButtons.ts";
-import { drawingLabels, keyLabels, stageLabels, navigationTypeLabels, viewLabelOf } from "./labels.ts";
+import { Toolbar } from "./toolbar.ts";
+import { savePicture } from "./savePicture.ts";
+import {
+  drawingLabels,
+  fullScreenRefusedLabel,
+  keyLabels,
+  navigationTypeLabels,
+  pictureSavedLabel,
+  stageLabels,
+  viewLabelOf,
+} from "./labels.ts";
 
 /** The view is announced to screen readers this long after the last movement. */
 const announcementDelayMs = 700;
@@ -38,6 +49,10 @@ export class ViewController {
   readonly #links: AnchorLinks;
   readonly #resetButtons: ResetButtons;
   readonly #hotspots: Hotspots;
+  readonly #toolbar: Toolbar;
+  readonly #help: HelpDialog;
+  readonly #host: HTMLElement;
+  readonly #onLabel: (label: string) => void;
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
@@ -51,10 +66,20 @@ export class ViewController {
   /** The preview, which covers the canvas until the canvas displays the same shapes. */
   #preview: Preview | undefined;
 
-  /** `host`: the view element in `x3d`, in whose shadow root `ui` is. */
-  constructor(x3d: Element, host: HTMLElement, ui: UserInterface, context: WebGL2RenderingContext, preview?: Preview) {
+  /** `host`: the view element in `x3d`, in whose shadow root `ui` is. `onLabel` is called with the scene's label. */
+  constructor(
+    x3d: Element,
+    host: HTMLElement,
+    ui: UserInterface,
+    context: WebGL2RenderingContext,
+    preview: Preview | undefined,
+    onLabel: (label: string) => void,
+  ) {
+    this.#onLabel = onLabel;
     this.#x3d = x3d;
+    this.#host = host;
     this.#ui = ui;
+    this.#help = new HelpDialog(ui.help);
     this.#hotspots = new Hotspots(host, ui.hotspots, {
       isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.cameraController.isMoving,
       pointAt: async (x, y) => {
@@ -65,6 +90,7 @@ export class ViewController {
         );
         return hit?.position.toArray();
       },
+      isShapeVisible: (name) => this.viewer.isShapeVisible(name),
     });
     this.poster = new Poster(host, ui, (name, detail) => {
       this.#send(name, detail);
@@ -98,6 +124,7 @@ export class ViewController {
       this.#warnOnce(sentence);
     });
     this.#resetButtons = new ResetButtons(ui.controls, cameraController, signal);
+    this.#toolbar = this.#makeToolbar();
     this.#settings = this.#readSettings();
     cameraController.isInstant = this.#reducedMotion.matches;
     this.#reducedMotion.addEventListener(
@@ -151,7 +178,7 @@ export class ViewController {
     ui.canvas.addEventListener(
       "keydown",
       (event) => {
-        this.#toggleDrawing(event);
+        this.#onKey(event);
       },
       { signal },
     );
@@ -245,7 +272,7 @@ export class ViewController {
     hotspotObserver.observe(host, {
       childList: true,
       subtree: true,
-      attributeFilter: ["slot", "data-position", "data-normal"],
+      attributeFilter: ["slot", "data-position", "data-normal", "data-shape", "data-priority"],
     });
     this.#hotspots.read();
     this.#listeners.signal.addEventListener("abort", () => {
@@ -310,7 +337,9 @@ export class ViewController {
     const { canvas } = this.#ui;
     const { type } = this.viewer.cameraController;
     const isStatic = this.#cameraInput.type === "none";
-    canvas.setAttribute("aria-label", this.#label);
+    const label = this.#label;
+    canvas.setAttribute("aria-label", label);
+    this.#onLabel(label);
     // Screen readers pass arrow keys on to the role `application` only.
     canvas.setAttribute("role", isStatic ? "img" : "application");
     canvas.ariaRoleDescription = isStatic ? null : "3D view";
@@ -319,14 +348,69 @@ export class ViewController {
     canvas.classList.toggle("moves", !isStatic);
     this.#applyTouchAction();
     this.#menus.update();
+    this.#toolbar.update(this.#settings["camera-controls"]);
     if (this.#lastType !== undefined && this.#lastType !== type)
       this.#ui.announce(`${navigationTypeLabels[type]}. ${keyLabels[type]}`);
     this.#lastType = type;
   }
 
-  /** The key P changes the attribute `draw-as`, so that pages can observe it. */
-  #toggleDrawing({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
-    if (key.toLowerCase() !== "p" || ctrlKey || metaKey || altKey || this.#cameraInput.type === "none") return;
+  /** The keys of tools. */
+  #onKey({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
+    if (ctrlKey || metaKey || altKey || this.#cameraInput.type === "none") return;
+    if (key.toLowerCase() === "p") this.#toggleDrawing();
+    else if (key === "?") this.#help.open(this.#cameraInput.type);
+  }
+
+  #makeToolbar(): Toolbar {
+    const { signal } = this.#listeners;
+    const isFullScreen = () => document.fullscreenElement === this.#host;
+    const toolbar = new Toolbar(
+      this.#ui.controls,
+      {
+        points: {
+          onClick: () => {
+            this.#toggleDrawing();
+          },
+          isPressed: () => this.#x3d.getAttribute("draw-as") === "points",
+        },
+        fullScreen: {
+          onClick: () => {
+            void (isFullScreen() ? document.exitFullscreen() : this.#host.requestFullscreen()).catch(() => {
+              this.#ui.announce(fullScreenRefusedLabel);
+            });
+          },
+          isPressed: isFullScreen,
+        },
+        picture: {
+          onClick: () => {
+            this.viewer.renderer.draw(); // what the canvas holds now can be read in this turn of the event loop only
+            savePicture(this.#ui.canvas, this.#label, () => {
+              this.#ui.announce(pictureSavedLabel);
+            });
+          },
+        },
+        help: {
+          onClick: () => {
+            this.#help.open(this.#cameraInput.type);
+          },
+          opensDialog: true,
+        },
+      },
+      signal,
+    );
+    if (!document.fullscreenEnabled) toolbar.hide("fullScreen"); // on iPhones, and in frames without permission
+    document.addEventListener(
+      "fullscreenchange",
+      () => {
+        this.#updateDescription();
+      },
+      { signal },
+    );
+    return toolbar;
+  }
+
+  /** Changes the attribute `draw-as`, so that pages can observe it. */
+  #toggleDrawing(): void {
     const drawing = this.#settings["draw-as"] === "points" ? "surface" : "points";
     this.#x3d.setAttribute("draw-as", drawing);
     this.#ui.announce(drawingLabels[drawing]);

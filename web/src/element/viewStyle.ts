@@ -7,6 +7,7 @@ export const viewTag = "imgeo-view";
 
 export const viewStyle = sheetOf(`
   :host { position: absolute; inset: 0; display: block; overflow: hidden; contain: strict; }
+  :host(:fullscreen) { background: Canvas; }
   canvas { display: block; width: 100%; height: 100%; outline: none; -webkit-tap-highlight-color: transparent; }
   canvas.preview { position: absolute; inset: 0; pointer-events: none; }
   canvas.preview:not(.drawn) { visibility: hidden; }
@@ -26,8 +27,9 @@ export const viewStyle = sheetOf(`
 
   .hotspots { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
   .hotspots > div { position: absolute; left: 0; top: 0; width: 0; height: 0; display: grid; place-content: center; place-items: center; }
-  .hotspots ::slotted(*) { pointer-events: auto; opacity: var(--max-hotspot-opacity, 1); transition: opacity 0.2s; }
+  .hotspots ::slotted(*) { width: max-content; max-width: 16rem; pointer-events: auto; opacity: var(--max-hotspot-opacity, 1); transition: opacity 0.2s; }
   .hotspots > .unseen ::slotted(*) { opacity: var(--min-hotspot-opacity, 0.25); pointer-events: none; }
+  .hotspots > .displaced ::slotted(:not(:focus)) { opacity: 0; pointer-events: none; }
   .hotspots > .out-of-view { visibility: hidden; }
 
   .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
@@ -40,6 +42,25 @@ export const viewStyle = sheetOf(`
 
   select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
            font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
+  select { max-width: min(100%, 14rem); text-overflow: ellipsis; }
+  .links a { overflow-wrap: anywhere; }
+
+  .tools { display: flex; gap: 2px; border-radius: 8px; transition: opacity 0.2s; }
+  .tools button { display: grid; place-items: center; width: 44px; padding: 0; }
+  .tools button[aria-pressed="true"] { color: Canvas; background: CanvasText; }
+  .tools svg { width: 24px; height: 24px; fill: none; stroke: currentColor; stroke-width: 2; stroke-linecap: round; stroke-linejoin: round; }
+  /* With a mouse the picture is free of tools until the mouse is over it; fingers do not hover. */
+  @media (hover: hover) { :host(:not(:hover, :focus-within)) .tools { opacity: 0; } }
+
+  .help { box-sizing: border-box; width: min(32rem, calc(100vw - 24px)); max-height: calc(100dvh - 24px); overflow: auto; padding: 16px; border: 0; border-radius: 12px;
+          font: 1rem/1.5 system-ui, sans-serif; color: CanvasText; background: Canvas; }
+  .help::backdrop { background: rgb(0 0 0 / 0.5); }
+  .help h2 { margin: 0 0 8px; font-size: 1.125rem; }
+  .help table { width: 100%; margin-bottom: 16px; border-collapse: collapse; }
+  .help th, .help td { padding: 4px 12px 4px 0; text-align: start; vertical-align: top; font-weight: normal; }
+  .help th { width: 50%; color: color-mix(in srgb, CanvasText 75%, transparent); }
+  .help button { width: 100%; }
+
   select:focus-visible, button:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
 
   .message { position: absolute; inset: 0; display: grid; place-content: center; margin: 0; padding: 1em;
