@@ -35,7 +35,7 @@ std::span<const Format> formats();
 
 /// The row whose reader takes these bytes: the first whose signature they have; else the one whose `readsExtension`
 /// knows the extension, unless that is in some row's `extensions`; else the first whose heuristic they meet; else the
-/// one that has the extension. Throws Error{unsupported} naming `name` where there is none, and for text in UTF-16.
+/// one that has the extension. Throws Error{unsupported} naming `name` where there is none.
 const Format& formatOf(ByteSpan bytes, const std::string& name);
 
 /// "X3D, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.

@@ -78,14 +78,12 @@ const Format& formatOf(ByteSpan bytes, const std::string& name) {
   if (const Format* row = sniffed(bytes, Sniffing::signature))
     return *row;
   const Format* const byExtension = rowOfExtension(name);
-  if (!byExtension) // before the heuristics: Assimp also reads text in UTF-16, and text that resembles OBJ
+  if (!byExtension) // before the heuristics: Assimp also reads text that resembles OBJ
     for (const Format& row : rows)
       if (row.readsExtension && row.readsExtension(name))
         return row;
   if (const Format* row = sniffed(bytes, Sniffing::heuristic))
     return *row;
-  if (asText(bytes).starts_with("\xff\xfe") || asText(bytes).starts_with("\xfe\xff"))
-    throw Error(ErrorKind::unsupported, name, "is text in UTF-16; imgeo reads ASCII and UTF-8");
   if (byExtension)
     return *byExtension;
   std::vector<std::string_view> names;

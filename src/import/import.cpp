@@ -5,12 +5,14 @@
 #include "import/archive/gzip.h"
 #include "import/format.h"
 #include "import/source_name.h"
+#include "import/text/utf16.h"
 #include "import/warnings.h"
 #include "scene/shape_instances.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -40,10 +42,13 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
     unpacked = gunzip(bytes, name);
     bytes = unpacked;
   }
-  if (bytes.empty())
-    throw Error(ErrorKind::truncated, name, "the file is empty");
   if (asText(bytes).starts_with("\xef\xbb\xbf"))
     bytes = bytes.subspan(3); // byte order mark
+  const std::optional<Bytes> decoded = utf8OfUtf16(bytes);
+  if (decoded)
+    bytes = *decoded;
+  if (bytes.empty())
+    throw Error(ErrorKind::truncated, name, "the file is empty");
 
   Imported imported = formatOf(bytes, name).read(bytes, name, options);
   const auto hasElements = [&](const ShapeInstance& instance) {
