@@ -68,6 +68,7 @@ private:
 
   /// Reads the node of an element, if it is a node of the scene graph.
   std::optional<std::size_t> readChild(const FieldReader& fields, std::size_t depth) {
+    addImages(fields);
     const auto is = [&](const char* name) { return equalIgnoringCase(fields.node().name(), name); };
     if (is("WorldInfo")) {
       document_.graph.title = fields.text("title");
@@ -220,6 +221,14 @@ private:
     if (equalIgnoringCase(fields.node().name(), "PointLight"))
       return add(fields, readNode<PointLight>(fields));
     return add(fields, readNode<SpotLight>(fields));
+  }
+
+  /// Adds the images that fields of an element name, such as the pictures of a Background; a file for each field
+  /// counts.
+  void addImages(const FieldReader& fields) {
+    for (const std::string_view field : imageFieldsOf(fields.node().name()))
+      if (const std::vector<std::string> urls = fields.strings(field.data()); !urls.empty())
+        document_.graph.images.push_back({urls[0], {}, fields.text("preview")});
   }
 
   void readBackground(const FieldReader& fields) {

@@ -195,12 +195,19 @@ Element SceneWriter::genericElement(const GenericNode& generic, const Node& node
   Element element{isWritten ? generic.element : "Group", {names}};
   if (!isWritten)
     return element;
-  const ImageFile* image = generic.image ? &document_.graph.images.at(*generic.image) : nullptr;
-  for (Attribute& field : furtherFields(node)) {
-    if (field.name == "preview" && image)
-      continue; // replaced by the preview of the image below
-    if (field.name == "url" && image)
-      field.value = quoteStrings({image->url});
+  std::vector<FieldText> fields = node.fields;
+  std::string preview;
+  for (const FieldImage& each : generic.images) {
+    const ImageFile& image = document_.graph.images.at(each.image);
+    for (FieldText& field : fields)
+      if (field.name == each.field)
+        field.value = quoteStrings({image.url});
+    if (generic.element == "ImageTexture")
+      preview = image.preview;
+  }
+  if (!generic.images.empty()) // another image has another preview
+    std::erase_if(fields, [](const FieldText& field) { return field.name == "preview"; });
+  for (Attribute& field : allowedFields(fields)) {
     if (field.name == "url" && generic.document)
       field.value = quoteStrings({document_.graph.inlined.at(*generic.document).url});
     element.groups.back().push_back(std::move(field));
@@ -209,8 +216,8 @@ Element SceneWriter::genericElement(const GenericNode& generic, const Node& node
     for (const FieldText& field : node.fields)
       if (field.name == "style")
         element.groups.back().push_back(fontStyleAttribute(field.value));
-  if (image && !image->preview.empty())
-    element.groups.back().push_back({"preview", image->preview});
+  if (!preview.empty())
+    element.groups.back().push_back({"preview", preview});
   return element;
 }
 

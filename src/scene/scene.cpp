@@ -62,6 +62,16 @@ std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vec
   return std::move(traversal.order);
 }
 
+std::span<const std::string_view> imageFieldsOf(std::string_view element) {
+  static constexpr std::string_view url[] = {"url"};
+  static constexpr std::string_view panorama[] = {"frontUrl", "backUrl", "leftUrl", "rightUrl", "topUrl", "bottomUrl"};
+  if (element == "ImageTexture" || element == "ImageCubeMapTexture")
+    return url;
+  if (element == "Background")
+    return panorama;
+  return {};
+}
+
 std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh) {
   const std::size_t firstNode = graph.nodes.size(), firstAppearance = graph.appearances.size(),
                     firstTexture = graph.textures.size(), firstImage = graph.images.size(),
@@ -80,7 +90,8 @@ std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_
       shape->mesh += firstMesh;
       shift(shape->appearance, firstAppearance);
     } else if (GenericNode* generic = std::get_if<GenericNode>(&node.content)) {
-      shift(generic->image, firstImage);
+      for (FieldImage& image : generic->images)
+        image.image += firstImage;
       shift(generic->document, firstInlined);
     }
     graph.nodes.push_back(std::move(node));

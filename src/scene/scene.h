@@ -12,7 +12,9 @@
 #include "scene/viewpoint.h"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -40,12 +42,19 @@ struct FieldText {
 /// Value of GenericNode::element for a comment.
 inline constexpr const char* commentElement = "#comment";
 
+/// The image that a field of a generic node names.
+struct FieldImage {
+  std::string field;     ///< one of imageFieldsOf() the element
+  std::size_t image = 0; ///< index into SceneGraph::images
+  friend bool operator==(const FieldImage&, const FieldImage&) = default;
+};
+
 /// An X3D element that is written as it was read, without interpretation: its attributes are Node::fields, its child
 /// elements are Node::children. A comment has commentElement as its element, and otherwise only a text.
 struct GenericNode {
   std::string element;
-  std::string text;                 ///< its character data, such as the source code of a Script
-  std::optional<std::size_t> image; ///< index into SceneGraph::images: the image at its url
+  std::string text;               ///< its character data, such as the source code of a Script
+  std::vector<FieldImage> images; ///< the images that belong to the scene, at most one for each field
   /// For an Inline, index into SceneGraph::inlined: the document at its url, whose top nodes are Node::children.
   std::optional<std::size_t> document = {};
   friend bool operator==(const GenericNode&, const GenericNode&) = default;
@@ -105,6 +114,9 @@ struct Scene {
   SceneGraph graph;
   std::vector<Mesh> meshes;
 };
+
+/// The fields of an X3D element whose URLs name images: `url` of an ImageTexture, `frontUrl` of a Background ...
+std::span<const std::string_view> imageFieldsOf(std::string_view element);
 
 /// Appends a node and returns its index. No node refers to it yet.
 std::size_t addNode(SceneGraph& graph, Node node);

@@ -16,6 +16,8 @@ const allLightsAreGlobal = "X3DOM's lights ignore `global` and light everything"
 
 export const explanations: Readonly<Record<string, string>> = {
   "Appearance-alphaMode-MASK": "X3DOM does not support `alphaMode`",
+  "Background-pictures": "X3DOM exchanges front and back and mirrors their pictures",
+  "Background-rotated": "X3DOM's backgrounds do not turn with their groups",
   "DirectionalLight-of-its-group": allLightsAreGlobal,
   ElevationGrid: otherDiagonal,
   "ElevationGrid-ccw": otherDiagonal,
@@ -57,6 +59,7 @@ export const explanations: Readonly<Record<string, string>> = {
   "TextureCoordinateGenerator-COORD": "in X3DOM the texture replaces the diffuse colour",
   "TextureCoordinateGenerator-SPHERE-LOCAL":
     "computed from the vertices' normals; X_ITE computes it from the normal of each pixel. In X3DOM the texture replaces the diffuse colour",
+  TextureBackground: "X3DOM lacks the node",
   TextureTransform: "minified textures are filtered differently",
   "Transform-mirror":
     "a mirroring transform reverses the orientation of triangles, which imgeo corrects; X3DOM displays their backs",

@@ -29,8 +29,11 @@ void members(auto& archive, auto& v, const Node*) {
 void members(auto& archive, auto& v, const FieldText*) {
   archive(v.name, v.value);
 }
+void members(auto& archive, auto& v, const FieldImage*) {
+  archive(v.field, v.image);
+}
 void members(auto& archive, auto& v, const GenericNode*) {
-  archive(v.element, v.text, v.image, v.document);
+  archive(v.element, v.text, v.images, v.document);
 }
 void members(auto& archive, auto& v, const Texture*) {
   archive(v.name, v.image, v.boundaryS, v.boundaryT, v.magnification, v.minification, v.betweenMipMaps, v.mipMaps);

@@ -250,7 +250,7 @@ constexpr NodeRow x3dNodes[] = {
     {"TexCoordChaser2D", "Followers", 1, "children", kept, animates},
     {"TexCoordDamper2D", "Followers", 1, "children", kept, animates},
     {"Text", "Text", 1, "geometry", drawn, ""},
-    {"TextureBackground", "EnvironmentalEffects", 3, "children", kept, "pages draw only the colours of a Background"},
+    {"TextureBackground", "EnvironmentalEffects", 3, "children", drawn, ""},
     {"TextureCoordinate", "Texturing", 1, "texCoord", drawn, ""},
     {"TextureCoordinate3D", "Texturing3D", 1, "texCoord", kept, "pages generate no texture coordinates"},
     {"TextureCoordinate4D", "Texturing3D", 1, "texCoord", kept, "pages generate no texture coordinates"},

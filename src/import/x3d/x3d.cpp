@@ -169,8 +169,7 @@ private:
     } else {
       node.content = genericNodeOf(element);
       node.fields = fieldsOf(element);
-      if (name == "ImageTexture" && !std::get<GenericNode>(node.content).image)
-        keepRemoteUrls(node.fields);
+      keepRemoteUrls(std::get<GenericNode>(node.content), node.fields);
     }
     if (name == "Inline")
       addInlined(element, node);
@@ -195,12 +194,15 @@ private:
 
   GenericNode genericNodeOf(pugi::xml_node element) {
     GenericNode node{element.name(), element.text().get(), {}};
-    const pugi::xml_attribute url = element.attribute("url");
-    if (!url || node.element == "Inline")
-      return node;
-    if (node.element == "ImageTexture")
-      node.image = attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
-    else
+    const auto fields = imageFieldsOf(node.element);
+    for (const std::string_view field : fields)
+      if (const pugi::xml_attribute url = element.attribute(field.data())) {
+        const std::optional<std::size_t> found =
+            attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
+        if (found)
+          node.images.push_back({std::string(field), *found});
+      }
+    if (fields.empty() && element.attribute("url") && node.element != "Inline")
       ++summary_.notCopied[node.element];
     return node;
   }
@@ -259,15 +261,20 @@ private:
     return {};
   }
 
-  /// Keeps only the URLs of other hosts: pages request the first URL, and the local ones name no readable file.
-  void keepRemoteUrls(std::vector<FieldText>& fields) {
-    const auto url = std::ranges::find(fields, "url", &FieldText::name);
-    std::vector<std::string> urls = url == fields.end() ? std::vector<std::string>{} : parseStrings(url->value);
-    std::erase_if(urls, [](const std::string& each) { return !isRemote(each); });
-    if (urls.empty())
-      return;
-    ++summary_.remoteImages;
-    url->value = quoteStrings(urls);
+  /// Keeps, of fields for images without an image, only the URLs of other hosts: pages request the first URL, and the
+  /// local ones name no readable file.
+  void keepRemoteUrls(const GenericNode& node, std::vector<FieldText>& fields) {
+    for (const std::string_view name : imageFieldsOf(node.element)) {
+      const auto field = std::ranges::find(fields, name, &FieldText::name);
+      if (field == fields.end() || std::ranges::find(node.images, name, &FieldImage::field) != node.images.end())
+        continue;
+      std::vector<std::string> urls = parseStrings(field->value);
+      std::erase_if(urls, [](const std::string& each) { return !isRemote(each); });
+      if (urls.empty())
+        continue;
+      ++summary_.remoteImages;
+      field->value = quoteStrings(urls);
+    }
   }
 
   /// Reads a Transform. Malformed fields count as absent and are removed from `fields`.

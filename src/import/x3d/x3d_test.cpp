@@ -252,6 +252,21 @@ TEST(X3d, ReadsTexturesFromItsOwnFolderOnly) {
   EXPECT_TRUE(read("http://example.org/a.png").scene.graph.images.empty());
 }
 
+TEST(X3d, ReadsThePicturesOfABackground) {
+  const testing::TemporaryDirectory directory;
+  for (const char* name : {"front.png", "top.png"})
+    writeFile(directory / name, asBytes("\x89PNG\r\n\x1a\n..."));
+  writeFile(directory / "a.x3d", asBytes("<X3D><Scene><Background frontUrl='\"lost.png\" \"front.png\"' "
+                                         "topUrl='top.png' backUrl='http://a.org/back.png'/></Scene></X3D>"));
+  const Imported imported = importFile(directory / "a.x3d");
+  const SceneGraph& graph = imported.scene.graph;
+  ASSERT_EQ(graph.images.size(), 2u);
+  const auto& background = std::get<GenericNode>(graph.nodes[graph.roots[0]].content);
+  EXPECT_EQ(background.images, (std::vector<FieldImage>{{"frontUrl", 0}, {"topUrl", 1}}));
+  EXPECT_EQ(graph.images[1].url, "top.png");
+  EXPECT_EQ(imported.warnings, (std::vector<std::string>{"1 texture is left on other hosts."}));
+}
+
 TEST(X3d, KeepsRemoteUrlsOfATextureThatIsNotLocal) {
   const testing::TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));

@@ -158,9 +158,8 @@ void removeFailedImages(SceneGraph& graph, const std::vector<bool>& hasFailed) {
     std::erase_if(appearance.textures,
                   [&](const TextureUse& use) { return hasFailed[graph.textures[use.texture].image]; });
   for (Node& node : graph.nodes)
-    if (GenericNode* generic = std::get_if<GenericNode>(&node.content);
-        generic && generic->image && hasFailed[*generic->image])
-      generic->image = {};
+    if (GenericNode* generic = std::get_if<GenericNode>(&node.content))
+      std::erase_if(generic->images, [&](const FieldImage& each) { return hasFailed[each.image]; });
 }
 
 void add(TextureReport& report, const ImageFile& image, const PreparedImage& prepared) {
@@ -184,10 +183,11 @@ std::vector<ImageUse> imageUses(const SceneGraph& graph) {
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
     const GenericNode* generic = std::get_if<GenericNode>(&node.content);
-    if (!generic || !generic->image)
+    if (!generic)
       continue;
     const auto field = std::ranges::find(node.fields, "containerField", &FieldText::name);
-    addUse(uses[*generic->image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
+    for (const FieldImage& each : generic->images)
+      addUse(uses[each.image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
   }
   return uses;
 }

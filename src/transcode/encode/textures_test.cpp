@@ -134,7 +134,7 @@ TEST_F(Textures, HaveAPreviewIfTheyAreLargeColourImages) {
 
 TEST_F(Textures, OfX3dSourcesHaveTheRoleOfTheirField) {
   graph.images.push_back({"n.tga", tgaOf(testRaster(8, 8))});
-  addRoot(graph, {"", GenericNode{"ImageTexture", "", 0}, {}, "", {{"containerField", "normalTexture"}}});
+  addRoot(graph, {"", GenericNode{"ImageTexture", "", {{"url", 0}}}, {}, "", {{"containerField", "normalTexture"}}});
   const ImageUse use = imageUses(graph).at(0);
   EXPECT_TRUE(use.isUsed && use.isData && use.isNormal && !use.isColor);
 }

@@ -36,11 +36,12 @@ bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, c
 std::set<std::string> unreadTextureUrls(const SceneGraph& input) {
   std::set<std::string> urls;
   for (const Node& node : input.nodes)
-    if (const GenericNode* generic = std::get_if<GenericNode>(&node.content);
-        generic && generic->element == "ImageTexture" && !generic->image)
-      for (const FieldText& field : node.fields)
-        if (field.name == "url")
-          std::ranges::move(parseStrings(field.value), std::inserter(urls, urls.end()));
+    if (const GenericNode* generic = std::get_if<GenericNode>(&node.content))
+      for (const std::string_view name : imageFieldsOf(generic->element))
+        if (std::ranges::find(generic->images, name, &FieldImage::field) == generic->images.end())
+          for (const FieldText& field : node.fields)
+            if (field.name == name)
+              std::ranges::move(parseStrings(field.value), std::inserter(urls, urls.end()));
   return urls;
 }
 

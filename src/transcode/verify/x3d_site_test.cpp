@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/testing.h"
+#include "containers/png/png.h"
 #include "transcode/site/staged_site.h"
 #include "transcode/site/testing.h"
 
@@ -135,6 +136,28 @@ TEST_F(X3dSite, EqualsItsSourceAndCanBeExported) {
   EXPECT_TRUE(verified.equal) << verified.findings.at(0);
   const ExportReport exported = exportSite(directory_ / "site", directory_ / "hall.ply");
   EXPECT_EQ(exported.elements.triangles, 6u); // three instances
+}
+
+TEST(X3dSiteWithBackground, CopiesItsPicturesAndEqualsItsSource) {
+  const testing::TemporaryDirectory directory;
+  const Bytes png = encodePng(Image{1, 1, 3, {255, 0, 0}, {}}, 1);
+  writeFile(directory / "front.png", png);
+  writeFile(directory / "scene.x3d",
+            asBytes("<X3D><Scene><Background skyColor='0 0 1' frontUrl='\"front.png\"'/><TextureBackground>"
+                    "<ImageTexture containerField='topTexture' url='front.png'/></TextureBackground>"
+                    "<Shape><Box/></Shape></Scene></X3D>"));
+  const ConvertReport report = convert(directory / "scene.x3d", directory / "site", {});
+  EXPECT_EQ(report.warnings, std::vector<std::string>{});
+  const std::string url = "textures/" + contentName(png) + ".png";
+  EXPECT_EQ(readFile(directory / "site" / url), png);
+  for (const char* document : {"site/index.html", "site/scene.x3d"}) {
+    const std::string text(asText(readFile(directory / document)));
+    EXPECT_NE(text.find("frontUrl='\"" + url + "\"'"), std::string::npos) << text;
+    EXPECT_NE(text.find(" url='\"" + url + "\"'"), std::string::npos) << text;
+  }
+  EXPECT_TRUE(verify(directory / "site", directory / "scene.x3d").findings.empty());
+  std::filesystem::remove(directory / "site" / url);
+  EXPECT_FALSE(verify(directory / "site", directory / "scene.x3d").findings.empty());
 }
 
 } // namespace

@@ -77,15 +77,20 @@ export function filePriorityFor(instances: Iterable<GeometryInstance>, view: Vie
   };
 }
 
+/** The metrics of what is always in view. */
+const everywhere: ViewMetrics = { pixels: Infinity, isInView: true, pixelsPerUnit: Infinity };
+
 /**
- * The priority of a texture, or of its preview, on these visible instances of a geometry; undefined where there are
- * none.
+ * The priority of a texture, or of its preview, on these visible instances of a geometry, or around the viewer;
+ * undefined where it is on neither.
  */
 export function texturePriorityFor(
   instances: Iterable<GeometryInstance>,
   type: TextureChunk,
   { camera, weights }: ViewState,
+  isAroundViewer = false,
 ): number | undefined {
+  if (isAroundViewer) return priorityOf(1, { type, plane: 0 }, everywhere, weights);
   const priorities = Array.from(instances).flatMap(({ spheres, authorPriority }) =>
     spheres.map((sphere) =>
       priorityOf(

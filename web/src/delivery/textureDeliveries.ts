@@ -2,7 +2,7 @@
 // shapes use it. Where the document names a small preview, it is displayed until the full image arrives, and again
 // after the full image was evicted.
 
-import type { SamplingDescription, TextureDescription } from "../document/description.ts";
+import type { ImageDescription, SamplingDescription } from "../document/description.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
@@ -62,7 +62,7 @@ const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
 const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
 
 /** Textures of equal keys share an image. */
-export function textureKeyOf({ url, preview, sampling }: TextureDescription): string {
+export function textureKeyOf({ url, preview, sampling }: ImageDescription): string {
   return JSON.stringify([url, preview, sampling]);
 }
 
@@ -77,7 +77,7 @@ export class TextureDeliveries {
   /**
    * Requests nothing before `request`. Never calls the listener before it returns. Ends when the last member cancels.
    */
-  join(texture: TextureDescription, listener: TextureListener): JoinedTexture {
+  join(texture: ImageDescription, listener: TextureListener): JoinedTexture {
     const key = textureKeyOf(texture);
     const shared = this.#shared.get(key) ?? sharedOf(texture);
     this.#shared.set(key, shared);
@@ -196,7 +196,7 @@ export class TextureDeliveries {
   }
 }
 
-function sharedOf({ url, preview, sampling }: TextureDescription): SharedTexture {
+function sharedOf({ url, preview, sampling }: ImageDescription): SharedTexture {
   const makeFile = (chunk: TextureChunk, url: string): TextureFile => ({
     chunk,
     url,

@@ -1,14 +1,14 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { pngOf } from "../decode/png.testing.ts";
-import type { TextureDescription } from "../document/description.ts";
+import type { TextureDescription, TextureRole } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import { unknownViewMetrics } from "../scheduler/viewMetrics.ts";
 import type { Answer } from "./delivery.testing.ts";
 import { deferredFile, record, sigFiles, sigGeometry, siteOf, shortDelay } from "./delivery.testing.ts";
 import { requestWithinBudget } from "./requestWithinBudget.ts";
 import { GeometryDeliveries } from "./geometryDeliveries.ts";
-import { ShapeTextures } from "./shapeTextures.ts";
+import { RoleTextures } from "./roleTextures.ts";
 import type { TexturePriority } from "./textureDeliveries.ts";
 import { TextureDeliveries } from "./textureDeliveries.ts";
 
@@ -37,7 +37,7 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
   const site = siteOf(files, slots);
   const deliveries = { geometries: new GeometryDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
   const events: string[] = [];
-  const shape = new ShapeTextures(deliveries.textures, {
+  const shape = new RoleTextures<TextureRole>(deliveries.textures, {
     onTextureImage: (role, image) => events.push(`${role} ${image?.image.width ?? "none"}`),
     onError: ({ url }) => events.push(`no ${url}`),
     onSettled: () => undefined,

@@ -4,6 +4,7 @@ import type {
   AlphaDescription,
   AppearanceDescription,
   ColorMapDescription,
+  ImageDescription,
   MaterialDescription,
   PointDescription,
   SamplingDescription,
@@ -102,7 +103,7 @@ function singleTextureFor(child: SceneElement, childrenOf: ChildrenOf, warnings:
   return childrenOf(child).filter(isTexture).slice(0, 1);
 }
 
-function isTexture(child: SceneElement): boolean {
+export function isTexture(child: SceneElement): boolean {
   return ["imagetexture", "pixeltexture"].includes(lowerNameOf(child));
 }
 
@@ -138,7 +139,8 @@ function readTextures(
   });
 }
 
-function fieldOf(texture: SceneElement): string {
+/** The texture's containerField in lower case; empty where it has none. */
+export function fieldOf(texture: SceneElement): string {
   return attributeOf(texture, "containerField")?.toLowerCase() ?? "";
 }
 
@@ -149,19 +151,22 @@ function readTexture(
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): TextureDescription[] {
+  const image = readImageOf(element, childrenOf, warnings);
+  if (image === undefined) return [];
+  return [{ ...image, role, sampling: { ...image.sampling, isData: dataRoles.includes(role) }, transform }];
+}
+
+/** The image of an ImageTexture or PixelTexture, as colors; undefined where it has none. */
+export function readImageOf(
+  element: SceneElement,
+  childrenOf: ChildrenOf,
+  warnings: Warning[],
+): ImageDescription | undefined {
   const { url, preview, repeatS, repeatT } =
     lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
-  if (url === undefined) return [];
+  if (url === undefined) return undefined;
   const properties = childrenOf(element).find((child) => lowerNameOf(child) === "textureproperties");
-  return [
-    {
-      role,
-      url,
-      preview,
-      sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: dataRoles.includes(role) },
-      transform,
-    },
-  ];
+  return { url, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: false } };
 }
 
 /** The common fields of textures; `url` is undefined where there is no image. */

@@ -194,12 +194,16 @@ export const textureRoles = [
 ] as const;
 export type TextureRole = (typeof textureRoles)[number];
 
-export interface TextureDescription {
-  readonly role: TextureRole;
+/** An image and how it is sampled. */
+export interface ImageDescription {
   readonly url: string;
-  /** The URL of a small version, displayed until the texture is loaded; empty: none. */
+  /** The URL of a small version, displayed until the image is loaded; empty: none. */
   readonly preview: string;
   readonly sampling: SamplingDescription;
+}
+
+export interface TextureDescription extends ImageDescription {
+  readonly role: TextureRole;
   /** Maps a vertex's texture coordinates to the image's. */
   readonly transform: TextureMatrix;
 }
@@ -335,7 +339,8 @@ export interface ViewpointNodeDescription {
   readonly viewpoint: ViewpointDescription;
 }
 
-export type NodeDescription = GroupDescription | ShapeDescription | LightNodeDescription | ViewpointNodeDescription;
+export type NodeDescription =
+  GroupDescription | ShapeDescription | LightNodeDescription | ViewpointNodeDescription | BackgroundNodeDescription;
 
 /** A color at an angle, in radians, from the zenith or the nadir. */
 export interface Ring {
@@ -343,19 +348,41 @@ export interface Ring {
   readonly color: Vec3;
 }
 
+/** The sides of a panorama: -z, z, -x, x, y and -y of its node's coordinates. */
+export const panoramaSides = ["front", "back", "left", "right", "top", "bottom"] as const;
+export type PanoramaSide = (typeof panoramaSides)[number];
+
+/** A picture that fills one side of a cube around the viewer. */
+export interface PanoramaPicture extends ImageDescription {
+  readonly role: PanoramaSide;
+}
+
 export interface BackgroundDescription {
   /** From the zenith downwards; at least one. */
   readonly sky: readonly Ring[];
   /** From the nadir upwards, in front of the sky. */
   readonly ground: readonly Ring[];
+  /** The transparency of sky and ground: 0 opaque … 1 invisible, so that the page shows through. */
+  readonly transparency: number;
+  /** In front of sky and ground, at most one for each side. */
+  readonly pictures: readonly PanoramaPicture[];
+}
+
+export interface BackgroundNodeDescription {
+  readonly kind: "background";
+  /** Its identity. */
+  readonly element: SceneElement;
+  /** The number of Inlines around it; 0 in the page's own document. */
+  readonly inlineDepth: number;
+  /** Whether `set_bind` or `bind` is true. */
+  readonly isBindRequested: boolean;
+  readonly background: BackgroundDescription;
 }
 
 export interface SceneDescription {
   readonly root: GroupDescription;
   /** The bound NavigationInfo: the first in the document, or the last whose `bind` or `set_bind` is true. */
   readonly navigation: NavigationDescription;
-  /** Undefined: the page shows through behind the scene. */
-  readonly background: BackgroundDescription | undefined;
   /** The author's changes to the weights of file contents, which order requests; as written. */
   readonly chunkPriority: string;
   /** In document order, including those of inlined documents; one entry for each instance. */

@@ -39,8 +39,8 @@ function viewpointsIn(scene: SceneDescription): ViewpointDescription[] {
 }
 
 function visibleShapes(node: NodeDescription): ShapeDescription[] {
-  if (node.kind === "light" || node.kind === "viewpoint" || !node.visible) return [];
-  return node.kind === "shape" ? [node] : node.children.flatMap(visibleShapes);
+  if (node.kind === "shape") return node.visible ? [node] : [];
+  return node.kind === "group" && node.visible ? node.children.flatMap(visibleShapes) : [];
 }
 
 const patches = `
@@ -84,30 +84,26 @@ describe("a field", () => {
 });
 
 describe("a scene", () => {
-  test("is empty by default, with a headlight and no background", () => {
+  test("is empty by default, with a headlight", () => {
     const scene = sceneOf("");
     assert.deepEqual(shapesOf(scene.root), []);
     assert.equal(scene.navigation.headlight, true);
     assert.equal(scene.navigation.speed, undefined);
     assert.deepEqual(scene.warnings, []);
     assert.deepEqual(viewpointsIn(scene), []);
-    assert.equal(scene.background, undefined);
+    assert.deepEqual(scene.root.children, []);
   });
 
-  test("has viewpoints in document order, at any depth, and the first Background", () => {
-    const scene =
-      sceneOf(`<Group><Viewpoint description="a"/></Group><Transform><Viewpoint description="b" set_bind="true"/></Transform>
-      <Background skyColor="1 0 0 0 1 0"/><Background skyColor="0 0 1"/>`);
+  test("has viewpoints in document order, at any depth", () => {
+    const scene = sceneOf(
+      `<Group><Viewpoint description="a"/></Group><Transform><Viewpoint description="b" set_bind="true"/></Transform>`,
+    );
     assert.deepEqual(
       viewpointsIn(scene).map(({ description, set_bind }) => [description, set_bind]),
       [
         ["a", false],
         ["b", true],
       ],
-    );
-    assert.deepEqual(
-      scene.background?.sky.map(({ color }) => color),
-      [[1, 0, 0]],
     );
   });
 

@@ -82,6 +82,15 @@ const positionedLightFields = {
   global: SFBool(true),
 };
 
+const backgroundFields = {
+  ...bindable,
+  skyColor: MFColor([[0, 0, 0]]),
+  skyAngle: MFFloat([]),
+  groundColor: MFColor([]),
+  groundAngle: MFFloat([]),
+  transparency: SFFloat(0),
+};
+
 export const nodeFields = {
   X3D: {
     /** Weights of file contents, for the order of requests. */
@@ -98,11 +107,15 @@ export const nodeFields = {
     transitionTime: SFFloat(1),
   },
   Background: {
-    skyColor: MFColor([[0, 0, 0]]),
-    skyAngle: MFFloat([]),
-    groundColor: MFColor([]),
-    groundAngle: MFFloat([]),
+    ...backgroundFields,
+    frontUrl: MFString([]),
+    backUrl: MFString([]),
+    leftUrl: MFString([]),
+    rightUrl: MFString([]),
+    topUrl: MFString([]),
+    bottomUrl: MFString([]),
   },
+  TextureBackground: backgroundFields,
   Viewpoint: {
     ...bindable,
     description: SFString(""),

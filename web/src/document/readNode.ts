@@ -1,6 +1,6 @@
 // Reads a node: its own fields at once; its descendants when the state that they inherit is known.
 
-import type { AnchorDescription, BackgroundDescription, GroupDescription, NodeDescription } from "./description.ts";
+import type { AnchorDescription, GroupDescription, NodeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -8,8 +8,9 @@ import { boxOf } from "./geometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { asViewpoint } from "./orthoViewpoint.ts";
+import { readBackground } from "./readBackground.ts";
 import type { ShapeReadingContext } from "./readShape.ts";
-import { readShape } from "./readShape.ts";
+import { nodesIn, readShape } from "./readShape.ts";
 import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
 import { declarationsOf, joinDeclarations, warningsOnly } from "./sceneFragment.ts";
 
@@ -24,6 +25,8 @@ export interface InlinedDocument {
 export interface NodeReadingContext extends ShapeReadingContext {
   /** The page's element for the node: itself, or the Inline element whose document it is in. */
   readonly host: SceneElement;
+  /** The number of Inlines around the node; 0 in the page's own document. */
+  readonly inlineDepth: number;
   readonly childrenOf: (element: SceneElement) => readonly SceneElement[];
   readonly levelOf: (lod: SceneElement) => number | undefined;
   /** The root element of an Inline's document; undefined where it is not loaded or must not be inlined. */
@@ -32,7 +35,7 @@ export interface NodeReadingContext extends ShapeReadingContext {
 
 /** Whether a node is read together with all its descendants, which are not nodes of the scene tree. */
 export function isReadAsWhole(node: SceneElement): boolean {
-  return lowerNameOf(node) === "shape";
+  return ["shape", "texturebackground"].includes(lowerNameOf(node));
 }
 
 /** Reads `element`. `node`: the element with its fields, which is the one that `element` USEs, or `element` itself. */
@@ -90,7 +93,11 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
         declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }),
       );
     case "background":
-      return constantReader([], declarationsOf({ background: readBackground(node, warnings), warnings }));
+    case "texturebackground":
+      return constantReader(
+        [readBackground(element, node, context.inlineDepth, (parent) => nodesIn(parent, context), warnings)],
+        warningsOnly(warnings),
+      );
     default:
       return (inherited, readChildren) => readChildren(context.childrenOf(node), inherited);
   }
@@ -123,17 +130,6 @@ function shapeReader(element: SceneElement, node: SceneElement, context: NodeRea
     ],
     declarations,
   });
-}
-
-function readBackground(node: SceneElement, warnings: Warning[]): BackgroundDescription {
-  const { skyColor, skyAngle, groundColor, groundAngle } = readFields(node, nodeFields.Background, warnings);
-  // The first color is at the pole, each further one at its angle.
-  const rings = (colors: readonly Vec3[], angles: readonly number[]) =>
-    colors.slice(0, angles.length + 1).map((color, i) => ({ color, angle: i === 0 ? 0 : (angles[i - 1] ?? 0) }));
-  return {
-    sky: rings(skyColor.length > 0 ? skyColor : [[0, 0, 0]], skyAngle),
-    ground: rings(groundColor, groundAngle),
-  };
 }
 
 interface GroupFields {
@@ -282,8 +278,8 @@ function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
 }
 
 /**
- * The document replaces the Inline and has its own DEF names; its NavigationInfo and Background hold where the documents
- * that contain it have none.
+ * The document replaces the Inline and has its own DEF names; its NavigationInfo holds where the documents that contain
+ * it have none.
  */
 function inlineReader(node: SceneElement, { warnings, inlined }: NodeReadingContext): FragmentReader {
   const { load, url, ...fields } = readFields(node, nodeFields.Inline, warnings);
@@ -294,13 +290,11 @@ function inlineReader(node: SceneElement, { warnings, inlined }: NodeReadingCont
     const inlines =
       load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
     const { nodes, declarations } = readChildren(x3d ? [x3d] : [], inner);
-    const { navigation, background, inlinedNavigation, inlinedBackground } = declarations;
+    const { navigation, inlinedNavigation } = declarations;
     const localDeclarations = {
       ...declarations,
       navigation: undefined,
-      background: undefined,
       inlinedNavigation: navigation ?? inlinedNavigation,
-      inlinedBackground: background ?? inlinedBackground,
     };
     return {
       nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }],

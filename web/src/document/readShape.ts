@@ -41,17 +41,12 @@ export function readShape(
   const children = childrenOf(node);
   const ownBox = boxOf(values);
   const [geometry, priorityOfGeometry] = readGeometryOf(children, context, ownBox, values.colorBy);
-  const nodesIn = (parent: SceneElement) =>
-    childrenOf(parent).flatMap((child) => {
-      const used = resolveUse(child, context);
-      return used === undefined ? [] : [substitutedFor(child, used)];
-    });
   const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
   const isVisible = values.visible && values.render;
   const appearanceDescription = readAppearance(
     appearance,
     colorMapOf(node, values, geometry, warnings),
-    nodesIn,
+    (parent) => nodesIn(parent, context),
     warnings,
   );
   return {
@@ -70,6 +65,14 @@ export function readShape(
         ? appearanceDescription
         : context.text.appearanceOf(appearanceDescription, geometry.glyphAtlas, node, warnings),
   };
+}
+
+/** An element's children, with USEs resolved. */
+export function nodesIn(parent: SceneElement, context: ShapeReadingContext): SceneElement[] {
+  return childrenOf(parent).flatMap((child) => {
+    const used = resolveUse(child, context);
+    return used === undefined ? [] : [substitutedFor(child, used)];
+  });
 }
 
 /**

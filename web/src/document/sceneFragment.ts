@@ -1,11 +1,6 @@
 // The contribution of elements to a scene: nodes, and declarations for the scene as a whole.
 
-import type {
-  BackgroundDescription,
-  InlineDescription,
-  NavigationDescription,
-  NodeDescription,
-} from "./description.ts";
+import type { InlineDescription, NavigationDescription, NodeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import type { Warning } from "./nodes.ts";
 
@@ -21,11 +16,8 @@ export interface SceneDeclarations {
   readonly inlines: readonly InlineDescription[];
   /** The bound NavigationInfo among those of these elements. */
   readonly navigation: NavigationDescription | undefined;
-  /** The first Background. */
-  readonly background: BackgroundDescription | undefined;
-  /** Those of inlined documents, for scenes that have none of their own. */
+  /** That of inlined documents, for scenes that have none of their own. */
   readonly inlinedNavigation: NavigationDescription | undefined;
-  readonly inlinedBackground: BackgroundDescription | undefined;
 }
 
 /** The only object for empty declarations, so that they are compared by identity. */
@@ -33,9 +25,7 @@ export const noDeclarations: SceneDeclarations = {
   warnings: [],
   inlines: [],
   navigation: undefined,
-  background: undefined,
   inlinedNavigation: undefined,
-  inlinedBackground: undefined,
 };
 
 /** State that groups pass down to their descendants. */
@@ -69,9 +59,7 @@ export function joinDeclarations(all: readonly SceneDeclarations[]): SceneDeclar
     warnings: nonEmpty.flatMap(({ warnings }) => warnings),
     inlines: nonEmpty.flatMap(({ inlines }) => inlines),
     navigation: nonEmpty.map(({ navigation }) => navigation).reduce(boundOf),
-    background: nonEmpty.find(({ background }) => background)?.background,
     inlinedNavigation: nonEmpty.map(({ inlinedNavigation }) => inlinedNavigation).reduce(boundOf),
-    inlinedBackground: nonEmpty.find(({ inlinedBackground }) => inlinedBackground)?.inlinedBackground,
   };
 }
 

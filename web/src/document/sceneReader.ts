@@ -105,7 +105,6 @@ export class SceneReader {
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
       navigation: declarations.navigation ?? declarations.inlinedNavigation ?? defaultNavigation,
-      background: declarations.background ?? declarations.inlinedBackground,
       chunkPriority,
       inlines: declarations.inlines,
       warnings,
@@ -171,7 +170,7 @@ export class SceneReader {
     this.#removeDependencies(instance);
     const {
       element,
-      context: { tree, host },
+      context: { tree, host, inlinedBy },
     } = instance;
     const warnings: Warning[] = [];
     this.#addSource(instance, element);
@@ -196,6 +195,7 @@ export class SceneReader {
       inlineGeometry: this.#options.inlineGeometry,
       text: this.#options.text,
       host: host ?? element,
+      inlineDepth: inlinedBy.length,
       childrenOf: (parent) => tree.childrenOf(parent),
       listen: (source) => {
         this.#addSource(instance, source);

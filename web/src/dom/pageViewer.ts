@@ -30,6 +30,7 @@ import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/vie
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { LoadingEvents } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
+import { PageBackground } from "./pageBackground.ts";
 import { PageInlines } from "./pageInlines.ts";
 import type { PageShape } from "./pageShapes.ts";
 import { displayedStageOf, PageShapes } from "./pageShapes.ts";
@@ -64,6 +65,7 @@ export class PageViewer {
   readonly #core: ViewerCore<PageShape>;
   readonly #shapes: PageShapes;
   readonly #inlines = new PageInlines();
+  readonly #background: PageBackground;
   readonly #lods = new LodSelection();
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
@@ -135,6 +137,14 @@ export class PageViewer {
       },
       previewed.map(({ element }) => element),
     );
+    this.#background = new PageBackground(this.renderer, deliveries.textures, {
+      onError: (error, element) => {
+        this.#fail(error, element);
+      },
+      onSettled: () => {
+        this.renderer.requestFrame();
+      },
+    });
     const fonts = new FontLoading(
       document.fonts,
       () => {
@@ -284,6 +294,7 @@ export class PageViewer {
   #makeHost(): ViewerHost {
     return {
       view: () => this.renderer.view,
+      sceneTextures: () => this.#background.textureKeys,
       display: (scene) => this.#display(scene),
       onShapes: (changes) => {
         this.#onShapes(changes);
@@ -314,6 +325,7 @@ export class PageViewer {
   #display(scene: SceneDescription): SceneChanges {
     const before = this.#displayed;
     const { changes, ...built } = this.renderer.setScene(scene);
+    if (this.#background.follow()) this.#core.control.request();
     if (built.anchors.length > 0 || this.#hasAnchors) this.#listener.onAnchors(built.anchors);
     this.#hasAnchors = built.anchors.length > 0;
     this.#displayed = { ...built, navigation: scene.navigation };
@@ -345,7 +357,9 @@ export class PageViewer {
   /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */
   #followBind(element: Element, attribute: string | null): void {
     if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
-    this.cameraController.bind(element, element.getAttribute(attribute)?.trim().toLowerCase() === "true");
+    const isBound = element.getAttribute(attribute)?.trim().toLowerCase() === "true";
+    if (!this.renderer.bindBackground(element, isBound)) this.cameraController.bind(element, isBound);
+    else if (this.#background.follow()) this.#core.control.request();
   }
 
   #onStage(stage: Stage | undefined): void {
@@ -393,19 +407,22 @@ export class PageViewer {
   #onContextLost(): void {
     this.#warn("has lost its WebGL context; the scene is displayed again when the browser restores it");
     this.#shapes.suspend();
+    this.#background.suspend();
   }
 
   /** Fetches all files again, usually from the browser's cache. Events that have been sent are not sent again. */
   #deliverAgain(): void {
     this.#shapes.join();
+    this.#background.follow();
     this.#core.control.request();
     this.renderer.requestFrame();
   }
 
-  #fail(error: DeliveryError, element: Element, loading: LoadingEvents): void {
+  /** `loading`: the events of the shape or Inline that the file belongs to. */
+  #fail(error: DeliveryError, element: Element, loading?: LoadingEvents): void {
     this.#core.log.error(error.message);
     const detail = { type: error.kind, url: error.url, element, message: error.message };
-    loading.fail(detail, error);
+    loading?.fail(detail, error);
     this.#loading.fail(detail, error);
   }
 
@@ -435,7 +452,7 @@ export class PageViewer {
     );
     this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
     // The scene settles only after a frame: until then further shapes may join.
-    if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
+    if (this.#background.isSettled && awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     this.#shapes.onFrame();
     this.#inlines.onFrame();
     this.#loading.onFrame(true);

@@ -23,6 +23,15 @@ export class BindingStack<Node> {
     if (this.#stack.length === 0 && first !== undefined) this.#stack.push(first);
   }
 
+  /** Sets the scene's nodes, and binds new ones that request it. */
+  follow(nodes: readonly { readonly element: Node; readonly isBindRequested: boolean }[]): void {
+    const requested = new Set(nodes.filter(({ isBindRequested }) => isBindRequested).map(({ element }) => element));
+    this.setNodes(
+      nodes.map(({ element }) => element),
+      (element) => requested.has(element),
+    );
+  }
+
   /**
    * Sets the scene's nodes, in document order. Removed nodes leave the stack; new nodes that request to be bound go on
    * top.

@@ -14,12 +14,8 @@ import { poseWith } from "./orbit.ts";
 
 /** Sets the stack's viewpoints and binds new ones whose `set_bind` or `bind` is true. */
 export function bindViewpoints(stack: BindingStack<SceneElement>, viewpoints: readonly ViewpointInstance[]): void {
-  const bindRequests = new Set(
-    viewpoints.filter(({ viewpoint }) => viewpoint.set_bind || viewpoint.bind).map(({ element }) => element),
-  );
-  stack.setNodes(
-    viewpoints.map(({ element }) => element),
-    (element) => bindRequests.has(element),
+  stack.follow(
+    viewpoints.map(({ element, viewpoint }) => ({ element, isBindRequested: viewpoint.set_bind || viewpoint.bind })),
   );
 }
 

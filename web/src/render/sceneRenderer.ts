@@ -2,13 +2,11 @@
 
 import type { Object3D, Sphere } from "three";
 import {
-  Color,
   DirectionalLight,
   Group,
   LinearSRGBColorSpace,
   LinearToneMapping,
   Matrix4,
-  Mesh,
   NoToneMapping,
   PerspectiveCamera,
   Scene,
@@ -21,16 +19,17 @@ import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { ArrayUse, Stage } from "../stage/stage.ts";
 import type {
   AnchorDescription,
-  BackgroundDescription,
   GeometryDescription,
+  PanoramaSide,
   SamplingDescription,
   SceneDescription,
   ShapeDescription,
   TextureRole,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import type { BackgroundInstance } from "../scene/instances.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
-import { makeBackground, disposeBackground } from "./frames/background.ts";
+import { SceneBackground } from "./frames/sceneBackground.ts";
 import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./uploads/bufferProvider.ts";
 import { BufferStore } from "./uploads/bufferStore.ts";
@@ -95,8 +94,7 @@ export class SceneRenderer {
   readonly #picker: ScreenPicker;
   readonly #depthProbe: DepthProbe;
   readonly #framePacer: FramePacer;
-  #background: BackgroundDescription | undefined;
-  #backgroundMesh: Mesh | undefined;
+  readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
   #frames = 0;
   #drawCalls = 0;
@@ -182,21 +180,28 @@ export class SceneRenderer {
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
-    if (description.background !== this.#background)
-      this.#setBackground(description.background && makeBackground(description.background));
-    this.#background = description.background;
+    this.#background.follow(built.backgrounds);
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
     return built;
   }
 
-  #setBackground(background: Color | Mesh | undefined): void {
-    if (this.#backgroundMesh) disposeBackground(this.#backgroundMesh);
-    this.#backgroundMesh?.removeFromParent();
-    this.#backgroundMesh = background instanceof Mesh ? background : undefined;
-    if (this.#backgroundMesh) this.#scene.add(this.#backgroundMesh);
-    // scene.background survives a lost context; the renderer's clear colour does not.
-    this.#scene.background = background instanceof Color ? background : null;
+  /** The bound background; undefined where the scene has none. */
+  get background(): BackgroundInstance | undefined {
+    return this.#background.bound;
+  }
+
+  /** Binds or unbinds a background, as X3D's set_bind does. Returns false if the element is none of the scene's. */
+  bindBackground(element: SceneElement, isBound: boolean): boolean {
+    if (!this.#background.bind(element, isBound)) return false;
+    this.requestFrame();
+    return true;
+  }
+
+  /** Sets a picture of the bound background; `undefined` removes it. */
+  setBackgroundPicture(side: PanoramaSide, image: TextureImage | undefined): void {
+    this.#background.setPicture(side, image && this.#textures.textureOf(image.image));
+    this.requestPacedFrame();
   }
 
   /** Maximum width and height of textures, in texels. */
@@ -328,7 +333,7 @@ export class SceneRenderer {
     this.#shapes.dispose();
     this.#picker.dispose();
     this.#depthProbe.dispose();
-    this.#setBackground(undefined);
+    this.#background.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

@@ -148,6 +148,8 @@ function leafSummary(
           { element: description.element, viewpoint: description.viewpoint, sceneFromViewpoint: sceneFromNode },
         ],
       };
+    case "background":
+      return { ...emptySummary, backgrounds: [{ ...description, sceneFromBackground: sceneFromNode }] };
     case "light":
       return description.light.on && isVisible
         ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, lightScope)] }

@@ -2,6 +2,7 @@
 
 import type { Matrix4 } from "three";
 import type {
+  BackgroundNodeDescription,
   LightDescription,
   LodDescription,
   ShapeDescription,
@@ -26,6 +27,10 @@ export interface LightInstance {
 
 export interface LodInstance extends LodDescription {
   readonly sceneFromLod: Matrix4;
+}
+
+export interface BackgroundInstance extends BackgroundNodeDescription {
+  readonly sceneFromBackground: Matrix4;
 }
 
 export interface ViewpointInstance {

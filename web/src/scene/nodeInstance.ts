@@ -3,7 +3,7 @@
 import type { Box3 } from "three";
 import { Matrix4 } from "three";
 import type { AnchorDescription, NodeDescription } from "../document/description.ts";
-import type { LightInstance, LodInstance, ViewpointInstance } from "./instances.ts";
+import type { BackgroundInstance, LightInstance, LodInstance, ViewpointInstance } from "./instances.ts";
 import type { LightScope } from "./lightScope.ts";
 import { sceneScope } from "./lightScope.ts";
 
@@ -14,6 +14,7 @@ export interface SubtreeSummary {
   /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
+  readonly backgrounds: readonly BackgroundInstance[];
   /** Visible LODs. */
   readonly lods: readonly LodInstance[];
   /** Visible groups that have a box. */
@@ -31,6 +32,7 @@ export const emptySummary: SubtreeSummary = {
   box: undefined,
   lights: none,
   viewpoints: none,
+  backgrounds: none,
   lods: none,
   boundedGroups: none,
   anchors: none,

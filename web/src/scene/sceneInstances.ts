@@ -2,7 +2,8 @@
 
 import { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
-import type { LightInstance, LodInstance, ShapeInstance, ViewpointInstance } from "./instances.ts";
+import { bindableOf } from "./bindable.ts";
+import type { BackgroundInstance, LightInstance, LodInstance, ShapeInstance, ViewpointInstance } from "./instances.ts";
 import { InstanceTree } from "./instanceTree.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
 
@@ -14,6 +15,8 @@ export interface SceneInstances {
   /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
+  /** Those that can be bound. */
+  readonly backgrounds: readonly BackgroundInstance[];
   /** Visible LODs. */
   readonly lods: readonly LodInstance[];
   readonly billboards: readonly NodeInstance[];
@@ -22,8 +25,16 @@ export interface SceneInstances {
 /** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
-  const { box, lights, viewpoints, lods, billboards } = root.summary;
-  return { box: box ?? new Box3(), shapes: Array.from(shapesIn(root)), lights, viewpoints, lods, billboards };
+  const { box, lights, viewpoints, backgrounds, lods, billboards } = root.summary;
+  return {
+    box: box ?? new Box3(),
+    shapes: Array.from(shapesIn(root)),
+    lights,
+    viewpoints,
+    backgrounds: bindableOf(backgrounds),
+    lods,
+    billboards,
+  };
 }
 
 function* shapesIn({ description, sceneFromNode, lightScope, children }: NodeInstance): Generator<ShapeInstance> {

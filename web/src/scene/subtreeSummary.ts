@@ -1,7 +1,7 @@
 // Merges the summaries of subtrees into that of the group around them.
 
 import type { Box3 } from "three";
-import type { LightInstance, ViewpointInstance } from "./instances.ts";
+import type { BackgroundInstance, LightInstance, ViewpointInstance } from "./instances.ts";
 import type { NodeInstance, SubtreeSummary } from "./nodeInstance.ts";
 import { emptySummary } from "./nodeInstance.ts";
 
@@ -17,7 +17,8 @@ export function mergeSummaries(
 ): SubtreeSummary {
   let union: Box3 | undefined;
   const lights = new ConcatenatedList<LightInstance>(),
-    viewpoints = new ConcatenatedList<ViewpointInstance>();
+    viewpoints = new ConcatenatedList<ViewpointInstance>(),
+    backgrounds = new ConcatenatedList<BackgroundInstance>();
   const lods = new ConcatenatedList(own.lods),
     boundedGroups = new ConcatenatedList(own.boundedGroups);
   const anchors = new ConcatenatedList(own.anchors),
@@ -28,6 +29,7 @@ export function mergeSummaries(
     if (summary.box && own.box === undefined) union = union?.union(summary.box) ?? summary.box.clone();
     lights.add(summary.lights);
     viewpoints.add(summary.viewpoints);
+    backgrounds.add(summary.backgrounds);
     lods.add(summary.lods);
     boundedGroups.add(summary.boundedGroups);
     anchors.add(summary.anchors);
@@ -38,6 +40,7 @@ export function mergeSummaries(
     box: own.box ?? union,
     lights: lights.all,
     viewpoints: viewpoints.all,
+    backgrounds: backgrounds.all,
     lods: lods.all,
     boundedGroups: boundedGroups.all,
     anchors: anchors.all,

@@ -20,6 +20,8 @@ export interface DeliveryControlOptions {
   readonly deliveries: SceneDeliveries;
   /** The view of the camera; undefined if there is no single camera: files of all visible shapes are then requested. */
   readonly view: () => View | undefined;
+  /** Keys (textureKeyOf) of textures that are not those of shapes and that fill the view. */
+  readonly sceneTextures: () => ReadonlySet<string>;
   /** The set of requested files may have changed. */
   readonly onRequests: () => void;
 }
@@ -85,13 +87,13 @@ export class DeliveryControl {
   request(): void {
     this.#cancelTimer();
     if (!this.#isStarted) return;
-    const { deliveries, view, onRequests } = this.#options;
+    const { deliveries, view, sceneTextures, onRequests } = this.#options;
     this.#view = view();
     const viewState = viewStateOf(this.#view, this.#weights);
     requestWithinBudget(
       deliveries,
       (geometry) => filePriorityFor(this.#instances.ofGeometry(geometry), viewState),
-      (key, chunk) => texturePriorityFor(this.#instances.ofTexture(key), chunk, viewState),
+      (key, chunk) => texturePriorityFor(this.#instances.ofTexture(key), chunk, viewState, sceneTextures().has(key)),
       this.#maxBytes,
     );
     this.#storedBytes = storedBytesOf(deliveries);

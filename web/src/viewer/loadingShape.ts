@@ -6,7 +6,7 @@ import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
-import { ShapeTextures } from "../delivery/shapeTextures.ts";
+import { RoleTextures } from "../delivery/roleTextures.ts";
 import type {
   GeometryDescription,
   ShapeDescription,
@@ -20,7 +20,7 @@ export abstract class LoadingShape {
   readonly element: SceneElement;
   readonly geometry: GeometryDescription | undefined;
   readonly #deliveries: SceneDeliveries;
-  readonly #textures: ShapeTextures;
+  readonly #textures: RoleTextures<TextureRole>;
   #delivery: JoinedDelivery | undefined;
   #describedTextures: readonly TextureDescription[] = [];
   #isVisible: boolean;
@@ -31,7 +31,7 @@ export abstract class LoadingShape {
     this.geometry = geometry;
     this.#isVisible = visible;
     this.#deliveries = deliveries;
-    this.#textures = new ShapeTextures(deliveries.textures, {
+    this.#textures = new RoleTextures(deliveries.textures, {
       onTextureImage: (role, image) => {
         this.onTextureImage(role, image);
       },

@@ -31,6 +31,8 @@ export const progressIntervalMs = 50;
 export interface ViewerHost {
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
+  /** Keys (textureKeyOf) of textures that the host displays around the viewer. */
+  sceneTextures?(): ReadonlySet<string>;
   /** Displays a scene that differs from the previous one, and returns the differences. */
   display(scene: SceneDescription): SceneChanges;
   /** Shapes have joined deliveries, whose files are requested next. */
@@ -62,6 +64,8 @@ export interface ViewerCoreOptions<Shape extends LoadingShape> {
   readonly inlines: Omit<InlinesOptions, "pool">;
   readonly host: ViewerHost;
 }
+
+const noTextures: ReadonlySet<string> = new Set();
 
 /** The deliveries that shapes of one scene join. */
 export function sceneDeliveriesOf(pool: ResourcePool): SceneDeliveries {
@@ -112,6 +116,7 @@ export class ViewerCore<Shape extends LoadingShape> {
     this.control = new DeliveryControl({
       deliveries,
       view: () => host.view(),
+      sceneTextures: () => host.sceneTextures?.() ?? noTextures,
       onRequests: () => {
         host.onRequests?.();
       },

@@ -10,7 +10,8 @@ import type {
   NodeDescription,
   ShapeDescription,
 } from "../../document/description.ts";
-import type { LightInstance, LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import type { BackgroundInstance, LightInstance, LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import { bindableOf } from "../../scene/bindable.ts";
 import { billboardRotation } from "../../scene/billboard.ts";
 import { numberLightScopes } from "../../scene/lightScope.ts";
 import { matrixOf } from "../../scene/transforms.ts";
@@ -72,6 +73,11 @@ export class SceneGroups implements InstanceTreeListener {
   /** In document order. */
   get viewpoints(): readonly ViewpointInstance[] {
     return this.#tree.root.summary.viewpoints;
+  }
+
+  /** Those that can be bound, in document order. */
+  get backgrounds(): readonly BackgroundInstance[] {
+    return bindableOf(this.#tree.root.summary.backgrounds);
   }
 
   get lods(): readonly LodInstance[] {

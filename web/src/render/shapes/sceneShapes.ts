@@ -12,7 +12,7 @@ import type {
   TextureRole,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
-import type { LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import type { BackgroundInstance, LodInstance, ViewpointInstance } from "../../scene/instances.ts";
 import { isDrawable, sphereAround } from "../../scene/bounds.ts";
 import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
@@ -35,6 +35,7 @@ export interface BuiltScene {
   readonly sphere: Sphere;
   /** In document order. */
   readonly viewpoints: readonly ViewpointInstance[];
+  readonly backgrounds: readonly BackgroundInstance[];
   readonly lods: readonly LodInstance[];
   /** Visible Anchors. */
   readonly anchors: readonly AnchorDescription[];
@@ -118,7 +119,7 @@ export class SceneShapes {
     this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
     if (areLightScopesRenumbered) this.#batches.updateAllRecords();
-    const { box, boundedGroups, viewpoints, lods, anchors } = this.#graph;
+    const { box, boundedGroups, viewpoints, backgrounds, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
       this.#documentBox = box.clone();
@@ -127,7 +128,7 @@ export class SceneShapes {
     }
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#extendBounds(object, bounds);
     this.#batches.setBoundingSphere(this.#sphere);
-    return { sphere: this.#sphere, viewpoints, lods, anchors, changes };
+    return { sphere: this.#sphere, viewpoints, backgrounds, lods, anchors, changes };
   }
 
   #setLights({ attenuations, lightScopeRanges, scopedAmbients }: SceneLightUniforms): void {

@@ -1,6 +1,6 @@
-// Draws X3D's Background (ISO/IEC 19775-1, 24.4.1). A single colour clears the canvas. Several colours
-// are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and
-// each pixel computes its view direction.
+// Draws sky and ground of X3D's backgrounds (ISO/IEC 19775-1, 24.2.1). A single opaque colour clears the canvas.
+// Several colours are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and each
+// pixel computes its view direction.
 
 import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial } from "three";
 import type { BackgroundDescription } from "../../document/description.ts";
@@ -15,7 +15,7 @@ void main() {
   gl_Position = vec4(position.xy, 1.0, 1.0);
   vec2 center = vec2(projectionMatrix[2][0], projectionMatrix[2][1]);
   vec2 viewPosition = (position.xy + center) / vec2(projectionMatrix[0][0], projectionMatrix[1][1]);
-  direction = transpose(mat3(viewMatrix)) * vec3(viewPosition, -1.0);
+  direction = transpose(mat3(modelViewMatrix)) * vec3(viewPosition, -1.0);
 }
 `;
 
@@ -26,6 +26,7 @@ uniform vec3 groundColors[RINGS];
 uniform float groundAngles[RINGS];
 uniform int skyCount;
 uniform int groundCount;
+uniform float opacity;
 varying vec3 direction;
 
 float fractionBetween(float begin, float end, float angle) {
@@ -47,13 +48,13 @@ void main() {
         color = mix(groundColors[i - 1], groundColors[i], fractionBetween(groundAngles[i - 1], groundAngles[i], fromNadir));
     }
   }
-  gl_FragColor = vec4(color, 1.0);
+  gl_FragColor = vec4(color * opacity, opacity);
 }
 `;
 
-/** A clear colour, or a mesh to draw behind everything else. */
-export function makeBackground(background: BackgroundDescription): Color | Mesh {
-  if (background.sky.length === 1 && background.ground.length === 0) {
+/** A clear colour, or a mesh to draw behind everything else; its rotation is that of the background's node. */
+export function makeSky(background: BackgroundDescription): Color | Mesh {
+  if (background.sky.length === 1 && background.ground.length === 0 && background.transparency === 0) {
     const color = new Color();
     setColor(color, background.sky[0]?.color ?? [0, 0, 0]);
     return color;
@@ -70,7 +71,11 @@ export function makeBackground(background: BackgroundDescription): Color | Mesh 
       depthTest: false,
       depthWrite: false,
       defines: { RINGS: maxRings, PI: Math.PI },
-      uniforms: { ...ringsOf("sky", background.sky), ...ringsOf("ground", background.ground) },
+      uniforms: {
+        ...ringsOf("sky", background.sky),
+        ...ringsOf("ground", background.ground),
+        opacity: { value: 1 - background.transparency },
+      },
     }),
   );
   mesh.frustumCulled = false;
@@ -88,9 +93,4 @@ function ringsOf(name: "sky" | "ground", rings: BackgroundDescription["sky"]): R
     [`${name}Angles`]: { value: paddedRings.map(({ angle }) => angle) },
     [`${name}Count`]: { value: Math.min(rings.length, maxRings) },
   };
-}
-
-export function disposeBackground(background: Mesh): void {
-  background.geometry.dispose();
-  (background.material as ShaderMaterial).dispose();
 }

@@ -1,18 +1,22 @@
-// The textures of one shape: joins the deliveries of those that its appearance names and leaves the others.
+// The textures of one shape, or of a background: joins the deliveries of those that the document names and leaves the
+// others.
 
-import type { TextureDescription, TextureRole } from "../document/description.ts";
+import type { ImageDescription } from "../document/description.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
 import type { TextureImage } from "./resourcePool.ts";
 import type { JoinedTexture, TextureDeliveries } from "./textureDeliveries.ts";
 import { textureKeyOf } from "./textureDeliveries.ts";
 
-export interface ShapeTexturesListener {
+/** `Role` names the textures of one user: the role of a texture in an appearance, or the side of a panorama. */
+export interface RoleTexturesListener<Role> {
   /** Undefined: the role has no texture any more. The previous one must not be used after the call. */
-  onTextureImage(role: TextureRole, image: TextureImage | undefined): void;
+  onTextureImage(role: Role, image: TextureImage | undefined): void;
   onError(error: DeliveryError): void;
   onSettled(): void;
 }
+
+type RoleTextureDescription<Role> = ImageDescription & { readonly role: Role };
 
 /** The texture of a role. */
 interface RoleTexture {
@@ -20,12 +24,12 @@ interface RoleTexture {
   readonly joined: JoinedTexture;
 }
 
-export class ShapeTextures {
+export class RoleTextures<Role extends string> {
   readonly #deliveries: TextureDeliveries;
-  readonly #listener: ShapeTexturesListener;
-  #textures = new Map<TextureRole, RoleTexture>();
+  readonly #listener: RoleTexturesListener<Role>;
+  #textures = new Map<Role, RoleTexture>();
 
-  constructor(deliveries: TextureDeliveries, listener: ShapeTexturesListener) {
+  constructor(deliveries: TextureDeliveries, listener: RoleTexturesListener<Role>) {
     this.#deliveries = deliveries;
     this.#listener = listener;
   }
@@ -42,7 +46,7 @@ export class ShapeTextures {
   /**
    * Replaces the textures. New ones are joined before old ones are left, so that shared files are not fetched again.
    */
-  follow(textures: readonly TextureDescription[]): void {
+  follow(textures: readonly RoleTextureDescription<Role>[]): void {
     const before = this.#textures;
     this.#textures = new Map(
       textures.map((texture) => {
@@ -64,7 +68,7 @@ export class ShapeTextures {
     this.#textures.clear();
   }
 
-  #join(texture: TextureDescription): JoinedTexture {
+  #join(texture: RoleTextureDescription<Role>): JoinedTexture {
     return this.#deliveries.join(texture, {
       onTextureImage: (image) => {
         this.#listener.onTextureImage(texture.role, image);

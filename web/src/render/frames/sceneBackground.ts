@@ -1,0 +1,93 @@
+// The bound background of a scene: sky, ground and panorama. It turns with the groups around its node, and neither
+// moves nor scales with them.
+
+import type { Scene, Texture } from "three";
+import { Color, Group, Material, Matrix4, Mesh, Quaternion, Vector3 } from "three";
+import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
+import type { SceneElement } from "../../document/element.ts";
+import { BindingStack } from "../../navigation/bindingStack.ts";
+import type { BackgroundInstance } from "../../scene/instances.ts";
+import { makePicture } from "./panorama.ts";
+import { makeSky } from "./sky.ts";
+
+export class SceneBackground {
+  readonly #scene: Scene;
+  readonly #stack = new BindingStack<SceneElement>();
+  readonly #root = new Group();
+  readonly #pictures = new Map<PanoramaSide, Mesh>();
+  #instances: readonly BackgroundInstance[] = [];
+  #sky: Mesh | undefined;
+  #drawn: BackgroundDescription | undefined;
+
+  constructor(scene: Scene) {
+    this.#scene = scene;
+    this.#root.matrixAutoUpdate = false;
+    scene.add(this.#root);
+  }
+
+  /** Undefined where the scene has none: the page shows through. */
+  get bound(): BackgroundInstance | undefined {
+    return this.#instances.find(({ element }) => element === this.#stack.bound);
+  }
+
+  /** The backgrounds of a scene, in document order. */
+  follow(instances: readonly BackgroundInstance[]): void {
+    this.#instances = instances;
+    this.#stack.follow(instances);
+    this.#update();
+  }
+
+  /** X3D's set_bind. Returns false if the element is no background of the scene. */
+  bind(element: SceneElement, isBound: boolean): boolean {
+    if (!this.#instances.some((instance) => instance.element === element)) return false;
+    if (isBound) this.#stack.bind(element);
+    else this.#stack.unbind(element);
+    this.#update();
+    return true;
+  }
+
+  /** Sets a picture of the bound background; undefined: sky and ground are visible in its place. */
+  setPicture(side: PanoramaSide, texture: Texture | undefined): void {
+    dispose(this.#pictures.get(side));
+    this.#pictures.delete(side);
+    if (texture === undefined) return;
+    const mesh = makePicture(side, texture);
+    this.#pictures.set(side, mesh);
+    this.#root.add(mesh);
+    this.#root.updateMatrixWorld(true);
+  }
+
+  dispose(): void {
+    dispose(this.#sky);
+    for (const mesh of this.#pictures.values()) dispose(mesh);
+    this.#pictures.clear();
+  }
+
+  #update(): void {
+    const { bound } = this;
+    this.#root.matrix.copy(bound ? rotationOf(bound.sceneFromBackground) : new Matrix4());
+    if (bound?.background !== this.#drawn) {
+      this.#drawn = bound?.background;
+      dispose(this.#sky);
+      const sky = this.#drawn && makeSky(this.#drawn);
+      this.#sky = sky instanceof Mesh ? sky : undefined;
+      if (this.#sky) this.#root.add(this.#sky);
+      // scene.background survives a lost context; the renderer's clear colour does not.
+      this.#scene.background = sky instanceof Color ? sky : null;
+    }
+    this.#root.updateMatrixWorld(true);
+  }
+}
+
+function rotationOf(matrix: Matrix4): Matrix4 {
+  if (matrix.determinant() === 0) return new Matrix4();
+  const rotation = new Quaternion();
+  matrix.decompose(new Vector3(), rotation, new Vector3());
+  return new Matrix4().makeRotationFromQuaternion(rotation);
+}
+
+function dispose(mesh: Mesh | undefined): void {
+  mesh?.removeFromParent();
+  mesh?.geometry.dispose();
+  if (mesh?.material instanceof Material) mesh.material.dispose();
+}

@@ -1,0 +1,26 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { elementsOf } from "../document/elements.testing.ts";
+import { readScene } from "../document/readScene.ts";
+import { instancesOf } from "./sceneInstances.ts";
+
+const documents: Readonly<Record<string, string>> = {
+  "outer.x3d": `<X3D><Inline url="inner.x3d"/><Background skyColor="0 1 0"/></X3D>`,
+  "inner.x3d": `<X3D><Background skyColor="1 0 0"/></X3D>`,
+};
+
+function skyColorsOf(own: string): unknown {
+  const inlined = new Map(Object.entries(documents).map(([url, text]) => [url, { url, x3d: elementsOf(text) }]));
+  const scene = readScene(elementsOf(`<X3D><Inline url="outer.x3d"/>${own}</X3D>`), {
+    inlined: (inline) => inlined.get(inline.getAttribute("url") ?? ""),
+  });
+  return instancesOf(scene).backgrounds.map(({ background }) => background.sky[0]?.color);
+}
+
+test("backgrounds of inlined documents can be bound only where the documents around them have none", () => {
+  assert.deepEqual(skyColorsOf(""), [[0, 1, 0]]);
+  assert.deepEqual(skyColorsOf('<Background skyColor="0 0 1"/><Background/>'), [
+    [0, 0, 1],
+    [0, 0, 0],
+  ]);
+});

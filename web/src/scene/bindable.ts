@@ -1,0 +1,10 @@
+// Which nodes of a kind can be bound (ISO/IEC 19775-1, 7.2.2). Those of inlined documents can only where the documents
+// that contain these have none, so that an embedded scene looks as it does in its own page.
+
+/** The nodes with the fewest Inlines around them, in the given order. */
+export function bindableOf<Node extends { readonly inlineDepth: number }>(nodes: readonly Node[]): readonly Node[] {
+  const depth = nodes.reduce((minDepth, { inlineDepth }) => Math.min(minDepth, inlineDepth), Infinity);
+  return nodes.every(({ inlineDepth }) => inlineDepth === depth)
+    ? nodes
+    : nodes.filter(({ inlineDepth }) => inlineDepth === depth);
+}
