@@ -3,7 +3,7 @@
 import type { ElementType } from "../stage/elementType.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { SceneElement } from "./element.ts";
-import type { Rotation, Vec2, Vec3 } from "./fieldTypes.ts";
+import type { Rotation, Vec2, Vec3, Vec4 } from "./fieldTypes.ts";
 import type { nodeFields, Values, Warning } from "./nodes.ts";
 
 export interface Box3 {
@@ -339,8 +339,49 @@ export interface ViewpointNodeDescription {
   readonly viewpoint: ViewpointDescription;
 }
 
+/** X3D's ClipPlane: of its group, what is behind the plane is not drawn. */
+export interface ClipPlaneDescription {
+  readonly kind: "clipPlane";
+  readonly enabled: boolean;
+  /** a b c d: points with a x + b y + c z + d < 0 are behind it. */
+  readonly plane: Vec4;
+}
+
+export interface FogDescription {
+  readonly color: Vec3;
+  readonly type: "linear" | "exponential";
+  /** The distance at which the fog hides everything, in the node's coordinates; 0: no fog. */
+  readonly visibilityRange: number;
+}
+
+/** X3D's Fog, for the whole scene. */
+export interface FogNodeDescription {
+  readonly kind: "fog";
+  /** Its identity. */
+  readonly element: SceneElement;
+  /** The number of Inlines around it; 0 in the page's own document. */
+  readonly inlineDepth: number;
+  /** Whether `set_bind` or `bind` is true. */
+  readonly isBindRequested: boolean;
+  readonly fog: FogDescription;
+}
+
+/** X3D's LocalFog, for its group. */
+export interface LocalFogDescription {
+  readonly kind: "localFog";
+  readonly enabled: boolean;
+  readonly fog: FogDescription;
+}
+
 export type NodeDescription =
-  GroupDescription | ShapeDescription | LightNodeDescription | ViewpointNodeDescription | BackgroundNodeDescription;
+  | GroupDescription
+  | ShapeDescription
+  | LightNodeDescription
+  | ViewpointNodeDescription
+  | BackgroundNodeDescription
+  | ClipPlaneDescription
+  | FogNodeDescription
+  | LocalFogDescription;
 
 /** A color at an angle, in radians, from the zenith or the nadir. */
 export interface Ring {
@@ -402,4 +443,4 @@ export function viewpointsOf(node: NodeDescription): ViewpointNodeDescription[] 
   return node.kind === "group" ? node.children.flatMap(viewpointsOf) : [];
 }
 
-export type { Rotation, Vec2, Vec3, Warning };
+export type { Rotation, Vec2, Vec3, Vec4, Warning };

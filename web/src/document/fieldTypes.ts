@@ -8,6 +8,7 @@ import { pixelImageOf } from "./pixelImage.ts";
 export type { Vec3 };
 export type Vec2 = readonly [number, number];
 /** Axis and angle in radians. */
+export type Vec4 = readonly [number, number, number, number];
 export type Rotation = readonly [number, number, number, number];
 
 export interface FieldType<Value> {
@@ -141,6 +142,7 @@ export const Priority = fieldMaker(priority);
 export const SFString = fieldMaker(sfString);
 export const SFVec2f = fieldMaker(tuple<Vec2>("SFVec2f", 2));
 export const SFVec3f = fieldMaker(tuple<Vec3>("SFVec3f", 3));
+export const SFVec4f = fieldMaker(tuple<Vec4>("SFVec4f", 4));
 export const SFColor = fieldMaker(tuple<Vec3>("SFColor", 3));
 export const SFImage = fieldMaker(sfImage);
 export const SFRotation = fieldMaker(tuple<Rotation>("SFRotation", 4));

@@ -22,6 +22,7 @@ import {
   SFString,
   SFVec2f,
   SFVec3f,
+  SFVec4f,
 } from "./fieldTypes.ts";
 import { ColorMap } from "./colorMaps.ts";
 import { noPixels } from "./pixelImage.ts";
@@ -91,6 +92,13 @@ const backgroundFields = {
   transparency: SFFloat(0),
 };
 
+const fogFields = {
+  color: SFColor([1, 1, 1]),
+  fogType: SFString("LINEAR"),
+  /** 0: no fog. */
+  visibilityRange: SFFloat(0),
+};
+
 export const nodeFields = {
   X3D: {
     /** Weights of file contents, for the order of requests. */
@@ -116,6 +124,9 @@ export const nodeFields = {
     bottomUrl: MFString([]),
   },
   TextureBackground: backgroundFields,
+  ClipPlane: { enabled: SFBool(true), plane: SFVec4f([0, 1, 0, 0]) },
+  Fog: { ...bindable, ...fogFields },
+  LocalFog: { ...fogFields, enabled: SFBool(true) },
   Viewpoint: {
     ...bindable,
     description: SFString(""),

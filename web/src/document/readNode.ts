@@ -9,6 +9,7 @@ import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { asViewpoint } from "./orthoViewpoint.ts";
 import { readBackground } from "./readBackground.ts";
+import { readFog, readLocalFog } from "./readFog.ts";
 import type { ShapeReadingContext } from "./readShape.ts";
 import { nodesIn, readShape } from "./readShape.ts";
 import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
@@ -92,6 +93,15 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
         [],
         declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }),
       );
+    case "clipplane":
+      return constantReader(
+        [{ kind: "clipPlane", ...readFields(node, nodeFields.ClipPlane, warnings) }],
+        warningsOnly(warnings),
+      );
+    case "fog":
+      return constantReader([readFog(element, node, context.inlineDepth, warnings)], warningsOnly(warnings));
+    case "localfog":
+      return constantReader([readLocalFog(node, warnings)], warningsOnly(warnings));
     case "background":
     case "texturebackground":
       return constantReader(

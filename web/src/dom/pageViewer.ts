@@ -358,6 +358,7 @@ export class PageViewer {
   #followBind(element: Element, attribute: string | null): void {
     if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
     const isBound = element.getAttribute(attribute)?.trim().toLowerCase() === "true";
+    if (this.renderer.bindFog(element, isBound)) return;
     if (!this.renderer.bindBackground(element, isBound)) this.cameraController.bind(element, isBound);
     else if (this.#background.follow()) this.#core.control.request();
   }

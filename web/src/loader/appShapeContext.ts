@@ -1,6 +1,8 @@
 // The context that the shapes of a scene share in an app's own three.js scene.
 
 import { Vector2, Vector4 } from "three";
+import { makeClipPlaneUniforms } from "../render/environment/clipPlanes.ts";
+import { makeFogUniforms } from "../render/environment/fogs.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
 import type { MaterialFactory } from "../render/materials/materialFactory.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
@@ -26,6 +28,8 @@ export function appShapeContext(
       viewport: { value: new Vector4() },
       depthRange: { value: new Vector2() },
       ...makeLightUniforms(),
+      ...makeClipPlaneUniforms(),
+      ...makeFogUniforms(),
     },
   };
 }

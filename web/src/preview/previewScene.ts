@@ -59,7 +59,8 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   const { navigation, inlines } = scene;
   if (inlines.length > 0) return undefined;
   const instances = instancesOf(scene);
-  const { viewpoints, lods, billboards } = instances;
+  const { viewpoints, lods, billboards, hasClippingOrFog } = instances;
+  if (hasClippingOrFog) return undefined;
   const background = boundBackgroundOf(instances.backgrounds);
   if (background && (background.sky.length > 1 || background.ground.length > 0 || background.transparency > 0))
     return undefined;

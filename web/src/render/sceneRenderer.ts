@@ -37,6 +37,8 @@ import type { SceneUniforms } from "./materials/materialFactory.ts";
 import { x3dMaterials } from "./materials/x3dMaterials.ts";
 import { FramePacer } from "./frames/framePacing.ts";
 import type { Hit } from "./picking/picker.ts";
+import { makeClipPlaneUniforms } from "./environment/clipPlanes.ts";
+import { makeFogUniforms } from "./environment/fogs.ts";
 import { makeLightUniforms } from "./lights/sceneLights.ts";
 import type { BuiltScene } from "./shapes/sceneShapes.ts";
 import { SceneShapes } from "./shapes/sceneShapes.ts";
@@ -85,6 +87,8 @@ export class SceneRenderer {
     viewport: { value: new Vector4() },
     depthRange: { value: new Vector2() },
     ...makeLightUniforms(),
+    ...makeClipPlaneUniforms(),
+    ...makeFogUniforms(),
   };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
@@ -194,6 +198,13 @@ export class SceneRenderer {
   /** Binds or unbinds a background, as X3D's set_bind does. Returns false if the element is none of the scene's. */
   bindBackground(element: SceneElement, isBound: boolean): boolean {
     if (!this.#background.bind(element, isBound)) return false;
+    this.requestFrame();
+    return true;
+  }
+
+  /** Binds or unbinds a Fog, as X3D's set_bind does. Returns false if the element is none of the scene's. */
+  bindFog(element: SceneElement, isBound: boolean): boolean {
+    if (!this.#shapes.bindFog(element, isBound)) return false;
     this.requestFrame();
     return true;
   }

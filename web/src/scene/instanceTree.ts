@@ -2,16 +2,16 @@
 // its description is the same object as before and its inherited state has not changed, so that an update costs as much
 // as the changed nodes, their siblings and their ancestors.
 
-import { Matrix4, Vector3 } from "three";
+import { Matrix4, Vector3, Vector4 } from "three";
 import { deepEqual } from "../document/deepEqual.ts";
-import type { GroupDescription, LightDescription, NodeDescription } from "../document/description.ts";
+import type { GroupDescription, LightDescription, NodeDescription, Vec4 } from "../document/description.ts";
 import { boxOfAllRotations, isDrawable, transformedBox } from "./bounds.ts";
 import type { LightInstance } from "./instances.ts";
 import { LightScope, sceneScope } from "./lightScope.ts";
 import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
 import { emptySummary, NodeInstance } from "./nodeInstance.ts";
 import { mergeSummaries } from "./subtreeSummary.ts";
-import { matrixOf } from "./transforms.ts";
+import { lengthScaleOf, matrixOf } from "./transforms.ts";
 
 /** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
@@ -108,11 +108,11 @@ function isSameState(a: InheritedState, b: InheritedState): boolean {
 }
 
 /**
- * A group with lights that are not global has a scope of its own, kept while it has such lights. Lights of the root
- * light the whole scene.
+ * A group with lights that are not global, clip planes or local fogs has a scope of its own, kept while it has such
+ * nodes. Those of the root have an effect on the whole scene.
  */
 function lightScopeOf({ description, lightScope: previous, parent }: NodeInstance, around: LightScope): LightScope {
-  if (parent === undefined || description.kind !== "group" || !description.children.some(isScopedLight)) return around;
+  if (parent === undefined || description.kind !== "group" || !description.children.some(isScoped)) return around;
   return previous.parent === around ? previous : new LightScope(around);
 }
 
@@ -150,6 +150,19 @@ function leafSummary(
       };
     case "background":
       return { ...emptySummary, backgrounds: [{ ...description, sceneFromBackground: sceneFromNode }] };
+    case "fog":
+      return { ...emptySummary, fogs: [{ ...description, scale: lengthScaleOf(sceneFromNode) }] };
+    case "localFog":
+      return description.enabled && isVisible
+        ? {
+            ...emptySummary,
+            localFogs: [{ fog: description.fog, scale: lengthScaleOf(sceneFromNode), scope: lightScope }],
+          }
+        : emptySummary;
+    case "clipPlane": {
+      const plane = description.enabled && isVisible ? scenePlaneOf(description.plane, sceneFromNode) : undefined;
+      return plane ? { ...emptySummary, clipPlanes: [{ plane, scope: lightScope }] } : emptySummary;
+    }
     case "light":
       return description.light.on && isVisible
         ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, lightScope)] }
@@ -171,8 +184,25 @@ function rotatingSummary(summary: SubtreeSummary, sceneFromNode: Matrix4): Subtr
   };
 }
 
-function isScopedLight(description: NodeDescription): boolean {
-  return description.kind === "light" && !description.light.global;
+/** Whether a node has an effect on its siblings and their descendants, and on nothing else. */
+function isScoped(description: NodeDescription): boolean {
+  switch (description.kind) {
+    case "light":
+      return !description.light.global;
+    case "clipPlane":
+    case "localFog":
+      return description.enabled;
+    default:
+      return false;
+  }
+}
+
+/** A plane of a node in scene coordinates; undefined where the node has no volume or the plane no direction. */
+function scenePlaneOf(plane: Vec4, sceneFromNode: Matrix4): Vector4 | undefined {
+  if (sceneFromNode.determinant() === 0) return undefined;
+  const scenePlane = new Vector4(...plane).applyMatrix4(sceneFromNode.clone().invert().transpose());
+  const length = Math.hypot(scenePlane.x, scenePlane.y, scenePlane.z);
+  return length > 0 ? scenePlane.divideScalar(length) : undefined;
 }
 
 function lightInstance(light: LightDescription, sceneFromLight: Matrix4, around: LightScope): LightInstance {

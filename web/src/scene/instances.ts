@@ -1,8 +1,10 @@
 // Occurrences of nodes in a scene: a node has several where a group around it is USEd or its document is inlined twice.
 
-import type { Matrix4 } from "three";
+import type { Matrix4, Vector4 } from "three";
 import type {
   BackgroundNodeDescription,
+  FogDescription,
+  FogNodeDescription,
   LightDescription,
   LodDescription,
   ShapeDescription,
@@ -31,6 +33,25 @@ export interface LodInstance extends LodDescription {
 
 export interface BackgroundInstance extends BackgroundNodeDescription {
   readonly sceneFromBackground: Matrix4;
+}
+
+export interface ClipPlaneInstance {
+  /** In scene coordinates; x, y, z have length 1. */
+  readonly plane: Vector4;
+  /** The plane clips the shapes in this scope. */
+  readonly scope: LightScope;
+}
+
+export interface FogInstance extends FogNodeDescription {
+  /** Its lengths, in units of the scene. */
+  readonly scale: number;
+}
+
+export interface LocalFogInstance {
+  readonly fog: FogDescription;
+  readonly scale: number;
+  /** The fog is around the shapes in this scope. */
+  readonly scope: LightScope;
 }
 
 export interface ViewpointInstance {

@@ -1,6 +1,7 @@
-// Scopes of lights (ISO/IEC 19775-1, 17.2.1.2): a light that is not global lights its group's descendants only.
+// Scopes of lights (ISO/IEC 19775-1, 17.2.1.2): a light that is not global lights its group's descendants only. A
+// ClipPlane and a LocalFog have an effect on the same nodes, so that they share the scopes.
 //
-// A group with such lights is a scope. Scopes are numbered in document order, each before the scopes inside it, so that
+// A group with such nodes is a scope. Scopes are numbered in document order, each before the scopes inside it, so that
 // a scope and its descendants form an interval of numbers. A drawn object needs the number of its innermost scope only,
 // and a light the two ends of its interval, however many scopes there are.
 

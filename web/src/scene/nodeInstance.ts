@@ -3,7 +3,15 @@
 import type { Box3 } from "three";
 import { Matrix4 } from "three";
 import type { AnchorDescription, NodeDescription } from "../document/description.ts";
-import type { BackgroundInstance, LightInstance, LodInstance, ViewpointInstance } from "./instances.ts";
+import type {
+  BackgroundInstance,
+  ClipPlaneInstance,
+  FogInstance,
+  LightInstance,
+  LocalFogInstance,
+  LodInstance,
+  ViewpointInstance,
+} from "./instances.ts";
 import type { LightScope } from "./lightScope.ts";
 import { sceneScope } from "./lightScope.ts";
 
@@ -15,6 +23,11 @@ export interface SubtreeSummary {
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
   readonly backgrounds: readonly BackgroundInstance[];
+  readonly fogs: readonly FogInstance[];
+  /** Visible and enabled LocalFogs, each before those inside its group. */
+  readonly localFogs: readonly LocalFogInstance[];
+  /** Visible and enabled ones. */
+  readonly clipPlanes: readonly ClipPlaneInstance[];
   /** Visible LODs. */
   readonly lods: readonly LodInstance[];
   /** Visible groups that have a box. */
@@ -23,7 +36,7 @@ export interface SubtreeSummary {
   readonly anchors: readonly AnchorDescription[];
   /** Each before the billboards inside it. */
   readonly billboards: readonly NodeInstance[];
-  /** Scopes of lights that are not global; each before the scopes inside it. */
+  /** Scopes of lights that are not global, of clip planes and of local fogs; each before the scopes inside it. */
   readonly lightScopes: readonly LightScope[];
 }
 
@@ -33,6 +46,9 @@ export const emptySummary: SubtreeSummary = {
   lights: none,
   viewpoints: none,
   backgrounds: none,
+  fogs: none,
+  localFogs: none,
+  clipPlanes: none,
   lods: none,
   boundedGroups: none,
   anchors: none,

@@ -17,6 +17,8 @@ export interface SceneInstances {
   readonly viewpoints: readonly ViewpointInstance[];
   /** Those that can be bound. */
   readonly backgrounds: readonly BackgroundInstance[];
+  /** Whether anything is clipped or in fog. */
+  readonly hasClippingOrFog: boolean;
   /** Visible LODs. */
   readonly lods: readonly LodInstance[];
   readonly billboards: readonly NodeInstance[];
@@ -25,13 +27,14 @@ export interface SceneInstances {
 /** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
-  const { box, lights, viewpoints, backgrounds, lods, billboards } = root.summary;
+  const { box, lights, viewpoints, backgrounds, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
   return {
     box: box ?? new Box3(),
     shapes: Array.from(shapesIn(root)),
     lights,
     viewpoints,
     backgrounds: bindableOf(backgrounds),
+    hasClippingOrFog: clipPlanes.length + fogs.length + localFogs.length > 0,
     lods,
     billboards,
   };

@@ -1,7 +1,14 @@
 // Merges the summaries of subtrees into that of the group around them.
 
 import type { Box3 } from "three";
-import type { BackgroundInstance, LightInstance, ViewpointInstance } from "./instances.ts";
+import type {
+  BackgroundInstance,
+  ClipPlaneInstance,
+  FogInstance,
+  LightInstance,
+  LocalFogInstance,
+  ViewpointInstance,
+} from "./instances.ts";
 import type { NodeInstance, SubtreeSummary } from "./nodeInstance.ts";
 import { emptySummary } from "./nodeInstance.ts";
 
@@ -18,7 +25,10 @@ export function mergeSummaries(
   let union: Box3 | undefined;
   const lights = new ConcatenatedList<LightInstance>(),
     viewpoints = new ConcatenatedList<ViewpointInstance>(),
-    backgrounds = new ConcatenatedList<BackgroundInstance>();
+    backgrounds = new ConcatenatedList<BackgroundInstance>(),
+    fogs = new ConcatenatedList<FogInstance>(),
+    localFogs = new ConcatenatedList<LocalFogInstance>(),
+    clipPlanes = new ConcatenatedList<ClipPlaneInstance>();
   const lods = new ConcatenatedList(own.lods),
     boundedGroups = new ConcatenatedList(own.boundedGroups);
   const anchors = new ConcatenatedList(own.anchors),
@@ -30,6 +40,9 @@ export function mergeSummaries(
     lights.add(summary.lights);
     viewpoints.add(summary.viewpoints);
     backgrounds.add(summary.backgrounds);
+    fogs.add(summary.fogs);
+    localFogs.add(summary.localFogs);
+    clipPlanes.add(summary.clipPlanes);
     lods.add(summary.lods);
     boundedGroups.add(summary.boundedGroups);
     anchors.add(summary.anchors);
@@ -41,6 +54,9 @@ export function mergeSummaries(
     lights: lights.all,
     viewpoints: viewpoints.all,
     backgrounds: backgrounds.all,
+    fogs: fogs.all,
+    localFogs: localFogs.all,
+    clipPlanes: clipPlanes.all,
     lods: lods.all,
     boundedGroups: boundedGroups.all,
     anchors: anchors.all,

@@ -6,7 +6,6 @@ import type { Group, WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
 import type { LightScope } from "../../scene/lightScope.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
-import { instancesDefine, scopedLightsDefine } from "../shaders/instanceRecord.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 /** A group that holds one instance of a shape. */
@@ -21,22 +20,13 @@ export function hasLightScopes({ lightScopeRanges }: SceneLightUniforms): boolea
 
 /** Indices follow three.js' light loops, in the order of `lightScopeRanges`. */
 const fragmentChunk = /* glsl */ `
-#define ${scopedLightsDefine}
 #define ALL_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + NUM_DIR_LIGHTS + 1 )
 uniform vec2 lightScopeRanges[ALL_LIGHTS];
 uniform vec3 scopedAmbients[ALL_LIGHTS];
-#ifdef ${instancesDefine}
-  flat varying float instanceLightScope;
-  #define drawLightScope instanceLightScope
-#else
-  uniform float lightScope;
-  #define drawLightScope lightScope
-#endif
 
 // 1 if the light reaches the drawn object's scope, otherwise 0.
 float lightShareInScope(int light) {
-  vec2 range = lightScopeRanges[light];
-  return step(range.x, drawLightScope) * step(drawLightScope, range.y);
+  return shareInScopes(lightScopeRanges[light]);
 }
 
 vec3 ambientLightInScope() {
@@ -67,12 +57,11 @@ function limitToScope(statement: string, lightIndex: string): readonly [string, 
   return [statement, `${statement}\n\t\tdirectLight.color *= lightShareInScope( ${lightIndex} );`];
 }
 
-/** Call in `onBeforeCompile`. Programs of unlit materials stay as they are. */
+/** Call in `onBeforeCompile`, before addDrawScope. Programs of unlit materials stay as they are. */
 export function addLightScopes(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
   const fragmentShader = replaceChunks(shader.fragmentShader, [["#include <lights_fragment_begin>", lightsInScope]]);
   if (fragmentShader === shader.fragmentShader) return; // unlit
   shader.fragmentShader = fragmentChunk + fragmentShader;
-  shader.vertexShader = `#define ${scopedLightsDefine}\n${shader.vertexShader}`;
 }

@@ -1,13 +1,14 @@
 // The lights of a scene as three.js lights. They are children of a group of their own beside the
 // groups of shapes, because culled groups become invisible and lights must not.
 
-import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector2, Vector3 } from "three";
+import type { Vector2 } from "three";
+import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector3 } from "three";
 import type { LightDescription } from "../../document/description.ts";
 import { coneOf, scaledFalloff } from "../../lighting/falloff.ts";
 import { lengthScaleOf } from "../../scene/transforms.ts";
-import type { LightScope } from "../../scene/lightScope.ts";
 import { sceneScope } from "../../scene/lightScope.ts";
 import type { LightInstance } from "../../scene/instances.ts";
+import { scopeRangeOf } from "../shaders/drawScope.ts";
 import { setColor } from "./linearColor.ts";
 
 /** Light parameters that three.js lacks, as uniforms of all lit materials. */
@@ -88,13 +89,6 @@ function setScopeRanges(
     lightScopeRanges.value.push(scopeRangeOf(sceneScope));
     scopedAmbients.value.push(new Vector3());
   }
-}
-
-/** The shader compares scope numbers as floats, which are exact up to here. */
-const maxScopeNumber = 2 ** 24;
-
-function scopeRangeOf({ value, last }: LightScope): Vector2 {
-  return new Vector2(value, Math.min(last, maxScopeNumber));
 }
 
 function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {

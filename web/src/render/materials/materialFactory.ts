@@ -6,7 +6,7 @@ import type { Material, Vector2, Vector4 } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
-import type { SceneLightUniforms } from "../lights/sceneLights.ts";
+import type { SceneEffectUniforms } from "../environment/sceneEffects.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 
@@ -65,7 +65,7 @@ export type Shading = "unlit" | "distance" | "flat" | "smooth";
 export type VertexColors = "none" | "rgb" | "rgba";
 
 /** Uniforms that all materials of a scene share. */
-export interface SceneUniforms extends SceneLightUniforms {
+export interface SceneUniforms extends SceneEffectUniforms {
   /** Device pixels per CSS pixel. */
   readonly pixelRatio: { value: number };
   /** Origin and size of the current viewport in device pixels, for wide lines. */

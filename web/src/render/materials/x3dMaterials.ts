@@ -10,9 +10,9 @@ import { litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materia
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
 import { x3dLighting } from "../../lighting/x3dLighting.ts";
 import { instanceColorChunks } from "../shaders/instanceRecord.ts";
+import { addSceneEffects, sceneEffectsKey } from "../environment/sceneEffects.ts";
 import { depthShadingDefine, addDepthShading } from "./depthShading.ts";
 import { lightsChunk } from "../lights/lightFalloff.ts";
-import { hasLightScopes, addLightScopes } from "../lights/lightScopes.ts";
 import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
 import { minAlpha } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
@@ -87,8 +87,7 @@ function makeMaterial(
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    const { depthRange, attenuations, lightScopeRanges, scopedAmbients } = shared;
-    Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightScopeRanges, scopedAmbients, ...lit });
+    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
     addVertexReading(shader);
     addPrimitiveChunks(shader);
     addDepthShading(shader);
@@ -104,10 +103,10 @@ function makeMaterial(
         ...textureMapChunks,
         ...instanceColorChunks,
       ]);
-    if (hasLightScopes(shared)) addLightScopes(shader);
+    addSceneEffects(shader, shared);
   };
   // `onBeforeCompile` edits the shaders of all materials alike, so equal keys let three.js share programs.
-  material.customProgramCacheKey = () => (hasLightScopes(shared) ? "imgeo, scoped lights" : "imgeo");
+  material.customProgramCacheKey = () => `imgeo ${sceneEffectsKey(shared)}`;
   applyAppearance(material, appearance, colors, surfaceTextures);
   return material;
 }

@@ -90,8 +90,8 @@ export class DepthProbe {
     target.viewport.set(x, y, width, height);
     target.scissor.copy(target.viewport);
     target.scissorTest = true;
-    this.#scene.children = candidatesInView(camera, surfaces).map(({ pick, worldFromStored }) =>
-      pick.objectFor(1, worldFromStored),
+    this.#scene.children = candidatesInView(camera, surfaces).map(({ pick, worldFromStored, clipPlanes }) =>
+      pick.objectFor(1, worldFromStored, clipPlanes),
     );
     this.#renderer.setRenderTarget(target);
     this.#renderer.render(this.#scene, camera);

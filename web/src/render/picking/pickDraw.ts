@@ -2,12 +2,13 @@
 // shader gets only the last vertex of a primitive, so index and coordinates of the draw that is hit
 // are read back. JavaScript keeps vertex data of small meshes only.
 
-import type { BufferGeometry, Matrix4, Sphere } from "three";
+import type { BufferGeometry, Matrix4, Sphere, Vector4 } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
+import { planeIn } from "../environment/clipPlanes.ts";
 import type { PickMaterial, PickMaterialRequest } from "./pickMaterial.ts";
 import { makePickMaterial } from "./pickMaterial.ts";
 import { triangleCountOf } from "../primitives/primitives.ts";
@@ -74,8 +75,8 @@ export class PickDraw {
     return this.#isDisposed;
   }
 
-  /** The object to draw in the picking pass; its pixels get this id. */
-  objectFor(pickId: number, worldFromStored: Matrix4): DrawnObject {
+  /** The object to draw in the picking pass; its pixels get this id. `clipPlanes`: in world coordinates. */
+  objectFor(pickId: number, worldFromStored: Matrix4, clipPlanes: readonly Vector4[] = []): DrawnObject {
     const { resources, material } = (this.#acquired ??= this.#make());
     const object = makeDrawnObject(this.range, resources.geometry, material);
     object.frustumCulled = false; // candidatesInView has already culled
@@ -84,6 +85,8 @@ export class PickDraw {
     object.matrixWorld.copy(worldFromStored);
     object.onBeforeRender = () => {
       material.uniforms.pickId.value = pickId;
+      material.uniforms.clipPlaneCount.value = clipPlanes.length;
+      clipPlanes.forEach((plane, i) => material.uniforms.clipPlanes.value[i]?.copy(planeIn(plane, worldFromStored)));
       material.uniformsNeedUpdate = true;
     };
     return object;

@@ -6,9 +6,10 @@
 // implementation can render. Floats are stored as their bits.
 
 import type { Side, Texture } from "three";
-import { GLSL3, ShaderMaterial } from "three";
+import { GLSL3, ShaderMaterial, Vector4 } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
+import { maxClipPlanes } from "../environment/clipPlanes.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "../shaders/texCoords.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
@@ -110,6 +111,8 @@ void main() {
 
 const fragmentShader = /* glsl */ `
 uniform uint pickId;
+uniform int clipPlaneCount;
+uniform vec4 clipPlanes[${maxClipPlanes}];
 ${varyings}
 layout(location = 0) out uvec4 outIds;
 layout(location = 1) out uvec4 outPosition;
@@ -123,6 +126,8 @@ layout(location = 3) out uvec4 outFaceNormal;
 #endif
 
 void main() {
+  for (int plane = 0; plane < clipPlaneCount; ++plane)
+    if (dot(clipPlanes[plane], vec4(vPosition, 1.0)) < 0.0) discard;
   #ifdef ${alphaCutoffDefine}
     float alpha = alphaFactorAndCutoff.x;
     #ifdef ${alphaMaskDefine}
@@ -153,7 +158,14 @@ export interface PickMaterialRequest extends VertexFormat {
   readonly uniforms: VertexUniforms;
 }
 
-export type PickMaterial = ShaderMaterial & { uniforms: { pickId: { value: number } } };
+export type PickMaterial = ShaderMaterial & {
+  uniforms: {
+    readonly pickId: { value: number };
+    readonly clipPlaneCount: { value: number };
+    /** In stored coordinates. */
+    readonly clipPlanes: { readonly value: readonly Vector4[] };
+  };
+};
 
 /** The alpha test of a surface with alphaMode MASK: fragments with alpha below the cutoff are discarded. */
 export interface AlphaMask {
@@ -194,6 +206,8 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
     uniforms: {
       ...uniforms,
       pickId: { value: 0 },
+      clipPlaneCount: { value: 0 },
+      clipPlanes: { value: Array.from({ length: maxClipPlanes }, () => new Vector4()) },
       hasNormals: { value: hasNormals },
       ...(alphaMask && {
         alphaMask: { value: alphaMask.texture ?? null },

@@ -1,7 +1,7 @@
 // Finds what is visible at a pixel: renders the candidates into a target of one pixel, with the
 // matrices and the viewport of the canvas, so that they cover the pixel as on the screen.
 
-import type { Camera, Group, WebGLRenderer } from "three";
+import type { Camera, Group, Vector4, WebGLRenderer } from "three";
 import {
   Matrix3,
   Matrix4,
@@ -50,6 +50,8 @@ export interface PickCandidate {
   /** The group of one of the shape's instances. */
   readonly group: Group;
   readonly pick: PickDraw;
+  /** Planes that clip the draw, in scene coordinates; at most `maxClipPlanes`. */
+  readonly clipPlanes?: readonly Vector4[];
 }
 
 /** A candidate with its model matrix. */
@@ -131,8 +133,8 @@ export class Picker {
     this.#target ??= makePickTarget();
     // The canvas's viewport, shifted so that the requested pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
-    this.#scene.children = candidates.map(({ pick, worldFromStored }, index) =>
-      pick.objectFor(index + 1, worldFromStored),
+    this.#scene.children = candidates.map(({ pick, worldFromStored, clipPlanes }, index) =>
+      pick.objectFor(index + 1, worldFromStored, clipPlanes),
     );
     this.#renderer.setRenderTarget(this.#target);
     this.#renderer.render(this.#scene, camera);

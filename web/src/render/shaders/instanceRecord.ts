@@ -5,8 +5,8 @@
 /** Defined in materials that draw instances with records. */
 export const instancesDefine = "INSTANCES";
 
-/** Defined in shaders that test light scopes (lights/lightScopes.ts). */
-export const scopedLightsDefine = "SCOPED_LIGHTS";
+/** Defined in shaders that test the scope of a draw (drawScope.ts). */
+export const scopesDefine = "SCOPES";
 
 /** Flags that are added to an instance index, so that only back faces or only front faces are drawn. */
 export const backFaces = 2 ** 31;
@@ -40,8 +40,8 @@ export const instanceVertexChunk = /* glsl */ `
   uniform highp sampler2D instances;
   flat varying vec4 instanceDiffuse, instanceSpecular, instanceEmissive;
   flat varying uint instanceFaces;
-  #ifdef ${scopedLightsDefine}
-    flat varying float instanceLightScope;
+  #ifdef ${scopesDefine}
+    flat varying float instanceScope;
   #endif
 
   vec4 instanceTexel(int n) {
@@ -75,8 +75,8 @@ export const instanceVertexChunk = /* glsl */ `
     instanceEmissive = instanceTexel(7);
     instanceFaces = instanceIndex & ${backFaces + frontFaces}u;
     float visibleInScope = instanceTexel(3).w;
-    #ifdef ${scopedLightsDefine}
-      instanceLightScope = visibleInScope - 1.0;
+    #ifdef ${scopesDefine}
+      instanceScope = visibleInScope - 1.0;
     #endif
     if (visibleInScope == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   }

@@ -10,7 +10,15 @@ import type {
   NodeDescription,
   ShapeDescription,
 } from "../../document/description.ts";
-import type { BackgroundInstance, LightInstance, LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import type {
+  BackgroundInstance,
+  ClipPlaneInstance,
+  FogInstance,
+  LightInstance,
+  LocalFogInstance,
+  LodInstance,
+  ViewpointInstance,
+} from "../../scene/instances.ts";
 import { bindableOf } from "../../scene/bindable.ts";
 import { billboardRotation } from "../../scene/billboard.ts";
 import { numberLightScopes } from "../../scene/lightScope.ts";
@@ -78,6 +86,19 @@ export class SceneGroups implements InstanceTreeListener {
   /** Those that can be bound, in document order. */
   get backgrounds(): readonly BackgroundInstance[] {
     return bindableOf(this.#tree.root.summary.backgrounds);
+  }
+
+  /** Those that can be bound, in document order. */
+  get fogs(): readonly FogInstance[] {
+    return bindableOf(this.#tree.root.summary.fogs);
+  }
+
+  get localFogs(): readonly LocalFogInstance[] {
+    return this.#tree.root.summary.localFogs;
+  }
+
+  get clipPlanes(): readonly ClipPlaneInstance[] {
+    return this.#tree.root.summary.clipPlanes;
   }
 
   get lods(): readonly LodInstance[] {

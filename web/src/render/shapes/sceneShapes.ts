@@ -18,10 +18,14 @@ import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PickCandidate } from "../picking/picker.ts";
-import { hasLightScopes } from "../lights/lightScopes.ts";
+import { clipPlanesOf, setClipPlanes, setViewOfClipPlanes } from "../environment/clipPlanes.ts";
+import { setFogs } from "../environment/fogs.ts";
+import { sceneEffectsKey } from "../environment/sceneEffects.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
+import { BindingStack } from "../../navigation/bindingStack.ts";
+import { sceneScope } from "../../scene/lightScope.ts";
 import type { BoundedGroup } from "./sceneGroups.ts";
 import { SceneGroups } from "./sceneGroups.ts";
-import type { SceneLightUniforms } from "../lights/sceneLights.ts";
 import type { SceneChanges } from "./shapeChanges.ts";
 import { ShapeChangeRecorder } from "./shapeChanges.ts";
 import type { ShapeContext } from "./shapeObject.ts";
@@ -48,6 +52,7 @@ export class SceneShapes {
   readonly #graph: SceneGroups;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #plan = new BatchingPlan();
+  readonly #boundFogs = new BindingStack<SceneElement>();
   #changes = new ShapeChangeRecorder();
   /** Shapes whose document does not state their bounds, so that their vertices determine them. */
   readonly #unbounded = new Set<ShapeObject>();
@@ -116,7 +121,8 @@ export class SceneShapes {
    */
   setScene(description: SceneDescription): BuiltScene {
     const areLightScopesRenumbered = this.#graph.follow(description.root);
-    this.#setLights(this.#graph.lightUniforms);
+    this.#boundFogs.follow(this.#graph.fogs);
+    this.#setEffects();
     const changes = this.#applyChanges();
     if (areLightScopesRenumbered) this.#batches.updateAllRecords();
     const { box, boundedGroups, viewpoints, backgrounds, lods, anchors } = this.#graph;
@@ -131,13 +137,28 @@ export class SceneShapes {
     return { sphere: this.#sphere, viewpoints, backgrounds, lods, anchors, changes };
   }
 
-  #setLights({ attenuations, lightScopeRanges, scopedAmbients }: SceneLightUniforms): void {
+  /** Binds or unbinds a Fog, as X3D's set_bind does. Returns false if the element is none of the scene's. */
+  bindFog(element: SceneElement, isBound: boolean): boolean {
+    if (!this.#graph.fogs.some((fog) => fog.element === element)) return false;
+    if (isBound) this.#boundFogs.bind(element);
+    else this.#boundFogs.unbind(element);
+    this.#setEffects();
+    return true;
+  }
+
+  /** Sets the uniforms of lights, clip planes and fogs. */
+  #setEffects(): void {
     const { shared } = this.#context;
-    const wereScoped = hasLightScopes(shared);
+    const { lightUniforms, clipPlanes, fogs, localFogs } = this.#graph;
+    const { attenuations, lightScopeRanges, scopedAmbients } = lightUniforms;
+    const keyBefore = sceneEffectsKey(shared);
     shared.attenuations.value = attenuations.value;
     shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
-    if (hasLightScopes(shared) === wereScoped) return;
+    setClipPlanes(shared, clipPlanes);
+    const bound = fogs.find(({ element }) => element === this.#boundFogs.bound);
+    setFogs(shared, [...(bound ? [{ ...bound, scope: sceneScope }] : []), ...localFogs]);
+    if (sceneEffectsKey(shared) === keyBefore) return;
     for (const root of [this.#graph.root, this.#batches.root]) root.traverse(recompile);
   }
 
@@ -206,14 +227,14 @@ export class SceneShapes {
 
   /** The draws of visible, pickable shapes. */
   *pickCandidates(): Generator<PickCandidate> {
-    for (const object of this.#shapes.values()) if (object.isPickable) yield* visibleDraws(object);
+    for (const object of this.#shapes.values()) if (object.isPickable) yield* this.#visibleDraws(object);
   }
 
   /** All visible draws, including those that the last frame has culled. */
   candidatesIgnoringCulling(): PickCandidate[] {
     const culled = this.#boundedGroups.filter(({ group }) => !group.visible);
     for (const { group } of culled) group.visible = true;
-    const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(visibleDraws(object)));
+    const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(this.#visibleDraws(object)));
     for (const { group } of culled) group.visible = false;
     return draws;
   }
@@ -224,6 +245,7 @@ export class SceneShapes {
    */
   cull(camera: Camera, canvasSize: readonly [width: number, height: number]): void {
     camera.updateMatrixWorld();
+    setViewOfClipPlanes(this.#context.shared, this.#graph.clipPlanes, camera);
     this.#graph.rotateBillboards(camera);
     const margin = canvasSize.map((pixels) => this.#maxLineWidth / pixels) as [number, number];
     this.#batches.update(camera, margin);
@@ -236,6 +258,15 @@ export class SceneShapes {
     for (const object of this.#shapes.values()) object.dispose();
     this.#shapes.clear();
     this.#batches.dispose();
+  }
+
+  *#visibleDraws(object: ShapeObject): Generator<PickCandidate> {
+    const { clipPlanes } = this.#graph;
+    for (const drawn of object.pickCandidates()) {
+      if (!isVisibleInScene(drawn.group)) continue;
+      const { lightScope = sceneScope } = drawn.group as ShapeGroup;
+      yield clipPlanes.length > 0 ? { ...drawn, clipPlanes: clipPlanesOf(lightScope, clipPlanes) } : drawn;
+    }
   }
 
   #extendBounds(object: ShapeObject, { min, max }: Bounds): void {
@@ -256,8 +287,4 @@ export class SceneShapes {
 
 function recompile(object: Object3D): void {
   if ("material" in object && object.material instanceof Material) object.material.needsUpdate = true;
-}
-
-function* visibleDraws(object: ShapeObject): Generator<PickCandidate> {
-  for (const drawn of object.pickCandidates()) if (isVisibleInScene(drawn.group)) yield drawn;
 }

@@ -1,0 +1,70 @@
+// ClipPlane (ISO/IEC 19775-1, 11.4.1) in shaders. Programs of scenes without clip planes contain no such code.
+
+import type { Camera, Matrix4, WebGLProgramParametersWithUniforms , Vector2} from "three";
+import { Vector4 } from "three";
+import type { ClipPlaneInstance } from "../../scene/instances.ts";
+import type { LightScope } from "../../scene/lightScope.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
+import { scopeRangeOf } from "../shaders/drawScope.ts";
+
+/** Further planes clip nothing. */
+export const maxClipPlanes = 32;
+
+export interface ClipPlaneUniforms {
+  /** In view coordinates: a point is drawn where its distance is not negative. */
+  readonly clipPlanes: { value: Vector4[] };
+  /** For each plane, the first and the last scope that it clips. */
+  readonly clipPlaneScopes: { value: Vector2[] };
+}
+
+export function makeClipPlaneUniforms(): ClipPlaneUniforms {
+  return { clipPlanes: { value: [] }, clipPlaneScopes: { value: [] } };
+}
+
+/** Sets the planes of a scene, before each frame `setViewOfClipPlanes` their coordinates. */
+export function setClipPlanes(
+  { clipPlanes, clipPlaneScopes }: ClipPlaneUniforms,
+  instances: readonly ClipPlaneInstance[],
+): void {
+  const drawn = instances.slice(0, maxClipPlanes);
+  clipPlanes.value = drawn.map(() => new Vector4());
+  clipPlaneScopes.value = drawn.map(({ scope }) => scopeRangeOf(scope));
+}
+
+/** Call before each frame, with the camera's matrices up to date. */
+export function setViewOfClipPlanes(
+  { clipPlanes }: ClipPlaneUniforms,
+  instances: readonly ClipPlaneInstance[],
+  { matrixWorld }: Camera,
+): void {
+  clipPlanes.value.forEach((uniform, i) => {
+    const instance = instances[i];
+    if (instance) uniform.copy(planeIn(instance.plane, matrixWorld));
+  });
+}
+
+/** A plane of the scene in other coordinates, which `sceneFromOther` maps to the scene's. */
+export function planeIn(plane: Vector4, sceneFromOther: Matrix4): Vector4 {
+  return plane.clone().applyMatrix4(sceneFromOther.clone().transpose());
+}
+
+/** The planes that clip the draws of a scope, in scene coordinates. */
+export function clipPlanesOf(scope: LightScope, instances: readonly ClipPlaneInstance[]): readonly Vector4[] {
+  return instances.slice(0, maxClipPlanes).flatMap((each) => (each.scope.contains(scope) ? [each.plane] : []));
+}
+
+/** Call in `onBeforeCompile`, before `viewPoint` and the draw's scope are added. */
+export function addClipPlanes(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">, count: number): void {
+  const declarations = /* glsl */ `
+uniform vec4 clipPlanes[${count}];
+uniform vec2 clipPlaneScopes[${count}];
+`;
+  const test = /* glsl */ `
+#include <clipping_planes_fragment>
+  for (int plane = 0; plane < ${count}; ++plane) {
+    if (shareInScopes(clipPlaneScopes[plane]) > 0.0 && dot(clipPlanes[plane], vec4(viewPoint, 1.0)) < 0.0) discard;
+  }
+`;
+  shader.fragmentShader =
+    declarations + replaceChunks(shader.fragmentShader, [["#include <clipping_planes_fragment>", test]]);
+}

@@ -1,0 +1,72 @@
+// Fog and LocalFog (ISO/IEC 19775-1, 24.2.3) in shaders. Programs of scenes without fog contain no such code.
+
+import type { WebGLProgramParametersWithUniforms } from "three";
+import { Vector2, Vector3 } from "three";
+import type { FogDescription } from "../../document/description.ts";
+import type { LightScope } from "../../scene/lightScope.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
+import { scopeRangeOf } from "../shaders/drawScope.ts";
+
+/** A fog around the shapes of a scope. */
+export interface ScopedFog {
+  readonly fog: FogDescription;
+  /** Its lengths, in units of the scene. */
+  readonly scale: number;
+  readonly scope: LightScope;
+}
+
+/** Further fogs are not drawn. */
+const maxFogs = 32;
+
+/** The last of the fogs of a draw's scope counts. */
+export interface FogUniforms {
+  readonly fogColors: { value: Vector3[] };
+  /** The visibility range, in scene units, and 1 for exponential or 0 for linear fog. */
+  readonly fogRanges: { value: Vector2[] };
+  /** For each fog, the first and the last scope that it is around. */
+  readonly fogScopes: { value: Vector2[] };
+}
+
+export function makeFogUniforms(): FogUniforms {
+  return { fogColors: { value: [] }, fogRanges: { value: [] }, fogScopes: { value: [] } };
+}
+
+/** Sets the fogs of a scene, outer ones first. */
+export function setFogs({ fogColors, fogRanges, fogScopes }: FogUniforms, all: readonly ScopedFog[]): void {
+  const fogs = all.slice(0, maxFogs);
+  fogColors.value = fogs.map(({ fog }) => new Vector3(...fog.color));
+  fogRanges.value = fogs.map(
+    ({ fog, scale }) => new Vector2(fog.visibilityRange * scale, fog.type === "exponential" ? 1 : 0),
+  );
+  fogScopes.value = fogs.map(({ scope }) => scopeRangeOf(scope));
+}
+
+/** Call in `onBeforeCompile`, before `viewPoint` and the draw's scope are added. */
+export function addFogs(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">, count: number): void {
+  const declarations = /* glsl */ `
+uniform vec3 fogColors[${count}];
+uniform vec2 fogRanges[${count}];
+uniform vec2 fogScopes[${count}];
+
+// The share of the surface's own color that is visible at this distance (24.2.3): 1 without fog.
+float visibleShareIn(vec2 range, float distance) {
+  if (range.x <= 0.0) return 1.0;
+  if (distance >= range.x) return 0.0;
+  return range.y > 0.0 ? exp(-distance / (range.x - distance)) : (range.x - distance) / range.x;
+}
+`;
+  // After the conversion to display values, which the colors of fogs are.
+  const mixing = /* glsl */ `
+#include <fog_fragment>
+  vec3 fogColor = vec3(0.0);
+  float visibleShare = 1.0;
+  for (int fog = 0; fog < ${count}; ++fog) {
+    if (shareInScopes(fogScopes[fog]) > 0.0) {
+      fogColor = fogColors[fog];
+      visibleShare = visibleShareIn(fogRanges[fog], length(viewPoint));
+    }
+  }
+  gl_FragColor.rgb = mix(fogColor, gl_FragColor.rgb, visibleShare);
+`;
+  shader.fragmentShader = declarations + replaceChunks(shader.fragmentShader, [["#include <fog_fragment>", mixing]]);
+}

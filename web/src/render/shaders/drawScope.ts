@@ -1,0 +1,38 @@
+// The scope of a draw (scene/lightScope.ts) in fragment shaders: a uniform, or of the instance's record.
+
+import type { WebGLProgramParametersWithUniforms } from "three";
+import { Vector2 } from "three";
+import type { LightScope } from "../../scene/lightScope.ts";
+import { instancesDefine, scopesDefine } from "./instanceRecord.ts";
+
+const fragmentChunk = /* glsl */ `
+#define ${scopesDefine}
+#ifdef ${instancesDefine}
+  flat varying float instanceScope;
+  #define drawScope instanceScope
+#else
+  uniform float lightScope;
+  #define drawScope lightScope
+#endif
+
+// 1 if the draw is in one of the scopes from range.x to range.y, otherwise 0.
+float shareInScopes(vec2 range) {
+  return step(range.x, drawScope) * step(drawScope, range.y);
+}
+`;
+
+/** Call in `onBeforeCompile`, after the code that uses `shareInScopes` has been added. */
+export function addDrawScope(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
+  shader.fragmentShader = fragmentChunk + shader.fragmentShader;
+  shader.vertexShader = `#define ${scopesDefine}\n${shader.vertexShader}`;
+}
+
+/** The shader compares scope numbers as floats, which are exact up to here. */
+const maxScopeNumber = 2 ** 24;
+
+/** The first and the last number of a scope and the scopes inside it. */
+export function scopeRangeOf({ value, last }: LightScope): Vector2 {
+  return new Vector2(value, Math.min(last, maxScopeNumber));
+}
