@@ -311,15 +311,6 @@ bool isSafeUrl(std::string_view url) {
   return !hasColon || scheme == "http" || scheme == "https";
 }
 
-std::map<std::string, std::size_t> elementsLeftOutOfPage(const SceneGraph& graph) {
-  std::map<std::string, std::size_t> counts;
-  for (const std::size_t index : nodesOfDocument(graph, graph.roots))
-    if (const GenericNode* generic = std::get_if<GenericNode>(&graph.nodes[index].content))
-      if (!isAllowedInPage(generic->element) && generic->element != commentElement)
-        ++counts[generic->element];
-  return counts;
-}
-
 std::string safeUrls(std::string_view text) {
   std::vector<std::string> urls = parseStrings(text);
   std::erase_if(urls, [](const std::string& url) { return !isSafeUrl(url); });

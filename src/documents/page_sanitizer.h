@@ -2,9 +2,6 @@
 // Sanitises X3D sources for HTML pages, in which <script>, on... attributes and javascript: urls would be executed. An
 // allowlist has the elements of X3D; a denylist has the attributes on which browsers act.
 
-#include "scene/scene.h"
-
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -22,8 +19,5 @@ bool isSafeUrl(std::string_view url);
 
 /// The safe urls of an MFString, as an MFString; "" if there are none.
 std::string safeUrls(std::string_view text);
-
-/// By element name: number of nodes that are left out of the page of this scene.
-std::map<std::string, std::size_t> elementsLeftOutOfPage(const SceneGraph& graph);
 
 } // namespace imgeo

@@ -29,7 +29,7 @@ TEST(AllNodes, AreTreatedAsTheTableSaysInEveryEncoding) {
   for (const NodeRow& row : nodeTable()) {
     if (row.component == "statement" || row.component == "imgeo" || row.name == "SurfaceShaderTexture")
       continue;
-    for (const Encoding encoding : encodings) {
+    for (const DocumentEncoding encoding : encodings) {
       const std::string text = documentOf({sampleOf(row)}, encoding), file = fileNameOf(encoding);
       SCOPED_TRACE(text);
       const Imported imported = importBytes(asBytes(text), file);

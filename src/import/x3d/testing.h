@@ -12,9 +12,9 @@
 
 namespace imgeo::x3d::testing {
 
-enum class Encoding { xml, vrml, json };
+enum class DocumentEncoding { xml, vrml, json };
 
-inline constexpr std::array encodings{Encoding::xml, Encoding::vrml, Encoding::json};
+inline constexpr std::array encodings{DocumentEncoding::xml, DocumentEncoding::vrml, DocumentEncoding::json};
 
 /// A field's value. `text` is that of the XML encoding; of strings, one of them.
 struct FieldSample {
@@ -131,22 +131,22 @@ inline std::string jsonOf(const NodeSample& node) {
 }
 
 /// A document of these nodes.
-inline std::string documentOf(const std::vector<NodeSample>& nodes, Encoding encoding) {
+inline std::string documentOf(const std::vector<NodeSample>& nodes, DocumentEncoding encoding) {
   std::string text;
   for (const NodeSample& node : nodes)
-    text += encoding == Encoding::xml    ? xmlOf(node)
-            : encoding == Encoding::vrml ? vrmlOf(node)
-                                         : (text.empty() ? "" : ",\n") + jsonOf(node);
-  if (encoding == Encoding::xml)
+    text += encoding == DocumentEncoding::xml    ? xmlOf(node)
+            : encoding == DocumentEncoding::vrml ? vrmlOf(node)
+                                                 : (text.empty() ? "" : ",\n") + jsonOf(node);
+  if (encoding == DocumentEncoding::xml)
     return "<X3D profile='Full' version='4.0'><Scene>\n" + text + "</Scene></X3D>";
-  if (encoding == Encoding::vrml)
+  if (encoding == DocumentEncoding::vrml)
     return "#X3D V4.0 utf8\nPROFILE Full\n" + text;
   return "{\"X3D\": {\"@profile\": \"Full\", \"@version\": \"4.0\", \"Scene\": {\"-children\": [\n" + text + "]}}}";
 }
 
 /// A name for the document's file.
-inline std::string fileNameOf(Encoding encoding) {
-  return encoding == Encoding::xml ? "all.x3d" : encoding == Encoding::vrml ? "all.x3dv" : "all.x3dj";
+inline std::string fileNameOf(DocumentEncoding encoding) {
+  return encoding == DocumentEncoding::xml ? "all.x3d" : encoding == DocumentEncoding::vrml ? "all.x3dv" : "all.x3dj";
 }
 
 inline NodeSample triangleCoordinates() {

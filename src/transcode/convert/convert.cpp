@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "documents/page_sanitizer.h"
 #include "imgeo/site.h"
 #include "imgeo/version.h"
 #include "import/warnings.h"
@@ -97,16 +96,6 @@ void warnOfCollapsed(ConvertReport& report) {
   warn(Topology::lines, "length");
 }
 
-/// Warns of elements that scene.x3d contains and the HTML page must not.
-void warnOfPageOmissions(const SceneGraph& graph, ConvertReport& report) {
-  std::vector<std::string> elements;
-  for (const auto& [element, count] : elementsLeftOutOfPage(graph))
-    elements.push_back(fmt::format("{} ({})", element, count));
-  if (!elements.empty())
-    report.warnings.push_back(fmt::format("Elements that only {} contains, because a page must not: {}", sceneName,
-                                          fmt::join(elements, ", ")));
-}
-
 /// Bytes by role, in the order of the roles' first files.
 std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
   std::vector<RoleBytes> roles;
@@ -191,7 +180,6 @@ public:
   void writeDocuments() {
     writeInlinedDocuments(document_, options_.target, site_.path());
     warnOfCollapsed(report_);
-    warnOfPageOmissions(document_.graph, report_);
     writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest())));
     if (options_.target == Target::x3dom) {
       const X3domRelease release = x3domReleaseFor(*options_.encoding, options_.x3domUrl);

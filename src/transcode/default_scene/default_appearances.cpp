@@ -1,5 +1,7 @@
 #include "transcode/default_scene/default_appearances.h"
 
+#include "scene/point_material.h"
+
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,14 +17,6 @@ constexpr Material stone{.diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.1
 bool drawsSurface(const GeometryDescription& geometry) {
   const Primitive primitive = geometry.patches.front().draws.front().primitive;
   return primitive == Primitive::triangles || primitive == Primitive::triangleStrip;
-}
-
-/// The material for points and lines. X3D does not light them: they show vertex colours or the emissive colour.
-AnyMaterial unlitMaterial(const AnyMaterial& material) {
-  Material unlit = phongOf(material);
-  if (unlit.emissiveColor == Vec3f{})
-    unlit.emissiveColor = unlit.diffuseColor;
-  return unlit;
 }
 
 /// Makes the appearances that shapes lack, each once.
@@ -41,7 +35,7 @@ public:
       if (shape.appearance)
         appearance = graph_.appearances[*shape.appearance];
       if (!isSurface)
-        appearance.material = unlitMaterial(appearance.material);
+        appearance.material = pointMaterialOf(appearance.material);
       graph_.appearances.push_back(std::move(appearance));
     }
     return made->second;

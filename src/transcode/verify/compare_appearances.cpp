@@ -1,6 +1,7 @@
 #include "transcode/verify/compare_appearances.h"
 
 #include "scene/mf_string.h"
+#include "scene/point_material.h"
 
 #include <algorithm>
 #include <iterator>
@@ -9,8 +10,9 @@ namespace imgeo {
 
 namespace {
 
-bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input) {
-  return site == input || site == AnyMaterial(phongOf(input));
+bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input, Topology topology) {
+  return site == input || site == AnyMaterial(phongOf(input)) ||
+         (topology != Topology::triangles && site == AnyMaterial(pointMaterialOf(input)));
 }
 
 /// Whether the input uses a texture in the same role with the same transform.
@@ -22,14 +24,14 @@ bool isUsedIn(const TextureUse& use, const std::vector<TextureUse>& input) {
 } // namespace
 
 bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,
-                          const Shape& inputShape) {
+                          const Shape& inputShape, Topology topology) {
   if (!inputShape.appearance)
     return true;
   if (!siteShape.appearance)
     return false;
   const Appearance& site = siteGraph.appearances.at(*siteShape.appearance);
   const Appearance& input = inputGraph.appearances.at(*inputShape.appearance);
-  return isSameMaterial(site.material, input.material) &&
+  return isSameMaterial(site.material, input.material, topology) &&
          std::ranges::all_of(site.textures, [&](const TextureUse& use) { return isUsedIn(use, input.textures); });
 }
 

@@ -2,6 +2,7 @@
 // Comparison of the appearances of a site with those of its input: materials and texture transforms. Pixels of textures
 // are not compared.
 
+#include "scene/mesh.h"
 #include "scene/scene.h"
 
 #include <set>
@@ -10,9 +11,10 @@
 namespace imgeo {
 
 /// Compares the appearances of two shapes. X3D sources have none here: the document contains theirs unchanged. Accepts
-/// a Phong material in place of a physical one (X3DOM knows no other), and a missing texture (its file was unusable).
+/// a Phong material in place of a physical one (X3DOM knows no other), on points and lines the one that shows them
+/// without light, and a missing texture (its file was unusable).
 bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,
-                          const Shape& inputShape);
+                          const Shape& inputShape, Topology topology);
 
 /// URLs of textures that an X3D input refers to but that could not be read; convert keeps such URLs.
 std::set<std::string> unreadTextureUrls(const SceneGraph& input);

@@ -80,7 +80,8 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     const std::size_t geometry = siteShape.mesh, mesh = inputShape.mesh;
     if (manifest && inputShape.appearance) {
       ++report.comparedMaterials;
-      differentMaterials += !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape);
+      differentMaterials +=
+          !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape, input.meshes[mesh].topology);
     }
     movedShapes +=
         !isSameTransform(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));

@@ -310,5 +310,15 @@ TEST(Verify, SeesAnotherMaterialAndAnotherTextureTransform) {
   }
 }
 
+TEST(Verify, ComparesTheMaterialsOfLinesAsTheyAreWritten) {
+  const testing::TemporaryDirectory directory;
+  writeFile(directory / "a.mtl", asBytes("newmtl red\nKd 1 0 0\n"));
+  writeFile(directory / "a.obj", asBytes("mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\nf 1 2 3\n"));
+  convert(directory / "a.obj", directory / "site", {});
+  const VerifyReport report = verify(directory / "site", directory / "a.obj");
+  EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+  EXPECT_EQ(report.comparedMaterials, 2u);
+}
+
 } // namespace
 } // namespace imgeo
