@@ -424,6 +424,8 @@ export interface SceneDescription {
   readonly root: GroupDescription;
   /** The bound NavigationInfo: the first in the document, or the last whose `bind` or `set_bind` is true. */
   readonly navigation: NavigationDescription;
+  /** The Background that is bound at the start; undefined: the page shows through behind the scene. */
+  readonly background: BackgroundDescription | undefined;
   /** The author's changes to the weights of file contents, which order requests; as written. */
   readonly chunkPriority: string;
   /** In document order, including those of inlined documents; one entry for each instance. */

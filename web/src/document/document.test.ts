@@ -84,14 +84,14 @@ describe("a field", () => {
 });
 
 describe("a scene", () => {
-  test("is empty by default, with a headlight", () => {
+  test("is empty by default, with a headlight and no background", () => {
     const scene = sceneOf("");
     assert.deepEqual(shapesOf(scene.root), []);
     assert.equal(scene.navigation.headlight, true);
     assert.equal(scene.navigation.speed, undefined);
     assert.deepEqual(scene.warnings, []);
     assert.deepEqual(viewpointsIn(scene), []);
-    assert.deepEqual(scene.root.children, []);
+    assert.equal(scene.background, undefined);
   });
 
   test("has viewpoints in document order, at any depth", () => {

@@ -27,6 +27,13 @@ describe("a background", () => {
     });
   });
 
+  test("is bound at the start if it is the first, or the last that asks for it", () => {
+    const skyOf = (markup: string) => readScene(elementsOf(`<X3D>${markup}</X3D>`)).background?.sky[0]?.color;
+    const [first, second] = ['<Background skyColor="1 0 0"/>', '<TextureBackground skyColor="0 1 0"/>'];
+    assert.deepEqual(skyOf(first + second), [1, 0, 0]);
+    assert.deepEqual(skyOf(`${first}${second}<Background bind="true" skyColor="0 0 1"/>`), [0, 0, 1]);
+  });
+
   test("has the first picture of each URL field, which does not repeat", () => {
     const [node] = backgroundsIn(`<Background bottomUrl='"b.png" "c.png"' frontUrl="a.png" url="x.png"/>`);
     assert.deepEqual(

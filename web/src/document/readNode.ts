@@ -1,6 +1,6 @@
 // Reads a node: its own fields at once; its descendants when the state that they inherit is known.
 
-import type { AnchorDescription, GroupDescription, NodeDescription } from "./description.ts";
+import type { AnchorDescription, BackgroundNodeDescription, GroupDescription, NodeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -104,9 +104,9 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
       return constantReader([readLocalFog(node, warnings)], warningsOnly(warnings));
     case "background":
     case "texturebackground":
-      return constantReader(
-        [readBackground(element, node, context.inlineDepth, (parent) => nodesIn(parent, context), warnings)],
-        warningsOnly(warnings),
+      return backgroundReader(
+        readBackground(element, node, context.inlineDepth, (parent) => nodesIn(parent, context), warnings),
+        warnings,
       );
     default:
       return (inherited, readChildren) => readChildren(context.childrenOf(node), inherited);
@@ -117,6 +117,10 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
 function constantReader(nodes: readonly NodeDescription[], declarations: SceneDeclarations): FragmentReader {
   const fragment: SceneFragment = { nodes, declarations };
   return () => fragment;
+}
+
+function backgroundReader(background: BackgroundNodeDescription, warnings: readonly Warning[]): FragmentReader {
+  return constantReader([background], declarationsOf({ background, warnings }));
 }
 
 function lightReader(

@@ -1,6 +1,11 @@
 // The contribution of elements to a scene: nodes, and declarations for the scene as a whole.
 
-import type { InlineDescription, NavigationDescription, NodeDescription } from "./description.ts";
+import type {
+  BackgroundNodeDescription,
+  InlineDescription,
+  NavigationDescription,
+  NodeDescription,
+} from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import type { Warning } from "./nodes.ts";
 
@@ -18,6 +23,8 @@ export interface SceneDeclarations {
   readonly navigation: NavigationDescription | undefined;
   /** That of inlined documents, for scenes that have none of their own. */
   readonly inlinedNavigation: NavigationDescription | undefined;
+  /** The background that is bound at the start. */
+  readonly background: BackgroundNodeDescription | undefined;
 }
 
 /** The only object for empty declarations, so that they are compared by identity. */
@@ -26,6 +33,7 @@ export const noDeclarations: SceneDeclarations = {
   inlines: [],
   navigation: undefined,
   inlinedNavigation: undefined,
+  background: undefined,
 };
 
 /** State that groups pass down to their descendants. */
@@ -60,7 +68,18 @@ export function joinDeclarations(all: readonly SceneDeclarations[]): SceneDeclar
     inlines: nonEmpty.flatMap(({ inlines }) => inlines),
     navigation: nonEmpty.map(({ navigation }) => navigation).reduce(boundOf),
     inlinedNavigation: nonEmpty.map(({ inlinedNavigation }) => inlinedNavigation).reduce(boundOf),
+    background: nonEmpty.map(({ background }) => background).reduce(boundBackgroundOf),
   };
+}
+
+/** As for NavigationInfo; backgrounds of inlined documents come after those of the documents around these. */
+function boundBackgroundOf(
+  first: BackgroundNodeDescription | undefined,
+  second: BackgroundNodeDescription | undefined,
+): BackgroundNodeDescription | undefined {
+  if (first === undefined || second === undefined) return first ?? second;
+  if (first.inlineDepth !== second.inlineDepth) return first.inlineDepth < second.inlineDepth ? first : second;
+  return second.isBindRequested ? second : first;
 }
 
 /** The first of two NavigationInfos in document order is bound, unless the second asks to be. */

@@ -105,6 +105,7 @@ export class SceneReader {
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
       navigation: declarations.navigation ?? declarations.inlinedNavigation ?? defaultNavigation,
+      background: declarations.background?.background,
       chunkPriority,
       inlines: declarations.inlines,
       warnings,

@@ -62,6 +62,9 @@ describe("the scene of a preview", () => {
     "a LOD": `<LOD range="1">${shape()}${shape()}</LOD>`,
     "an Inline": `${shape()}<Inline url="other.x3d"/>`,
     "a sky of several colours": `<Background skyColor="0 0 1 1 1 1" skyAngle="1.5"/>${shape()}`,
+    "a transparent sky": `<Background transparency="0.5"/>${shape()}`,
+    "a clip plane": `<ClipPlane/>${shape()}`,
+    fog: `<Fog visibilityRange="9"/>${shape()}`,
     "one light above the limit": "<DirectionalLight/>".repeat(maxLights + 1) + shape(),
     "more shapes than the limit": shape().repeat(300),
   };

@@ -5,7 +5,6 @@
 import type { Matrix4, Sphere } from "three";
 import type {
   AppearanceDescription,
-  BackgroundDescription,
   GeometryDescription,
   PatchReference,
   SceneDescription,
@@ -21,7 +20,7 @@ import { shapeFromStoredOf } from "../scene/transforms.ts";
 import { navigationTypesOf } from "../navigation/navigationType.ts";
 import type { LightScope } from "../scene/lightScope.ts";
 import type { CameraSetting } from "../navigation/orbit.ts";
-import type { BackgroundInstance, LightInstance, ShapeInstance } from "../scene/instances.ts";
+import type { LightInstance, ShapeInstance } from "../scene/instances.ts";
 import { instancesOf } from "../scene/sceneInstances.ts";
 
 export interface PreviewScene {
@@ -56,12 +55,12 @@ export const maxLights = 8;
 
 /** The preview of a scene; undefined if the scene is empty or has anything that only the runtime can display. */
 export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): PreviewScene | undefined {
-  const { navigation, inlines } = scene;
+  const { background, navigation, inlines } = scene;
   if (inlines.length > 0) return undefined;
   const instances = instancesOf(scene);
   const { viewpoints, lods, billboards, hasClippingOrFog } = instances;
   if (hasClippingOrFog) return undefined;
-  const background = boundBackgroundOf(instances.backgrounds);
+  // Pictures of a background arrive later than a preview, which displays their background colour.
   if (background && (background.sky.length > 1 || background.ground.length > 0 || background.transparency > 0))
     return undefined;
   if (lods.length > 0 || billboards.length > 0 || instances.lights.length > maxLights) return undefined;
@@ -82,13 +81,6 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
     pose: homePoseOf(boundPoseOf(boundViewpoints, viewpoints), camera, sphere),
     clearance: clearanceOf(navigationTypesOf(navigation.type).first, avatarOf(navigation, sphere)),
   };
-}
-
-/** Pictures of a background arrive later than a preview, which displays their background colour. */
-function boundBackgroundOf(backgrounds: readonly BackgroundInstance[]): BackgroundDescription | undefined {
-  const stack = new BindingStack<SceneElement>();
-  stack.follow(backgrounds);
-  return backgrounds.find(({ element }) => element === stack.bound)?.background;
 }
 
 /** The preview of a shape; undefined if the shape has no base, or is not drawn in opaque colours. */

@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
-import { instancesOf } from "./sceneInstances.ts";
+import { bindableOf } from "./bindable.ts";
+import { InstanceTree } from "./instanceTree.ts";
 
 const documents: Readonly<Record<string, string>> = {
   "outer.x3d": `<X3D><Inline url="inner.x3d"/><Background skyColor="0 1 0"/></X3D>`,
@@ -14,7 +15,10 @@ function skyColorsOf(own: string): unknown {
   const scene = readScene(elementsOf(`<X3D><Inline url="outer.x3d"/>${own}</X3D>`), {
     inlined: (inline) => inlined.get(inline.getAttribute("url") ?? ""),
   });
-  return instancesOf(scene).backgrounds.map(({ background }) => background.sky[0]?.color);
+  const { backgrounds } = new InstanceTree().update(scene.root).root.summary;
+  const colors = bindableOf(backgrounds).map(({ background }) => background.sky[0]?.color);
+  assert.deepEqual(scene.background?.sky[0]?.color, colors[0], "the first is bound");
+  return colors;
 }
 
 test("backgrounds of inlined documents can be bound only where the documents around them have none", () => {

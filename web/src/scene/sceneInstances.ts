@@ -2,8 +2,7 @@
 
 import { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
-import { bindableOf } from "./bindable.ts";
-import type { BackgroundInstance, LightInstance, LodInstance, ShapeInstance, ViewpointInstance } from "./instances.ts";
+import type { LightInstance, LodInstance, ShapeInstance, ViewpointInstance } from "./instances.ts";
 import { InstanceTree } from "./instanceTree.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
 
@@ -15,8 +14,6 @@ export interface SceneInstances {
   /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
-  /** Those that can be bound. */
-  readonly backgrounds: readonly BackgroundInstance[];
   /** Whether anything is clipped or in fog. */
   readonly hasClippingOrFog: boolean;
   /** Visible LODs. */
@@ -27,14 +24,13 @@ export interface SceneInstances {
 /** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
-  const { box, lights, viewpoints, backgrounds, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
+  const { box, lights, viewpoints, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
   return {
     box: box ?? new Box3(),
     shapes: Array.from(shapesIn(root)),
     lights,
     viewpoints,
-    backgrounds: bindableOf(backgrounds),
-    hasClippingOrFog: clipPlanes.length + fogs.length + localFogs.length > 0,
+    hasClippingOrFog: clipPlanes.length > 0 || [...fogs, ...localFogs].some(({ fog }) => fog.visibilityRange > 0),
     lods,
     billboards,
   };

@@ -156,7 +156,7 @@ export class SceneShapes {
     shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
     setClipPlanes(shared, clipPlanes);
-    const bound = fogs.find(({ element }) => element === this.#boundFogs.bound);
+    const bound = fogs.find(({ element, fog }) => element === this.#boundFogs.bound && fog.visibilityRange > 0);
     setFogs(shared, [...(bound ? [{ ...bound, scope: sceneScope }] : []), ...localFogs]);
     if (sceneEffectsKey(shared) === keyBefore) return;
     for (const root of [this.#graph.root, this.#batches.root]) root.traverse(recompile);
