@@ -1,11 +1,13 @@
 // Draws each document of nodes/ in imgeo's runtime, in X_ITE and in X3DOM, in the same browser, and compares the
-// pictures. Writes docs/conformance.md and its picture; fails if imgeo differs from one of them and explanations.ts
+// pictures. imgeo draws documents with NURBS as `build/imgeo convert` has written them. Writes docs/conformance.md and its picture; fails if imgeo differs from one of them and explanations.ts
 // does not explain it.
 //
 //   scripts/conformance [NAME…]      only those documents; pictures only in build/conformance
 //   scripts/conformance --check      all of them, without writing into docs/
 
-import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { launchChromium } from "../browser/chromium.ts";
@@ -37,15 +39,42 @@ async function stillPicture(page: Page): Promise<Buffer> {
   return last;
 }
 
+/** Converts a document, puts the files of its site into a folder of the server, and returns the converted document. */
+function convert(server: TestServer, path: string, folder: string): string {
+  const site = mkdtempSync(join(tmpdir(), "imgeo-conformance-"));
+  try {
+    execFileSync(
+      join(repository, "build/imgeo"),
+      ["convert", path, "-o", site, "--force", "--container", "bg", "--coord-type", "float32"],
+      { stdio: "ignore" },
+    );
+    for (const file of readdirSync(site, { recursive: true, encoding: "utf8", withFileTypes: true }))
+      if (file.isFile()) {
+        const absolute = join(file.parentPath, file.name);
+        server.put(`/${folder}${absolute.slice(site.length + 1)}`, readFileSync(absolute));
+      }
+    // Pictures outside of the document's folder are left where they are.
+    return readFileSync(join(site, "scene.x3d"), "utf8").replaceAll('"../', '"/');
+  } finally {
+    rmSync(site, { recursive: true });
+  }
+}
+
 async function show(page: Page, server: TestServer, runtime: Runtime, name: string): Promise<Buffer> {
-  const scene = readFileSync(join(here, "nodes", `${name}.x3d`), "utf8");
-  const address = `nodes/${runtime}-${name}.html`;
+  const path = join(here, "nodes", `${name}.x3d`);
+  const source = readFileSync(path, "utf8");
+  const isConverted = runtime === "imgeo" && /<Nurbs\w*(Surface|Curve)\b/.test(source);
+  const folder = isConverted ? `converted/${name}/` : "nodes/";
+  const scene = isConverted ? convert(server, path, folder) : source;
+  const address = `${folder}${runtime}-${name}.html`;
   server.put(`/${address}`, pageOf(runtime, `/nodes/${name}.x3d`, scene));
   await page.goto(server.origin + address);
   if (runtime === "imgeo")
     await page.waitForFunction(
       () => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete !== undefined,
     );
+  if (isConverted)
+    await page.evaluate(() => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete);
   return stillPicture(page);
 }
 

@@ -4,6 +4,7 @@
 #include "import/x3d/elevation_grid.h"
 #include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
+#include "import/x3d/nurbs.h"
 #include "import/x3d/texture_coordinates.h"
 
 #include <algorithm>
@@ -44,7 +45,12 @@ public:
                                  {"PointSet", &GeometryReader::readPoints},
                                  {"TriangleSet2D", &GeometryReader::readTriangles2D},
                                  {"Polyline2D", &GeometryReader::readPolyline2D},
-                                 {"Polypoint2D", &GeometryReader::readPolypoint2D}};
+                                 {"Polypoint2D", &GeometryReader::readPolypoint2D},
+                                 {"NurbsCurve", &GeometryReader::readNurbs},
+                                 {"NurbsPatchSurface", &GeometryReader::readNurbs},
+                                 {"NurbsTrimmedSurface", &GeometryReader::readNurbs},
+                                 {"NurbsSweptSurface", &GeometryReader::readNurbs},
+                                 {"NurbsSwungSurface", &GeometryReader::readNurbs}};
     return readers;
   }
 
@@ -359,6 +365,14 @@ private:
     hasCreaseAngle_ = true;
   }
 
+  /// Sharp edges of swept surfaces are those of their curves, whose smooth parts turn by less from piece to piece.
+  void readNurbs() {
+    data_ = {};
+    nurbsError_ = addNurbs(source_, node_, data_, faces_);
+    hasCreaseAngle_ = true;
+    defaultCreaseAngle_ = 1;
+  }
+
   void requireInRange() const {
     const auto require = [&](std::uint32_t index, std::size_t count, const char* what) {
       if (index >= count)
@@ -382,13 +396,14 @@ private:
     if (isSurface && !source_.boolean(node_, "ccw", true))
       reverseWinding();
     // Normals that are smooth everywhere are computed later (prepare/normals), without splitting wedges.
-    const double creaseAngle = source_.real(node_, "creaseAngle", 0);
+    const double creaseAngle = source_.real(node_, "creaseAngle", defaultCreaseAngle_);
     if (isSurface && hasCreaseAngle_ && data_.normals.empty() && creaseAngle < std::numbers::pi)
       addCreaseNormals(data_, faces_, std::max(creaseAngle, 0.0));
     if (texCoordGenerator_)
       addGeneratedTexCoords(texCoordGenerator_->mode, data_, faces_);
     Geometry geometry;
     geometry.solid = source_.boolean(node_, "solid", !std::string_view(node_.name()).ends_with("2D"));
+    geometry.nurbsError = nurbsError_;
     geometry.furtherTexCoords = furtherTexCoords_;
     geometry.approximatedTexCoords = texCoordGenerator_ ? texCoordGenerator_->approximated : "";
     geometry.mesh = meshOf(data_, faces_, geometry.fans);
@@ -409,6 +424,8 @@ private:
   VertexData data_;
   Faces faces_;
   std::size_t furtherTexCoords_ = 0;
+  std::optional<double> nurbsError_;
+  double defaultCreaseAngle_ = 0; ///< radians
   std::optional<TexCoordGenerator> texCoordGenerator_;
   bool hasCreaseAngle_ = false; ///< the node has a creaseAngle field, or flat faces: an angle of 0
 };

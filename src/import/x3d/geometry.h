@@ -1,7 +1,7 @@
 #pragma once
-// Turns X3D geometry nodes into meshes (ISO/IEC 19775-1, clauses 11, 13, 14 and 32): IndexedFaceSet, the sets of
+// Turns X3D geometry nodes into meshes (ISO/IEC 19775-1, clauses 11, 13, 14, 27 and 32): IndexedFaceSet, the sets of
 // triangles, strips, fans and quadrilaterals with and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet,
-// PointSet, TriangleSet2D, Polyline2D, Polypoint2D.
+// PointSet, TriangleSet2D, Polyline2D, Polypoint2D, and the NURBS nodes of x3d/nurbs.h.
 
 #include "import/x3d/source.h"
 #include "scene/mesh.h"
@@ -13,7 +13,9 @@ namespace imgeo::x3d {
 struct Geometry {
   Mesh mesh;
   bool solid = true;
-  std::size_t fans = 0;              ///< concave polygons that were cut as fans
+  std::size_t fans = 0; ///< concave polygons that were cut as fans
+  /// Largest measured distance between a NURBS node and the mesh, relative to the diagonal of its control points' box.
+  std::optional<double> nurbsError;
   std::size_t furtherTexCoords = 0;  ///< sets of texture coordinates after the first, which are left out
   std::string approximatedTexCoords; ///< the mode of a TextureCoordinateGenerator that is approximated; else empty
 };

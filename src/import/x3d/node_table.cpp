@@ -22,7 +22,8 @@ constexpr std::string_view animates = "pages do not animate or interact", sounds
 
 // What several nodes become.
 constexpr std::string_view asGroup = "Group", asTransform = "Transform",
-                           asExpanded = "the nodes that instances of the prototype stand for";
+                           asExpanded = "the nodes that instances of the prototype stand for",
+                           asMesh = "the geometry node of the encoding", ofNurbs = "a part of the mesh of a NURBS node";
 
 constexpr NodeRow x3dNodes[] = {
     {"AcousticProperties", "Shape", 5, "acousticProperties", kept, ""},
@@ -74,8 +75,8 @@ constexpr NodeRow x3dNodes[] = {
     {"Cone", "Geometry3D", 1, "geometry", drawn, ""},
     {"ConeEmitter", "ParticleSystems", 1, "emitter", dropped, noParticles},
     {"Contact", "RigidBodyPhysics", 2, "contacts", dropped, noPhysics},
-    {"Contour2D", "NURBS", 4, "trimmingContour", kept, notDrawn},
-    {"ContourPolyline2D", "NURBS", 3, "children", kept, notDrawn},
+    {"Contour2D", "NURBS", 4, "trimmingContour", converted, ofNurbs},
+    {"ContourPolyline2D", "NURBS", 3, "children", converted, ofNurbs},
     {"Convolver", "Sound", 2, "children", kept, sounds},
     {"Coordinate", "Rendering", 1, "coord", drawn, ""},
     {"CoordinateChaser", "Followers", 1, "children", kept, animates},
@@ -170,17 +171,17 @@ constexpr NodeRow x3dNodes[] = {
     {"NavigationInfo", "Navigation", 1, "children", drawn, ""},
     {"Normal", "Rendering", 2, "normal", drawn, ""},
     {"NormalInterpolator", "Interpolation", 2, "children", kept, animates},
-    {"NurbsCurve", "NURBS", 1, "geometry", kept, notDrawn},
-    {"NurbsCurve2D", "NURBS", 3, "children", kept, notDrawn},
+    {"NurbsCurve", "NURBS", 1, "geometry", converted, asMesh},
+    {"NurbsCurve2D", "NURBS", 3, "children", converted, ofNurbs},
     {"NurbsOrientationInterpolator", "NURBS", 1, "children", kept, animates},
-    {"NurbsPatchSurface", "NURBS", 1, "geometry", kept, notDrawn},
+    {"NurbsPatchSurface", "NURBS", 1, "geometry", converted, asMesh},
     {"NurbsPositionInterpolator", "NURBS", 1, "children", kept, animates},
-    {"NurbsSet", "NURBS", 2, "children", kept, notDrawn},
+    {"NurbsSet", "NURBS", 2, "children", kept, "each surface is tessellated alone"},
     {"NurbsSurfaceInterpolator", "NURBS", 1, "children", kept, animates},
-    {"NurbsSweptSurface", "NURBS", 3, "geometry", kept, notDrawn},
-    {"NurbsSwungSurface", "NURBS", 3, "geometry", kept, notDrawn},
-    {"NurbsTextureCoordinate", "NURBS", 1, "texCoord", kept, notDrawn},
-    {"NurbsTrimmedSurface", "NURBS", 4, "geometry", kept, notDrawn},
+    {"NurbsSweptSurface", "NURBS", 3, "geometry", converted, asMesh},
+    {"NurbsSwungSurface", "NURBS", 3, "geometry", converted, asMesh},
+    {"NurbsTextureCoordinate", "NURBS", 1, "texCoord", converted, ofNurbs},
+    {"NurbsTrimmedSurface", "NURBS", 4, "geometry", converted, asMesh},
     {"OpacityMapVolumeStyle", "VolumeRendering", 1, "renderStyle", dropped, noVolumes},
     {"OrientationChaser", "Followers", 1, "children", kept, animates},
     {"OrientationDamper", "Followers", 1, "children", kept, animates},

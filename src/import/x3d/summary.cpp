@@ -57,6 +57,11 @@ void Summary::noteLeftOut(std::string_view element, const std::string& where) {
     kind.first = where;
 }
 
+void Summary::noteNurbs(double relativeError) {
+  ++nurbs_;
+  nurbsError_ = std::max(nurbsError_, relativeError);
+}
+
 void Summary::addTo(std::vector<std::string>& warnings) const {
   for (const auto& [element, kind] : leftOut_)
     warnings.push_back(fmt::format("{} ({}) left out, since {}; {} at {}.", element, kind.count,
@@ -68,6 +73,10 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
   if (remoteInlines > 0)
     warnings.push_back(fmt::format("{} left on other hosts.", counted(remoteInlines, "Inline is", "Inlines are")));
   warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
+  if (nurbs_ > 0)
+    warnings.push_back(
+        fmt::format("{} triangles or lines, which differ from the exact shape by at most {:.2g} % of its size.",
+                    counted(nurbs_, "NURBS geometry became", "NURBS geometries became"), 100 * nurbsError_));
   warnOfElements(warnings, "Geometry without faces, lines or points", empty);
   warnOfElements(warnings,
                  "Texture coordinates that depend on the camera or on noise are made of the shape's own normals "

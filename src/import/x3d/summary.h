@@ -32,6 +32,8 @@ public:
   std::size_t remoteImages = 0, remoteInlines = 0, fans = 0;
 
   void noteScale(Vec3d scale);
+  /// Counts a NURBS node that became a mesh, with its error relative to its size.
+  void noteNurbs(double relativeError);
   /// Counts a node that stays, where its row says that it has no effect.
   void noteKept(std::string_view element);
   /// Counts an element that is left out; `where` is its place in the source.
@@ -47,6 +49,8 @@ private:
 
   std::map<std::string, Counts, std::less<>> kept_; ///< by reason
   std::map<std::string, LeftOut, std::less<>> leftOut_;
+  std::size_t nurbs_ = 0;
+  double nurbsError_ = 0;                                  ///< the largest
   std::size_t flatTransforms_ = 0, extremeTransforms_ = 0; ///< scales of 0, and outside of 10^-15 .. 10^15
 };
 

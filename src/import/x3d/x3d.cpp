@@ -379,6 +379,8 @@ private:
       ++summary_.empty[node.name()];
       return {};
     }
+    if (geometry->nurbsError)
+      summary_.noteNurbs(*geometry->nurbsError);
     summary_.furtherTexCoords += geometry->furtherTexCoords > 0 ? 1 : 0;
     if (!geometry->approximatedTexCoords.empty())
       ++summary_.approximatedTexCoords[geometry->approximatedTexCoords];

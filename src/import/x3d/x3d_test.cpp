@@ -176,6 +176,86 @@ TEST(X3d, KeepsOnlyShorterGeometryWhereThereIsMuchOfIt) {
   EXPECT_EQ(meshesOf(500), 500u);
 }
 
+/// The rational quarter of a circle, as control points multiplied by their weights, and these.
+const std::string quarterCircle = "point='1 0 0 0.70710678 0.70710678 0 0 1 0'/>",
+                  quarterWeights = "weight='1 0.70710678 1'";
+
+TEST(X3d, TurnsNurbsCurvesIntoLines) {
+  const Mesh line = meshOf("<NurbsCurve " + quarterWeights + "><Coordinate " + quarterCircle + "</NurbsCurve>");
+  EXPECT_EQ(line.topology, Topology::lines);
+  EXPECT_GT(line.elementCount(), 5u);
+  for (const Vec3f& position : line.positions)
+    EXPECT_NEAR(length(Vec3d(position)), 1, 1e-6);
+  EXPECT_EQ(meshOf("<NurbsCurve order='2'><CoordinateDouble point='0 0 0 1 0 0 1 1 0'/></NurbsCurve>").elementCount(),
+            2u);
+  // Without its last control point, which `closed` asks for, the curve stays open.
+  const std::string diamond = "<NurbsCurve closed='true' order='4'><Coordinate point='1 0 0 0 1 0 -1 0 0 0 -1 0";
+  const Mesh open = meshOf(diamond + "'/></NurbsCurve>"), loop = meshOf(diamond + " 1 0 0'/></NurbsCurve>");
+  EXPECT_EQ(open.cornerPosition(0), (Vec3f{1, 0, 0}));
+  const Vec3f begin = loop.cornerPosition(0), end = loop.cornerPosition(loop.corners.size() - 1);
+  EXPECT_NEAR(length(Vec3d(begin) - Vec3d(end)), 0, 1e-6);
+  EXPECT_NE(begin, (Vec3f{1, 0, 0}));
+}
+
+TEST(X3d, TurnsNurbsSurfacesIntoTriangles) {
+  const std::string patch =
+      "uDimension='3' vDimension='2' vOrder='2' weight='1 0.70710678 1 1 0.70710678 1'>"
+      "<Coordinate point='1 0 0 0.70710678 0.70710678 0 0 1 0 1 0 2 0.70710678 0.70710678 1.41421356 0 1 2'/>";
+  const Imported imported = readScene("<Shape><NurbsPatchSurface " + patch + "</NurbsPatchSurface></Shape>");
+  ASSERT_EQ(imported.warnings.size(), 1u);
+  EXPECT_NE(imported.warnings[0].find("1 NURBS geometry became triangles"), std::string::npos) << imported.warnings[0];
+  const Mesh& quarter = imported.scene.meshes.at(0);
+  for (std::size_t i = 0; i < quarter.wedgeCount(); ++i) {
+    const Vec3f position = quarter.positions[quarter.wedgePositions[i]], normal = quarter.normals[i];
+    EXPECT_NEAR(std::hypot(position.x, position.y), 1, 1e-6);
+    EXPECT_NEAR(normal.x * position.x + normal.y * position.y, 1, 1e-6); // u x v points outwards here
+    EXPECT_NEAR(quarter.texCoords[i].y, position.z / 2, 1e-6);
+  }
+  const std::string contour = "<Contour2D><ContourPolyline2D controlPoint='0 0 1 0 1 0.5 0 0.5 0 0'/></Contour2D>";
+  const Mesh half = meshOf("<NurbsTrimmedSurface " + patch + contour + "</NurbsTrimmedSurface>");
+  for (const Vec3f& position : half.positions)
+    EXPECT_LE(position.z, 1 + 1e-6);
+}
+
+TEST(X3d, SweepsNurbsCurves) {
+  const std::string contour = "<ContourPolyline2D containerField='FIELD' controlPoint='1 1 1 -1 -1 -1 -1 1 1 1'/>";
+  const auto withField = [&](const std::string& name) {
+    return std::string(contour).replace(contour.find("FIELD"), 5, name);
+  };
+  // A quarter of a tube of radius 10: 5 pi long, with a cross-section whose circumference is 8.
+  const Mesh swept =
+      meshOf("<NurbsSweptSurface solid='false'>" + withField("crossSectionCurve") + "<NurbsCurve " + quarterWeights +
+             "><Coordinate point='10 0 0 7.0710678 7.0710678 0 0 10 0'/></NurbsCurve>"
+             "</NurbsSweptSurface>");
+  const Mesh swung =
+      meshOf("<NurbsSwungSurface>" + withField("profileCurve") + "<NurbsCurve2D containerField='trajectoryCurve' " +
+             quarterWeights + " controlPoint='10 0 7.0710678 7.0710678 0 10'/></NurbsSwungSurface>");
+  for (const Mesh* mesh : {&swept, &swung}) {
+    double area = 0;
+    for (std::size_t i = 0; i < mesh->corners.size(); i += 3) {
+      const Vec3d at(mesh->cornerPosition(i));
+      area += length(cross(Vec3d(mesh->cornerPosition(i + 1)) - at, Vec3d(mesh->cornerPosition(i + 2)) - at)) / 2;
+    }
+    EXPECT_NEAR(area, 8 * 5 * 3.14159265, 0.3);
+    EXPECT_EQ(mesh->normals.size(), mesh->wedgeCount());
+  }
+}
+
+TEST(X3d, RefusesInvalidNurbs) {
+  for (const std::string node :
+       {"<NurbsCurve/>", "<NurbsCurve order='1'><Coordinate point='0 0 0 1 0 0'/></NurbsCurve>",
+        "<NurbsCurve order='33'><Coordinate point='0 0 0 1 0 0'/></NurbsCurve>",
+        "<NurbsCurve order='2.5'><Coordinate point='0 0 0 1 0 0 2 0 0'/></NurbsCurve>",
+        "<NurbsCurve><Coordinate point='0 0 0 1 0 0'/></NurbsCurve>",
+        "<NurbsCurve weight='1 0 1'><Coordinate point='0 0 0 1 0 0 1 1 0'/></NurbsCurve>",
+        "<NurbsPatchSurface uDimension='3' vDimension='3'><Coordinate point='0 0 0'/></NurbsPatchSurface>",
+        "<NurbsSweptSurface/>", "<NurbsSwungSurface><NurbsCurve2D/></NurbsSwungSurface>"}) {
+    const Imported imported = readScene("<Shape>" + node + "</Shape>");
+    EXPECT_EQ(imported.scene.meshes.size(), 0u) << node;
+    EXPECT_GE(imported.warnings.size(), 1u) << node;
+  }
+}
+
 TEST(X3d, WarnsOfTextureCoordinatesThatItLeavesOutOrApproximates) {
   const std::string quad = "<Shape><IndexedFaceSet coordIndex='0 1 2 3'>" + square;
   EXPECT_TRUE(readScene(quad + "<TextureCoordinateGenerator mode='COORD'/></IndexedFaceSet></Shape>").warnings.empty());
