@@ -16,12 +16,13 @@ double angleBetween(Vec3d a, Vec3d b) {
   return std::atan2(length(cross(a, b)), dot(a, b)); // 0 where one of them is zero
 }
 
-void bisect(double begin, double end, int depth, const NeedsDivision& needsDivision, std::vector<double>& parameters) {
+void bisect(double begin, double end, int depth, std::size_t maxCount, const NeedsDivision& needsDivision,
+            std::vector<double>& parameters) {
   const double middle = (begin + end) / 2;
-  const bool canDivide = depth < maxBisections && parameters.size() < maxParameters && begin < middle && middle < end;
+  const bool canDivide = depth < maxBisections && parameters.size() < maxCount && begin < middle && middle < end;
   if (canDivide && needsDivision(begin, end)) {
-    bisect(begin, middle, depth + 1, needsDivision, parameters);
-    bisect(middle, end, depth + 1, needsDivision, parameters);
+    bisect(begin, middle, depth + 1, maxCount, needsDivision, parameters);
+    bisect(middle, end, depth + 1, maxCount, needsDivision, parameters);
   } else {
     parameters.push_back(end);
   }
@@ -39,7 +40,7 @@ Tolerance toleranceFor(const std::vector<ControlPoint>& points) {
 std::vector<double> subdivided(const std::vector<double>& breaks, const NeedsDivision& needsDivision) {
   std::vector<double> parameters{breaks.front()};
   for (std::size_t i = 1; i < breaks.size(); ++i)
-    bisect(breaks[i - 1], breaks[i], 0, needsDivision, parameters);
+    bisect(breaks[i - 1], breaks[i], 0, std::max(maxParameters, 4 * breaks.size()), needsDivision, parameters);
   return parameters;
 }
 

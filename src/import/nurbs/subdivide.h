@@ -18,8 +18,9 @@ struct Tolerance {
 inline constexpr double relativeTolerance = 1.0 / 2000;
 Tolerance toleranceFor(const std::vector<ControlPoint>& points);
 
-/// No piece is divided where there are more parameters along a curve, or along a direction of a surface.
-inline constexpr std::size_t maxParameters = 1024;
+/// No piece is divided where there are more parameters along a curve, or along a direction of a surface, than these, or
+/// four for each interval of knots.
+inline constexpr std::size_t maxParameters = 512;
 
 /// Whether the piece between two parameters must be divided.
 using NeedsDivision = std::function<bool(double begin, double end)>;

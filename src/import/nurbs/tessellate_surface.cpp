@@ -165,11 +165,11 @@ Loop loopOf(const Contour& contour, const Surface& surface, const Tolerance& tol
     for (const double t : isStraight ? curve.basis.breaks() : subdivided(curve.basis.breaks(), isBentOnSurface)) {
       const Vec3d point = evaluate(curve, curve.basis.spanAt(t), t).point;
       const Parameters corner{point.x, point.y};
+      if (!std::isfinite(corner.x) || !std::isfinite(corner.y))
+        throw Error(ErrorKind::malformed, "", "a contour has points that are no finite numbers");
       if (loop.empty() || loop.back() != corner)
         loop.push_back(corner);
     }
-    if (loop.size() > maxContourCorners)
-      throw Error(ErrorKind::limit, "", fmt::format("a contour has more than {} corners", maxContourCorners));
   }
   return loop;
 }
@@ -355,8 +355,13 @@ SurfaceMesh tessellate(const Surface& surface, const std::vector<Contour>& conto
   const Tolerance tolerance = toleranceFor(surface.points);
   const Grid grid = GridMaker(surface, tolerance).make();
   std::vector<Loop> loops;
-  for (const Contour& contour : contours)
+  std::size_t corners = 0;
+  for (const Contour& contour : contours) {
     loops.push_back(loopOf(contour, surface, tolerance));
+    corners += loops.back().size();
+    if (corners > maxContourCorners)
+      throw Error(ErrorKind::limit, "", fmt::format("contours have more than {} corners", maxContourCorners));
+  }
   SurfaceMesh mesh;
   mesh.error = grid.error;
   Vertices vertices(surface, texCoords, grid, mesh);

@@ -28,7 +28,8 @@ struct SurfaceMesh {
 /// Triangles that differ from the surface by the tolerance for its control points (subdivide.h), with exact normals.
 /// Closed edges share their positions. What lies within an odd number of the contours is kept; without contours all.
 /// `texCoords` gives texture coordinates as x and y, its domain mapped to that of the surface; without it they run from
-/// 0 to 1 along u and v. Throws Error{limit} for contours of more than maxContourCorners corners.
+/// 0 to 1 along u and v. Throws Error{limit} for contours of more than maxContourCorners corners, Error{malformed} for
+/// contours that are not finite.
 SurfaceMesh tessellate(const Surface& surface, const std::vector<Contour>& contours,
                        const std::optional<Surface>& texCoords);
 

@@ -12,7 +12,6 @@ using enum NodeTreatment;
 
 // Reasons that several nodes share. Summaries say "Without effect, since …: …" and "… left out, since …".
 constexpr std::string_view animates = "pages do not animate or interact", sounds = "pages play no sound",
-                           notDrawn = "pages do not draw this geometry",
                            noVolumes = "pages render no volumes and no three-dimensional textures",
                            noShaders = "pages run no shaders of others; the material beside it is drawn",
                            noPhysics = "pages simulate no rigid bodies", noParticles = "pages emit no particles",
@@ -23,7 +22,7 @@ constexpr std::string_view animates = "pages do not animate or interact", sounds
 // What several nodes become.
 constexpr std::string_view asGroup = "Group", asTransform = "Transform",
                            asExpanded = "the nodes that instances of the prototype stand for",
-                           asMesh = "the geometry node of the encoding", ofNurbs = "a part of the mesh of a NURBS node";
+                           byConvert = "as the mesh that convert makes of it";
 
 constexpr NodeRow x3dNodes[] = {
     {"AcousticProperties", "Shape", 5, "acousticProperties", kept, ""},
@@ -75,8 +74,8 @@ constexpr NodeRow x3dNodes[] = {
     {"Cone", "Geometry3D", 1, "geometry", drawn, ""},
     {"ConeEmitter", "ParticleSystems", 1, "emitter", dropped, noParticles},
     {"Contact", "RigidBodyPhysics", 2, "contacts", dropped, noPhysics},
-    {"Contour2D", "NURBS", 4, "trimmingContour", converted, ofNurbs},
-    {"ContourPolyline2D", "NURBS", 3, "children", converted, ofNurbs},
+    {"Contour2D", "NURBS", 4, "trimmingContour", drawn, byConvert},
+    {"ContourPolyline2D", "NURBS", 3, "children", drawn, byConvert},
     {"Convolver", "Sound", 2, "children", kept, sounds},
     {"Coordinate", "Rendering", 1, "coord", drawn, ""},
     {"CoordinateChaser", "Followers", 1, "children", kept, animates},
@@ -171,17 +170,17 @@ constexpr NodeRow x3dNodes[] = {
     {"NavigationInfo", "Navigation", 1, "children", drawn, ""},
     {"Normal", "Rendering", 2, "normal", drawn, ""},
     {"NormalInterpolator", "Interpolation", 2, "children", kept, animates},
-    {"NurbsCurve", "NURBS", 1, "geometry", converted, asMesh},
-    {"NurbsCurve2D", "NURBS", 3, "children", converted, ofNurbs},
+    {"NurbsCurve", "NURBS", 1, "geometry", drawn, byConvert},
+    {"NurbsCurve2D", "NURBS", 3, "children", drawn, byConvert},
     {"NurbsOrientationInterpolator", "NURBS", 1, "children", kept, animates},
-    {"NurbsPatchSurface", "NURBS", 1, "geometry", converted, asMesh},
+    {"NurbsPatchSurface", "NURBS", 1, "geometry", drawn, byConvert},
     {"NurbsPositionInterpolator", "NURBS", 1, "children", kept, animates},
     {"NurbsSet", "NURBS", 2, "children", kept, "each surface is tessellated alone"},
     {"NurbsSurfaceInterpolator", "NURBS", 1, "children", kept, animates},
-    {"NurbsSweptSurface", "NURBS", 3, "geometry", converted, asMesh},
-    {"NurbsSwungSurface", "NURBS", 3, "geometry", converted, asMesh},
-    {"NurbsTextureCoordinate", "NURBS", 1, "texCoord", converted, ofNurbs},
-    {"NurbsTrimmedSurface", "NURBS", 4, "geometry", converted, asMesh},
+    {"NurbsSweptSurface", "NURBS", 3, "geometry", drawn, byConvert},
+    {"NurbsSwungSurface", "NURBS", 3, "geometry", drawn, byConvert},
+    {"NurbsTextureCoordinate", "NURBS", 1, "texCoord", drawn, byConvert},
+    {"NurbsTrimmedSurface", "NURBS", 4, "geometry", drawn, byConvert},
     {"OpacityMapVolumeStyle", "VolumeRendering", 1, "renderStyle", dropped, noVolumes},
     {"OrientationChaser", "Followers", 1, "children", kept, animates},
     {"OrientationDamper", "Followers", 1, "children", kept, animates},

@@ -137,11 +137,15 @@ public:
 
   double read() {
     const std::string_view name = node_.name();
-    if (name == "NurbsCurve")
-      return readCurve();
-    if (name == "NurbsSweptSurface" || name == "NurbsSwungSurface")
-      return readSwept();
-    return readSurface();
+    const bool isSwept = name == "NurbsSweptSurface" || name == "NurbsSwungSurface";
+    const double error = name == "NurbsCurve" ? readCurve() : isSwept ? readSwept() : readSurface();
+    const bool isFinite =
+        std::ranges::all_of(data_.positions,
+                            [](Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }) &&
+        std::ranges::all_of(data_.texCoords, [](Vec2f t) { return std::isfinite(t.x) && std::isfinite(t.y); });
+    if (!isFinite) // tiny weights or intervals of knots
+      fields_.fail(ErrorKind::malformed, "has points that are no finite numbers");
+    return error;
   }
 
 private:
@@ -210,10 +214,17 @@ private:
 
   double readSurface() {
     const Surface controlled = surface();
-    const nurbs::SurfaceMesh mesh = nurbs::tessellate(controlled, contours(), texCoords());
-    data_.positions = mesh.positions;
-    data_.normals = mesh.normals;
-    data_.texCoords = mesh.texCoords;
+    nurbs::SurfaceMesh mesh;
+    try {
+      mesh = nurbs::tessellate(controlled, contours(), texCoords());
+    } catch (const Error& error) {
+      if (error.location().empty())
+        fields_.fail(error.kind() == ErrorKind::limit ? ErrorKind::unsupported : error.kind(), error.message());
+      throw;
+    }
+    data_.positions = std::move(mesh.positions);
+    data_.normals = std::move(mesh.normals);
+    data_.texCoords = std::move(mesh.texCoords);
     for (const nurbs::MeshCorner& corner : mesh.corners) {
       faces_.corners.push_back({corner.position, corner.normal, corner.texCoord, none});
       if (faces_.corners.size() % 3 == 0)
@@ -249,12 +260,16 @@ private:
     for (const ControlPoint& point : section.points)
       reach = std::max(reach, length(point.point));
     const double size = diagonalOf(trajectory.points) + 2 * reach;
-    nurbs::Tolerance tolerance{size * nurbs::relativeTolerance};
+    // A third each for the cross-section, the trajectory, and what the bends of the trajectory add far away from it.
+    nurbs::Tolerance tolerance{size * nurbs::relativeTolerance / 3};
     const nurbs::Polyline ring = nurbs::tessellate(section, tolerance);
     // What is `reach` away from the trajectory is off by another reach * angle^2 / 8.
     if (reach > 0)
       tolerance.angle = std::min(tolerance.angle, std::sqrt(8 * tolerance.distance / reach));
     const nurbs::Polyline spine = nurbs::tessellate(trajectory, tolerance);
+    constexpr std::size_t maxVertices = std::size_t{1} << 22;
+    if (ring.points.size() * spine.points.size() > maxVertices)
+      fields_.fail(ErrorKind::unsupported, fmt::format("has more than {} vertices", maxVertices));
     Extrusion extrusion;
     extrusion.beginCap = extrusion.endCap = false;
     extrusion.crossSection.clear();

@@ -1,6 +1,7 @@
 #include "import/x3d/summary.h"
 
 #include "import/warnings.h"
+#include "import/x3d/nurbs.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ bool isUnexpanded(const NodeRow& row) {
 
 bool isDrawnInPages(std::string_view element) {
   const NodeRow* row = nodeRow(element);
-  return row && row->containerField == "geometry" && row->treatment == NodeTreatment::drawn;
+  return row && row->containerField == "geometry" && row->treatment == NodeTreatment::drawn && !isNurbs(element);
 }
 
 bool isLeftOut(std::string_view element) {

@@ -248,6 +248,7 @@ TEST(X3d, RefusesInvalidNurbs) {
         "<NurbsCurve order='2.5'><Coordinate point='0 0 0 1 0 0 2 0 0'/></NurbsCurve>",
         "<NurbsCurve><Coordinate point='0 0 0 1 0 0'/></NurbsCurve>",
         "<NurbsCurve weight='1 0 1'><Coordinate point='0 0 0 1 0 0 1 1 0'/></NurbsCurve>",
+        "<NurbsCurve weight='1 1e-300 1'><Coordinate point='1e30 0 0 1e30 0 0 1e30 1 0'/></NurbsCurve>",
         "<NurbsPatchSurface uDimension='3' vDimension='3'><Coordinate point='0 0 0'/></NurbsPatchSurface>",
         "<NurbsSweptSurface/>", "<NurbsSwungSurface><NurbsCurve2D/></NurbsSwungSurface>"}) {
     const Imported imported = readScene("<Shape>" + node + "</Shape>");

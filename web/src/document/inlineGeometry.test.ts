@@ -154,6 +154,12 @@ test("modes of TextureCoordinateGenerator that need the camera are drawn with a 
   assert.ok(new Float32Array(bytesOf(geometry?.patches[0]?.texCoord)).every((value) => value === 0.5));
 });
 
+test("NURBS are left out with a warning", () => {
+  const { geometry, warnings } = read("<Appearance/><NurbsPatchSurface/>");
+  assert.equal(geometry, undefined);
+  assert.equal(warnings, 1);
+});
+
 test("of several sets of texture coordinates the first is used, with a warning", () => {
   const sets = '<TextureCoordinate point="0 0 1 0 1 1 0 1"/><TextureCoordinateGenerator/>';
   const { geometry, warnings } = read(

@@ -139,7 +139,11 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
     readRuns = runReaders[name],
     readSurface = surfaces[name];
   if (readPlane) return planeGeometryOf(readPlane, element, warnings);
-  if (!readSolid && !readRuns && !readSurface) return undefined;
+  if (!readSolid && !readRuns && !readSurface) {
+    if (name.startsWith("nurbs"))
+      warnings.push({ element, message: "NURBS are not drawn in pages; imgeo convert makes triangles of them" });
+    return undefined;
+  }
   const solidMesh = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings);
   if (solidMesh)
