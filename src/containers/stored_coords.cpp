@@ -99,6 +99,13 @@ DecodeFields decodeFields(const GeometryDescription& geometry) {
   return {isZeroAtCorner ? zero + size * 0.5 : zero, size};
 }
 
+std::optional<DecodeFields> quantizationCube(const Box3d& box) {
+  if (box.empty() || !(box.longestEdge() > 0))
+    return {};
+  const double edge = box.longestEdge();
+  return DecodeFields{box.min + Vec3d{edge, edge, edge} * 0.5, {edge, edge, edge}};
+}
+
 Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType type, std::uint32_t bits) {
   const double longest = longestOf(fields.size);
   if (hasElementTypes(encoding) && type == ElementType::float32) {

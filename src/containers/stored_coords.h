@@ -5,6 +5,7 @@
 #include "containers/geometry_description.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace imgeo {
@@ -53,6 +54,10 @@ struct DecodeFields {
   Vec3d position, size;
 };
 DecodeFields decodeFields(const GeometryDescription& geometry);
+
+/// The fields of a compact geometry that states only its box: the cube over the box's longest edge, from its minimum.
+/// Empty for a box without extent. web/src/document/geometry.ts does the same.
+std::optional<DecodeFields> quantizationCube(const Box3d& box);
 
 /// The lattice of a node; inverse of decodeFields except for rounding of the last bits. No edge of `size` is negative,
 /// one at least is positive; `type` can store `bits`. The lattice of Float32 coordinates covers a cube over the longest

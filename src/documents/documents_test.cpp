@@ -421,6 +421,68 @@ TEST(Documents, WriteAnOnlyChildOnTheLineOfItsParent) {
                                   "</Transform>\n");
 }
 
+TEST(Documents, WriteAShapeOnALineOfADenseLayout) {
+  const auto written = [](TextLayout layout) {
+    ElementWriter writer(2, layout);
+    writer.open({"Group", {{{"DEF", "all"}}}});
+    writer.open({"Shape", {}});
+    writer.leaf({"Box", {{{"size", std::string(200, '1')}}, {{"solid", "false"}}}});
+    writer.leaf({"Sphere", {}});
+    writer.close({"Shape", {}});
+    writer.close({"Group", {}});
+    return writer.text();
+  };
+  const std::string box = "<Box size=\"" + std::string(200, '1') + "\" solid=\"false\"";
+  EXPECT_EQ(written(TextLayout::dense),
+            "<Group DEF=\"all\">\n<Shape>" + box + "></Box><Sphere></Sphere></Shape>\n</Group>\n");
+  EXPECT_EQ(written(TextLayout::denseXml), "<Group DEF=\"all\">\n<Shape>" + box + "/><Sphere/></Shape>\n</Group>\n");
+}
+
+TEST(Documents, DescribeSmallShapesOfLargeScenesByTheirBoxes) {
+  Random random(11);
+  SceneDocument document;
+  document.graph.isComplete = true;
+  for (std::uint32_t i = 0; i <= 10'000; ++i) {
+    Box3d box;
+    const Vec3d corner(random.point() * 1000);
+    box.add(corner);
+    box.add(Vec3d(Vec3f(corner + Vec3d{1.5, random.oneIn(3) ? 0 : 0.123456, 1e-3} * (1.0 + random.below(9)))));
+    GeometryDescription geometry;
+    geometry.encoding = Encoding::compact;
+    geometry.lattice = latticeFor(box, geometry.coordType, packedPositionBits);
+    const std::vector<Vec3f> corners{Vec3f(box.min), Vec3f(box.max)};
+    geometry.box.add(geometry.lattice.origin);
+    geometry.box.add(geometry.lattice.point(quantise(corners, geometry.lattice)[1]));
+    PatchDescription patch;
+    patch.box = geometry.box;
+    patch.vertexCount = 4;
+    patch.draws = {{Primitive::triangles, 6}};
+    patch.data = Reference{"a.png", PatchLocation{i}};
+    geometry.patches = {patch};
+    document.geometries.push_back(geometry);
+    addRoot(document.graph, {"", Shape{i, {}, true}, {}, ""});
+  }
+  for (const std::string& text : {writeX3d(document), writeHtml(document, {})}) {
+    EXPECT_EQ(text.find("profile=\"compact\""), text.npos);
+    const SceneDocument read = readScene(text, "a");
+    ASSERT_EQ(read.geometries.size(), document.geometries.size());
+    std::size_t withoutPosition = 0;
+    for (std::size_t i = 0; i < read.geometries.size(); ++i) {
+      const Lattice &a = read.geometries[i].lattice, &b = document.geometries[i].lattice;
+      EXPECT_EQ(read.geometries[i].encoding, Encoding::compact);
+      EXPECT_LT(length(a.point({0, 0, 0}) - b.point({0, 0, 0})), 1e-5 * b.step);
+      EXPECT_LT(length(a.point({65535, 65535, 65535}) - b.point({65535, 65535, 65535})), 1e-5 * b.step);
+      EXPECT_LT(length(read.geometries[i].box.max - document.geometries[i].box.max), b.step);
+      EXPECT_EQ(read.geometries[i].box, read.geometries[i].patches[0].box);
+      EXPECT_EQ(read.geometries[i].patches[0].data, document.geometries[i].patches[0].data);
+    }
+    for (std::size_t at = text.find("<Shape><ImageGeometry bboxCenter"); at != text.npos;
+         at = text.find("<Shape><ImageGeometry bboxCenter", at + 1))
+      ++withoutPosition;
+    EXPECT_GT(withoutPosition, 9'000u);
+  }
+}
+
 TEST(Documents, EscapeActiveContentInNames) {
   for (const std::string name : {"\"><script>alert(1)</script>", "' onload='alert(1)", "</title><script>",
                                  "--><script>", "</noscript><script>", "a\0b<script>"}) {

@@ -12,6 +12,16 @@ constexpr std::size_t maxLineLength = 110;
 
 } // namespace
 
+void ElementWriter::indent() {
+  if (isReadable())
+    text_.append(2 * level_, ' ');
+}
+
+void ElementWriter::endLine() {
+  if (isReadable() || openShapes_ == 0)
+    text_ += "\n";
+}
+
 void ElementWriter::startTag(const Element& element) {
   std::size_t length = 2 * level_ + element.name.size() + 2;
   std::vector<std::string> lines;
@@ -24,10 +34,10 @@ void ElementWriter::startTag(const Element& element) {
     length += 1 + line.size();
     lines.push_back(std::move(line));
   }
-  text_.append(2 * level_, ' ');
+  indent();
   text_ += "<" + element.name;
   std::string separator = " ";
-  if (length > maxLineLength)
+  if (length > maxLineLength && isReadable())
     separator.assign("\n").append(2 * level_ + 4, ' ');
   for (std::size_t i = 0; i < lines.size(); ++i)
     text_ += (i == 0 ? " " : separator) + lines[i];
@@ -38,7 +48,8 @@ void ElementWriter::open(const Element& element) {
   const std::size_t begin = text_.size();
   startTag(element);
   openTags_.push_back({begin, text_.size()});
-  text_ += "\n";
+  openShapes_ += element.name == "Shape";
+  endLine();
   ++level_;
 }
 
@@ -48,6 +59,11 @@ void ElementWriter::close(const Element& element) {
   --level_;
   const auto [begin, end] = openTags_.back();
   openTags_.pop_back();
+  openShapes_ -= element.name == "Shape";
+  if (!isReadable()) {
+    text_ += "</" + element.name + ">";
+    return endLine();
+  }
   const std::string endTag = "</" + element.name + ">\n";
   const std::size_t contentBegin = end + 1 + 2 * (level_ + 1), newline = text_.find('\n', end + 1);
   const bool isTagOnOneLine = text_.find('\n', begin) == end;
@@ -67,7 +83,11 @@ void ElementWriter::leaf(const Element& element) {
 
 void ElementWriter::leaf(const Element& element, std::string_view content) {
   startTag(element);
-  text_ += escapeText(content) + "</" + element.name + ">\n";
+  if (layout_ == TextLayout::denseXml && content.empty())
+    text_.insert(text_.size() - 1, "/");
+  else
+    text_ += escapeText(content) + "</" + element.name + ">";
+  endLine();
 }
 
 void ElementWriter::comment(std::string_view content) {
@@ -79,8 +99,9 @@ void ElementWriter::comment(std::string_view content) {
   }
   if (kept.ends_with('-'))
     kept += ' ';
-  text_.append(2 * level_, ' ');
-  text_ += "<!--" + kept + "-->\n";
+  indent();
+  text_ += "<!--" + kept + "-->";
+  endLine();
 }
 
 std::string number(double value) {

@@ -4,6 +4,7 @@
 #include "base/vec.h"
 #include "scene/mf_string.h"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,15 +24,20 @@ struct Element {
   std::vector<Attributes> groups;
 };
 
-/// Collects the text of nested elements, indented by two spaces a level. An element whose content is one short line is
-/// written on one line.
+/// How elements become lines. `readable`: indented by two spaces a level; an element whose content is one short line is
+/// written on one line. `dense`: without indentation, and a Shape is one line with all its content. `denseXml`: dense,
+/// with the short form of empty elements, which HTML does not have.
+enum class TextLayout : std::uint8_t { readable, dense, denseXml };
+
+/// Collects the text of nested elements.
 class ElementWriter {
 public:
-  explicit ElementWriter(std::size_t level) : level_(level) {}
+  explicit ElementWriter(std::size_t level, TextLayout layout = TextLayout::readable)
+      : level_(level), layout_(layout) {}
 
   void open(const Element& element);
   void close(const Element& element);
-  /// Writes an empty element, with an end tag, since HTML has no self-closing custom elements.
+  /// Writes an empty element; but for denseXml with an end tag, since HTML has no self-closing custom elements.
   void leaf(const Element& element);
   /// Writes an element that contains text, which is escaped.
   void leaf(const Element& element, std::string_view content);
@@ -39,6 +45,7 @@ public:
   /// Writes a comment; consecutive hyphens, which would end it, are separated by spaces.
   void comment(std::string_view content);
 
+  TextLayout layout() const { return layout_; }
   const std::string& text() const { return text_; }
 
 private:
@@ -48,8 +55,14 @@ private:
   };
 
   void startTag(const Element& element);
+  bool isReadable() const { return layout_ == TextLayout::readable; }
+  void indent();
+  /// Ends the line, but for the lines inside a Shape of a dense layout.
+  void endLine();
 
   std::size_t level_;
+  TextLayout layout_;
+  std::size_t openShapes_ = 0;
   std::string text_;
   std::vector<Tag> openTags_;
 };

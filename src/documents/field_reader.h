@@ -42,6 +42,7 @@ public:
   void warnOrFail(const std::string& message, const char* consequence) const;
 
   std::string text(const char* name) const; ///< "" where it is absent
+  bool has(const char* name) const { return !text(name).empty(); }
   bool boolean(const char* name, bool fallback) const;
   double real(const char* name, double fallback) const;
   float real(const char* name, float fallback) const;

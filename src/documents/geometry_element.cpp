@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace imgeo {
 
@@ -126,17 +127,39 @@ Attributes decodeAttributes(const GeometryDescription& geometry) {
           {"size", shortNumbers(decode.size, geometry.lattice, tolerance)}};
 }
 
-Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
+std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry) {
+  if (rowOf(geometry).storage != PatchStorage::packed || !isSinglePatch(geometry) || geometry.box.empty())
+    return {};
+  const Lattice& lattice = geometry.lattice;
+  constexpr double exact = 1e-7; // in lattice steps, as in decodeAttributes
+  const double longest = geometry.box.longestEdge();
+  Vec3d size = geometry.box.size(), center;
+  for (int axis = 0; axis < 3; ++axis) {
+    size[axis] = shortestWithin(size[axis], (size[axis] == longest ? exact : 0.25) * lattice.step);
+    center[axis] = shortestWithin(lattice.origin[axis] + size[axis] / 2, exact * lattice.step);
+  }
+  const std::optional<DecodeFields> derived = quantizationCube({center - size * 0.5, center + size * 0.5});
+  const DecodeFields stated = decodeFields(geometry);
+  const auto areEqual = [&](const Vec3d& a, const Vec3d& b) {
+    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}) <= 4 * exact * lattice.step;
+  };
+  if (!derived || !areEqual(derived->position, stated.position) || !areEqual(derived->size, stated.size))
+    return {};
+  return Attributes{{"bboxCenter", numbers(center)}, {"bboxSize", numbers(size)}};
+}
+
+Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names,
+                        const std::optional<Attributes>& ownBox) {
   const EncodingRow& row = rowOf(geometry);
   const bool hasElementTypes = row.storage == PatchStorage::arrays;
-  Attributes box = decodeAttributes(geometry);
+  Attributes box = ownBox ? *ownBox : decodeAttributes(geometry);
   const bool hasDefaultBits = row.storage == PatchStorage::packed && geometry.lattice.bits == packedPositionBits;
   if (!hasDefaultBits &&
       (!hasElementTypes || geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   addUnless(box, "solid", solid, true, "false");
   Attributes fields;
-  if (!row.node.isDefaultProfile)
+  if (!row.node.isDefaultProfile && !ownBox)
     fields = {{"profile", row.node.profile}};
   if (hasElementTypes) {
     fields = {{"indexType", nameOf(geometry.indexType)}, {"coordType", nameOf(geometry.coordType)}};

@@ -4,6 +4,7 @@
 #include "containers/geometry_description.h"
 #include "documents/element_writer.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,14 @@ bool isSinglePatch(const GeometryDescription& geometry);
 /// "normalType" ...: the field for the element type of a vertex attribute.
 std::string typeFieldOf(VertexRole role);
 
-/// The geometry's element without its patches. `names` is its DEF, if any.
-Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
+/// The box of a compact geometry of one patch as fields of its own, from which readers derive its lattice, so that
+/// `position` and `size` are not needed. Empty where the box does not give the lattice.
+std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry);
+
+/// The geometry's element without its patches. `names` is its DEF, if any. `box`, of boxWithLattice(), replaces
+/// `position`, `size` and `profile`.
+Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names,
+                        const std::optional<Attributes>& box = {});
 /// The FloatVertexAttribute element of a named attribute.
 Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding);
 /// The GeometryPatch element of a patch; not for isSinglePatch() geometries.

@@ -206,7 +206,11 @@ Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry
   if (!canHoldLattice)
     fields.fail(ErrorKind::malformed,
                 "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
-  const DecodeFields box{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})};
+  const std::optional<DecodeFields> cube =
+      storage == PatchStorage::packed && !fields.has("position") && !fields.has("size") ? quantizationCube(fields.box())
+                                                                                        : std::nullopt;
+  const DecodeFields box =
+      cube.value_or(DecodeFields{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})});
   if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
   return imgeo::latticeOf(box, geometry.encoding, geometry.coordType, bits);
@@ -220,7 +224,10 @@ Encoding encodingOf(const FieldReader& fields) {
     if (!equalIgnoringCase(fields.node().name(), node.name))
       continue;
     const bool hasNoProfile = *node.profile == '\0';
-    if (hasNoProfile || (profile.empty() ? node.isDefaultProfile : equalIgnoringCase(profile, node.profile)))
+    if (profile.empty() && row->storage == PatchStorage::packed && fields.has("data"))
+      return row->encoding; // no other encoding has `data`
+    const bool isDefault = node.isDefaultProfile && !fields.has("data");
+    if (hasNoProfile || (profile.empty() ? isDefault : equalIgnoringCase(profile, node.profile)))
       return row->encoding;
   }
   fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");

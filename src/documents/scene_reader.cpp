@@ -274,6 +274,8 @@ private:
     geometry.box = shape.box();
     const bool hasPatches = std::ranges::any_of(
         fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });
+    if (!hasPatches && geometry.box.empty())
+      geometry.box = geometry.patches[0].box;
     if (!hasPatches)
       geometry.patches[0].box = geometry.box;
     // In documents for X3DOM each patch is a Shape of its own.

@@ -59,9 +59,22 @@ Attributes SceneWriter::Names::defOrUse(std::size_t index) {
   return {{wasWritten ? "USE" : "DEF", names_[index]}};
 }
 
+namespace {
+
+/// Documents of more nodes are for programs to read: their indentation would be a fifth of the text.
+constexpr std::size_t maxReadableNodes = 10'000;
+
+TextLayout layoutOf(const SceneGraph& graph, DocumentKind kind) {
+  if (graph.nodes.size() <= maxReadableNodes)
+    return TextLayout::readable;
+  return kind == DocumentKind::file ? TextLayout::denseXml : TextLayout::dense;
+}
+
+} // namespace
+
 SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
                          std::optional<std::size_t> inlineNode)
-    : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
+    : document_(document), writer_(level, layoutOf(document.graph, kind)), nodeNames_(document.graph.nodes.size()),
       appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
       roots_(inlineNode ? document.graph.nodes.at(*inlineNode).children : document.graph.roots),
       head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head), kind_(kind),
@@ -281,7 +294,7 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
   const Attributes names = geometryNames_.defOrUse(2 * shape.mesh + !shape.solid);
   if (isUse(names))
     return writer_.leaf({rowOf(geometry).node.name, {names}});
-  const Element node = geometryElement(geometry, shape.solid, names);
+  const Element node = geometryElement(geometry, shape.solid, names, boxInGeometry(geometry));
   const bool hasPatchElements = !isSinglePatch(geometry);
   if (geometry.attributes.empty() && !hasPatchElements)
     return writer_.leaf(node);
@@ -293,10 +306,17 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
   writer_.close(node);
 }
 
+/// The box where the geometry's element has it, instead of the Shape: in dense documents.
+std::optional<Attributes> SceneWriter::boxInGeometry(const GeometryDescription& geometry) const {
+  return writer_.layout() == TextLayout::readable ? std::nullopt : boxWithLattice(geometry);
+}
+
 void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   const Shape& shape = std::get<Shape>(node.content);
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
-  const Element element{"Shape", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
+  Element element{"Shape", {names, furtherFields(node)}};
+  if (!boxInGeometry(geometry))
+    element.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
   writer_.open(element);
   writeChildren(node);
   writeAppearanceOf(shape);

@@ -71,6 +71,7 @@ private:
   void writeNode(std::size_t index);
   void writeAppearanceOf(const Shape& shape);
   void writeGeometryOf(const Shape& shape);
+  std::optional<Attributes> boxInGeometry(const GeometryDescription& geometry) const;
 
   const std::vector<std::size_t>& roots_;
   const DocumentHead& head_;

@@ -7,6 +7,7 @@
 #include "import/x3d/inlines.h"
 #include "import/x3d/node_conversions.h"
 #include "import/x3d/prototypes.h"
+#include "import/x3d/shared_appearances.h"
 #include "import/x3d/summary.h"
 #include "scene/mf_string.h"
 
@@ -435,6 +436,7 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
   if (options.strict && !prototypes.failures.empty())
     throw Error(ErrorKind::unsupported, name, prototypes.failures[0]);
   const NodeConversions conversions = convertNodes(elements);
+  const std::size_t sharedAppearances = shareAppearances(elements);
   const std::string format = elements.format;
   std::vector<std::string> warnings = std::move(elements.warnings);
   const Source source(std::move(elements), asText(bytes), name);
@@ -447,6 +449,10 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
     imported.warnings.push_back(fmt::format("{} of {} written out as the nodes that they stand for.",
                                             counted(prototypes.instances, "instance", "instances"),
                                             counted(prototypes.prototypes, "prototype is", "prototypes are")));
+  if (sharedAppearances > 0)
+    imported.warnings.push_back(fmt::format("{} of an equal one: the scene has more than {} shapes.",
+                                            counted(sharedAppearances, "Appearance is a USE", "Appearances are USEs"),
+                                            maxShapesWithOwnAppearance));
   warnOfElements(imported.warnings, "Left out of prototypes", prototypes.leftOut);
   warnOfElements(imported.warnings, "Written as other nodes", conversions.converted);
   warnOfElements(imported.warnings, "Left out of materials", conversions.leftOut);

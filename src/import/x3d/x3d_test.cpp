@@ -459,5 +459,26 @@ TEST(X3d, RefusesEntitiesAndCycles) {
   EXPECT_EQ(circle.warnings.size(), 1u);
 }
 
+TEST(X3d, SharesEqualAppearancesOfLargeScenes) {
+  const auto sceneOf = [](std::size_t shapes) {
+    std::string scene = "<X3D><Scene><Shape DEF='Appearance'><Appearance DEF='Mine'><Material/></Appearance></Shape>";
+    for (std::size_t i = 1; i < shapes; ++i)
+      scene += i % 2 == 0 ? "<Shape><Appearance><Material/></Appearance><Box/></Shape>"
+                          : "<Shape><Appearance><Material shininess='1'/></Appearance><Box/></Shape>";
+    return importBytes(asBytes(scene + "</Scene></X3D>"), "a.x3d");
+  };
+  const auto countOf = [](const Imported& imported, std::string_view element) {
+    return std::ranges::count_if(imported.scene.graph.nodes, [&](const Node& node) {
+      const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+      return generic && generic->element == element;
+    });
+  };
+  EXPECT_EQ(countOf(sceneOf(10'000), "Appearance"), 10'000) << "small scenes keep what their authors wrote";
+  const Imported large = sceneOf(10'001);
+  EXPECT_EQ(countOf(large, "Appearance"), 3) << "the one with a DEF stays its own";
+  EXPECT_EQ(countOf(large, "Material"), 3);
+  EXPECT_EQ(large.warnings.at(0), "9998 Appearances are USEs of an equal one: the scene has more than 10000 shapes.");
+}
+
 } // namespace
 } // namespace imgeo

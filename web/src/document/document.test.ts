@@ -50,6 +50,22 @@ const patches = `
     <GeometryPatch bboxCenter="1 2 3" bboxSize="1 2 1" recordCount="4" primType="LINESTRIP" vertexCount="4" coord="c.png"/>
   </ImageGeometry>`;
 
+describe("a compact geometry with neither position nor size", () => {
+  const data = 'bboxCenter="3 5 0.5" bboxSize="4 2 1" recordCount="4" vertexCount="6" data="a.png#3"';
+
+  test("has the cube over the longest edge of its box, and profile compact", () => {
+    const { encoding, position, size, patches: read } = geometryOf(`<ImageGeometry ${data}/>`);
+    assert.deepEqual({ encoding, position, size }, { encoding: "compact", position: [3, 6, 2], size: [4, 4, 4] });
+    assert.deepEqual(read[0]?.data, { url: "a.png", patchIndex: 3 });
+    assert.deepEqual(read[0].box, { min: [1, 4, 0], max: [5, 6, 1] });
+  });
+
+  test("has the defaults where it has a size or no box", () => {
+    assert.deepEqual(geometryOf(`<ImageGeometry ${data} size="8 8 8"/>`).position, [0, 0, 0]);
+    assert.deepEqual(geometryOf('<ImageGeometry data="a.png"/>').size, [1, 1, 1]);
+  });
+});
+
 describe("a field", () => {
   test("is found case-insensitively, as HTML and XML write it", () => {
     for (const markup of [

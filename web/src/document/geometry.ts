@@ -22,7 +22,7 @@ import { byVertexRole, byVertexRoleWith, vertexRoles } from "../stage/attributeR
 import { readAttributes } from "./attributes.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
-import { childrenOf, lowerNameOf } from "./element.ts";
+import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -31,13 +31,16 @@ type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
 export function readImageGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
-  const encoding = choiceOf(element, "profile", values.profile, imageProfiles, "classic", warnings);
+  // Only compact has `data`; documents of many small shapes leave the profile out.
+  const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
+  const encoding = choiceOf(element, "profile", profile, imageProfiles, "classic", warnings);
   const { hasBase, hasGrids } = encodingFormats[encoding];
   const mode = hasGrids
     ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
     : "sig";
   return {
     ...commonFieldsOf(element, values, warnings),
+    ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
     attributes: readAttributes(element, encoding, warnings),
     encoding,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
@@ -48,6 +51,19 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
     patches: readPatches(element, encoding, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
+}
+
+/**
+ * The quantization box of a compact geometry with neither `position` nor `size`: the cube over the longest edge of its
+ * own box, from the box's minimum. Undefined where it has no box. src/documents/geometry_reader.cpp does the same.
+ */
+function quantizationCubeOf(element: SceneElement): { position: Vec3; size: Vec3 } | undefined {
+  if (attributeOf(element, "position") !== undefined || attributeOf(element, "size") !== undefined) return undefined;
+  const { bboxCenter, bboxSize } = readFields(element, nodeFields.GeometryPatch, []);
+  const edge = Math.max(...bboxSize);
+  if (!(edge > 0) || bboxSize.some((extent) => extent < 0)) return undefined;
+  const along = (axis: 0 | 1 | 2) => bboxCenter[axis] - bboxSize[axis] / 2 + edge / 2;
+  return { position: [along(0), along(1), along(2)], size: [edge, edge, edge] };
 }
 
 export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
