@@ -24,15 +24,15 @@ std::vector<pugi::xml_node> elementsOf(pugi::xml_node parent) {
   return elements;
 }
 
-bool contains(std::span<const std::string_view> names, std::string_view name) {
+bool isOneOf(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-bool isTexture(std::string_view element) {
+bool isTextureNode(std::string_view element) {
   return element == "ImageTexture" || element == "PixelTexture" || element == "MultiTexture";
 }
 
-bool isMaterial(std::string_view element) {
+bool isMaterialNode(std::string_view element) {
   return element == "Material" || element == "PhysicalMaterial" || element == "UnlitMaterial" ||
          element == "TwoSidedMaterial";
 }
@@ -155,7 +155,7 @@ private:
                                       "skinBindingCoords"sv,
                                       "skinBindingNormals"sv};
     for (const pugi::xml_node& child : elementsOf(humanoid))
-      if (contains(lists, child.attribute("containerField").value()) || !isChildNode(child))
+      if (isOneOf(lists, child.attribute("containerField").value()) || !isChildNode(child))
         takeOut(child);
     makeTransform(humanoid);
   }
@@ -170,7 +170,7 @@ private:
   /// Whether an element can be a child of a group.
   static bool isChildNode(pugi::xml_node element) {
     static constexpr std::array others{"Coordinate"sv, "Normal"sv, "HAnimDisplacer"sv};
-    return !contains(others, element.name());
+    return !isOneOf(others, element.name());
   }
 
   void convertTwoSidedMaterial(pugi::xml_node material) {
@@ -184,7 +184,7 @@ private:
   /// the place of the Material beside it.
   void convertSurfaceShader(pugi::xml_node shader) {
     for (const pugi::xml_node& sibling : elementsOf(shader.parent()))
-      if (sibling != shader && isMaterial(sibling.name()))
+      if (sibling != shader && isMaterialNode(sibling.name()))
         takeOut(sibling);
     rename(shader, "Material");
     if (shader.attribute("USE"))
@@ -204,7 +204,7 @@ private:
   static bool isFieldOfMaterial(std::string_view field) {
     static constexpr std::array fields{"DEF"sv,           "ambientIntensity"sv, "diffuseColor"sv, "emissiveColor"sv,
                                        "specularColor"sv, "shininess"sv,        "transparency"sv};
-    return contains(fields, field) || field.ends_with("Mapping");
+    return isOneOf(fields, field) || field.ends_with("Mapping");
   }
 
   static void convertSurfaceFactors(pugi::xml_node shader) {
@@ -227,9 +227,9 @@ private:
     for (const pugi::xml_node& child : elementsOf(shader)) {
       const std::string field = child.attribute("containerField").value();
       const std::string_view element = child.name();
-      if (element != "SurfaceShaderTexture" && !isTexture(element))
+      if (element != "SurfaceShaderTexture" && !isTextureNode(element))
         continue;
-      if (!contains(roles, field)) {
+      if (!isOneOf(roles, field)) {
         ++result_.leftOut[fmt::format("the {} of CommonSurfaceShader", field.empty() ? "texture" : field)];
         takeOut(child);
       } else if (element == "SurfaceShaderTexture") {
@@ -241,7 +241,7 @@ private:
   /// Puts the texture within a SurfaceShaderTexture into the field of the SurfaceShaderTexture.
   void unwrapTexture(pugi::xml_node material, pugi::xml_node wrapper, const std::string& field) {
     for (pugi::xml_node child : elementsOf(wrapper))
-      if (isTexture(child.name())) {
+      if (isTextureNode(child.name())) {
         setField(child, "containerField", field);
         material.append_move(child);
       } else if (std::string_view(child.name()) == "TextureTransform" && !child.attribute("USE")) {

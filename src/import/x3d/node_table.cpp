@@ -301,7 +301,7 @@ constexpr NodeRow nodesOfOthers[] = {
 
 };
 
-constexpr NodeRow statements[] = {
+constexpr NodeRow statementRows[] = {
     {"EXPORT", "statement", 0, "children", kept, animates},
     {"ExternProtoDeclare", "statement", 0, "children", converted, asExpanded},
     {"IMPORT", "statement", 0, "children", kept, animates},
@@ -324,16 +324,16 @@ constexpr NodeRow statements[] = {
 
 static_assert(std::ranges::is_sorted(x3dNodes, {}, &NodeRow::name));
 static_assert(std::ranges::is_sorted(nodesOfOthers, {}, &NodeRow::name));
-static_assert(std::ranges::is_sorted(statements, {}, &NodeRow::name));
+static_assert(std::ranges::is_sorted(statementRows, {}, &NodeRow::name));
 
-constexpr auto rows = [] {
-  std::array<NodeRow, std::size(x3dNodes) + std::size(nodesOfOthers) + std::size(statements)> all;
+constexpr auto nodeRows = [] {
+  std::array<NodeRow, std::size(x3dNodes) + std::size(nodesOfOthers) + std::size(statementRows)> all;
   const auto end = std::ranges::copy(nodesOfOthers, std::ranges::copy(x3dNodes, all.begin()).out).out;
-  std::ranges::copy(statements, end);
+  std::ranges::copy(statementRows, end);
   return all;
 }();
 
-const NodeRow* find(std::span<const NodeRow> sorted, std::string_view element) {
+const NodeRow* rowIn(std::span<const NodeRow> sorted, std::string_view element) {
   const auto found = std::ranges::lower_bound(sorted, element, {}, &NodeRow::name);
   return found == sorted.end() || found->name != element ? nullptr : &*found;
 }
@@ -341,14 +341,14 @@ const NodeRow* find(std::span<const NodeRow> sorted, std::string_view element) {
 } // namespace
 
 std::span<const NodeRow> nodeTable() {
-  return rows;
+  return nodeRows;
 }
 
 const NodeRow* nodeRow(std::string_view element) {
   for (const std::span<const NodeRow> sorted :
        {std::span<const NodeRow>(x3dNodes), std::span<const NodeRow>(nodesOfOthers),
-        std::span<const NodeRow>(statements)})
-    if (const NodeRow* row = find(sorted, element))
+        std::span<const NodeRow>(statementRows)})
+    if (const NodeRow* row = rowIn(sorted, element))
       return row;
   return nullptr;
 }

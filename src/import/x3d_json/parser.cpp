@@ -18,9 +18,9 @@ namespace imgeo::x3d {
 
 namespace {
 
-using Json = nlohmann::json;
+using JsonLibrary = nlohmann::json;
 
-constexpr std::size_t maxDepth = 200; ///< of nested elements
+constexpr std::size_t maxJsonNesting = 200; ///< of nested elements
 
 /// Reads characters for nlohmann's parser and tells where it is: its events have no positions.
 class CountingIterator {
@@ -46,7 +46,7 @@ private:
   const char** shared_; ///< the position after the last character that was read
 };
 
-enum class FrameKind {
+enum class JsonFrameKind {
   file,       ///< the object of the whole file
   element,    ///< the object of an element: its keys are fields and statements
   nodes,      ///< an object of the form {"Shape": {…}}
@@ -58,8 +58,8 @@ enum class FrameKind {
 };
 
 /// An object or array that has begun and not ended.
-struct Frame {
-  FrameKind kind = FrameKind::ignored;
+struct JsonFrame {
+  JsonFrameKind kind = JsonFrameKind::ignored;
   pugi::xml_node element;            ///< that contains what is read
   std::string name;                  ///< of the field that holds nodes, of the statements, or of the field of values
   std::vector<std::string> values{}; ///< texts of values
@@ -67,7 +67,7 @@ struct Frame {
 };
 
 /// Receives the events of nlohmann's parser.
-class JsonEvents : public Json::json_sax_t {
+class JsonEvents : public JsonLibrary::json_sax_t {
 public:
   JsonEvents(std::string_view text, const std::string& name) : text_(text), name_(name), at_(text.data()) {
     elements_.format = "X3D JSON";
@@ -92,7 +92,7 @@ public:
   }
 
   bool start_object(std::size_t) override {
-    push(frames_.empty() ? Frame{FrameKind::file, elements_.document, {}} : objectIn(frames_.back()));
+    push(frames_.empty() ? JsonFrame{JsonFrameKind::file, elements_.document, {}} : objectIn(frames_.back()));
     return true;
   }
 
@@ -109,14 +109,15 @@ public:
   }
 
   bool end_array() override {
-    const Frame frame = std::move(frames_.back());
+    const JsonFrame frame = std::move(frames_.back());
     pop();
-    if (frame.kind == FrameKind::lines)
+    if (frame.kind == JsonFrameKind::lines)
       addText(frame.element, frame.name, fmt::format("{}", fmt::join(frame.values, "\n")));
-    if (frame.kind != FrameKind::values)
+    if (frame.kind != JsonFrameKind::values)
       return true;
-    if (!frames_.empty() && frames_.back().kind == FrameKind::values) { // a list within a list: their values in a row
-      Frame& outer = frames_.back();
+    if (!frames_.empty() &&
+        frames_.back().kind == JsonFrameKind::values) { // a list within a list: their values in a row
+      JsonFrame& outer = frames_.back();
       std::ranges::copy(frame.values, std::back_inserter(outer.values));
       outer.hasStrings |= frame.hasStrings;
     } else {
@@ -126,7 +127,7 @@ public:
     return true;
   }
 
-  bool parse_error(std::size_t byte, const std::string&, const Json::exception& error) override {
+  bool parse_error(std::size_t byte, const std::string&, const JsonLibrary::exception& error) override {
     keyOffset_ = std::min(byte - std::min<std::size_t>(byte, 1), text_.size());
     // nlohmann's error 406: a number out of range.
     fail(ErrorKind::malformed,
@@ -140,62 +141,62 @@ private:
     throw Error(kind, locationOf(text_, name_, keyOffset_), message);
   }
 
-  void push(Frame frame) {
-    elementDepth_ += frame.kind == FrameKind::element;
-    if (elementDepth_ > maxDepth || frames_.size() > 4 * maxDepth)
+  void push(JsonFrame frame) {
+    elementDepth_ += frame.kind == JsonFrameKind::element;
+    if (elementDepth_ > maxJsonNesting || frames_.size() > 4 * maxJsonNesting)
       fail(ErrorKind::limit, "its JSON is nested too deeply");
     frames_.push_back(std::move(frame));
   }
 
   void pop() {
-    elementDepth_ -= frames_.back().kind == FrameKind::element;
+    elementDepth_ -= frames_.back().kind == JsonFrameKind::element;
     frames_.pop_back();
   }
 
   /// What an object is that begins in `outer`, after key_ where that is an object.
-  Frame objectIn(const Frame& outer) {
+  JsonFrame objectIn(const JsonFrame& outer) {
     switch (outer.kind) {
-    case FrameKind::file:
-      return key_ == "X3D" ? Frame{FrameKind::element, add(outer.element, key_, ""), {}} : Frame{};
-    case FrameKind::element:
+    case JsonFrameKind::file:
+      return key_ == "X3D" ? JsonFrame{JsonFrameKind::element, add(outer.element, key_, ""), {}} : JsonFrame{};
+    case JsonFrameKind::element:
       if (key_.starts_with('-'))
-        return {FrameKind::nodes, outer.element, key_.substr(1)};
+        return {JsonFrameKind::nodes, outer.element, key_.substr(1)};
       if (key_.starts_with('@'))
         fail(ErrorKind::malformed, fmt::format("the field \"{}\" holds an object", asPrintable(key_)));
-      return key_.starts_with('#') ? Frame{} : Frame{FrameKind::element, add(outer.element, key_, ""), {}};
-    case FrameKind::nodes:
-      return {FrameKind::element, add(outer.element, key_, outer.name), {}};
-    case FrameKind::nodeList:
-      return {FrameKind::nodes, outer.element, outer.name};
-    case FrameKind::statements:
-      return {FrameKind::element, add(outer.element, outer.name, ""), {}};
-    case FrameKind::values:
-    case FrameKind::lines:
+      return key_.starts_with('#') ? JsonFrame{} : JsonFrame{JsonFrameKind::element, add(outer.element, key_, ""), {}};
+    case JsonFrameKind::nodes:
+      return {JsonFrameKind::element, add(outer.element, key_, outer.name), {}};
+    case JsonFrameKind::nodeList:
+      return {JsonFrameKind::nodes, outer.element, outer.name};
+    case JsonFrameKind::statements:
+      return {JsonFrameKind::element, add(outer.element, outer.name, ""), {}};
+    case JsonFrameKind::values:
+    case JsonFrameKind::lines:
       fail(ErrorKind::malformed, fmt::format("the field \"{}\" holds an object", asPrintable(outer.name)));
-    case FrameKind::ignored:
+    case JsonFrameKind::ignored:
       break;
     }
     return {};
   }
 
-  Frame arrayIn(const Frame& outer) {
+  JsonFrame arrayIn(const JsonFrame& outer) {
     switch (outer.kind) {
-    case FrameKind::element:
+    case JsonFrameKind::element:
       if (key_.starts_with('-'))
-        return {FrameKind::nodeList, outer.element, key_.substr(1)};
+        return {JsonFrameKind::nodeList, outer.element, key_.substr(1)};
       if (key_.starts_with('@'))
-        return {FrameKind::values, outer.element, key_.substr(1)};
-      return {key_.starts_with('#') ? FrameKind::lines : FrameKind::statements, outer.element, key_};
-    case FrameKind::nodes:
-      return {key_.starts_with('#') ? FrameKind::lines : FrameKind::statements, outer.element, key_};
-    case FrameKind::statements: // values, as it turns out
-    case FrameKind::values:
-      return {FrameKind::values, outer.element, outer.name};
-    case FrameKind::nodeList:
-      return {FrameKind::nodeList, outer.element, outer.name};
-    case FrameKind::file:
-    case FrameKind::lines:
-    case FrameKind::ignored:
+        return {JsonFrameKind::values, outer.element, key_.substr(1)};
+      return {key_.starts_with('#') ? JsonFrameKind::lines : JsonFrameKind::statements, outer.element, key_};
+    case JsonFrameKind::nodes:
+      return {key_.starts_with('#') ? JsonFrameKind::lines : JsonFrameKind::statements, outer.element, key_};
+    case JsonFrameKind::statements: // values, as it turns out
+    case JsonFrameKind::values:
+      return {JsonFrameKind::values, outer.element, outer.name};
+    case JsonFrameKind::nodeList:
+      return {JsonFrameKind::nodeList, outer.element, outer.name};
+    case JsonFrameKind::file:
+    case JsonFrameKind::lines:
+    case JsonFrameKind::ignored:
       break;
     }
     return {};
@@ -204,15 +205,15 @@ private:
   bool addValue(const std::string& value, bool isString) {
     if (frames_.empty())
       fail(ErrorKind::malformed, "its JSON is no object");
-    Frame& frame = frames_.back();
-    if (frame.kind == FrameKind::statements)
-      frame.kind = FrameKind::values; // a field without its @
-    if (frame.kind == FrameKind::values || frame.kind == FrameKind::lines) {
+    JsonFrame& frame = frames_.back();
+    if (frame.kind == JsonFrameKind::statements)
+      frame.kind = JsonFrameKind::values; // a field without its @
+    if (frame.kind == JsonFrameKind::values || frame.kind == JsonFrameKind::lines) {
       frame.values.push_back(value);
       frame.hasStrings |= isString;
-    } else if (frame.kind == FrameKind::nodes && key_.starts_with('#')) {
+    } else if (frame.kind == JsonFrameKind::nodes && key_.starts_with('#')) {
       addText(frame.element, key_, value);
-    } else if (frame.kind == FrameKind::element) {
+    } else if (frame.kind == JsonFrameKind::element) {
       if (key_.starts_with('#'))
         addText(frame.element, key_, value);
       else if (frame.element != elements_.root() || key_.starts_with('@')) // "encoding", "JSON schema"
@@ -255,7 +256,7 @@ private:
   const std::string& name_;
   const char* at_; ///< the position after the last character that was read
   Elements elements_;
-  std::vector<Frame> frames_;
+  std::vector<JsonFrame> frames_;
   std::string key_;
   std::size_t keyOffset_ = 0; ///< where the last key begins
   std::size_t elementDepth_ = 0;
@@ -265,7 +266,7 @@ private:
 
 Elements parseX3dJson(std::string_view text, const std::string& name) {
   JsonEvents events(text, name);
-  Json::sax_parse(events.begin(), events.end(), &events);
+  JsonLibrary::sax_parse(events.begin(), events.end(), &events);
   Elements elements = events.take();
   if (std::string_view(elements.root().name()) != "X3D")
     throw Error(ErrorKind::malformed, name, "is JSON, but has no object \"X3D\"");
