@@ -55,9 +55,11 @@ double average(const std::vector<double>& color) {
 }
 
 /// The numbers of a field; `fallback` where there are fewer numbers than it has.
-std::vector<double> numbersOf(pugi::xml_node element, const char* field, std::vector<double> fallback) {
+std::vector<double> numbersOf(pugi::xml_node element, const char* field, const std::vector<double>& fallback) {
   std::optional<std::vector<double>> values = parseReals(element.attribute(field).value());
-  return values && values->size() >= fallback.size() ? std::move(*values) : fallback;
+  if (!values || values->size() < fallback.size())
+    return fallback;
+  return std::move(*values);
 }
 
 class NodeConverter {
