@@ -111,7 +111,7 @@ Surface closedAlongV(Surface surface) {
   return surface;
 }
 
-Surface closedAlongU(Surface surface) {
+Surface closedAlongU(const Surface& surface) {
   return transposed(closedAlongV(transposed(surface)));
 }
 

@@ -45,7 +45,7 @@ Curve polyline(const std::vector<Vec3d>& points);
 /// is continued periodically, so that it closes smoothly. Any other curve is returned as it is.
 Curve closed(Curve curve);
 /// The same for a surface in the direction of u (uClosed) and of v (vClosed).
-Surface closedAlongU(Surface surface);
+Surface closedAlongU(const Surface& surface);
 Surface closedAlongV(Surface surface);
 
 } // namespace imgeo::nurbs

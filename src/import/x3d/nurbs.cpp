@@ -173,7 +173,7 @@ private:
     Surface surface{fields_.basis("uOrder", "uKnot", columns, repeatsU),
                     fields_.basis("vOrder", "vKnot", rows, repeatsV), fields_.weighted(points)};
     if (repeatsU)
-      surface = nurbs::closedAlongU(std::move(surface));
+      surface = nurbs::closedAlongU(surface);
     return repeatsV ? nurbs::closedAlongV(std::move(surface)) : surface;
   }
 
