@@ -20,6 +20,7 @@ import { AutoRotation } from "./autoRotation.ts";
 import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
 import { WalkController } from "./walkController.ts";
+import { SurfaceAhead } from "./surfaceAhead.ts";
 
 /** The data of a scene that the camera depends on. */
 export interface NavigatedScene {
@@ -43,6 +44,7 @@ export class CameraController {
   readonly #onNavigation: () => void;
   readonly #viewpoints = new BindingStack<SceneElement>();
   readonly #walk = new WalkController();
+  readonly #surfaceAhead = new SurfaceAhead();
   #scene: NavigatedScene | undefined;
   #home = poseFraming(new Sphere(new Vector3(), 1));
   #homeKey = "";
@@ -164,10 +166,14 @@ export class CameraController {
     }
   }
 
-  /** Multiplies the distance to the center; WALK and FLY move ahead instead. */
+  /**
+   * Multiplies the distance to the center, as far as no surface is in between; WALK and FLY move ahead instead. Where
+   * it is not known yet what is ahead, the rest of the way follows when the renderer has found it.
+   */
   zoom(factor: number): void {
-    if (this.#type === "examine") this.#moveTo(zoomPose(this.#pose, factor, this.#sphere));
-    else this.#step(-Math.log(factor) * this.#speed, 0, 0);
+    if (this.#type !== "examine") this.#step(-Math.log(factor) * this.#speed, 0, 0);
+    else
+      this.#moveTo(this.#surfaceAhead.approach(this.#pose, zoomPose(this.#pose, factor, this.#sphere), this.#sphere));
   }
 
   /** Moves the scene with the pointer, by fractions of the view's shorter side. */
@@ -225,6 +231,17 @@ export class CameraController {
 
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void {
     this.#walk.addGroundSamples(camera, samples);
+  }
+
+  /** The pose whose surface at the center the renderer is to find; undefined if none is needed. */
+  get surfaceSearch(): Pose | undefined {
+    return this.#type === "examine" ? this.#surfaceAhead.takeSearch(this.#pose) : undefined;
+  }
+
+  /** The distance of the surface that a pose shows at its center; Infinity if it shows none there. */
+  addSurfaceAhead(pose: Pose, distance: number): void {
+    const rest = this.#surfaceAhead.found(pose, distance, this.#pose);
+    if (rest < 1 && this.#type === "examine") this.zoom(rest);
   }
 
   /** Whether the next frame differs from the last without further input. */

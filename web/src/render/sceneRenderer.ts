@@ -101,6 +101,8 @@ export class SceneRenderer {
   readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
   #frames = 0;
+  /** Whether a pick for the camera controller is under way. */
+  #isSearching = false;
   #drawCalls = 0;
   #frameRequest = 0;
   #readsTextures: Promise<boolean> | undefined;
@@ -399,7 +401,26 @@ export class SceneRenderer {
     this.#frames += 1;
     this.#onFrame();
     void this.#sampleGround();
+    void this.#searchSurface();
     if (this.#cameraController.isMoving) this.requestFrame();
+  }
+
+  /** Picks the surface at the camera's center, if the camera controller needs to know its distance. */
+  async #searchSurface(): Promise<void> {
+    const pose = this.#isSearching ? undefined : this.#cameraController.surfaceSearch;
+    if (pose === undefined) return;
+    const center = pose.center.clone().project(this.#drawnCamera);
+    const isVisible = Math.abs(center.x) < 1 && Math.abs(center.y) < 1 && Math.abs(center.z) < 1;
+    const { width, height } = this.#size;
+    this.#isSearching = true;
+    try {
+      const hit = isVisible
+        ? await this.pickAsync(Math.floor(((1 + center.x) / 2) * width), Math.floor(((1 - center.y) / 2) * height))
+        : undefined;
+      this.#cameraController.addSurfaceAhead(pose, hit?.position.distanceTo(pose.position) ?? Infinity);
+    } finally {
+      this.#isSearching = false;
+    }
   }
 
   /**

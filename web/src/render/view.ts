@@ -26,4 +26,8 @@ export interface CameraController {
   /** The camera of the depth images that the controller needs; undefined if it needs none. */
   readonly depthCamera: DepthCamera | undefined;
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void;
+  /** The pose of the last frame, if the controller needs to know the surface at its center. */
+  readonly surfaceSearch: Pose | undefined;
+  /** The distance from a pose to the surface at its center, Infinity where there is none. */
+  addSurfaceAhead(pose: Pose, distance: number): void;
 }
