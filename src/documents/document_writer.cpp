@@ -71,15 +71,32 @@ std::string link(const char* relation, const std::string& url, const std::string
   return std::string("    <link rel=\"") + relation + "\"" + attributes + " href=" + quoteAttribute(url) + ">\n";
 }
 
+/// Open Graph's properties (https://ogp.me) of the picture that previews of links show, and the icon.
+std::string pictureLines(const PagePictures& pictures, const std::string& title) {
+  const auto property = [](const char* name, const std::string& value) {
+    return std::string("    <meta property=\"") + name + "\" content=" + quoteAttribute(value) + ">\n";
+  };
+  std::string lines;
+  if (!pictures.iconUrl.empty())
+    lines += link("icon", pictures.iconUrl, " type=\"image/png\"");
+  if (!pictures.pictureUrl.empty())
+    lines += property("og:title", title) + property("og:type", "website") + property("og:image", pictures.pictureUrl) +
+             property("og:image:width", "1200") + property("og:image:height", "630") +
+             "    <meta name=\"twitter:card\" content=\"summary_large_image\">\n";
+  return lines;
+}
+
 /// The text of a page. `head` and `x3d` are whole lines.
-std::string page(const SceneDocument& document, const std::string& head, const std::string& x3d) {
+std::string page(const SceneDocument& document, const std::string& head, const PagePictures& pictures,
+                 const std::string& x3d) {
+  const std::string title = document.graph.title.empty() ? "imgeo" : document.graph.title;
   return "<!doctype html>\n"
          "<html lang=\"en\">\n"
          "  <head>\n"
          "    <meta charset=\"utf-8\">\n"
          "    <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "    <title>" +
-         escapeText(document.graph.title.empty() ? "imgeo" : document.graph.title) + "</title>\n" + head +
+         escapeText(title) + "</title>\n" + head + pictureLines(pictures, title) +
          "  </head>\n"
          "  <body>\n"
          "    <noscript>This page shows a 3D model and needs JavaScript to draw it.</noscript>\n" +
@@ -115,7 +132,7 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";
-  return page(document, head, SceneWriter(document, 2, DocumentKind::page).write());
+  return page(document, head, options.pictures, SceneWriter(document, 2, DocumentKind::page).write());
 }
 
 std::string writeX3domX3d(const SceneDocument& document) {
@@ -126,14 +143,15 @@ std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inli
   return xmlDeclaration + x3domElement(document, 0, DocumentKind::file, inlineNode);
 }
 
-std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl) {
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl,
+                           const PagePictures& pictures) {
   const auto integrityAttributes = [](const std::string& sum) {
     return sum.empty() ? "" : " integrity=" + quoteAttribute(sum) + " crossorigin=\"anonymous\"";
   };
   const std::string head = link("stylesheet", x3dom.stylesheetUrl, integrityAttributes(x3dom.stylesheetIntegrity)) +
                            link("stylesheet", stylesheetUrl) + "    <script src=" + quoteAttribute(x3dom.scriptUrl) +
                            integrityAttributes(x3dom.scriptIntegrity) + "></script>\n";
-  return page(document, head, x3domElement(document, 2, DocumentKind::page));
+  return page(document, head, pictures, x3domElement(document, 2, DocumentKind::page));
 }
 
 std::string_view pageStylesheet() {

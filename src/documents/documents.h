@@ -19,12 +19,19 @@ struct SceneDocument {
   std::vector<std::string> warnings;
 };
 
+/// Urls of pictures of a page, relative to it. Empty: the page has none.
+struct PagePictures {
+  std::string iconUrl;    ///< for tabs and bookmarks
+  std::string pictureUrl; ///< for previews of links (Open Graph), 1200 x 630 pixels
+};
+
 /// Urls of a page, relative to it.
 struct PageOptions {
   std::string runtimeUrl;                        ///< the runtime's ES module
   std::string stylesheetUrl;                     ///< the page's stylesheet
   std::vector<std::string> eagerModuleUrls{};    ///< modules that the runtime needs at once
   std::vector<std::string> deferredModuleUrls{}; ///< modules that the runtime needs after it has displayed base meshes
+  PagePictures pictures{};
 };
 
 /// `scene.x3d`: the scene as XML, laid out for readability.
@@ -47,7 +54,8 @@ struct X3domFiles {
 /// The same documents for X3DOM (docs/formats/x3dom.md). The containers must have been encoded for X3DOM.
 std::string writeX3domX3d(const SceneDocument& document);
 std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode);
-std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl);
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl,
+                           const PagePictures& pictures = {});
 
 /// The page's stylesheet, with which the scene fills the window.
 std::string_view pageStylesheet();

@@ -203,3 +203,32 @@ describe("labels of hotspots", () => {
     });
   });
 });
+
+test("a converted page brings its icon and its picture for previews of links, and asks for nothing that is not there", async () => {
+  await withPage(siteOfGenerated("trefoil"), {}, async (view) => {
+    await view.promise("complete");
+    const sizes = await view.page.evaluate(async () => {
+      const urls = [
+        document.querySelector<HTMLLinkElement>("link[rel=icon]")!.href,
+        document.querySelector<HTMLMetaElement>("meta[property='og:image']")!.content,
+      ];
+      return Promise.all(
+        urls.map(async (url) => {
+          const image = new Image();
+          image.src = url;
+          await image.decode();
+          return [image.naturalWidth, image.naturalHeight];
+        }),
+      );
+    });
+    assert.deepEqual(sizes, [
+      [64, 64],
+      [1200, 630],
+    ]);
+    assert.deepEqual(
+      view.server.requests.filter(({ status }) => status >= 400),
+      [],
+    );
+    assert.deepEqual(view.errors, []);
+  });
+});

@@ -31,8 +31,8 @@ TEST_F(Convert, ReportsWhatItChose) {
                             "1 of at most 65,535 vertices", "patch", "bytes a triangle", "memory"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "colours are for terminals";
-  EXPECT_EQ(namesIn(site_),
-            (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html", "runtime", "scene.x3d"}));
+  EXPECT_EQ(namesIn(site_), (std::vector<std::string>{"geometry", "icon.png", "imgeo.css", "imgeo.json", "index.html",
+                                                      "picture.png", "runtime", "scene.x3d"}));
 }
 
 TEST_F(Convert, PrintsHowToEmbedTheSiteInAPageBesideItsFolder) {
@@ -342,8 +342,9 @@ TEST_F(Convert, InfoHasItsDocumentedKeysAndConsistentSums) {
     const std::string role = file["role"];
     (role == "document"  ? document
      : role == "runtime" ? runtime
-                         : containers) +=
-        role == "scene" || role == "style" || role == "marker" ? 0 : file["bytes"].get<std::size_t>();
+                         : containers) += role == "scene" || role == "style" || role == "marker" || role == "picture"
+                                              ? 0
+                                              : file["bytes"].get<std::size_t>();
   }
   EXPECT_EQ(info["documentBytes"], document);
   EXPECT_EQ(info["containerBytes"], containers);

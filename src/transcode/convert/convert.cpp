@@ -13,6 +13,7 @@
 #include "transcode/encode/encode_scene.h"
 #include "transcode/encode/textures.h"
 #include "transcode/options/resolve_options.h"
+#include "transcode/picture/write_pictures.h"
 #include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/site/site_pages.h"
@@ -153,6 +154,9 @@ public:
     report_.prepareSeconds = step_.lapSeconds();
   }
 
+  /// Samples the surface for the page's pictures, before the meshes are encoded.
+  void samplePicture() { pictureSamples_ = pictureSamplesOf(scene_); }
+
   void encodeMeshes() {
     reportProgress(0.3, "writing");
     std::size_t elementCount = 0, elementsDone = 0;
@@ -181,13 +185,14 @@ public:
     writeInlinedDocuments(document_, options_.target, site_.path());
     warnOfCollapsed(report_);
     writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest())));
+    const PagePictures pictures = writePictures(document_.graph, pictureSamples_, site_.path());
     if (options_.target == Target::x3dom) {
       const X3domRelease release = x3domReleaseFor(*options_.encoding, options_.x3domUrl);
       report_.x3domVersion = release.version;
       report_.x3domUrl = release.files.scriptUrl;
-      writeX3domPages(document_, release, site_.path());
+      writeX3domPages(document_, release, pictures, site_.path());
     } else {
-      writePages(document_, site_.path());
+      writePages(document_, pictures, site_.path());
     }
   }
 
@@ -240,8 +245,9 @@ private:
   StagedSite site_;
   ConvertReport report_;
   Stopwatch total_, step_;
-  Scene scene_;            ///< until encodeMeshes
-  SceneDocument document_; ///< from encodeMeshes on
+  Scene scene_;                   ///< until encodeMeshes
+  PictureSamples pictureSamples_; ///< from samplePicture on
+  SceneDocument document_;        ///< from encodeMeshes on
 };
 
 } // namespace
@@ -256,6 +262,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   conversion.readSource();
   conversion.resolveOptions();
   conversion.prepareMeshes();
+  conversion.samplePicture();
   conversion.encodeMeshes();
   conversion.completeScene();
   conversion.writeDocuments();

@@ -109,6 +109,9 @@ SiteInfo inspect(const fs::path& site) {
   std::error_code ignored;
   if (document.name == pageName && fs::exists(document.root / sceneName, ignored))
     add(sceneName, "scene");
+  for (const char* name : {iconName, pictureName})
+    if (document.name == pageName && fs::exists(document.root / name, ignored))
+      add(name, "picture");
   if (fs::exists(document.root / manifestName, ignored)) {
     add(manifestName, "marker");
     const SiteManifest manifest =

@@ -16,7 +16,7 @@ bool isSiteFile(const fs::path& file) {
            (folder.empty() && file.extension() == ".x3d"); // a document that an Inline refers to
   if (folder == runtimeFolder)
     return file.filename() == runtimeModuleName;
-  constexpr std::array names{manifestName, pageName, sceneName, stylesheetName};
+  constexpr std::array names{manifestName, pageName, sceneName, stylesheetName, iconName, pictureName};
   return std::ranges::find(names, file) != names.end();
 }
 

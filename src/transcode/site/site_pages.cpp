@@ -38,13 +38,14 @@ void writeInlinedDocuments(SceneDocument& document, Target target, const fs::pat
   }
 }
 
-void writeX3domPages(const SceneDocument& document, const X3domRelease& release, const fs::path& site) {
+void writeX3domPages(const SceneDocument& document, const X3domRelease& release, const PagePictures& pictures,
+                     const fs::path& site) {
   writeFile(site / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site / sceneName, asBytes(writeX3domX3d(document)));
-  writeFile(site / pageName, asBytes(writeX3domHtml(document, release.files, stylesheetName)));
+  writeFile(site / pageName, asBytes(writeX3domHtml(document, release.files, stylesheetName, pictures)));
 }
 
-void writePages(const SceneDocument& document, const fs::path& site) {
+void writePages(const SceneDocument& document, const PagePictures& pictures, const fs::path& site) {
   const Runtime runtime = runtimeOfSite();
   const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
   fs::create_directory(site / runtimeFolder);
@@ -53,9 +54,10 @@ void writePages(const SceneDocument& document, const fs::path& site) {
   writeFile(site / runtimeFolder / runtimeModuleName, asBytes(runtimeModuleText(runtime)));
   writeFile(site / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
-  writeFile(site / pageName,
-            asBytes(writeHtml(document,
-                              {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}})));
+  writeFile(
+      site / pageName,
+      asBytes(writeHtml(
+          document, {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}, pictures})));
 }
 
 } // namespace imgeo

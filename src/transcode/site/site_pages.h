@@ -13,9 +13,10 @@ namespace imgeo {
 void writeInlinedDocuments(SceneDocument& document, Target target, const std::filesystem::path& site);
 
 /// Writes the page, the scene and the stylesheet of a site for X3DOM. The page loads X3DOM instead of our runtime.
-void writeX3domPages(const SceneDocument& document, const X3domRelease& release, const std::filesystem::path& site);
+void writeX3domPages(const SceneDocument& document, const X3domRelease& release, const PagePictures& pictures,
+                     const std::filesystem::path& site);
 
 /// Writes the page, the scene and the stylesheet of a site for our runtime, and the runtime's files.
-void writePages(const SceneDocument& document, const std::filesystem::path& site);
+void writePages(const SceneDocument& document, const PagePictures& pictures, const std::filesystem::path& site);
 
 } // namespace imgeo

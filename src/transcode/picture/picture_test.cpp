@@ -1,0 +1,120 @@
+#include "scene/testing.h"
+#include "transcode/picture/draw_picture.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+/// A unit sphere of one colour around the origin; `parent` holds its shape.
+Scene sphereScene(NodeContent parent = Group{}, Vec3f color = {1, 0, 0}) {
+  Scene scene;
+  scene.meshes.push_back(testing::sphere(40, 40));
+  Appearance appearance;
+  appearance.material = Material{.diffuseColor = color};
+  scene.graph.appearances.push_back(appearance);
+  const std::size_t shape =
+      addNode(scene.graph, {.name = "", .content = Shape{.appearance = 0}, .children = {}, .extras = ""});
+  addRoot(scene.graph, {.name = "", .content = std::move(parent), .children = {shape}, .extras = ""});
+  return scene;
+}
+
+GenericNode genericNode(const char* element) {
+  GenericNode node;
+  node.element = element;
+  return node;
+}
+
+/// Adds a viewpoint on the z axis that looks at the origin.
+void addViewpoint(Scene& scene, double z) {
+  Viewpoint viewpoint;
+  viewpoint.position = {0, 0, z};
+  addRoot(scene.graph, {.name = "", .content = viewpoint, .children = {}, .extras = ""});
+}
+
+std::array<int, 3> pixelOf(const Image& image, std::size_t x, std::size_t y) {
+  const std::size_t at = image.channels * (y * image.width + x);
+  return {image.pixels[at], image.pixels[at + 1], image.pixels[at + 2]};
+}
+
+TEST(Picture, ShowsTheSceneFromItsViewpointInFrontOfItsBackground) {
+  Scene scene = sphereScene();
+  const PictureSamples samples = pictureSamplesOf(scene);
+  addViewpoint(scene, 6);
+  const Image image = drawPicture(samples.samples, pictureCameraOf(scene.graph, samples.samples), {0, 0, 1}).value();
+  ASSERT_EQ(image.width, 1200u);
+  ASSERT_EQ(image.height, 630u);
+  const auto [red, green, blue] = pixelOf(image, 600, 315);
+  EXPECT_GT(red, 120);
+  EXPECT_EQ(green, 0);
+  EXPECT_EQ(blue, 0);
+  EXPECT_EQ(pixelOf(image, 5, 5), (std::array{0, 0, 255}));
+  // The silhouette of a unit sphere at distance 6 has the radius of tan(asin(1/6)) in units of the focal length.
+  std::size_t covered = 0;
+  for (std::size_t x = 0; x < image.width; ++x)
+    covered += pixelOf(image, x, 315)[2] < 128;
+  const double focal = 315 / std::tan(0.7854 / 2), radius = focal * std::tan(std::asin(1.0 / 6));
+  EXPECT_NEAR(static_cast<double>(covered), 2 * radius, 4);
+  // No holes: every pixel well inside is red.
+  for (std::size_t x = 560; x < 640; ++x)
+    for (std::size_t y = 275; y < 355; ++y)
+      ASSERT_EQ(pixelOf(image, x, y)[2], 0) << x << " " << y;
+}
+
+TEST(Picture, IsNotDrawnFromInsideWhereSamplesWouldBeVisible) {
+  Scene scene = sphereScene();
+  const PictureSamples samples = pictureSamplesOf(scene, 2000);
+  addViewpoint(scene, 1.2);
+  EXPECT_FALSE(drawPicture(samples.samples, pictureCameraOf(scene.graph, samples.samples), {0, 0, 1}));
+}
+
+TEST(Picture, LeavesOutWhatAPageHides) {
+  EXPECT_FALSE(pictureSamplesOf(sphereScene()).samples.empty());
+  const PictureSamples hidden = pictureSamplesOf(sphereScene(genericNode("Switch")));
+  EXPECT_TRUE(hidden.samples.empty()) << "a Switch without whichChoice shows nothing";
+  EXPECT_TRUE(hidden.isWhole);
+  EXPECT_FALSE(pictureSamplesOf(sphereScene(genericNode("LOD"))).samples.empty());
+}
+
+TEST(Picture, IsNotDrawnWhereShapesOfTheDocumentWouldBeMissing) {
+  Scene scene = sphereScene();
+  addRoot(scene.graph, {.name = "", .content = genericNode("Shape"), .children = {}, .extras = ""});
+  EXPECT_FALSE(pictureSamplesOf(scene).isWhole);
+}
+
+TEST(Picture, OfOneSceneIsTheSameEveryTime) {
+  const auto draw = [] {
+    const std::vector<PictureSample> samples = pictureSamplesOf(sphereScene()).samples;
+    return drawPicture(samples, pictureCameraOf({}, samples), {1, 1, 1}).value();
+  };
+  EXPECT_EQ(draw(), draw());
+}
+
+TEST(Picture, AsAnIconFillsItsSquareAndIsTransparentAroundTheScene) {
+  const std::vector<PictureSample> samples = pictureSamplesOf(sphereScene()).samples;
+  const Image icon = drawIcon(samples, pictureCameraOf({}, samples)).value();
+  ASSERT_EQ(icon.pixels.size(), 64u * 64 * 4);
+  const auto alphaAt = [&](std::size_t x, std::size_t y) { return icon.pixels[4 * (64 * y + x) + 3]; };
+  EXPECT_EQ(alphaAt(0, 0), 0);
+  EXPECT_EQ(alphaAt(63, 63), 0);
+  EXPECT_GT(alphaAt(32, 1), 100);
+  EXPECT_GT(alphaAt(1, 32), 100);
+  EXPECT_EQ(alphaAt(32, 32), 255);
+  EXPECT_EQ(drawCubeIcon().width, 64u);
+}
+
+TEST(Picture, OfPointsAndLinesHasTheirColours) {
+  Scene scene = sphereScene();
+  Mesh& mesh = scene.meshes[0];
+  for (const Topology topology : {Topology::points, Topology::lines}) {
+    mesh.topology = topology;
+    mesh.corners.resize(mesh.corners.size() / 2 * 2);
+    const std::vector<PictureSample> samples = pictureSamplesOf(scene).samples;
+    ASSERT_FALSE(samples.empty());
+    EXPECT_EQ(samples[0].color, (std::array<std::uint8_t, 3>{255, 0, 0}));
+    EXPECT_LE(samples.size(), 200'000u);
+  }
+}
+
+} // namespace
+} // namespace imgeo
