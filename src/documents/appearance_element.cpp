@@ -47,6 +47,30 @@ bool needsProperties(const Texture& texture) {
          texture.magnification != Filter::standard || texture.minification != Filter::standard;
 }
 
+/// Writes the textures of `uses` that belong to a material or to an extension, `node`. With mappings, `element` has
+/// got a field for each.
+template <typename Node, typename WriteChildren>
+void writeWithTextures(ElementWriter& writer, const SceneGraph& graph, const Node& node, Element element,
+                       const std::vector<TextureUse>& uses, bool hasMappings, const TextureNames& textureNames,
+                       bool hasChildren, const WriteChildren& writeChildren) {
+  std::vector<const TextureUse*> own;
+  for (const TextureUse& use : uses) {
+    const std::string field = textureField(node, use.role);
+    if (field.empty() || (use.role == TextureRole::color && !hasMappings))
+      continue;
+    if (hasMappings)
+      element.groups[0].push_back({field + "Mapping", nameOf(use.role)});
+    own.push_back(&use);
+  }
+  if (own.empty() && !hasChildren)
+    return writer.leaf(element);
+  writer.open(element);
+  for (const TextureUse* use : own)
+    writeTexture(writer, graph, use->texture, textureField(node, use->role), textureNames(use->texture));
+  writeChildren();
+  writer.close(element);
+}
+
 } // namespace
 
 const char* materialNodeName(const AnyMaterial& material) {
@@ -56,6 +80,14 @@ const char* materialNodeName(const AnyMaterial& material) {
 
 Element materialElement(const AnyMaterial& material) {
   return std::visit([&](const auto& any) { return nodeElement(materialNodeName(material), any); }, material);
+}
+
+Element extensionElement(const MaterialExtension& extension) {
+  return std::visit(
+      [&](const auto& any) {
+        return nodeElement(materialExtensionNames.at(extension.index()), any, {{"containerField", "extensions"}});
+      },
+      extension);
 }
 
 void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t index, const std::string& containerField,
@@ -87,27 +119,18 @@ void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appea
   if (appearance.alphaMode == AlphaMode::mask)
     addUnless(element.groups[0], "alphaCutoff", appearance.alphaCutoff, 0.5f, number(appearance.alphaCutoff));
   const bool hasMappings = transformsDiffer(appearance.textures);
-  Element material = materialElement(appearance.material);
-  std::vector<const TextureUse*> materialTextures;
-  for (const TextureUse& use : appearance.textures) {
-    const std::string field = textureField(appearance.material, use.role);
-    if (field.empty() || (use.role == TextureRole::color && !hasMappings))
-      continue;
-    if (hasMappings)
-      material.groups[0].push_back({field + "Mapping", nameOf(use.role)});
-    materialTextures.push_back(&use);
-  }
+  const auto write = [&](const auto& node, Element nodeElement, bool hasChildren, const auto& writeChildren) {
+    writeWithTextures(writer, graph, node, std::move(nodeElement), appearance.textures, hasMappings, textureNames,
+                      hasChildren, writeChildren);
+  };
+  const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&appearance.material);
+  const std::vector<MaterialExtension> extensions = physical ? physical->extensions : std::vector<MaterialExtension>{};
 
   writer.open(element);
-  if (materialTextures.empty()) {
-    writer.leaf(material);
-  } else {
-    writer.open(material);
-    for (const TextureUse* use : materialTextures)
-      writeTexture(writer, graph, use->texture, textureField(appearance.material, use->role),
-                   textureNames(use->texture));
-    writer.close(material);
-  }
+  write(appearance.material, materialElement(appearance.material), !extensions.empty(), [&] {
+    for (const MaterialExtension& extension : extensions)
+      write(extension, extensionElement(extension), false, [] {});
+  });
   // Without mappings, the texture of the main colour is a child of the Appearance, as in X3D 3.
   for (const TextureUse& use : appearance.textures)
     if (use.role == TextureRole::color && !hasMappings)

@@ -12,6 +12,8 @@ namespace imgeo {
 const char* materialNodeName(const AnyMaterial& material);
 
 Element materialElement(const AnyMaterial& material);
+/// The element of an extension of PhysicalMaterial, in X_ITE's field for them.
+Element extensionElement(const MaterialExtension& extension);
 
 /// Returns the DEF or USE of a texture, given as index into the graph's textures.
 using TextureNames = std::function<Attributes(std::size_t texture)>;

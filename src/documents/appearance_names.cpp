@@ -64,7 +64,35 @@ std::string textureField(const AnyMaterial& material, TextureRole role) {
     return isPhong ? "specularTexture" : "";
   case TextureRole::shininess:
     return isPhong ? "shininessTexture" : "";
+  default:
+    return "";
   }
+}
+
+std::string textureField(const MaterialExtension& extension, TextureRole role) {
+  struct Row {
+    std::size_t kind;
+    TextureRole role;
+    const char* field;
+  };
+  const auto kindOf = [](const MaterialExtension& any) { return any.index(); };
+  static const Row rows[] = {
+      {kindOf(AnisotropyMaterialExtension{}), TextureRole::anisotropy, "anisotropyTexture"},
+      {kindOf(ClearcoatMaterialExtension{}), TextureRole::clearcoat, "clearcoatTexture"},
+      {kindOf(ClearcoatMaterialExtension{}), TextureRole::clearcoatRoughness, "clearcoatRoughnessTexture"},
+      {kindOf(ClearcoatMaterialExtension{}), TextureRole::clearcoatNormal, "clearcoatNormalTexture"},
+      {kindOf(IridescenceMaterialExtension{}), TextureRole::iridescence, "iridescenceTexture"},
+      {kindOf(IridescenceMaterialExtension{}), TextureRole::iridescenceThickness, "iridescenceThicknessTexture"},
+      {kindOf(SheenMaterialExtension{}), TextureRole::sheenColor, "sheenColorTexture"},
+      {kindOf(SheenMaterialExtension{}), TextureRole::sheenRoughness, "sheenRoughnessTexture"},
+      {kindOf(SpecularMaterialExtension{}), TextureRole::specularStrength, "specularTexture"},
+      {kindOf(SpecularMaterialExtension{}), TextureRole::specularColor, "specularColorTexture"},
+      {kindOf(TransmissionMaterialExtension{}), TextureRole::transmission, "transmissionTexture"},
+      {kindOf(VolumeMaterialExtension{}), TextureRole::thickness, "thicknessTexture"},
+  };
+  for (const Row& row : rows)
+    if (row.kind == extension.index() && row.role == role)
+      return row.field;
   return "";
 }
 

@@ -13,8 +13,35 @@ namespace imgeo {
 
 inline constexpr std::array alphaModeNames{"AUTO", "OPAQUE", "MASK", "BLEND"};
 inline constexpr std::array boundaryNames{"REPEAT", "CLAMP_TO_EDGE", "MIRRORED_REPEAT"};
-inline constexpr std::array textureRoleNames{"color",     "emissive", "metallicRoughness", "normal",
-                                             "occlusion", "ambient",  "specular",          "shininess"};
+inline constexpr std::array textureRoleNames{"color",
+                                             "emissive",
+                                             "metallicRoughness",
+                                             "normal",
+                                             "occlusion",
+                                             "ambient",
+                                             "specular",
+                                             "shininess",
+                                             "anisotropy",
+                                             "clearcoat",
+                                             "clearcoatRoughness",
+                                             "clearcoatNormal",
+                                             "iridescence",
+                                             "iridescenceThickness",
+                                             "sheenColor",
+                                             "sheenRoughness",
+                                             "specularStrength",
+                                             "specularColor",
+                                             "transmission",
+                                             "thickness"};
+static_assert(textureRoleNames.size() == textureRoleCount);
+
+/// The elements of the extensions of PhysicalMaterial, in the order of MaterialExtension.
+inline constexpr std::array materialExtensionNames{"AnisotropyMaterialExtension",   "ClearcoatMaterialExtension",
+                                                   "DispersionMaterialExtension",   "EmissiveStrengthMaterialExtension",
+                                                   "IORMaterialExtension",          "IridescenceMaterialExtension",
+                                                   "SheenMaterialExtension",        "SpecularMaterialExtension",
+                                                   "TransmissionMaterialExtension", "VolumeMaterialExtension"};
+static_assert(materialExtensionNames.size() == std::variant_size_v<MaterialExtension>);
 
 inline const char* nameOf(AlphaMode mode) {
   return alphaModeNames.at(static_cast<std::size_t>(mode));
@@ -36,8 +63,10 @@ std::optional<Value> valueNamed(const std::array<const char*, count>& names, std
   return {};
 }
 
-/// The material's field for the texture of a role; "" if the kind of material has none.
+/// The material's own field for the texture of a role; "" if the kind of material has none.
 std::string textureField(const AnyMaterial& material, TextureRole role);
+/// The extension's field for the texture of a role; "" if the extension has none.
+std::string textureField(const MaterialExtension& extension, TextureRole role);
 
 /// X3D's names for the filters of TextureProperties. The setters ignore unknown names.
 std::string magnificationFilter(const Texture& texture);

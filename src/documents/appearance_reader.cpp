@@ -21,6 +21,14 @@ void readProperties(const FieldReader& fields, Texture& texture) {
   setMinificationFilter(texture, fields.text("minificationFilter"));
 }
 
+/// An extension of the kind with this index in MaterialExtension.
+template <std::size_t kind = 0> MaterialExtension readExtension(std::size_t index, const FieldReader& fields) {
+  if constexpr (kind + 1 < std::variant_size_v<MaterialExtension>)
+    if (index != kind)
+      return readExtension<kind + 1>(index, fields);
+  return readNode<std::variant_alternative_t<kind, MaterialExtension>>(fields);
+}
+
 } // namespace
 
 template <typename T>
@@ -59,7 +67,8 @@ std::size_t AppearanceReader::readTexture(const FieldReader& fields) {
   return graph_.textures.size() - 1;
 }
 
-void AppearanceReader::readTextures(const FieldReader& fields, DefinedMaterial& read) {
+template <typename Node>
+void AppearanceReader::readTextures(const FieldReader& fields, const Node& owner, DefinedMaterial& read) {
   for (const pugi::xml_node& child : fields.node().children()) {
     if (!isNamed(child, "ImageTexture"))
       continue;
@@ -67,7 +76,7 @@ void AppearanceReader::readTextures(const FieldReader& fields, DefinedMaterial& 
     const std::string field = texture.text("containerField");
     for (std::size_t i = 0; i < textureRoleNames.size(); ++i) {
       const auto role = static_cast<TextureRole>(i);
-      const std::string name = textureField(read.material, role);
+      const std::string name = textureField(owner, role);
       const auto isRole = [role](const TextureUse& use) { return use.role == role; };
       if (name.empty() || !equalIgnoringCase(name, field) || std::ranges::any_of(read.textures, isRole))
         continue;
@@ -75,6 +84,20 @@ void AppearanceReader::readTextures(const FieldReader& fields, DefinedMaterial& 
       read.mappings[nameOf(role)] = fields.text((name + "Mapping").c_str());
     }
   }
+}
+
+/// Reads the extensions among a PhysicalMaterial's children; of several of a kind, the first.
+void AppearanceReader::readExtensions(const FieldReader& fields, DefinedMaterial& read) {
+  std::array<std::optional<MaterialExtension>, materialExtensionNames.size()> byKind;
+  for (const pugi::xml_node& child : fields.node().children())
+    for (std::size_t kind = 0; kind < byKind.size(); ++kind)
+      if (!byKind[kind] && isNamed(child, materialExtensionNames[kind])) {
+        byKind[kind] = readExtension(kind, fieldsOf(child));
+        readTextures(fieldsOf(child), *byKind[kind], read);
+      }
+  for (const std::optional<MaterialExtension>& extension : byKind)
+    if (extension)
+      std::get<PhysicalMaterial>(read.material).extensions.push_back(*extension);
 }
 
 AppearanceReader::DefinedMaterial AppearanceReader::readMaterial(const FieldReader& fields) {
@@ -87,7 +110,9 @@ AppearanceReader::DefinedMaterial AppearanceReader::readMaterial(const FieldRead
     read.material = readNode<PhysicalMaterial>(fields);
   else
     read.material = readNode<UnlitMaterial>(fields);
-  readTextures(fields, read);
+  readTextures(fields, read.material, read);
+  if (std::holds_alternative<PhysicalMaterial>(read.material))
+    readExtensions(fields, read);
   if (const std::string def = fields.text("DEF"); !def.empty())
     materials_[def] = read;
   return read;

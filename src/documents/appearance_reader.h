@@ -28,7 +28,9 @@ private:
 
   FieldReader fieldsOf(const pugi::xml_node& node) const { return {source_, node, &warnings_}; }
   DefinedMaterial readMaterial(const FieldReader& fields);
-  void readTextures(const FieldReader& material, DefinedMaterial& read);
+  /// Reads the textures of `owner`, a material or an extension.
+  template <typename Node> void readTextures(const FieldReader& fields, const Node& owner, DefinedMaterial& read);
+  void readExtensions(const FieldReader& material, DefinedMaterial& read);
   std::size_t readTexture(const FieldReader& fields);
   void readTransforms(const FieldReader& fields, std::map<std::string, TextureTransform>& transforms) const;
   /// The definition that the element USEs; nullptr if it is not a USE or, with a warning, if the name is unknown.

@@ -122,6 +122,32 @@ Rotation randomRotation(Random& random) {
   return {randomVector(random), random.between(-3, 3)};
 }
 
+/// Extensions in the order of their kinds.
+std::vector<MaterialExtension> randomExtensions(Random& random) {
+  const auto unit = [&] { return random.between(0, 1); };
+  std::vector<MaterialExtension> all{AnisotropyMaterialExtension{unit(), unit()},
+                                     ClearcoatMaterialExtension{unit(), unit()},
+                                     DispersionMaterialExtension{unit()},
+                                     EmissiveStrengthMaterialExtension{unit() * 20},
+                                     IORMaterialExtension{1 + unit()},
+                                     IridescenceMaterialExtension{unit(), 1 + unit(), 100 * unit(), 500 * unit()},
+                                     SheenMaterialExtension{randomColor(random), unit()},
+                                     SpecularMaterialExtension{unit(), randomColor(random)},
+                                     TransmissionMaterialExtension{unit()},
+                                     VolumeMaterialExtension{unit(), 10 * unit(), randomColor(random)}};
+  std::erase_if(all, [&](const MaterialExtension&) { return !random.oneIn(3); });
+  return all;
+}
+
+/// Whether the material or one of its extensions has a texture of this role.
+bool hasField(const AnyMaterial& material, TextureRole role) {
+  const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&material);
+  return !textureField(material, role).empty() ||
+         (physical && std::ranges::any_of(physical->extensions, [&](const MaterialExtension& extension) {
+            return !textureField(extension, role).empty();
+          }));
+}
+
 Appearance randomAppearance(Random& random, std::size_t textures) {
   Appearance appearance;
   if (random.oneIn(2))
@@ -132,20 +158,23 @@ Appearance randomAppearance(Random& random, std::size_t textures) {
         .diffuseColor = randomColor(random), .specularColor = randomColor(random), .shininess = random.between(0, 1)};
     break;
   case 1:
-    appearance.material = PhysicalMaterial{
-        .baseColor = randomColor(random), .metallic = random.between(0, 1), .transparency = random.between(0, 1)};
+    appearance.material = PhysicalMaterial{.baseColor = randomColor(random),
+                                           .metallic = random.between(0, 1),
+                                           .transparency = random.between(0, 1),
+                                           .extensions = randomExtensions(random)};
     break;
   default:
     appearance.material = UnlitMaterial{.emissiveColor = randomColor(random)};
   }
   const bool haveSameTransform = random.oneIn(2);
   TextureTransform transform;
-  for (int role = 0; role < 8 && textures > 0; ++role) {
-    if (textureField(appearance.material, static_cast<TextureRole>(role)).empty() || random.oneIn(2))
+  for (std::size_t i = 0; i < textureRoleCount && textures > 0; ++i) {
+    const auto role = static_cast<TextureRole>(i);
+    if (!hasField(appearance.material, role) || random.oneIn(2))
       continue;
     if (!haveSameTransform)
       transform = {{random.between(-2, 2), 0}, {random.between(1, 2), 1}, {0, 0}, random.between(-1, 1)};
-    appearance.textures.push_back({static_cast<TextureRole>(role), random.below(textures), transform});
+    appearance.textures.push_back({role, random.below(textures), transform});
   }
   appearance.alphaMode = static_cast<AlphaMode>(random.below(4));
   if (appearance.alphaMode == AlphaMode::mask)

@@ -91,6 +91,55 @@ template <typename Visit> void visitFieldsOf(const PhysicalMaterial*, auto& mate
   visit("transparency", material.transparency);
 }
 
+template <typename Visit> void visitFieldsOf(const AnisotropyMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("anisotropyStrength", extension.anisotropyStrength);
+  visit("anisotropyRotation", extension.anisotropyRotation);
+}
+
+template <typename Visit> void visitFieldsOf(const ClearcoatMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("clearcoat", extension.clearcoat);
+  visit("clearcoatRoughness", extension.clearcoatRoughness);
+}
+
+template <typename Visit> void visitFieldsOf(const DispersionMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("dispersion", extension.dispersion);
+}
+
+template <typename Visit> void visitFieldsOf(const EmissiveStrengthMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("emissiveStrength", extension.emissiveStrength);
+}
+
+template <typename Visit> void visitFieldsOf(const IORMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("indexOfRefraction", extension.indexOfRefraction);
+}
+
+template <typename Visit> void visitFieldsOf(const IridescenceMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("iridescence", extension.iridescence);
+  visit("iridescenceIndexOfRefraction", extension.iridescenceIndexOfRefraction);
+  visit("iridescenceThicknessMinimum", extension.iridescenceThicknessMinimum);
+  visit("iridescenceThicknessMaximum", extension.iridescenceThicknessMaximum);
+}
+
+template <typename Visit> void visitFieldsOf(const SheenMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("sheenColor", extension.sheenColor);
+  visit("sheenRoughness", extension.sheenRoughness);
+}
+
+template <typename Visit> void visitFieldsOf(const SpecularMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("specular", extension.specular);
+  visit("specularColor", extension.specularColor);
+}
+
+template <typename Visit> void visitFieldsOf(const TransmissionMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("transmission", extension.transmission);
+}
+
+template <typename Visit> void visitFieldsOf(const VolumeMaterialExtension*, auto& extension, Visit&& visit) {
+  visit("thickness", extension.thickness);
+  visit("attenuationDistance", extension.attenuationDistance);
+  visit("attenuationColor", extension.attenuationColor);
+}
+
 template <typename Visit> void visitFieldsOf(const UnlitMaterial*, auto& material, Visit&& visit) {
   visit("emissiveColor", material.emissiveColor, Written::always);
   visit("transparency", material.transparency);

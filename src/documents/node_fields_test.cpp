@@ -60,6 +60,16 @@ TEST(NodeFields, AreThoseOfTheSharedTable) {
       rowsOf<OrthoViewpoint>("OrthoViewpoint") + ",\n" + rowsOf<DirectionalLight>("DirectionalLight") + ",\n" +
       rowsOf<PointLight>("PointLight") + ",\n" + rowsOf<SpotLight>("SpotLight") + ",\n" + rowsOf<Material>("Material") +
       ",\n" + rowsOf<PhysicalMaterial>("PhysicalMaterial") + ",\n" + rowsOf<UnlitMaterial>("UnlitMaterial") + ",\n" +
+      rowsOf<AnisotropyMaterialExtension>("AnisotropyMaterialExtension") + ",\n" +
+      rowsOf<ClearcoatMaterialExtension>("ClearcoatMaterialExtension") + ",\n" +
+      rowsOf<DispersionMaterialExtension>("DispersionMaterialExtension") + ",\n" +
+      rowsOf<EmissiveStrengthMaterialExtension>("EmissiveStrengthMaterialExtension") + ",\n" +
+      rowsOf<IORMaterialExtension>("IORMaterialExtension") + ",\n" +
+      rowsOf<IridescenceMaterialExtension>("IridescenceMaterialExtension") + ",\n" +
+      rowsOf<SheenMaterialExtension>("SheenMaterialExtension") + ",\n" +
+      rowsOf<SpecularMaterialExtension>("SpecularMaterialExtension") + ",\n" +
+      rowsOf<TransmissionMaterialExtension>("TransmissionMaterialExtension") + ",\n" +
+      rowsOf<VolumeMaterialExtension>("VolumeMaterialExtension") + ",\n" +
       rowsOf<TextureTransform>("TextureTransform") + "\n}\n";
   const std::filesystem::path table = IMGEO_VECTORS "/nodes.json";
   if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)

@@ -205,7 +205,11 @@ Bytes writeGlb(const Scene& scene) {
   Json root{{"asset", {{"version", "2.0"}, {"generator", "imgeo"}}}};
   const std::string materialText =
       Json{gltf.materials, gltf.textures}.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp"})
+  for (const char* extension :
+       {"KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp", "KHR_materials_anisotropy",
+        "KHR_materials_clearcoat", "KHR_materials_dispersion", "KHR_materials_emissive_strength", "KHR_materials_ior",
+        "KHR_materials_iridescence", "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission",
+        "KHR_materials_volume"})
     if (materialText.find(extension) != materialText.npos)
       root["extensionsUsed"].push_back(extension);
   root["scene"] = 0;

@@ -14,6 +14,10 @@ Json pbrOf(Vec3f linearColor, float transparency, float metallic, float roughnes
           {"roughnessFactor", roughness}};
 }
 
+Json jsonOf(Vec3f vector) {
+  return {vector.x, vector.y, vector.z};
+}
+
 Vec3f linearOf(Vec3f srgb) {
   return {static_cast<float>(linearOfSrgb(srgb.x)), static_cast<float>(linearOfSrgb(srgb.y)),
           static_cast<float>(linearOfSrgb(srgb.z))};
@@ -35,6 +39,48 @@ struct MaterialJson {
         pbrOf(material.baseColor, material.transparency, material.metallic, material.roughness);
     addEmissive(material.emissiveColor);
     transparency = material.transparency;
+    for (const MaterialExtension& extension : material.extensions)
+      std::visit(*this, extension);
+  }
+  void operator()(const AnisotropyMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", extension.anisotropyStrength},
+                                                      {"anisotropyRotation", extension.anisotropyRotation}};
+  }
+  void operator()(const ClearcoatMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", extension.clearcoat},
+                                                     {"clearcoatRoughnessFactor", extension.clearcoatRoughness}};
+  }
+  void operator()(const DispersionMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_dispersion"] = {{"dispersion", extension.dispersion}};
+  }
+  void operator()(const EmissiveStrengthMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", extension.emissiveStrength}};
+  }
+  void operator()(const IORMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_ior"] = {{"ior", extension.indexOfRefraction}};
+  }
+  void operator()(const IridescenceMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_iridescence"] = {
+        {"iridescenceFactor", extension.iridescence},
+        {"iridescenceIor", extension.iridescenceIndexOfRefraction},
+        {"iridescenceThicknessMinimum", extension.iridescenceThicknessMinimum},
+        {"iridescenceThicknessMaximum", extension.iridescenceThicknessMaximum}};
+  }
+  void operator()(const SheenMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_sheen"] = {{"sheenColorFactor", jsonOf(extension.sheenColor)},
+                                                 {"sheenRoughnessFactor", extension.sheenRoughness}};
+  }
+  void operator()(const SpecularMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_specular"] = {{"specularFactor", extension.specular},
+                                                    {"specularColorFactor", jsonOf(extension.specularColor)}};
+  }
+  void operator()(const TransmissionMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", extension.transmission}};
+  }
+  void operator()(const VolumeMaterialExtension& extension) {
+    json["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", extension.thickness},
+                                                  {"attenuationDistance", extension.attenuationDistance},
+                                                  {"attenuationColor", jsonOf(extension.attenuationColor)}};
   }
   void operator()(const UnlitMaterial& material) {
     json["pbrMetallicRoughness"] = pbrOf(linearOf(material.emissiveColor), material.transparency, 0, 1);
@@ -43,7 +89,7 @@ struct MaterialJson {
   }
   void addEmissive(Vec3f linearColor) {
     if (linearColor != Vec3f{})
-      json["emissiveFactor"] = {linearColor.x, linearColor.y, linearColor.z};
+      json["emissiveFactor"] = jsonOf(linearColor);
   }
 };
 
@@ -77,6 +123,31 @@ Json gltfTransform(const TextureTransform& transform) {
   return json;
 }
 
+void addExtensionTexture(Json& extensions, TextureRole role, Json info) {
+  struct Row {
+    TextureRole role;
+    const char* extension;
+    const char* member;
+  };
+  static constexpr Row rows[] = {
+      {TextureRole::anisotropy, "KHR_materials_anisotropy", "anisotropyTexture"},
+      {TextureRole::clearcoat, "KHR_materials_clearcoat", "clearcoatTexture"},
+      {TextureRole::clearcoatRoughness, "KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
+      {TextureRole::clearcoatNormal, "KHR_materials_clearcoat", "clearcoatNormalTexture"},
+      {TextureRole::iridescence, "KHR_materials_iridescence", "iridescenceTexture"},
+      {TextureRole::iridescenceThickness, "KHR_materials_iridescence", "iridescenceThicknessTexture"},
+      {TextureRole::sheenColor, "KHR_materials_sheen", "sheenColorTexture"},
+      {TextureRole::sheenRoughness, "KHR_materials_sheen", "sheenRoughnessTexture"},
+      {TextureRole::specularStrength, "KHR_materials_specular", "specularTexture"},
+      {TextureRole::specularColor, "KHR_materials_specular", "specularColorTexture"},
+      {TextureRole::transmission, "KHR_materials_transmission", "transmissionTexture"},
+      {TextureRole::thickness, "KHR_materials_volume", "thicknessTexture"},
+  };
+  for (const Row& row : rows)
+    if (row.role == role)
+      extensions[row.extension][row.member] = std::move(info);
+}
+
 void addTexture(Json& material, const TextureUse& use, std::size_t index, const AnyMaterial& x3dMaterial) {
   Json info{{"index", index}};
   if (use.transform != TextureTransform{})
@@ -107,6 +178,8 @@ void addTexture(Json& material, const TextureUse& use, std::size_t index, const 
   case TextureRole::specular:
   case TextureRole::shininess:
     break; // glTF has no such textures
+  default:
+    addExtensionTexture(material["extensions"], use.role, std::move(info));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/bytes.h"
 #include "base/vec.h"
+#include "scene/material_extensions.h"
 
 #include <cstdint>
 #include <optional>
@@ -32,6 +33,7 @@ struct PhysicalMaterial {
   float transparency = 0;
   float normalScale = 1;
   float occlusionStrength = 1;
+  std::vector<MaterialExtension> extensions{}; ///< at most one of each kind, in the order of the variant
   friend bool operator==(const PhysicalMaterial&, const PhysicalMaterial&) = default;
 };
 
@@ -58,7 +60,30 @@ enum class TextureRole : std::uint8_t {
   ambient,   ///< Material only
   specular,  ///< Material only
   shininess, ///< Material only
+  // Of the extensions of PhysicalMaterial; the channels are glTF's.
+  anisotropy,
+  clearcoat,
+  clearcoatRoughness,
+  clearcoatNormal,
+  iridescence,
+  iridescenceThickness,
+  sheenColor,
+  sheenRoughness,
+  specularStrength,
+  specularColor,
+  transmission,
+  thickness,
 };
+
+inline constexpr std::size_t textureRoleCount = static_cast<std::size_t>(TextureRole::thickness) + 1;
+
+/// The extension of a material; null where it has none of this kind.
+template <typename Extension> const Extension* extensionOf(const PhysicalMaterial& material) {
+  for (const MaterialExtension& extension : material.extensions)
+    if (const Extension* found = std::get_if<Extension>(&extension))
+      return found;
+  return nullptr;
+}
 
 /// X3D TextureTransform: a texture coordinate t is read at
 /// -center + scale * rotation * (t + translation + center).

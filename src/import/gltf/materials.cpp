@@ -1,5 +1,7 @@
 #include "import/gltf/materials.h"
 
+#include "images/decode_image.h"
+#include "images/encode_image.h"
 #include "import/source_images.h"
 #include "scene/color.h"
 
@@ -11,6 +13,9 @@ namespace imgeo::gltf {
 
 namespace {
 
+/// The index of refraction of a surface that reflects all light.
+constexpr float totalReflection = 1000;
+
 float saturate(double value) {
   return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
@@ -20,14 +25,17 @@ Vec3f encodedSrgb(Vec3d linear) {
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
 
-/// Converts KHR_materials_pbrSpecularGlossiness to Phong's model.
-Material phongOf(const Value& value) {
-  Material material;
+/// KHR_materials_pbrSpecularGlossiness as a PhysicalMaterial: a dielectric whose reflectance is the specular colour,
+/// since that of an index of refraction of 1000 is 1.
+PhysicalMaterial specularGlossinessOf(const Value& value) {
+  PhysicalMaterial material;
   const std::vector<double> diffuse = value["diffuseFactor"].reals(4, {1, 1, 1, 1});
-  material.diffuseColor = encodedSrgb({diffuse[0], diffuse[1], diffuse[2]});
+  material.baseColor = Vec3f(Vec3d{diffuse[0], diffuse[1], diffuse[2]});
   material.transparency = 1 - saturate(diffuse[3]);
-  material.specularColor = encodedSrgb(value["specularFactor"].vec3({1, 1, 1}));
-  material.shininess = saturate(value["glossinessFactor"].real(1));
+  material.metallic = 0;
+  material.roughness = 1 - saturate(value["glossinessFactor"].real(1));
+  material.extensions = {IORMaterialExtension{totalReflection},
+                         SpecularMaterialExtension{1, Vec3f(value["specularFactor"].vec3({1, 1, 1}))}};
   return material;
 }
 
@@ -162,39 +170,78 @@ AnyMaterial MaterialReader::materialOf(const Value& value) {
   const float transparency = 1 - saturate(base[3]);
   if (extensions.has("KHR_materials_unlit"))
     return UnlitMaterial{encodedSrgb({base[0], base[1], base[2]}), transparency};
-  const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].real(1);
-  const Vec3d emissive = value["emissiveFactor"].vec3({0, 0, 0}) * strength;
-  if (extensions.has("KHR_materials_pbrSpecularGlossiness")) {
-    Material material = phongOf(extensions["KHR_materials_pbrSpecularGlossiness"]);
-    material.emissiveColor = encodedSrgb(emissive);
-    return material;
-  }
+  const Value glossiness = extensions["KHR_materials_pbrSpecularGlossiness"];
   PhysicalMaterial material;
-  material.baseColor = Vec3f(Vec3d{base[0], base[1], base[2]});
-  material.transparency = transparency;
-  material.emissiveColor = Vec3f(emissive);
-  material.metallic = saturate(pbr["metallicFactor"].real(1));
-  material.roughness = saturate(pbr["roughnessFactor"].real(1));
+  if (!glossiness.isAbsent()) {
+    material = specularGlossinessOf(glossiness);
+  } else {
+    material.baseColor = Vec3f(Vec3d{base[0], base[1], base[2]});
+    material.transparency = transparency;
+    material.metallic = saturate(pbr["metallicFactor"].real(1));
+    material.roughness = saturate(pbr["roughnessFactor"].real(1));
+    material.extensions = readMaterialExtensions(extensions);
+  }
+  material.emissiveColor = Vec3f(value["emissiveFactor"].vec3({0, 0, 0}));
   material.normalScale = static_cast<float>(value["normalTexture"]["scale"].real(1));
   material.occlusionStrength = saturate(value["occlusionTexture"]["strength"].real(1));
   return material;
 }
 
 void MaterialReader::readTextures(const Value& value, Appearance& appearance) {
-  const Value pbr = value["pbrMetallicRoughness"];
-  const bool isPhong = std::holds_alternative<Material>(appearance.material),
-             isUnlit = std::holds_alternative<UnlitMaterial>(appearance.material);
-  const Value glossiness = value["extensions"]["KHR_materials_pbrSpecularGlossiness"];
-  addTexture(isPhong ? glossiness["diffuseTexture"] : pbr["baseColorTexture"], TextureRole::color, appearance);
-  if (isUnlit)
+  const Value pbr = value["pbrMetallicRoughness"], extensions = value["extensions"],
+              glossiness = extensions["KHR_materials_pbrSpecularGlossiness"];
+  const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&appearance.material);
+  const bool isGlossy = physical && !glossiness.isAbsent();
+  addTexture(isGlossy ? glossiness["diffuseTexture"] : pbr["baseColorTexture"], TextureRole::color, appearance);
+  if (!physical)
     return;
   addTexture(value["emissiveTexture"], TextureRole::emissive, appearance);
-  if (!isPhong)
-    addTexture(pbr["metallicRoughnessTexture"], TextureRole::metallicRoughness, appearance);
   addTexture(value["normalTexture"], TextureRole::normal, appearance);
   addTexture(value["occlusionTexture"], TextureRole::occlusion, appearance);
-  if (isPhong)
-    addTexture(glossiness["specularGlossinessTexture"], TextureRole::specular, appearance);
+  if (isGlossy)
+    return readSpecularGlossinessTextures(glossiness, appearance);
+  addTexture(pbr["metallicRoughnessTexture"], TextureRole::metallicRoughness, appearance);
+  for (const ExtensionTexture& row : extensionTextures())
+    addTexture(extensions[row.extension][row.member], row.role, appearance);
+}
+
+/// The texture's colours are those of KHR_materials_specular; its alpha, the glossiness, becomes the roughness of a
+/// new image.
+void MaterialReader::readSpecularGlossinessTextures(const Value& extension, Appearance& appearance) {
+  const Value info = extension["specularGlossinessTexture"];
+  const std::size_t before = appearance.textures.size();
+  addTexture(info, TextureRole::specularColor, appearance);
+  if (appearance.textures.size() == before)
+    return;
+  TextureUse use = appearance.textures.back();
+  use.role = TextureRole::metallicRoughness;
+  const float glossiness = saturate(extension["glossinessFactor"].real(1));
+  const auto [found, isNew] = roughnessTextures_.try_emplace({use.texture, glossiness});
+  if (isNew)
+    try {
+      const ImageFile& image = graph_.images[graph_.textures[use.texture].image];
+      Raster raster = decodeRaster(image.bytes, info.location());
+      for (std::size_t at = 0; at < raster.pixels.size(); at += 4) {
+        const float roughness = 255 - glossiness * static_cast<float>(raster.pixels[at + 3]);
+        raster.pixels[at] = raster.pixels[at + 2] = 0;
+        raster.pixels[at + 1] = static_cast<std::uint8_t>(std::lround(roughness));
+        raster.pixels[at + 3] = 255;
+      }
+      Texture texture = graph_.textures[use.texture];
+      texture.image = graph_.images.size();
+      graph_.images.push_back({"", encodeLosslessWebp(raster)});
+      graph_.textures.push_back(std::move(texture));
+      found->second = graph_.textures.size() - 1;
+    } catch (const Error& error) {
+      if (isStrict_)
+        throw;
+      omissions.images.push_back(fmt::format("The glossiness of a texture is left out: {}.", error.what()));
+    }
+  if (!found->second)
+    return;
+  use.texture = *found->second;
+  appearance.textures.push_back(use);
+  std::get<PhysicalMaterial>(appearance.material).roughness = 1;
 }
 
 std::size_t MaterialReader::appearance(std::size_t index) {

@@ -2,6 +2,7 @@
 // Turns glTF's materials, textures and images into appearances.
 
 #include "import/gltf/document.h"
+#include "import/gltf/material_extensions.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -35,6 +36,8 @@ private:
   void addTexture(const Value& info, TextureRole role, Appearance& appearance);
   std::optional<std::size_t> texture(std::size_t index);
   std::optional<std::size_t> image(std::size_t index);
+  /// The textures of KHR_materials_pbrSpecularGlossiness, for a material of `specularGlossinessOf`.
+  void readSpecularGlossinessTextures(const Value& extension, Appearance& appearance);
   TextureTransform transformOf(const Value& extension);
 
   Document& document_;
@@ -42,6 +45,8 @@ private:
   bool isStrict_;
   std::map<std::size_t, std::size_t> appearances_;
   std::map<std::size_t, std::optional<std::size_t>> textures_, images_;
+  /// The textures of roughness that were made, by the graph's texture and its factor of glossiness.
+  std::map<std::pair<std::size_t, float>, std::optional<std::size_t>> roughnessTextures_;
 };
 
 /// The X3D texture transform of an affine map of texture coordinates, with v upwards: matrix (a c; b d) and translation

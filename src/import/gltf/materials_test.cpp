@@ -2,6 +2,8 @@
 
 #include "base/file.h"
 #include "base/testing.h"
+#include "images/decode_image.h"
+#include "images/encode_image.h"
 #include "import/gltf/testing.h"
 #include "import/testing.h"
 #include "scene/testing.h"
@@ -47,23 +49,91 @@ TEST(GltfMaterial, BecomesAPhysicalMaterial) {
   expected.baseColor = {0.5f, 0.25f, 0};
   expected.metallic = 0.5f;
   expected.roughness = 0.25f;
-  expected.emissiveColor = {0, 2, 0};
+  expected.emissiveColor = {0, 0.5f, 0};
+  expected.extensions = {EmissiveStrengthMaterialExtension{4}};
   expected.transparency = 0.25f;
   EXPECT_EQ(appearance.material, AnyMaterial(expected));
   EXPECT_EQ(appearance.alphaMode, AlphaMode::mask);
   EXPECT_EQ(appearance.alphaCutoff, 0.25f);
 }
 
-TEST(GltfMaterial, MayBeUnlitOrPhong) {
+TEST(GltfMaterial, HasTheExtensionsThatChangeIt) {
+  const auto extensionsOf = [](const Json& json) {
+    return std::get<PhysicalMaterial>(readAppearance(withMaterial({{"extensions", json}})).material).extensions;
+  };
+  EXPECT_EQ(
+      extensionsOf({{"KHR_materials_volume",
+                     {{"thicknessFactor", 0.5}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 0}}}},
+                    {"KHR_materials_transmission", {{"transmissionFactor", 1.5}}},
+                    {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {2, 1, 0}}}},
+                    {"KHR_materials_sheen", {{"sheenColorFactor", {1, 0, 0}}, {"sheenRoughnessFactor", 0.25}}},
+                    {"KHR_materials_iridescence",
+                     {{"iridescenceFactor", 1},
+                      {"iridescenceIor", 1.8},
+                      {"iridescenceThicknessMinimum", 200},
+                      {"iridescenceThicknessMaximum", 300}}},
+                    {"KHR_materials_ior", {{"ior", 1.25}}},
+                    {"KHR_materials_dispersion", {{"dispersion", 0.5}}},
+                    {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.5}}},
+                    {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", -1}}}}),
+      (std::vector<MaterialExtension>{
+          AnisotropyMaterialExtension{0.5f, -1}, ClearcoatMaterialExtension{1, 0.5f}, DispersionMaterialExtension{0.5f},
+          IORMaterialExtension{1.25f}, IridescenceMaterialExtension{1, 1.8f, 200, 300},
+          SheenMaterialExtension{{1, 0, 0}, 0.25f}, SpecularMaterialExtension{0.5f, {2, 1, 0}},
+          TransmissionMaterialExtension{1}, VolumeMaterialExtension{0.5f, 2, {1, 0.5f, 0}}}));
+  EXPECT_EQ(extensionsOf({{"KHR_materials_clearcoat", Json::object()}, {"KHR_materials_ior", {{"ior", 1.5}}}}),
+            std::vector<MaterialExtension>{});
+  EXPECT_EQ(extensionsOf({{"KHR_materials_ior", {{"ior", 0}}}}),
+            std::vector<MaterialExtension>{IORMaterialExtension{1000}});
+}
+
+TEST(GltfMaterial, KeepsTheTexturesOfItsExtensions) {
+  const Json texture{{"index", 0}};
+  GltfText gltf =
+      withMaterial({{"extensions",
+                     {{"KHR_materials_clearcoat", {{"clearcoatTexture", texture}, {"clearcoatNormalTexture", texture}}},
+                      {"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", texture}}}}}});
+  gltf.json["images"] = {{{"uri", GltfText::dataUrl(bytesOf(png))}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  const Appearance appearance = readAppearance(gltf);
+  std::vector<TextureRole> roles;
+  for (const TextureUse& use : appearance.textures)
+    roles.push_back(use.role);
+  EXPECT_EQ(roles, (std::vector{TextureRole::clearcoat, TextureRole::clearcoatNormal, TextureRole::transmission}));
+  EXPECT_EQ(std::get<PhysicalMaterial>(appearance.material).extensions,
+            (std::vector<MaterialExtension>{ClearcoatMaterialExtension{}, TransmissionMaterialExtension{1}}));
+}
+
+TEST(GltfMaterial, OfSpecularAndGlossinessBecomesADielectricWithItsSpecularColour) {
+  Raster raster{2, 1, {10, 20, 30, 255, 40, 50, 60, 51}};
+  GltfText gltf = withMaterial({{"extensions",
+                                 {{"KHR_materials_pbrSpecularGlossiness",
+                                   {{"diffuseFactor", {1, 0, 0, 1}},
+                                    {"specularFactor", {0.5, 0.25, 1}},
+                                    {"glossinessFactor", 0.5},
+                                    {"specularGlossinessTexture", {{"index", 0}}}}}}}});
+  gltf.json["images"] = {{{"uri", GltfText::dataUrl(encodeLosslessWebp(raster))}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  const SceneGraph graph = read(gltf).scene.graph;
+  const Appearance& appearance = appearanceOf(graph, 0);
+  PhysicalMaterial expected;
+  expected.baseColor = {1, 0, 0};
+  expected.metallic = 0;
+  expected.extensions = {IORMaterialExtension{1000}, SpecularMaterialExtension{1, {0.5f, 0.25f, 1}}};
+  EXPECT_EQ(appearance.material, AnyMaterial(expected));
+  ASSERT_EQ(appearance.textures.size(), 2u);
+  EXPECT_EQ(appearance.textures[0].role, TextureRole::specularColor);
+  EXPECT_EQ(appearance.textures[1].role, TextureRole::metallicRoughness);
+  const Raster roughness =
+      decodeRaster(graph.images[graph.textures[appearance.textures[1].texture].image].bytes, "roughness");
+  EXPECT_EQ(roughness.pixels, (Bytes{0, 128, 0, 255, 0, 230, 0, 255}));
+}
+
+TEST(GltfMaterial, MayBeUnlit) {
   const Appearance unlit =
       readAppearance(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.214, 1, 0, 1}}}},
                                    {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
   EXPECT_NEAR(std::get<UnlitMaterial>(unlit.material).emissiveColor.x, 0.5, 1e-3);
-  const Appearance phong = readAppearance(withMaterial(
-      {{"extensions",
-        {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {1, 0, 0, 1}}, {"glossinessFactor", 0.5}}}}}}));
-  EXPECT_EQ(std::get<Material>(phong.material).diffuseColor, (Vec3f{1, 0, 0}));
-  EXPECT_EQ(std::get<Material>(phong.material).shininess, 0.5f);
 }
 
 TEST(GltfTexture, IsReadWithItsSamplerFromABufferOrAUrl) {

@@ -41,6 +41,10 @@ void members(auto& archive, auto& v, const Texture*) {
 void members(auto& archive, auto& v, const ImageFile*) {
   archive(v.url, v.bytes, v.preview);
 }
+void members(auto& archive, auto& v, const PhysicalMaterial*) {
+  archive(v.baseColor, v.emissiveColor, v.metallic, v.roughness, v.transparency, v.normalScale, v.occlusionStrength,
+          v.extensions);
+}
 void members(auto& archive, auto& v, const Appearance*) {
   archive(v.name, v.material, v.textures, v.alphaMode, v.alphaCutoff);
 }
@@ -87,9 +91,9 @@ private:
       for (const T& element : list)
         add(element);
   }
-  void add(const NodeContent& content) {
-    add(content.index());
-    std::visit([this](const auto& value) { add(value); }, content);
+  template <typename... T> void add(const std::variant<T...>& any) {
+    add(any.index());
+    std::visit([this](const auto& value) { add(value); }, any);
   }
 };
 
@@ -135,15 +139,15 @@ private:
       for (T& element : list)
         take(element);
   }
-  void take(NodeContent& content) {
+  template <typename... T> void take(std::variant<T...>& any) {
     std::size_t index = 0;
     take(index);
-    setAlternative(content, index, std::make_index_sequence<std::variant_size_v<NodeContent>>());
-    std::visit([this](auto& value) { take(value); }, content);
+    setAlternative(any, index, std::index_sequence_for<T...>());
+    std::visit([this](auto& value) { take(value); }, any);
   }
-  template <std::size_t... I>
-  static void setAlternative(NodeContent& content, std::size_t index, std::index_sequence<I...>) {
-    ((I == index ? static_cast<void>(content.emplace<I>()) : static_cast<void>(0)), ...);
+  template <typename Variant, std::size_t... I>
+  static void setAlternative(Variant& any, std::size_t index, std::index_sequence<I...>) {
+    ((I == index ? static_cast<void>(any.template emplace<I>()) : static_cast<void>(0)), ...);
   }
 
   ByteSpan bytes_;

@@ -24,6 +24,15 @@ constexpr std::size_t minPreviewedBytes = std::size_t{16} << 10;
 TextureRole roleOfField(std::string_view field) {
   static constexpr std::pair<std::string_view, TextureRole> data[] = {
       {"normalTexture", TextureRole::normal},
+      {"clearcoatNormalTexture", TextureRole::clearcoatNormal},
+      {"anisotropyTexture", TextureRole::anisotropy},
+      {"clearcoatTexture", TextureRole::clearcoat},
+      {"clearcoatRoughnessTexture", TextureRole::clearcoatRoughness},
+      {"iridescenceTexture", TextureRole::iridescence},
+      {"iridescenceThicknessTexture", TextureRole::iridescenceThickness},
+      {"sheenRoughnessTexture", TextureRole::sheenRoughness},
+      {"transmissionTexture", TextureRole::transmission},
+      {"thicknessTexture", TextureRole::thickness},
       {"metallicRoughnessTexture", TextureRole::metallicRoughness},
       {"occlusionTexture", TextureRole::occlusion},
       {"shininessTexture", TextureRole::shininess}};
@@ -40,14 +49,26 @@ void addUse(ImageUse& use, TextureRole role) {
   case TextureRole::emissive:
   case TextureRole::ambient:
   case TextureRole::specular:
+  case TextureRole::sheenColor:
+  case TextureRole::specularColor:
     use.isColor = true;
     break;
   case TextureRole::normal:
+  case TextureRole::anisotropy: // a direction and a strength in each texel
+  case TextureRole::clearcoatNormal:
     use.isNormal = true;
     [[fallthrough]];
   case TextureRole::metallicRoughness:
   case TextureRole::occlusion:
   case TextureRole::shininess:
+  case TextureRole::clearcoat:
+  case TextureRole::clearcoatRoughness:
+  case TextureRole::iridescence:
+  case TextureRole::iridescenceThickness:
+  case TextureRole::sheenRoughness:
+  case TextureRole::specularStrength:
+  case TextureRole::transmission:
+  case TextureRole::thickness:
     use.isData = true;
     break;
   }

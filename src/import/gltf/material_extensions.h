@@ -1,0 +1,23 @@
+#pragma once
+// KHR_materials_* as extensions of PhysicalMaterial.
+
+#include "import/gltf/value.h"
+#include "scene/appearance.h"
+
+#include <span>
+
+namespace imgeo::gltf {
+
+/// The extensions that are not in their default state, or have textures, in the order of MaterialExtension.
+/// `extensions` is the member of a material. Throws Error{malformed} for wrong types; other numbers are clamped.
+std::vector<MaterialExtension> readMaterialExtensions(const Value& extensions);
+
+/// A texture of an extension: a member of its object.
+struct ExtensionTexture {
+  const char* extension;
+  const char* member;
+  TextureRole role;
+};
+std::span<const ExtensionTexture> extensionTextures();
+
+} // namespace imgeo::gltf
