@@ -6,6 +6,7 @@ import type {
   ColorMapDescription,
   ImageDescription,
   MaterialDescription,
+  MaterialExtensions,
   PointDescription,
   SamplingDescription,
   TextureDescription,
@@ -25,8 +26,10 @@ import { pngOfPixels } from "./pixelImage.ts";
 /** An element's children, with USEs resolved. */
 export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
 
+type TextureFields = Partial<Readonly<Record<TextureRole, string>>>;
+
 /** The texture fields of each material, by texture role. */
-const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole, string>>>>> = {
+const textureFields: Readonly<Record<string, TextureFields>> = {
   material: {
     color: "diffuseTexture",
     emissive: "emissiveTexture",
@@ -46,7 +49,43 @@ const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole
   unlitmaterial: { color: "emissiveTexture" },
 };
 
-const dataRoles: readonly TextureRole[] = ["metallicRoughness", "normal", "occlusion", "shininess"];
+/** The texture fields of each extension of PhysicalMaterial. */
+const extensionTextureFields: Readonly<Record<string, TextureFields>> = {
+  anisotropymaterialextension: { anisotropy: "anisotropyTexture" },
+  clearcoatmaterialextension: {
+    clearcoat: "clearcoatTexture",
+    clearcoatRoughness: "clearcoatRoughnessTexture",
+    clearcoatNormal: "clearcoatNormalTexture",
+  },
+  dispersionmaterialextension: {},
+  emissivestrengthmaterialextension: {},
+  iormaterialextension: {},
+  iridescencematerialextension: {
+    iridescence: "iridescenceTexture",
+    iridescenceThickness: "iridescenceThicknessTexture",
+  },
+  sheenmaterialextension: { sheenColor: "sheenColorTexture", sheenRoughness: "sheenRoughnessTexture" },
+  specularmaterialextension: { specularStrength: "specularTexture", specularColor: "specularColorTexture" },
+  transmissionmaterialextension: { transmission: "transmissionTexture" },
+  volumematerialextension: { thickness: "thicknessTexture" },
+};
+
+const dataRoles: readonly TextureRole[] = [
+  "metallicRoughness",
+  "normal",
+  "occlusion",
+  "shininess",
+  "anisotropy",
+  "clearcoat",
+  "clearcoatRoughness",
+  "clearcoatNormal",
+  "iridescence",
+  "iridescenceThickness",
+  "sheenRoughness",
+  "specularStrength",
+  "transmission",
+  "thickness",
+];
 
 /** `colorMap` comes from the Shape: X3D's Appearance has no such field. */
 export function readAppearance(
@@ -62,19 +101,72 @@ export function readAppearance(
   const points = childNamed("pointproperties");
   const lines = childNamed("lineproperties");
   return {
-    material: readMaterial(material, warnings),
+    material: readMaterial(material, childrenOf, warnings),
     alpha: element ? readAlpha(element, warnings) : automaticAlpha,
-    textures: readTextures(children, material, childrenOf, warnings),
+    textures: [
+      ...readTextures(children, material, textureFields, childrenOf, warnings),
+      ...extensionsOf(material, childrenOf).flatMap((extension) =>
+        readTextures(children, extension, extensionTextureFields, childrenOf, warnings),
+      ),
+    ],
     points: points && readPoints(points, warnings),
     lines: lines && readLines(lines, warnings),
     colorMap,
   };
 }
 
-function readMaterial(element: SceneElement | undefined, warnings: Warning[]): MaterialDescription {
+/** The extensions of a PhysicalMaterial. */
+function extensionsOf(material: SceneElement | undefined, childrenOf: ChildrenOf): SceneElement[] {
+  if (material === undefined || lowerNameOf(material) !== "physicalmaterial") return [];
+  return childrenOf(material).filter((child) => lowerNameOf(child) in extensionTextureFields);
+}
+
+/** Fields of the extension that a material lacks have their defaults. */
+function readExtensions(elements: readonly SceneElement[], warnings: Warning[]): MaterialExtensions {
+  const read = <Fields extends Parameters<typeof readFields>[1]>(name: string, fields: Fields) =>
+    readFields(elements.find((element) => lowerNameOf(element) === name) ?? emptyElement, fields, warnings);
+  return {
+    ...read("anisotropymaterialextension", nodeFields.AnisotropyMaterialExtension),
+    ...read("clearcoatmaterialextension", nodeFields.ClearcoatMaterialExtension),
+    ...read("dispersionmaterialextension", nodeFields.DispersionMaterialExtension),
+    ...read("iormaterialextension", nodeFields.IORMaterialExtension),
+    ...read("iridescencematerialextension", nodeFields.IridescenceMaterialExtension),
+    ...read("sheenmaterialextension", nodeFields.SheenMaterialExtension),
+    ...read("specularmaterialextension", nodeFields.SpecularMaterialExtension),
+    ...read("transmissionmaterialextension", nodeFields.TransmissionMaterialExtension),
+    ...read("volumematerialextension", nodeFields.VolumeMaterialExtension),
+  };
+}
+
+function readPhysical(element: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): MaterialDescription {
+  const fields = readFields(element, nodeFields.PhysicalMaterial, warnings);
+  const isStrength = (extension: SceneElement) => lowerNameOf(extension) === "emissivestrengthmaterialextension";
+  const extensions = extensionsOf(element, childrenOf);
+  const strength = extensions.find(isStrength);
+  const { emissiveStrength } = readFields(
+    strength ?? emptyElement,
+    nodeFields.EmissiveStrengthMaterialExtension,
+    warnings,
+  );
+  const [red, green, blue] = fields.emissiveColor;
+  return {
+    kind: "physical",
+    ...fields,
+    emissiveColor: [red * emissiveStrength, green * emissiveStrength, blue * emissiveStrength],
+    ...(extensions.some((extension) => !isStrength(extension)) && {
+      extensions: readExtensions(extensions, warnings),
+    }),
+  };
+}
+
+function readMaterial(
+  element: SceneElement | undefined,
+  childrenOf: ChildrenOf,
+  warnings: Warning[],
+): MaterialDescription {
   switch (element && lowerNameOf(element)) {
     case "physicalmaterial":
-      return { kind: "physical", ...readFields(element ?? emptyElement, nodeFields.PhysicalMaterial, warnings) };
+      return readPhysical(element ?? emptyElement, childrenOf, warnings);
     case "unlitmaterial":
       return { kind: "unlit", ...readFields(element ?? emptyElement, nodeFields.UnlitMaterial, warnings) };
     case "material":
@@ -111,11 +203,12 @@ export function isTexture(child: SceneElement): boolean {
 function readTextures(
   children: readonly SceneElement[],
   material: SceneElement | undefined,
+  fieldsByName: Readonly<Record<string, TextureFields>>,
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): TextureDescription[] {
   const materialTextures = material ? childrenOf(material).filter(isTexture) : [];
-  const fields = textureFields[material ? lowerNameOf(material) : "material"] ?? {};
+  const fields = fieldsByName[material ? lowerNameOf(material) : "material"] ?? {};
   return textureRoles.flatMap((role) => {
     const field = fields[role];
     if (field === undefined) return [];

@@ -146,10 +146,28 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly glyphAtlas?: string;
 }
 
+/**
+ * The fields of a PhysicalMaterial's extensions, with the defaults of those that it lacks. The strength of emission is
+ * a factor of the material's emissiveColor already.
+ */
+export type MaterialExtensions = Values<typeof nodeFields.AnisotropyMaterialExtension> &
+  Values<typeof nodeFields.ClearcoatMaterialExtension> &
+  Values<typeof nodeFields.DispersionMaterialExtension> &
+  Values<typeof nodeFields.IORMaterialExtension> &
+  Values<typeof nodeFields.IridescenceMaterialExtension> &
+  Values<typeof nodeFields.SheenMaterialExtension> &
+  Values<typeof nodeFields.SpecularMaterialExtension> &
+  Values<typeof nodeFields.TransmissionMaterialExtension> &
+  Values<typeof nodeFields.VolumeMaterialExtension>;
+
 /** X3D's Phong model, lit in sRGB; glTF's metallic-roughness model, lit in linear color; or an unlit color. */
 export type MaterialDescription =
   | ({ readonly kind: "phong" } & Values<typeof nodeFields.Material>)
-  | ({ readonly kind: "physical" } & Values<typeof nodeFields.PhysicalMaterial>)
+  | ({
+      readonly kind: "physical";
+      /** Undefined: the material has none. */
+      readonly extensions?: MaterialExtensions | undefined;
+    } & Values<typeof nodeFields.PhysicalMaterial>)
   | ({ readonly kind: "unlit" } & Values<typeof nodeFields.UnlitMaterial>);
 
 /** The meaning of alpha. AUTO blends where the material or a texture is transparent. */
@@ -191,6 +209,18 @@ export const textureRoles = [
   "ambient",
   "specular",
   "shininess",
+  "anisotropy",
+  "clearcoat",
+  "clearcoatRoughness",
+  "clearcoatNormal",
+  "iridescence",
+  "iridescenceThickness",
+  "sheenColor",
+  "sheenRoughness",
+  "specularStrength",
+  "specularColor",
+  "transmission",
+  "thickness",
 ] as const;
 export type TextureRole = (typeof textureRoles)[number];
 

@@ -212,6 +212,37 @@ export const nodeFields = {
     normalScale: SFFloat(1),
     occlusionStrength: SFFloat(1),
   },
+  AnisotropyMaterialExtension: {
+    anisotropyStrength: SFFloat(0),
+    anisotropyRotation: SFFloat(0),
+  },
+  ClearcoatMaterialExtension: {
+    clearcoat: SFFloat(0),
+    clearcoatRoughness: SFFloat(0),
+  },
+  DispersionMaterialExtension: { dispersion: SFFloat(0) },
+  EmissiveStrengthMaterialExtension: { emissiveStrength: SFFloat(1) },
+  IORMaterialExtension: { indexOfRefraction: SFFloat(1.5) },
+  IridescenceMaterialExtension: {
+    iridescence: SFFloat(0),
+    iridescenceIndexOfRefraction: SFFloat(1.3),
+    iridescenceThicknessMinimum: SFFloat(100),
+    iridescenceThicknessMaximum: SFFloat(400),
+  },
+  SheenMaterialExtension: {
+    sheenColor: SFColor([0, 0, 0]),
+    sheenRoughness: SFFloat(0),
+  },
+  SpecularMaterialExtension: {
+    specular: SFFloat(1),
+    specularColor: SFColor([1, 1, 1]),
+  },
+  TransmissionMaterialExtension: { transmission: SFFloat(0) },
+  VolumeMaterialExtension: {
+    thickness: SFFloat(0),
+    attenuationDistance: SFFloat(1000000),
+    attenuationColor: SFColor([1, 1, 1]),
+  },
   UnlitMaterial: {
     emissiveColor: SFColor([1, 1, 1]),
     transparency: SFFloat(0),

@@ -7,11 +7,8 @@
 
 import { physicalDefine, physicalLighting } from "./physicalLighting.ts";
 
-/**
- * The functions directX3d and ambientX3d. They need three.js' IncidentLight (color, direction towards the light) and
- * ReflectedLight (directDiffuse, directSpecular, indirectDiffuse, indirectSpecular). Directions have length 1.
- */
-export const x3dLighting = /* glsl */ `
+/** What the lighting functions know of a surface. */
+export const materialStruct = /* glsl */ `
 struct X3dMaterial {
   vec3 diffuseColor;
   vec3 specularColor;
@@ -20,7 +17,14 @@ struct X3dMaterial {
   float metallic;
   float roughness;
 };
+`;
 
+/**
+ * The functions directX3d and ambientX3d. They need three.js' IncidentLight (color, direction towards the light) and
+ * ReflectedLight (directDiffuse, directSpecular, indirectDiffuse, indirectSpecular). Directions have length 1.
+ */
+export const x3dLighting = /* glsl */ `
+${materialStruct}
 #ifdef ${physicalDefine}
 ${physicalLighting}
 #else

@@ -2,7 +2,7 @@
 // tone mapping and colour space apply. The vertex chunk is added to the materials of every pass, so
 // that shadows have the shape of the visible surface.
 
-import type { Camera, Material, Sphere, Texture, WebGLRenderer } from "three";
+import type { Camera, Material, MeshPhysicalMaterialParameters, Sphere, Texture, WebGLRenderer } from "three";
 import {
   Color,
   DoubleSide,
@@ -11,11 +11,18 @@ import {
   MeshBasicMaterial,
   MeshDepthMaterial,
   MeshDistanceMaterial,
+  MeshPhysicalMaterial,
   MeshStandardMaterial,
   Points,
   SRGBColorSpace,
 } from "three";
-import type { AppearanceDescription, MaterialDescription, TextureRole } from "../document/description.ts";
+import type {
+  AppearanceDescription,
+  MaterialDescription,
+  MaterialExtensions,
+  TextureRole,
+  Vec3,
+} from "../document/description.ts";
 import { textureRoles } from "../document/description.ts";
 import { depthShadingDefine, addDepthShading } from "../render/materials/depthShading.ts";
 import { addGlyphField, hasGlyphs, setGlyphDefine } from "../render/materials/glyphField.ts";
@@ -55,6 +62,8 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
   if (shading === "unlit" || shading === "distance" || description.kind === "unlit") {
     return new MeshBasicMaterial({ color: emissive.getHex() === 0 ? color : emissive, opacity, transparent });
   }
+  if (description.kind === "physical" && description.extensions)
+    return physicalMaterialOf(description, description.extensions, { color, opacity, transparent, emissive });
   return new MeshStandardMaterial({
     color,
     opacity,
@@ -64,6 +73,39 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
       ? { roughness: description.roughness, metalness: description.metallic }
       : // From Blinn's exponent, Walter et al. 2007.
         { roughness: Math.sqrt(2 / (description.shininess * 128 + 2)), metalness: 0 }),
+  });
+}
+
+/** glTF's material with extensions. */
+function physicalMaterialOf(
+  { roughness, metallic }: MaterialDescription & { kind: "physical" },
+  extensions: MaterialExtensions,
+  common: MeshPhysicalMaterialParameters,
+): MeshPhysicalMaterial {
+  const linear = (color: Vec3) => new Color().setRGB(...color, LinearSRGBColorSpace);
+  const { sheenColor } = extensions;
+  return new MeshPhysicalMaterial({
+    ...common,
+    roughness,
+    metalness: metallic,
+    anisotropy: extensions.anisotropyStrength,
+    anisotropyRotation: extensions.anisotropyRotation,
+    clearcoat: extensions.clearcoat,
+    clearcoatRoughness: extensions.clearcoatRoughness,
+    dispersion: extensions.dispersion,
+    ior: extensions.indexOfRefraction,
+    iridescence: extensions.iridescence,
+    iridescenceIOR: extensions.iridescenceIndexOfRefraction,
+    iridescenceThicknessRange: [extensions.iridescenceThicknessMinimum, extensions.iridescenceThicknessMaximum],
+    sheen: sheenColor.some((channel) => channel > 0) ? 1 : 0,
+    sheenColor: linear(sheenColor),
+    sheenRoughness: extensions.sheenRoughness,
+    specularIntensity: extensions.specular,
+    specularColor: linear(extensions.specularColor),
+    transmission: extensions.transmission,
+    thickness: extensions.thickness,
+    attenuationDistance: extensions.attenuationDistance,
+    attenuationColor: linear(extensions.attenuationColor),
   });
 }
 
@@ -138,6 +180,18 @@ const mapNames: Readonly<Record<TextureRole, readonly string[]>> = {
   ambient: [],
   specular: ["specularMap"],
   shininess: [],
+  anisotropy: ["anisotropyMap"],
+  clearcoat: ["clearcoatMap"],
+  clearcoatRoughness: ["clearcoatRoughnessMap"],
+  clearcoatNormal: ["clearcoatNormalMap"],
+  iridescence: ["iridescenceMap"],
+  iridescenceThickness: ["iridescenceThicknessMap"],
+  sheenColor: ["sheenColorMap"],
+  sheenRoughness: ["sheenRoughnessMap"],
+  specularStrength: ["specularIntensityMap"],
+  specularColor: ["specularColorMap"],
+  transmission: ["transmissionMap"],
+  thickness: ["thicknessMap"],
 };
 
 /** Applies textures. Maps that the app has set stay until the scene's textures replace them. */

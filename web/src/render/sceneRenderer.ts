@@ -34,6 +34,7 @@ import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./uploads/bufferProvider.ts";
 import { BufferStore } from "./uploads/bufferStore.ts";
 import type { SceneUniforms } from "./materials/materialFactory.ts";
+import { Backdrop } from "./materials/extendedMaterials.ts";
 import { x3dMaterials } from "./materials/x3dMaterials.ts";
 import { FramePacer } from "./frames/framePacing.ts";
 import type { Hit } from "./picking/picker.ts";
@@ -86,6 +87,7 @@ export class SceneRenderer {
     pixelRatio: { value: 1 },
     viewport: { value: new Vector4() },
     depthRange: { value: new Vector2() },
+    backdrop: new Backdrop(),
     ...makeLightUniforms(),
     ...makeClipPlaneUniforms(),
     ...makeFogUniforms(),

@@ -8,6 +8,7 @@ import type { DrawRange } from "../../stage/stage.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { SceneEffectUniforms } from "../environment/sceneEffects.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
+import type { Backdrop } from "./extendedMaterials.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 
 export interface MaterialFactory {
@@ -72,6 +73,8 @@ export interface SceneUniforms extends SceneEffectUniforms {
   readonly viewport: { value: Vector4 };
   /** Nearest and farthest view depth of the scene. */
   readonly depthRange: { value: Vector2 };
+  /** Pages only: what surfaces that transmit light show. */
+  readonly backdrop?: Backdrop;
 }
 
 export interface MaterialRequest extends VertexFormat {

@@ -3,6 +3,7 @@
 
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isBlended, unlitColorOf, opacityOf, litParametersOf } from "../../lighting/materialParameters.ts";
+import { isTransmissive } from "./extendedMaterials.ts";
 import { isLine } from "../primitives/primitives.ts";
 import type { VertexColors, MaterialRequest, Shading } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
@@ -13,6 +14,7 @@ export function isDrawBlended(
   colors: VertexColors,
   surfaceTextures: SurfaceTextures,
 ): boolean {
+  if (isTransmissive(appearance.material)) return true; // what is behind it must be drawn before it
   return isBlended(appearance, colors === "rgba" || surfaceTextures.get("color")?.hasAlpha === true);
 }
 

@@ -17,7 +17,7 @@ import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
 export type ExtraMapUniforms = Readonly<Record<`${ExtraMapRole}Map`, { value: Texture | null }>>;
 
 export function makeExtraMapUniforms(): ExtraMapUniforms {
-  return { metallicRoughnessMap: { value: null }, ambientMap: { value: null }, shininessMap: { value: null } };
+  return Object.fromEntries(extraMapRoles.map((role) => [`${role}Map`, { value: null }])) as ExtraMapUniforms;
 }
 
 const linear = (color: string) => `

@@ -8,12 +8,15 @@ import type { AppearanceDescription, MaterialDescription } from "../../document/
 import type { LitParameters } from "../../lighting/materialParameters.ts";
 import { litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
-import { x3dLighting } from "../../lighting/x3dLighting.ts";
+import { extendedDefine } from "../../lighting/extendedLighting.ts";
+import { materialStruct, x3dLighting } from "../../lighting/x3dLighting.ts";
 import { instanceColorChunks } from "../shaders/instanceRecord.ts";
 import { addSceneEffects, sceneEffectsKey } from "../environment/sceneEffects.ts";
 import { depthShadingDefine, addDepthShading } from "./depthShading.ts";
 import { lightsChunk } from "../lights/lightFalloff.ts";
 import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
+import type { Backdrop, ExtensionUniforms } from "./extendedMaterials.ts";
+import { applyExtensions, extendedVertexShader, lightingChunks, makeExtensionUniforms } from "./extendedMaterials.ts";
 import { minAlpha } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
@@ -29,24 +32,27 @@ import { setTextureMaps, makeExtraMapUniforms, textureMapChunks, x3dMaterialChun
 import { setColor } from "../lights/linearColor.ts";
 import { instanceNumbersOf, isDrawBlended, isUnlit, materialKeyOf } from "./x3dBatching.ts";
 
-const x3dLightingChunk = /* glsl */ `
+/** `functions`: GLSL of directX3d and ambientX3d. */
+const lightingChunkOf = (functions: string) => /* glsl */ `
 varying vec3 vViewPosition;
 uniform float ambientIntensity;
 uniform float metallic;
 uniform float roughness;
-${x3dLighting}
+${functions}
 #define RE_Direct directX3d
 #define RE_IndirectDiffuse ambientX3d
 `;
+const x3dLightingChunk = lightingChunkOf(x3dLighting);
+const extendedLightingChunkOf = (functions: string) => lightingChunkOf(materialStruct + functions);
 
 /** Uniforms of lit materials. */
-interface LitUniforms extends ExtraMapUniforms {
+interface LitUniforms extends ExtraMapUniforms, ExtensionUniforms {
   readonly ambientIntensity: { value: number };
   readonly metallic: { value: number };
   readonly roughness: { value: number };
 }
 
-type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
+type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms; backdrop?: Backdrop } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** The MaterialFactory of pages. */
@@ -72,6 +78,7 @@ function makeMaterial(
     metallic: { value: 1 },
     roughness: { value: 1 },
     ...makeExtraMapUniforms(),
+    ...makeExtensionUniforms(),
   };
   const material: PatchMaterial = isUnlit(shading)
     ? new MeshBasicMaterial()
@@ -86,8 +93,10 @@ function makeMaterial(
     ...(shading === "distance" && { [depthShadingDefine]: "" }),
   };
   material.userData.lit = lit;
+  if (shared.backdrop) material.userData.backdrop = shared.backdrop;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
+    if (shared.backdrop) shader.uniforms.backdrop = shared.backdrop.uniform;
     addVertexReading(shader);
     addPrimitiveChunks(shader);
     addDepthShading(shader);
@@ -97,12 +106,13 @@ function makeMaterial(
       extraMapDeclarations +
       replaceChunks(shader.fragmentShader, [
         ["#include <lights_pars_begin>", lightsChunk],
-        ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
+        ...lightingChunks(material.defines ?? {}, x3dLightingChunk, extendedLightingChunkOf),
         ["#include <lights_phong_fragment>", x3dMaterialChunk],
         ["#include <colorspace_fragment>", physicalOutput],
         ...textureMapChunks,
         ...instanceColorChunks,
       ]);
+    if (extendedDefine in (material.defines ?? {})) shader.vertexShader = extendedVertexShader(shader.vertexShader);
     addSceneEffects(shader, shared);
   };
   // `onBeforeCompile` edits the shaders of all materials alike, so equal keys let three.js share programs.
@@ -138,7 +148,7 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 
 function applyLit(material: LitMaterial, description: MaterialDescription, parameters: LitParameters): void {
   setKind(material, description.kind);
-  const { lit } = material.userData;
+  const { lit, backdrop } = material.userData;
   setColor(material.color, parameters.color);
   setColor(material.specular, parameters.specular);
   material.shininess = parameters.shininess;
@@ -147,6 +157,7 @@ function applyLit(material: LitMaterial, description: MaterialDescription, param
   lit.ambientIntensity.value = parameters.ambientIntensity;
   lit.metallic.value = parameters.metallic;
   lit.roughness.value = parameters.roughness;
+  if (backdrop) applyExtensions(material, description, lit, backdrop);
 }
 
 /** The #defines of each kind of material. */

@@ -4,6 +4,7 @@
 import { Matrix3 } from "three";
 import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
 import { textureRoles } from "../../document/description.ts";
+import { extensionRoles } from "../../lighting/extendedLighting.ts";
 
 /** Per map: the #define that three.js sets for it, the varying for its coordinates, and the texture role. */
 const maps: readonly (readonly [define: string, varying: string, role: TextureRole])[] = [
@@ -17,16 +18,26 @@ const maps: readonly (readonly [define: string, varying: string, role: TextureRo
 ];
 
 /** Roles for which three.js' Phong and basic materials have no map; their samplers are called `<role>Map`. */
-export const extraMapRoles = ["metallicRoughness", "ambient", "shininess"] as const satisfies readonly TextureRole[];
+export const extraMapRoles = [
+  "metallicRoughness",
+  "ambient",
+  "shininess",
+  ...extensionRoles,
+] as const satisfies readonly TextureRole[];
 export type ExtraMapRole = (typeof extraMapRoles)[number];
 
 export function extraMapDefine(role: ExtraMapRole): string {
   return `USE_EXTRA_${role.toUpperCase()}`;
 }
 
+/** The GLSL expression of the coordinates of an extra map, in a fragment shader. */
+export function extraUv(role: ExtraMapRole): string {
+  return `v_${role}Uv`;
+}
+
 /** The GLSL expression of the texel of an extra map, in a fragment shader. */
 export function extraTexel(role: ExtraMapRole): string {
-  return `texture2D(${role}Map, v_${role}Uv)`;
+  return `texture2D(${role}Map, ${extraUv(role)})`;
 }
 
 /** Picking pass only: defined if the alpha of the colour texture discards fragments. */

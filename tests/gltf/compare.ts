@@ -1,0 +1,83 @@
+// Draws a glTF file with imgeo and with three.js' GLTFLoader, from the same camera and with the same lights.
+
+import { readFileSync, readdirSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
+import { build } from "esbuild";
+import type { Browser, Page } from "playwright-core";
+import { repository } from "../browser/paths.ts";
+import type { TestServer } from "../browser/server.ts";
+import type { Picture } from "./threePage.ts";
+
+export const size = { width: 320, height: 240 };
+
+const draco = join(repository, "node_modules/three/examples/jsm/libs/draco/gltf");
+
+/** Puts three.js' page on the server. */
+export async function serveThree(server: TestServer): Promise<void> {
+  server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
+  const bundle = await build({
+    entryPoints: [join(import.meta.dirname, "threePage.ts")],
+    bundle: true,
+    format: "esm",
+    write: false,
+    target: "es2022",
+  });
+  server.put("/three.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
+  server.put(
+    "/three.html",
+    `<!doctype html><style>body { margin: 0; overflow: hidden }</style><script type="module" src="/three.js"></script>`,
+  );
+  for (const file of readdirSync(draco)) server.put(`/draco/${file}`, readFileSync(join(draco, file)));
+}
+
+/** The lights, background and camera of three.js' page in place of those of a document. */
+function withPicture(page: string, { position, orientation, fieldOfView }: Picture): string {
+  const own = `<NavigationInfo headlight="false"></NavigationInfo><Background skyColor="0.9294 0.9294 0.949"></Background>
+    <Viewpoint position="${position.join(" ")}" orientation="${orientation.join(" ")}" fieldOfView="${String(fieldOfView)}" set_bind="true"></Viewpoint>
+    <DirectionalLight direction="-0.45 -0.8 -0.6" intensity="1" color="1 1 1" ambientIntensity="0.2" global="true"></DirectionalLight>`;
+  return page
+    .replace(
+      /<(DirectionalLight|PointLight|SpotLight|Viewpoint|OrthoViewpoint|NavigationInfo|Background)\b[^>]*><\/\1>/g,
+      "",
+    )
+    .replace(/<Scene>/i, `<Scene>${own}`);
+}
+
+export interface Pictures {
+  readonly imgeo: Buffer;
+  readonly three: Buffer;
+}
+
+/**
+ * Both pictures. `site` is the directory of the file's site, below the server's directory or put on it at `path`.
+ */
+export async function draw(browser: Browser, server: TestServer, file: string, site: string): Promise<Pictures> {
+  for (const other of readdirSync(dirname(file)))
+    if (/\.(gltf|glb|bin|png|jpe?g|webp)$/i.test(other))
+      server.put(`/model/${encodeURIComponent(other)}`, readFileSync(join(dirname(file), other)));
+  const three = await newPage(browser);
+  await three.goto(`${server.origin}three.html`);
+  await three.waitForFunction(() => "drawModel" in window);
+  const picture = await three.evaluate(
+    async (url) => await window.drawModel(url),
+    `/model/${encodeURIComponent(basename(file))}`,
+  );
+  const threePicture = await three.screenshot();
+  await three.close();
+  const path = basename(site);
+  server.put(`/${path}/sheet.html`, withPicture(readFileSync(join(site, "index.html"), "utf8"), picture));
+  const page = await newPage(browser);
+  await page.goto(`${server.origin}${path}/sheet.html`);
+  await page.waitForFunction(() => customElements.get("imgeo-view") !== undefined);
+  await page.evaluate(async () => {
+    await (document.querySelector("x3d") as unknown as { complete: Promise<void> }).complete;
+  });
+  await page.waitForTimeout(300);
+  const imgeo = await page.screenshot();
+  await page.close();
+  return { imgeo, three: threePicture };
+}
+
+async function newPage(browser: Browser): Promise<Page> {
+  return await browser.newPage({ viewport: size, reducedMotion: "reduce" });
+}
