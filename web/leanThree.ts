@@ -116,7 +116,7 @@ export const leanThree: Plugin = {
     build.onResolve({ filter: /^three$/ }, () => ({ path: join(three, "src/Three.js"), sideEffects: false }));
     const files = filesByName();
     build.onLoad({ filter: /web\/src\/.*\.ts$/ }, ({ path }) => ({
-      contents: withNamesFromTheirFiles(readFileSync(path, "utf8"), files),
+      contents: withNamesFromTheirFiles(withLeanShaders(readFileSync(path, "utf8")), files),
       loader: "ts",
     }));
     build.onLoad({ filter: /three\/src\/.*\.js$/ }, ({ path }) => {
@@ -126,6 +126,13 @@ export const leanThree: Plugin = {
     });
   },
 };
+
+/** Removes comments and indentation of GLSL in one of our modules, up to a template literal within it. */
+function withLeanShaders(module: string): string {
+  return module.replaceAll(/\/\* glsl \*\/ `[^`]*/g, (shader) =>
+    shader.replaceAll(/[ \t]*\/\/.*$/gm, "").replaceAll(/\n\s+/g, "\n"),
+  );
+}
 
 /** Removes comments and indentation of GLSL in a module of three.js. */
 function withoutComments(module: string): string {

@@ -60,7 +60,7 @@ enum class TextureRole : std::uint8_t {
   ambient,   ///< Material only
   specular,  ///< Material only
   shininess, ///< Material only
-  // Of the extensions of PhysicalMaterial; the channels are glTF's.
+  // The extensions of PhysicalMaterial; the channels are those of glTF.
   anisotropy,
   clearcoat,
   clearcoatRoughness,

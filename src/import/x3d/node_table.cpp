@@ -290,15 +290,24 @@ constexpr NodeRow x3dNodes[] = {
 };
 
 constexpr NodeRow nodesOfOthers[] = {
+    {"AnisotropyMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"BinaryGeometry", "imgeo", 0, "geometry", drawn, ""},
+    {"ClearcoatMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"CommonSurfaceShader", "X3DOM", 0, "shaders", converted, "Material"},
+    {"DispersionMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"Effect", "Castle Game Engine", 0, "effects", dropped, noShaders},
     {"EffectPart", "Castle Game Engine", 0, "parts", dropped, noShaders},
+    {"EmissiveStrengthMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"GeometryPatch", "imgeo", 0, "children", drawn, ""},
+    {"IORMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"ImageGeometry", "imgeo", 0, "geometry", drawn, ""},
+    {"IridescenceMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"ScreenEffect", "Castle Game Engine", 0, "children", dropped, noShaders},
+    {"SheenMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
+    {"SpecularMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"SurfaceShaderTexture", "X3DOM", 0, "diffuseTexture", converted, "its texture"},
-
+    {"TransmissionMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
+    {"VolumeMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
 };
 
 constexpr NodeRow statementRows[] = {
