@@ -10,7 +10,6 @@ import {
   MeshStandardMaterial,
   PerspectiveCamera,
   PMREMGenerator,
-  Quaternion,
   Scene,
   Sphere,
   Vector3,
@@ -67,7 +66,7 @@ window.drawModel = async (url) => {
   camera.position.copy(bounds.center).addScaledVector(new Vector3(0.35, 0.3, 1).normalize(), radius * 2.7);
   camera.lookAt(bounds.center);
   renderer.render(scene, camera);
-  const { x, y, z, w } = camera.quaternion.clone().normalize() as Quaternion;
+  const { x, y, z, w } = camera.quaternion.clone().normalize();
   const sine = Math.sqrt(Math.max(1 - w * w, 0));
   return {
     position: camera.position.toArray(),
