@@ -11,10 +11,6 @@ namespace imgeo::vrml1 {
 
 namespace {
 
-std::string textOf(double value) {
-  return fmt::format("{}", value);
-}
-
 bool hasPart(const Node& node, const char* part) {
   const Field* const parts = node.field("parts");
   return !parts ||
@@ -75,7 +71,7 @@ void Shapes::addRound(pugi::xml_node parent, const Node& node, Properties& prope
     pugi::xml_node geometry = addShape(parent, node, surfaces[i], node.type.c_str(), properties);
     for (const char* field : {"radius", "bottomRadius", "height"})
       if (const std::vector<double>& values = node.numbers(field); !values.empty())
-        x3d::set(geometry, field, textOf(values[0]));
+        x3d::set(geometry, field, fmt::format("{}", values[0]));
     bool isClosed = true;
     for (const Part& part : parts)
       if (!isInShape(part)) {
@@ -122,7 +118,7 @@ void Shapes::addText(pugi::xml_node parent, const Node& node, Properties& proper
 
   const Node* const font = properties.get(Property::fontStyle);
   pugi::xml_node style = elements_.add(text, "FontStyle", node.where);
-  x3d::set(style, "size", textOf(font ? font->real("size", 10) : 10));
+  x3d::set(style, "size", fmt::format("{}", font ? font->real("size", 10) : 10));
   const std::string family = font ? font->word("family", "SERIF") : "SERIF";
   if (family != "SERIF")
     x3d::set(style, "family", family == "SANS" ? "\"SANS\"" : "\"TYPEWRITER\"");
@@ -136,7 +132,7 @@ void Shapes::addText(pugi::xml_node parent, const Node& node, Properties& proper
   if (justification != "LEFT")
     x3d::set(style, "justify", justification == "CENTER" ? "\"MIDDLE\"" : "\"END\"");
   if (node.field("spacing"))
-    x3d::set(style, "spacing", textOf(node.real("spacing", 1)));
+    x3d::set(style, "spacing", fmt::format("{}", node.real("spacing", 1)));
 }
 
 } // namespace imgeo::vrml1
