@@ -31,6 +31,7 @@ struct GeometryInfo {
   std::string normalEncoding;            ///< empty if there are no normals
   std::uint32_t normalBits = 0;          ///< 0: there are no normals
   std::uint32_t texCoordBits = 0;        ///< 0: there are no texture coordinates
+  std::uint32_t texCoordSets = 0;        ///< sets of texture coordinates, 0..4
   std::uint32_t colorBits = 0;           ///< 0: there are no colours
   std::vector<std::string> attributes;   ///< names of further attributes
   /// Whether all members are equal.
@@ -67,14 +68,15 @@ struct SiteAttribute {
 
 /// A decoded mesh. Attributes are empty, or have one entry for each vertex.
 struct SiteMesh {
-  std::string name;                                ///< of the first shape that shows it; may be empty
-  Topology topology = Topology::triangles;         ///< kind of elements
-  std::vector<std::array<float, 3>> positions;     ///< local coordinates
-  std::vector<std::array<float, 3>> normals;       ///< unit length
-  std::vector<std::array<float, 2>> texCoords;     ///< first set
-  std::vector<std::array<std::uint8_t, 4>> colors; ///< RGBA
-  std::vector<SiteAttribute> attributes;           ///< further attributes
-  std::vector<std::uint32_t> indices;              ///< vertex indices: 3 a triangle, 2 a line, 1 a point
+  std::string name;                                                ///< of the first shape that shows it; may be empty
+  Topology topology = Topology::triangles;                         ///< kind of elements
+  std::vector<std::array<float, 3>> positions;                     ///< local coordinates
+  std::vector<std::array<float, 3>> normals;                       ///< unit length
+  std::vector<std::array<float, 2>> texCoords;                     ///< first set
+  std::vector<std::vector<std::array<float, 2>>> furtherTexCoords; ///< sets beside the first, up to 3
+  std::vector<std::array<std::uint8_t, 4>> colors;                 ///< RGBA
+  std::vector<SiteAttribute> attributes;                           ///< further attributes
+  std::vector<std::uint32_t> indices; ///< vertex indices: 3 a triangle, 2 a line, 1 a point
 };
 
 /// An instance of a shape in the scene.

@@ -47,6 +47,7 @@ Json jsonOf(const SiteInfo& info) {
                                   {"normalEncoding", geometry.normalEncoding},
                                   {"normalBits", geometry.normalBits},
                                   {"texCoordBits", geometry.texCoordBits},
+                                  {"texCoordSets", geometry.texCoordSets},
                                   {"colorBits", geometry.colorBits},
                                   {"attributes", geometry.attributes}});
   json["missing"] = info.missing;
@@ -135,16 +136,19 @@ Json jsonOf(const SourceInfo& info) {
           {"shapes", info.shapes},          {"triangles", info.elements.triangles},
           {"lines", info.elements.lines},   {"points", info.elements.points},
           {"vertices", info.vertices},      {"normals", info.normals},
-          {"texCoords", info.texCoords},    {"colors", info.colors},
-          {"attributes", info.attributes},  {"boxMin", vector(info.box.min)},
-          {"boxMax", vector(info.box.max)}, {"warnings", info.warnings}};
+          {"texCoords", info.texCoords},    {"texCoordSets", info.texCoordSets},
+          {"colors", info.colors},          {"attributes", info.attributes},
+          {"boxMin", vector(info.box.min)}, {"boxMax", vector(info.box.max)},
+          {"warnings", info.warnings}};
 }
 
 void printSource(const SourceInfo& info) {
   const auto has = [](bool isPresent, const char* name) { return fmt::format("{}{}", isPresent ? "" : "no ", name); };
   fmt::print("{}, {}: {}, {} vertices in {} {}\n", info.format, byteSize(info.bytes), listed(info.elements),
              grouped(info.vertices), info.shapes, info.shapes == 1 ? "shape" : "shapes");
-  fmt::print("{}, {}, {}\n", has(info.normals, "normals"), has(info.texCoords, "texture coordinates"),
+  fmt::print("{}, {}, {}\n", has(info.normals, "normals"),
+             info.texCoordSets > 1 ? fmt::format("{} sets of texture coordinates", info.texCoordSets)
+                                   : has(info.texCoords, "texture coordinates"),
              has(info.colors, "colours"));
   if (!info.attributes.empty())
     fmt::print("further attributes of vertices: {}\n", fmt::join(info.attributes, ", "));

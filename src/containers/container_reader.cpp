@@ -16,7 +16,7 @@ IndexedPatch SinglePatchReader::decode(const PatchDescription& patch, const Geom
 }
 
 StoredPrecision SinglePatchReader::precisionOf(const GeometryDescription& geometry) {
-  constexpr ByVertexRole<std::uint32_t> bitsInImages{{8, 16, 8}};
+  constexpr ByVertexRole<std::uint32_t> bitsInImages{{8, 16, 16, 16, 16, 8}};
   StoredPrecision precision;
   precision.normalEncoding = geometry.normalEncoding;
   for (const VertexRole role : vertexRoles)

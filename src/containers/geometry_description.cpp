@@ -20,6 +20,9 @@ const char* nameOf(Role role) {
     return "base";
   case Role::normal:
   case Role::texCoord:
+  case Role::texCoord1:
+  case Role::texCoord2:
+  case Role::texCoord3:
   case Role::color:
     break;
   }

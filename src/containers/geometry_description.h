@@ -9,6 +9,7 @@
 #include "prepare/primitives.h"
 #include "scene/vertex_attributes.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,7 +18,19 @@
 namespace imgeo {
 
 /// The contents of a file; `info` sums bytes by role.
-enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute, patch, base };
+enum class Role : std::uint8_t {
+  index,
+  coord,
+  normal,
+  texCoord,
+  texCoord1,
+  texCoord2,
+  texCoord3,
+  color,
+  attribute,
+  patch,
+  base
+};
 
 /// "index", "coord" ...: the names of fields in documents.
 const char* nameOf(Role role);
@@ -77,16 +90,24 @@ struct AttributeDescription {
   friend bool operator==(const AttributeDescription&, const AttributeDescription&) = default;
 };
 
+/// The range of a set of texture coordinates, relative to which they are stored.
+struct TexCoordBox {
+  Vec2f min{0, 0}, size{1, 1};
+  friend bool operator==(const TexCoordBox&, const TexCoordBox&) = default;
+};
+
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
   Encoding encoding = Encoding::classic;
-  Lattice lattice;                             ///< `position` and `size` follow from it: see decodeFields
-  Box3d box;                                   ///< tight box of all patches
-  Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box
+  Lattice lattice; ///< `position` and `size` follow from it: see decodeFields
+  Box3d box;       ///< tight box of all patches
+  std::array<TexCoordBox, maxTexCoordSets> texCoordBoxes;
+  std::vector<std::string> texCoordMappings; ///< names of the sets, as VertexAttributes has them
   std::uint32_t colorComponents = 3;
   ElementType indexType = ElementType::uint16; ///< bg and classic, which has uint16 and uint32
   ElementType coordType = ElementType::uint16; ///< bg only
-  ByVertexRole<ElementType> attributeTypes{{ElementType::int8, ElementType::uint16, ElementType::uint8}}; ///< bg only
+  ByVertexRole<ElementType> attributeTypes{{ElementType::int8, ElementType::uint16, ElementType::uint16,
+                                            ElementType::uint16, ElementType::uint16, ElementType::uint8}}; ///< bg only
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;

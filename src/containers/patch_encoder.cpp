@@ -13,20 +13,19 @@ namespace imgeo {
 
 namespace {
 
-/// Sets the bounding box of all texture coordinates, relative to which they are stored. Sites for X3DOM, which has no
-/// field for the box, store 0..1 instead.
-void setTexCoordBox(GeometryDescription& geometry, const PatchedMesh& mesh) {
+/// Sets the bounding box of a set of texture coordinates, relative to which they are stored. Sites for X3DOM, which has
+/// no field for the box, store 0..1 instead.
+void setTexCoordBox(GeometryDescription& geometry, const PatchedMesh& mesh, std::size_t set) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   Vec2f min{infinite, infinite}, max{-infinite, -infinite};
   for (const Patch& patch : mesh.patches)
-    for (const Vec2f& texCoord : patch.texCoords) {
+    for (const Vec2f& texCoord : texCoordsOf(patch, set)) {
       min = {std::min(min.x, texCoord.x), std::min(min.y, texCoord.y)};
       max = {std::max(max.x, texCoord.x), std::max(max.y, texCoord.y)};
     }
   if (!(min.x <= max.x))
     return;
-  geometry.texCoordMin = min;
-  geometry.texCoordSize = {max.x - min.x, max.y - min.y};
+  geometry.texCoordBoxes[set] = {min, {max.x - min.x, max.y - min.y}};
 }
 
 IndexedPatch primitivesOf(const Patch& patch, const EncodeOptions& options) {
@@ -78,6 +77,9 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
     break;
   case Role::normal:
   case Role::texCoord:
+  case Role::texCoord1:
+  case Role::texCoord2:
+  case Role::texCoord3:
   case Role::color:
     patch.vertexAttributes[*vertexRoleOf(role)] = reference;
   }
@@ -91,7 +93,10 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   geometry.lattice = mesh.lattice;
   geometry.box = mesh.box;
   if (options.target != Target::x3dom)
-    setTexCoordBox(geometry, mesh);
+    for (std::size_t set = 0; set < maxTexCoordSets; ++set)
+      setTexCoordBox(geometry, mesh, set);
+  if (!mesh.patches.empty())
+    geometry.texCoordMappings = mesh.patches[0].texCoordMappings;
   for (const Patch& patch : mesh.patches)
     geometry.colorComponents = std::max(geometry.colorComponents, patch.colorComponents);
   geometry.normalEncoding = options.normals;

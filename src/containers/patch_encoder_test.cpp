@@ -61,11 +61,14 @@ void expectEqualWithinSteps(const Encoded& encoded) {
     ASSERT_LE(angleBetween(decoded.normals[i], source.normals[i]), bound);
     ASSERT_NEAR(length(Vec3d(decoded.normals[i])), 1, 1e-6);
   }
-  ASSERT_EQ(decoded.texCoords.size(), source.texCoords.size());
-  const Vec2f size = encoded.geometry.texCoordSize;
-  for (std::size_t i = 0; i < source.texCoords.size(); ++i) {
-    EXPECT_NEAR(decoded.texCoords[i].x, source.texCoords[i].x, size.x * 0.5001 / 65535 + 1e-6);
-    EXPECT_NEAR(decoded.texCoords[i].y, source.texCoords[i].y, size.y * 0.5001 / 65535 + 1e-6);
+  for (std::size_t set = 0; set < maxTexCoordSets; ++set) {
+    const std::vector<Vec2f>&is = texCoordsOf(decoded, set), &should = texCoordsOf(source, set);
+    ASSERT_EQ(is.size(), should.size());
+    const Vec2f size = encoded.geometry.texCoordBoxes[set].size;
+    for (std::size_t i = 0; i < should.size(); ++i) {
+      EXPECT_NEAR(is[i].x, should[i].x, size.x * 0.5001 / 65535 + 1e-6);
+      EXPECT_NEAR(is[i].y, should[i].y, size.y * 0.5001 / 65535 + 1e-6);
+    }
   }
   ASSERT_EQ(decoded.namedAttributes.size(), source.namedAttributes.size());
   for (std::size_t a = 0; a < source.namedAttributes.size(); ++a)

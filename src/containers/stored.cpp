@@ -12,29 +12,27 @@
 
 namespace imgeo {
 
-double texCoordFraction(float value, float min, float size) {
-  return size > 0 ? (double{value} - min) / size : 0;
+Vec2<double> texCoordFraction(const Vec2f& texCoord, const TexCoordBox& box) {
+  const auto fraction = [](float value, float min, float size) { return size > 0 ? (double{value} - min) / size : 0; };
+  return {fraction(texCoord.x, box.min.x, box.size.x), fraction(texCoord.y, box.min.y, box.size.y)};
 }
 
-std::uint16_t storeTexCoord(float value, float min, float size) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(texCoordFraction(value, min, size), 0.0, 1.0) * 65535));
+Vec2f texCoordAt(const Vec2<double>& fraction, const TexCoordBox& box) {
+  return {static_cast<float>(box.min.x + box.size.x * fraction.x),
+          static_cast<float>(box.min.y + box.size.y * fraction.y)};
 }
 
-float loadTexCoord(std::uint16_t stored, float min, float size) {
-  return static_cast<float>(min + double{size} * stored / 65535);
-}
-
-Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits) {
+Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::size_t set, std::uint32_t bits) {
   const bool isSig = !hasElementTypes(geometry.encoding);
-  const ElementType type = geometry.attributeTypes[VertexRole::texCoord];
+  const ElementType type = geometry.attributeTypes[texCoordRoles[set]];
+  const TexCoordBox& box = geometry.texCoordBoxes[set];
   const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(type);
   const bool isExact = !isSig && type == ElementType::float32;
   const auto bound = [&](double low, double size) {
     const double largest = std::max(std::abs(low), std::abs(low + size));
     return (isExact ? 0 : size / steps / 2) + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
   };
-  return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
-          bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
+  return {bound(box.min.x, box.size.x), bound(box.min.y, box.size.y)};
 }
 
 Vec3f unitNormal(Vec3d stored) {

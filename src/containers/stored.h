@@ -8,16 +8,15 @@
 
 namespace imgeo {
 
-/// A texture coordinate as a fraction, 0 .. 1, of the box that begins at `min`; 0 if the box has no extent.
-double texCoordFraction(float value, float min, float size);
+/// A texture coordinate as fractions, 0 .. 1, of its box; 0 on an axis along which the box has no extent.
+Vec2<double> texCoordFraction(const Vec2f& texCoord, const TexCoordBox& box);
 
-/// Converts a texture coordinate to that fraction in 16 bits, and back.
-std::uint16_t storeTexCoord(float value, float min, float size);
-float loadTexCoord(std::uint16_t stored, float min, float size);
+/// The texture coordinate of these fractions.
+Vec2f texCoordAt(const Vec2<double>& fraction, const TexCoordBox& box);
 
 /// The maximum error of a stored texture coordinate: half a step of its box, and the rounding of single precision. SIG
 /// stores `bits` bits, bg the type of the description.
-Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits);
+Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::size_t set, std::uint32_t bits);
 
 /// The unit vector of a stored normal; (0, 0, 1) for a zero vector.
 Vec3f unitNormal(Vec3d stored);

@@ -15,8 +15,16 @@ bool transformsDiffer(const std::vector<TextureUse>& uses) {
   return std::ranges::any_of(uses, [&](const TextureUse& use) { return use.transform != uses[0].transform; });
 }
 
-void writeTransforms(ElementWriter& writer, const std::vector<TextureUse>& uses, bool hasMappings) {
-  if (!hasMappings) {
+/// The `mapping` of a texture: the name of its set of texture coordinates, with its role where the name must also tell
+/// transforms apart.
+std::string mappingOf(const TextureUse& use, bool namesTransform) {
+  if (!namesTransform)
+    return use.mapping;
+  return use.mapping.empty() ? nameOf(use.role) : use.mapping + "." + nameOf(use.role);
+}
+
+void writeTransforms(ElementWriter& writer, const std::vector<TextureUse>& uses, bool areNamed) {
+  if (!areNamed) {
     if (!uses.empty() && uses[0].transform != TextureTransform{})
       writer.leaf(nodeElement("TextureTransform", uses[0].transform));
     return;
@@ -24,7 +32,7 @@ void writeTransforms(ElementWriter& writer, const std::vector<TextureUse>& uses,
   const Element multiTransform{"MultiTextureTransform", {}};
   writer.open(multiTransform);
   for (const TextureUse& use : uses)
-    writer.leaf(nodeElement("TextureTransform", use.transform, {{"mapping", nameOf(use.role)}}));
+    writer.leaf(nodeElement("TextureTransform", use.transform, {{"mapping", mappingOf(use, areNamed)}}));
   writer.close(multiTransform);
 }
 
@@ -47,19 +55,24 @@ bool needsProperties(const Texture& texture) {
          texture.magnification != Filter::standard || texture.minification != Filter::standard;
 }
 
-/// Writes the textures of `uses` that belong to a material or to an extension, `node`. With mappings, `element` has
-/// got a field for each.
+/// Whether a texture is a child of the Appearance, as in X3D 3: that of the main colour, unless its mapping has a name.
+bool isAppearances(const TextureUse& use, bool areTransformsNamed) {
+  return use.role == TextureRole::color && mappingOf(use, areTransformsNamed).empty();
+}
+
+/// Writes the textures of `uses` that belong to a material or to an extension, `node`, whose `element` gets a field for
+/// each mapping that has a name.
 template <typename Node, typename WriteChildren>
 void writeWithTextures(ElementWriter& writer, const SceneGraph& graph, const Node& node, Element element,
-                       const std::vector<TextureUse>& uses, bool hasMappings, const TextureNames& textureNames,
+                       const std::vector<TextureUse>& uses, bool areTransformsNamed, const TextureNames& textureNames,
                        bool hasChildren, const WriteChildren& writeChildren) {
   std::vector<const TextureUse*> own;
   for (const TextureUse& use : uses) {
     const std::string field = textureField(node, use.role);
-    if (field.empty() || (use.role == TextureRole::color && !hasMappings))
+    if (field.empty() || isAppearances(use, areTransformsNamed))
       continue;
-    if (hasMappings)
-      element.groups[0].push_back({field + "Mapping", nameOf(use.role)});
+    if (const std::string mapping = mappingOf(use, areTransformsNamed); !mapping.empty())
+      element.groups[0].push_back({field + "Mapping", mapping});
     own.push_back(&use);
   }
   if (own.empty() && !hasChildren)
@@ -118,10 +131,10 @@ void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appea
     element.groups[0].push_back({"alphaMode", nameOf(appearance.alphaMode)});
   if (appearance.alphaMode == AlphaMode::mask)
     addUnless(element.groups[0], "alphaCutoff", appearance.alphaCutoff, 0.5f, number(appearance.alphaCutoff));
-  const bool hasMappings = transformsDiffer(appearance.textures);
+  const bool areTransformsNamed = transformsDiffer(appearance.textures);
   const auto write = [&](const auto& node, Element nodeElement, bool hasChildren, const auto& writeChildren) {
-    writeWithTextures(writer, graph, node, std::move(nodeElement), appearance.textures, hasMappings, textureNames,
-                      hasChildren, writeChildren);
+    writeWithTextures(writer, graph, node, std::move(nodeElement), appearance.textures, areTransformsNamed,
+                      textureNames, hasChildren, writeChildren);
   };
   const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&appearance.material);
   const std::vector<MaterialExtension> extensions = physical ? physical->extensions : std::vector<MaterialExtension>{};
@@ -131,11 +144,10 @@ void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appea
     for (const MaterialExtension& extension : extensions)
       write(extension, extensionElement(extension), false, [] {});
   });
-  // Without mappings, the texture of the main colour is a child of the Appearance, as in X3D 3.
   for (const TextureUse& use : appearance.textures)
-    if (use.role == TextureRole::color && !hasMappings)
+    if (isAppearances(use, areTransformsNamed))
       writeTexture(writer, graph, use.texture, "", textureNames(use.texture));
-  writeTransforms(writer, appearance.textures, hasMappings);
+  writeTransforms(writer, appearance.textures, areTransformsNamed);
   writer.close(element);
 }
 

@@ -29,6 +29,13 @@ template <std::size_t kind = 0> MaterialExtension readExtension(std::size_t inde
   return readNode<std::variant_alternative_t<kind, MaterialExtension>>(fields);
 }
 
+/// The name of the set of texture coordinates in a mapping as appearance_element.cpp writes it: "TEXCOORD_1.normal" and
+/// "normal" name a transform, too.
+std::string withoutRole(const std::string& mapping, TextureRole role) {
+  const std::string name = nameOf(role), suffix = "." + name;
+  return mapping == name ? "" : mapping.ends_with(suffix) ? mapping.substr(0, mapping.size() - suffix.size()) : mapping;
+}
+
 } // namespace
 
 template <typename T>
@@ -153,9 +160,13 @@ std::size_t AppearanceReader::read(const pugi::xml_node& node) {
   const auto isColor = [](const TextureUse& use) { return use.role == TextureRole::color; };
   if (colorTexture && std::ranges::none_of(material.textures, isColor))
     material.textures.insert(material.textures.begin(), {TextureRole::color, *colorTexture, {}});
-  for (TextureUse& use : material.textures)
-    if (const auto found = transforms.find(material.mappings[nameOf(use.role)]); found != transforms.end())
+  for (TextureUse& use : material.textures) {
+    const std::string& mapping = material.mappings[nameOf(use.role)];
+    const auto found = transforms.contains(mapping) ? transforms.find(mapping) : transforms.find("");
+    if (found != transforms.end())
       use.transform = found->second;
+    use.mapping = withoutRole(mapping, use.role);
+  }
   appearance.material = material.material;
   appearance.textures = std::move(material.textures);
   graph_.appearances.push_back(std::move(appearance));

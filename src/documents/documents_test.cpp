@@ -74,16 +74,22 @@ GeometryDescription randomGeometry(Random& random) {
   geometry.encoding = random.oneIn(2) ? Encoding::classic : Encoding::bg;
   geometry.lattice = {randomVector(random), length(randomVector(random)) + 1e-6, 8 + random.below(25)};
   geometry.box = randomBox(random);
+  for (auto& [min, size] : geometry.texCoordBoxes) {
+    if (random.oneIn(2))
+      min = {random.between(-5, 5), random.between(-5, 5)};
+    if (random.oneIn(2))
+      size = {random.between(0, 5), 0};
+  }
   if (random.oneIn(2))
-    geometry.texCoordMin = {random.between(-5, 5), random.between(-5, 5)};
-  if (random.oneIn(2))
-    geometry.texCoordSize = {random.between(0, 5), 0};
+    geometry.texCoordMappings = {"", "TEXCOORD_1", "a light map"};
   geometry.colorComponents = 3 + random.below(2);
   if (geometry.encoding == Encoding::bg) {
     do
       geometry.coordType = static_cast<ElementType>(random.below(7));
     while (!holdsLattice(geometry.coordType, geometry.lattice.bits));
     geometry.attributeTypes[VertexRole::normal] = static_cast<ElementType>(random.below(7));
+    for (const VertexRole further : {VertexRole::texCoord1, VertexRole::texCoord2, VertexRole::texCoord3})
+      geometry.attributeTypes[further] = ElementType::float32; // documents state the types of sets that exist
     geometry.indexType = static_cast<ElementType>(random.below(7));
   }
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));

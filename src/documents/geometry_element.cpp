@@ -63,6 +63,11 @@ std::string vertexCounts(const std::vector<Draw>& draws) {
 
 namespace {
 
+bool isInAnyPatch(const GeometryDescription& geometry, VertexRole role) {
+  return std::ranges::any_of(geometry.patches,
+                             [&](const PatchDescription& patch) { return patch.vertexAttributes[role].has_value(); });
+}
+
 /// The fields of a compact patch, without its box.
 Attributes compactFields(const PatchDescription& patch) {
   Attributes fields{{"recordCount", std::to_string(patch.vertexCount)}};
@@ -77,6 +82,14 @@ Attributes compactFields(const PatchDescription& patch) {
 
 std::string typeFieldOf(VertexRole role) {
   return std::string(nameOf(role)) + "Type";
+}
+
+std::string minFieldOf(VertexRole role) {
+  return std::string(nameOf(role)) + "Min";
+}
+
+std::string sizeFieldOf(VertexRole role) {
+  return std::string(nameOf(role)) + "Size";
 }
 
 bool isSinglePatch(const GeometryDescription& geometry) {
@@ -164,7 +177,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   if (hasElementTypes) {
     fields = {{"indexType", nameOf(geometry.indexType)}, {"coordType", nameOf(geometry.coordType)}};
     for (const VertexRole role : vertexRoles)
-      fields.push_back({typeFieldOf(role), nameOf(geometry.attributeTypes[role])});
+      if (!isTexCoord(role) || texCoordSetOf(role) == 0 || isInAnyPatch(geometry, role))
+        fields.push_back({typeFieldOf(role), nameOf(geometry.attributeTypes[role])});
   } else if (row.storage == PatchStorage::bytePlanes && geometry.indexType != ElementType::uint16) {
     fields.push_back({"indexType", nameOf(geometry.indexType)});
   }
@@ -174,8 +188,13 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     fields.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)
     fields.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
-  addUnless(fields, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
-  addUnless(fields, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
+  for (const VertexRole role : texCoordRoles) {
+    const auto& [min, size] = geometry.texCoordBoxes[texCoordSetOf(role)];
+    addUnless(fields, minFieldOf(role).c_str(), min, Vec2f{0, 0}, numbers(min));
+    addUnless(fields, sizeFieldOf(role).c_str(), size, Vec2f{1, 1}, numbers(size));
+  }
+  if (!geometry.texCoordMappings.empty())
+    fields.push_back({"texCoordMapping", quoteStrings(geometry.texCoordMappings)});
   if (geometry.colorComponents == 4)
     fields.push_back(hasElementTypes ? Attribute{"rgbaColors", "true"} : Attribute{"numColorComponents", "4"});
   Element element{row.node.name, {names, box, fields}};

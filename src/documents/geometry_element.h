@@ -23,6 +23,10 @@ bool isSinglePatch(const GeometryDescription& geometry);
 /// "normalType" ...: the field for the element type of a vertex attribute.
 std::string typeFieldOf(VertexRole role);
 
+/// "texCoordMin", "texCoordSize" ...: the fields for the box of a set of texture coordinates.
+std::string minFieldOf(VertexRole role);
+std::string sizeFieldOf(VertexRole role);
+
 /// The box of a compact geometry of one patch as fields of its own, from which readers derive its lattice, so that
 /// `position` and `size` are not needed. Empty where the box does not give the lattice.
 std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry);

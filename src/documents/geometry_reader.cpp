@@ -259,8 +259,11 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   const EncodingRow& row = rowOf(encoding);
   if (const std::string base = fields.text("base"); row.capabilities.base && !base.empty())
     geometry.base = referenceOf(fields, base, encoding);
-  geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
-  geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
+  for (const VertexRole role : texCoordRoles)
+    geometry.texCoordBoxes[texCoordSetOf(role)] = {fields.vec2(minFieldOf(role).c_str(), {0, 0}),
+                                                   fields.vec2(sizeFieldOf(role).c_str(), {1, 1})};
+  geometry.texCoordMappings = fields.strings("texCoordMapping");
+  geometry.texCoordMappings.resize(std::min(geometry.texCoordMappings.size(), maxTexCoordSets));
   geometry.normalEncoding = normalEncodingOf(fields);
   geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
   if (row.storage == PatchStorage::arrays) {

@@ -32,7 +32,7 @@ SceneDocument goldenDocument() {
   bg.encoding = Encoding::bg;
   bg.lattice = {{0, 0, 0}, 0.001, 12};
   bg.box = {{0, 0, 0}, {1, 1, 0}};
-  bg.texCoordSize = {2, 1};
+  bg.texCoordBoxes[0].size = {2, 1};
   bg.colorComponents = 4;
   PatchDescription strip;
   strip.box = bg.box;

@@ -131,7 +131,7 @@ private:
   }
 
   void writeImages(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
-    assert(geometry.texCoordMin == Vec2f{} && geometry.texCoordSize == (Vec2f{1, 1}));
+    assert(geometry.texCoordBoxes[0] == TexCoordBox{});
     assert(!isPair(geometry.normalEncoding) && geometry.indexType == ElementType::uint16);
     Attributes draws = drawFields(patch);
     draws.push_back(

@@ -169,8 +169,10 @@ TEST(ExportedObj, IsReadBackByOurImport) {
 }
 
 TEST(ExportedObj, HasLinesAndPoints) {
-  Mesh lines{{{}, {{0, 0}, {1, 0.5f}}, {}, 3, {}}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
-  Mesh points{{{}, {}, {{255, 0, 51, 255}}, 3, {}}, "", Topology::points, {{7, 8, 9}}, {0}, {0}};
+  Mesh lines{{}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
+  lines.texCoords = {{0, 0}, {1, 0.5f}};
+  Mesh points{{}, "", Topology::points, {{7, 8, 9}}, {0}, {0}};
+  points.colors = {{255, 0, 51, 255}};
   Scene scene = sceneOf({lines, points});
   scene.graph.nodes[1].name = "two\nlines";
   EXPECT_EQ(asText(writeObj(scene)), "o part0\nv 0 0 0\nv 1 0 0\nvt 0 0\nvt 1 0.5\nl 1/1 2/2\n"

@@ -38,13 +38,13 @@ std::size_t addNormals(GltfArrays& arrays, const Mesh& mesh) {
   return arrays.end(arrayBuffer, floatType, "VEC3", mesh.wedgeCount());
 }
 
-std::size_t addTexCoords(GltfArrays& arrays, const Mesh& mesh) {
+std::size_t addTexCoords(GltfArrays& arrays, const std::vector<Vec2f>& texCoords) {
   arrays.begin();
-  for (const Vec2f& texCoord : mesh.texCoords) {
+  for (const Vec2f& texCoord : texCoords) {
     appendLittle(arrays.bytes, texCoord.x);
     appendLittle(arrays.bytes, 1 - texCoord.y); // in glTF the origin is the upper left corner of an image
   }
-  return arrays.end(arrayBuffer, floatType, "VEC2", mesh.wedgeCount());
+  return arrays.end(arrayBuffer, floatType, "VEC2", texCoords.size());
 }
 
 std::size_t addColors(GltfArrays& arrays, const Mesh& mesh) {
@@ -67,7 +67,10 @@ std::size_t addAttribute(GltfArrays& arrays, const Mesh& mesh, VertexRole role) 
   case VertexRole::normal:
     return addNormals(arrays, mesh);
   case VertexRole::texCoord:
-    return addTexCoords(arrays, mesh);
+  case VertexRole::texCoord1:
+  case VertexRole::texCoord2:
+  case VertexRole::texCoord3:
+    return addTexCoords(arrays, texCoordsOf(mesh, texCoordSetOf(role)));
   case VertexRole::color:
     break;
   }

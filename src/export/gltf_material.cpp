@@ -148,8 +148,11 @@ void addExtensionTexture(Json& extensions, TextureRole role, Json info) {
       extensions[row.extension][row.member] = std::move(info);
 }
 
-void addTexture(Json& material, const TextureUse& use, std::size_t index, const AnyMaterial& x3dMaterial) {
+void addTexture(Json& material, const TextureUse& use, std::size_t index, std::size_t texCoordSet,
+                const AnyMaterial& x3dMaterial) {
   Json info{{"index", index}};
+  if (texCoordSet > 0)
+    info["texCoord"] = texCoordSet;
   if (use.transform != TextureTransform{})
     if (const Json transform = gltfTransform(use.transform); !transform.is_null())
       info["extensions"]["KHR_texture_transform"] = transform;
@@ -194,7 +197,7 @@ Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& 
     json["name"] = appearance.name;
   for (const TextureUse& use : appearance.textures)
     if (const std::optional<std::size_t> index = textureIndex(use.texture))
-      addTexture(json, use, *index, appearance.material);
+      addTexture(json, use, *index, texCoordSetNamed(use.mapping, mesh), appearance.material);
   const bool isTransparent = material.transparency > 0 || (!mesh.colors.empty() && mesh.colorComponents == 4);
   if (appearance.alphaMode == AlphaMode::mask) {
     json["alphaMode"] = "MASK";

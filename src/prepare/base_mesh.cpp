@@ -188,7 +188,7 @@ Segment segmentOf(const Patch& patch, const std::vector<bool>& isFixed, double p
 }
 
 /// Joins segments: equal positions of several segments become one, and so do wedges of equal position and texture
-/// coordinate.
+/// coordinates.
 class SegmentJoiner {
 public:
   explicit SegmentJoiner(const std::vector<Segment>& segments)
@@ -203,7 +203,7 @@ public:
     for (std::size_t wedge = 0; wedge < segment.wedges.positions.size(); ++wedge) {
       const std::uint32_t source = segment.wedges.sources[wedge];
       const std::uint32_t position = positions_.indexOf(segment.positions[segment.wedges.positions[wedge]]);
-      wedges.push_back(wedgeAt(position, patch.texCoords.empty() ? Vec2f{} : patch.texCoords[source]));
+      wedges.push_back(wedgeAt(position, texCoordBitsOf(patch, source)));
       if (wedgeCountBefore + sources.size() < base_.wedgePositions.size())
         sources.push_back(source);
     }
@@ -237,13 +237,26 @@ private:
     return count;
   }
 
-  std::uint32_t wedgeAt(std::uint32_t position, Vec2f texCoord) {
+  /// u and v in each set; 0 in absent ones.
+  using TexCoordBits = std::array<std::uint64_t, maxTexCoordSets>;
+
+  static TexCoordBits texCoordBitsOf(const Patch& patch, std::uint32_t wedge) {
+    TexCoordBits bits{};
+    for (std::size_t set = 0; set < texCoordSetCount(patch); ++set) {
+      const Vec2f texCoord = texCoordsOf(patch, set)[wedge];
+      bits[set] =
+          std::uint64_t{std::bit_cast<std::uint32_t>(texCoord.x)} << 32 | std::bit_cast<std::uint32_t>(texCoord.y);
+    }
+    return bits;
+  }
+
+  std::uint32_t wedgeAt(std::uint32_t position, const TexCoordBits& bits) {
     const auto next = static_cast<std::uint32_t>(base_.wedgePositions.size());
-    const std::uint64_t bits =
-        std::uint64_t{std::bit_cast<std::uint32_t>(texCoord.x)} << 32 | std::bit_cast<std::uint32_t>(texCoord.y);
-    const std::uint32_t wedge = wedges_.findOrInsert(mixHash(mixHash(0, position), bits), next, [&](std::uint32_t i) {
-      return base_.wedgePositions[i] == position && texCoordBits_[i] == bits;
-    });
+    std::uint64_t hash = mixHash(0, position);
+    for (const std::uint64_t each : bits)
+      hash = mixHash(hash, each);
+    const std::uint32_t wedge = wedges_.findOrInsert(
+        hash, next, [&](std::uint32_t i) { return base_.wedgePositions[i] == position && texCoordBits_[i] == bits; });
     if (wedge == next) {
       base_.wedgePositions.push_back(position);
       texCoordBits_.push_back(bits);
@@ -254,7 +267,7 @@ private:
   BaseMesh base_;
   PositionTable positions_;
   IndexHashTable wedges_;
-  std::vector<std::uint64_t> texCoordBits_; ///< by wedge: u and v
+  std::vector<TexCoordBits> texCoordBits_; ///< by wedge
 };
 
 /// Renumbers `indices`, all below `count`, in the order of their first occurrence. Returns the old index of each new

@@ -1,10 +1,11 @@
 #include "prepare/base_wedges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -31,15 +32,20 @@ private:
   std::vector<std::uint32_t> parents_;
 };
 
-/// Joins the wedges of each position that have the same texture coordinate.
+/// Joins the wedges of each position that have the same texture coordinates in all sets.
 void joinEqualTexCoords(WedgeSets& sets, const Patch& patch) {
   if (patch.wedgeCount() == patch.positions.size())
     return;
   std::vector<std::uint32_t> order(patch.wedgeCount());
   std::iota(order.begin(), order.end(), 0u);
+  const std::size_t setCount = texCoordSetCount(patch);
   const auto key = [&](std::uint32_t wedge) {
-    const Vec2f texCoord = patch.texCoords.empty() ? Vec2f{} : patch.texCoords[wedge];
-    return std::tuple(patch.wedgePositions[wedge], texCoord.x, texCoord.y);
+    std::array<float, 2 * maxTexCoordSets> texCoords{};
+    for (std::size_t set = 0; set < setCount; ++set) {
+      const Vec2f texCoord = texCoordsOf(patch, set)[wedge];
+      texCoords[2 * set] = texCoord.x, texCoords[2 * set + 1] = texCoord.y;
+    }
+    return std::pair(patch.wedgePositions[wedge], texCoords);
   };
   std::ranges::sort(order, {}, key);
   for (std::size_t i = 1; i < order.size(); ++i)
@@ -80,7 +86,7 @@ class WedgeBuilder {
 public:
   WedgeBuilder(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
       : patch_(patch), nearest_(nearest), latest_(simplified.positions.size(), SimplifiedTriangles::none),
-        wedgeOfSet_(patch.wedgeCount(), SimplifiedTriangles::none) {}
+        wedgeOfSet_(patch.wedgeCount(), SimplifiedTriangles::none), texCoordSetCount_(texCoordSetCount(patch)) {}
 
   /// Adds the next corner, given its set of wedges and its simplified vertex.
   void add(std::uint32_t set, std::uint32_t position) {
@@ -89,37 +95,45 @@ public:
   }
 
   SimplifiedWedges finish() {
-    const double maxDistance = patch_.texCoords.empty() ? 0 : meanTexCoordEdge() / 4;
+    for (std::size_t set = 0; set < texCoordSetCount_; ++set)
+      maxDistances_[set] = meanTexCoordEdge(set) / 4;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner) {
       std::uint32_t& wedge = wedgeOfSet_[sets_[corner]];
       if (wedge == SimplifiedTriangles::none)
-        wedge = wedgeAt(positions_[corner], nearest_[sets_[corner]], maxDistance);
+        wedge = wedgeAt(positions_[corner], nearest_[sets_[corner]]);
       wedges_.corners.push_back(wedge);
     }
     return std::move(wedges_);
   }
 
 private:
-  double texCoordDistance(std::uint32_t a, std::uint32_t b) const {
-    const Vec2f from = patch_.texCoords[a], to = patch_.texCoords[b];
+  double texCoordDistance(std::size_t set, std::uint32_t a, std::uint32_t b) const {
+    const Vec2f from = texCoordsOf(patch_, set)[a], to = texCoordsOf(patch_, set)[b];
     return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
   }
 
   /// Mean edge length of the simplified triangles in texture coordinates.
-  double meanTexCoordEdge() const {
+  double meanTexCoordEdge(std::size_t set) const {
     double sum = 0;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner)
-      sum += texCoordDistance(nearest_[sets_[corner]], nearest_[sets_[corner % 3 == 2 ? corner - 2 : corner + 1]]);
+      sum += texCoordDistance(set, nearest_[sets_[corner]], nearest_[sets_[corner % 3 == 2 ? corner - 2 : corner + 1]]);
     return sum / static_cast<double>(sets_.size());
   }
 
-  /// The wedge of a vertex whose texture coordinates are within maxDistance of those of `source`; a new one if there is
+  bool areClose(std::uint32_t a, std::uint32_t b) const {
+    for (std::size_t set = 0; set < texCoordSetCount_; ++set)
+      if (!(texCoordDistance(set, a, b) <= maxDistances_[set]))
+        return false;
+    return true;
+  }
+
+  /// The wedge of a vertex whose texture coordinates are close to those of `source` in all sets; a new one if there is
   /// none.
-  std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source, double maxDistance) {
+  std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source) {
     constexpr int maxCandidates = 16; // one vertex may have thousands of unconnected triangles
     std::uint32_t wedge = latest_[position];
     for (int n = 0; wedge != SimplifiedTriangles::none && n < maxCandidates; ++n, wedge = before_[wedge])
-      if (patch_.texCoords.empty() || texCoordDistance(wedges_.sources[wedge], source) <= maxDistance)
+      if (areClose(wedges_.sources[wedge], source))
         return wedge;
     before_.push_back(latest_[position]);
     latest_[position] = static_cast<std::uint32_t>(wedges_.positions.size());
@@ -133,6 +147,8 @@ private:
   std::vector<std::uint32_t> sets_, positions_; ///< by corner
   std::vector<std::uint32_t> latest_, before_;  ///< linked list of the wedges of each position
   std::vector<std::uint32_t> wedgeOfSet_;       ///< by set
+  std::size_t texCoordSetCount_;
+  std::array<double, maxTexCoordSets> maxDistances_{}; ///< by set of texture coordinates
   SimplifiedWedges wedges_;
 };
 

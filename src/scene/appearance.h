@@ -121,6 +121,7 @@ struct TextureUse {
   TextureRole role = TextureRole::color;
   std::size_t texture = 0; ///< index into SceneGraph::textures
   TextureTransform transform;
+  std::string mapping{}; ///< the name of the set of texture coordinates that it uses; see texCoordSetNamed
   friend bool operator==(const TextureUse&, const TextureUse&) = default;
 };
 

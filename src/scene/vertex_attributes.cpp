@@ -28,6 +28,19 @@ void append(std::vector<T>& values, std::size_t count, const std::vector<T>& mor
 
 } // namespace
 
+std::size_t texCoordSetCount(const VertexAttributes& attributes) {
+  std::size_t count = 0;
+  while (count < maxTexCoordSets && !texCoordsOf(attributes, count).empty())
+    ++count;
+  return count;
+}
+
+std::size_t texCoordSetNamed(const std::string& mapping, const VertexAttributes& attributes) {
+  const std::vector<std::string>& names = attributes.texCoordMappings;
+  const std::size_t set = static_cast<std::size_t>(std::ranges::find(names, mapping) - names.begin());
+  return set < std::min(names.size(), texCoordSetCount(attributes)) ? set : 0;
+}
+
 const char* nameOf(VertexRole role) {
   const char* name = "";
   visitAttributeRows([&](const auto& row) { name = row.role == role ? row.name : name; });
@@ -50,6 +63,7 @@ VertexAttributes gather(const VertexAttributes& attributes, std::span<const std:
   VertexAttributes result;
   visitAttributes(attributes, result,
                   [&](const auto&, const auto& values, auto& gathered) { gathered = gather(values, indices); });
+  result.texCoordMappings = attributes.texCoordMappings;
   result.colorComponents = attributes.colorComponents;
   for (const NamedAttribute& attribute : attributes.namedAttributes)
     result.namedAttributes.push_back(gather(attribute, indices));
@@ -60,6 +74,8 @@ void append(VertexAttributes& attributes, std::size_t count, const VertexAttribu
   visitAttributes(attributes, more, [&](const auto& row, auto& values, const auto& moreValues) {
     append(values, count, moreValues, moreCount, row.missing);
   });
+  if (attributes.texCoordMappings.empty())
+    attributes.texCoordMappings = more.texCoordMappings;
   attributes.colorComponents = std::max(attributes.colorComponents, more.colorComponents);
   std::vector<NamedAttribute>& named = attributes.namedAttributes;
   for (const NamedAttribute& attribute : more.namedAttributes)

@@ -26,9 +26,24 @@ struct NamedAttribute {
 
 /// The attributes that shaders and file formats know by their meaning, in the order in which files and documents list
 /// them.
-enum class VertexRole : std::uint8_t { normal, texCoord, color };
+enum class VertexRole : std::uint8_t { normal, texCoord, texCoord1, texCoord2, texCoord3, color };
 
-inline constexpr std::array vertexRoles{VertexRole::normal, VertexRole::texCoord, VertexRole::color};
+inline constexpr std::array vertexRoles{VertexRole::normal,    VertexRole::texCoord,  VertexRole::texCoord1,
+                                        VertexRole::texCoord2, VertexRole::texCoord3, VertexRole::color};
+
+/// Texture coordinates, by set. Each texture of an appearance names the set that it uses.
+inline constexpr std::array texCoordRoles{VertexRole::texCoord, VertexRole::texCoord1, VertexRole::texCoord2,
+                                          VertexRole::texCoord3};
+inline constexpr std::size_t maxTexCoordSets = texCoordRoles.size();
+
+constexpr bool isTexCoord(VertexRole role) {
+  return role >= texCoordRoles.front() && role <= texCoordRoles.back();
+}
+
+/// The number of a set: 0 for texCoord, 1 for texCoord1 ...
+constexpr std::size_t texCoordSetOf(VertexRole role) {
+  return static_cast<std::size_t>(role) - static_cast<std::size_t>(VertexRole::texCoord);
+}
 
 /// One value for each of these attributes.
 template <typename T> struct ByVertexRole {
@@ -41,8 +56,11 @@ template <typename T> struct ByVertexRole {
 
 /// All attributes, with one value for each wedge; an absent attribute is empty.
 struct VertexAttributes {
-  std::vector<Vec3f> normals; ///< unit length
-  std::vector<Vec2f> texCoords;
+  std::vector<Vec3f> normals;   ///< unit length
+  std::vector<Vec2f> texCoords; ///< set 0; a further set is present only if all sets before it are
+  std::vector<Vec2f> texCoords1, texCoords2, texCoords3;
+  /// The names of the sets of texture coordinates, by which textures choose theirs; may be empty if there is one set.
+  std::vector<std::string> texCoordMappings;
   std::vector<Rgba8> colors;
   std::uint32_t colorComponents = 3;           ///< 3: every alpha is 255; 4: with alpha
   std::vector<NamedAttribute> namedAttributes; ///< with unique names
@@ -63,6 +81,24 @@ inline constexpr std::tuple vertexAttributeTable{
     VertexAttributeRow<Vec3f>{VertexRole::normal, "normal", "normals", "NORMAL", &VertexAttributes::normals, {0, 0, 1}},
     VertexAttributeRow<Vec2f>{
         VertexRole::texCoord, "texCoord", "texture coordinates", "TEXCOORD_0", &VertexAttributes::texCoords, {0, 0}},
+    VertexAttributeRow<Vec2f>{VertexRole::texCoord1,
+                              "texCoord1",
+                              "texture coordinates of set 1",
+                              "TEXCOORD_1",
+                              &VertexAttributes::texCoords1,
+                              {0, 0}},
+    VertexAttributeRow<Vec2f>{VertexRole::texCoord2,
+                              "texCoord2",
+                              "texture coordinates of set 2",
+                              "TEXCOORD_2",
+                              &VertexAttributes::texCoords2,
+                              {0, 0}},
+    VertexAttributeRow<Vec2f>{VertexRole::texCoord3,
+                              "texCoord3",
+                              "texture coordinates of set 3",
+                              "TEXCOORD_3",
+                              &VertexAttributes::texCoords3,
+                              {0, 0}},
     VertexAttributeRow<Rgba8>{
         VertexRole::color, "color", "colours", "COLOR_0", &VertexAttributes::colors, {255, 255, 255, 255}},
 };
@@ -89,7 +125,20 @@ constexpr void visitAttributes(First& first, Second& second, Visit visit) {
   visitAttributeRows([&](const auto& row) { visit(row, first.*row.values, second.*row.values); });
 }
 
-/// "normal", "texCoord", "color".
+/// The texture coordinates of a set below maxTexCoordSets.
+inline constexpr std::array texCoordMembers{&VertexAttributes::texCoords, &VertexAttributes::texCoords1,
+                                            &VertexAttributes::texCoords2, &VertexAttributes::texCoords3};
+template <typename Attributes> constexpr auto& texCoordsOf(Attributes& attributes, std::size_t set) {
+  return attributes.*texCoordMembers[set];
+}
+
+/// The number of sets of texture coordinates that are present.
+std::size_t texCoordSetCount(const VertexAttributes& attributes);
+
+/// The set that a texture with a mapping uses: the one of this name, or else the first (X3D 4, 18.4: `mapping`).
+std::size_t texCoordSetNamed(const std::string& mapping, const VertexAttributes& attributes);
+
+/// "normal", "texCoord", "texCoord1", ... "color".
 const char* nameOf(VertexRole role);
 
 /// Whether the attribute is present.

@@ -141,12 +141,10 @@ std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count, co
   return normals;
 }
 
-std::vector<Vec2f> decodeTexCoords(const Records& records, std::uint32_t count, const GeometryDescription& geometry) {
-  const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
+std::vector<Vec2f> decodeTexCoords(const Records& records, std::uint32_t count, const TexCoordBox& box) {
   std::vector<Vec2f> texCoords;
   for (std::uint32_t n = 0; n < count; ++n)
-    texCoords.push_back({static_cast<float>(min.x + size.x * records.realAt(n, 0)),
-                         static_cast<float>(min.y + size.y * records.realAt(n, 1))});
+    texCoords.push_back(texCoordAt({records.realAt(n, 0), records.realAt(n, 1)}, box));
   return texCoords;
 }
 
@@ -167,6 +165,9 @@ std::uint32_t storedComponents(VertexRole role, const GeometryDescription& geome
   case VertexRole::normal:
     return isPair(geometry.normalEncoding) ? 2 : 3;
   case VertexRole::texCoord:
+  case VertexRole::texCoord1:
+  case VertexRole::texCoord2:
+  case VertexRole::texCoord3:
     return 2;
   case VertexRole::color:
     break;
@@ -181,7 +182,11 @@ void decodeInto(IndexedPatch& decoded, VertexRole role, const Records& records, 
     decoded.normals = decodeNormals(records, count, geometry);
     break;
   case VertexRole::texCoord:
-    decoded.texCoords = decodeTexCoords(records, count, geometry);
+  case VertexRole::texCoord1:
+  case VertexRole::texCoord2:
+  case VertexRole::texCoord3:
+    texCoordsOf(decoded, texCoordSetOf(role)) =
+        decodeTexCoords(records, count, geometry.texCoordBoxes[texCoordSetOf(role)]);
     break;
   case VertexRole::color:
     decoded.colors = decodeColors(records, count, geometry.colorComponents);

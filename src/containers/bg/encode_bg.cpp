@@ -104,14 +104,15 @@ Column normalColumn(const IndexedPatch& patch, const GeometryDescription& geomet
   return column;
 }
 
-Column texCoordColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  const ElementType type = geometry.attributeTypes[VertexRole::texCoord];
-  const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
-  Column column{Role::texCoord, {}, 2 * byteSizeOf(type), false};
+Column texCoordColumn(VertexRole role, const IndexedPatch& patch, const GeometryDescription& geometry) {
+  const ElementType type = geometry.attributeTypes[role];
+  const std::size_t set = texCoordSetOf(role);
+  Column column{fileRoleOf(role), {}, 2 * byteSizeOf(type), false};
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
-  for (const Vec2f& texCoord : patch.texCoords) {
-    appendFraction(column.bytes, type, texCoordFraction(texCoord.x, min.x, size.x));
-    appendFraction(column.bytes, type, texCoordFraction(texCoord.y, min.y, size.y));
+  for (const Vec2f& texCoord : texCoordsOf(patch, set)) {
+    const Vec2<double> fraction = texCoordFraction(texCoord, geometry.texCoordBoxes[set]);
+    appendFraction(column.bytes, type, fraction.x);
+    appendFraction(column.bytes, type, fraction.y);
   }
   return column;
 }
@@ -132,7 +133,10 @@ Column columnOf(VertexRole role, const IndexedPatch& patch, const GeometryDescri
   case VertexRole::normal:
     return normalColumn(patch, geometry);
   case VertexRole::texCoord:
-    return texCoordColumn(patch, geometry);
+  case VertexRole::texCoord1:
+  case VertexRole::texCoord2:
+  case VertexRole::texCoord3:
+    return texCoordColumn(role, patch, geometry);
   case VertexRole::color:
     break;
   }

@@ -107,10 +107,9 @@ std::vector<Vec3f> decodePairs(const Texels& texels, std::uint32_t count, Normal
   return normals;
 }
 
-Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry) {
-  const auto word = [](std::uint8_t high, std::uint8_t low) { return static_cast<std::uint16_t>(high << 8 | low); };
-  return {loadTexCoord(word(texel[0], texel[2]), geometry.texCoordMin.x, geometry.texCoordSize.x),
-          loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
+Vec2f texCoordOf(const std::uint8_t* texel, const TexCoordBox& box) {
+  const auto fraction = [](std::uint8_t high, std::uint8_t low) { return (high << 8 | low) / 65535.0; };
+  return texCoordAt({fraction(texel[0], texel[2]), fraction(texel[1], texel[3])}, box);
 }
 
 std::vector<Vec3f> decodeNormals(const Texels& texels, std::uint32_t count) {
@@ -120,10 +119,10 @@ std::vector<Vec3f> decodeNormals(const Texels& texels, std::uint32_t count) {
   return normals;
 }
 
-std::vector<Vec2f> decodeTexCoords(const Texels& texels, std::uint32_t count, const GeometryDescription& geometry) {
+std::vector<Vec2f> decodeTexCoords(const Texels& texels, std::uint32_t count, const TexCoordBox& box) {
   std::vector<Vec2f> texCoords;
   for (std::uint32_t n = 0; n < count; ++n)
-    texCoords.push_back(texCoordOf(texels[n], geometry));
+    texCoords.push_back(texCoordOf(texels[n], box));
   return texCoords;
 }
 
@@ -197,7 +196,11 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
                             : decodeNormals(fetchRecords(reference, 3), count);
       break;
     case VertexRole::texCoord:
-      decoded.texCoords = decodeTexCoords(fetchRecords(reference, 4), count, geometry);
+    case VertexRole::texCoord1:
+    case VertexRole::texCoord2:
+    case VertexRole::texCoord3:
+      texCoordsOf(decoded, texCoordSetOf(role)) =
+          decodeTexCoords(fetchRecords(reference, 4), count, geometry.texCoordBoxes[texCoordSetOf(role)]);
       break;
     case VertexRole::color:
       const bool hasAlpha = geometry.colorComponents == 4;

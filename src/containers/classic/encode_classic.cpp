@@ -70,10 +70,13 @@ Image coordImage(const IndexedPatch& patch, ImageSize size, const StoredCoords& 
   });
 }
 
-Image texCoordImage(const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size) {
-  return imageOf(size, 4, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
-    const std::uint16_t u = storeTexCoord(patch.texCoords[n].x, geometry.texCoordMin.x, geometry.texCoordSize.x);
-    const std::uint16_t v = storeTexCoord(patch.texCoords[n].y, geometry.texCoordMin.y, geometry.texCoordSize.y);
+Image texCoordImage(const std::vector<Vec2f>& texCoords, const TexCoordBox& box, ImageSize size) {
+  const auto word = [](double fraction) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 65535));
+  };
+  return imageOf(size, 4, texCoords.size(), [&](std::size_t n, std::uint8_t* out) {
+    const Vec2<double> fraction = texCoordFraction(texCoords[n], box);
+    const std::uint16_t u = word(fraction.x), v = word(fraction.y);
     out[0] = static_cast<std::uint8_t>(u >> 8);
     out[1] = static_cast<std::uint8_t>(v >> 8);
     out[2] = static_cast<std::uint8_t>(u);
@@ -94,7 +97,10 @@ Image recordImage(VertexRole role, const IndexedPatch& patch, const GeometryDesc
   case VertexRole::normal:
     return normalImage(patch, geometry.normalEncoding, size);
   case VertexRole::texCoord:
-    return texCoordImage(patch, geometry, size);
+  case VertexRole::texCoord1:
+  case VertexRole::texCoord2:
+  case VertexRole::texCoord3:
+    return texCoordImage(texCoordsOf(patch, texCoordSetOf(role)), geometry.texCoordBoxes[texCoordSetOf(role)], size);
   case VertexRole::color:
     break;
   }

@@ -38,12 +38,13 @@ std::uint32_t residualShiftFor(const BaseMesh& base, std::uint32_t positionBits)
 }
 
 /// The smallest number of bits, at most `maxBits`, with stepsPerTextureEdge steps in a mean edge.
-std::uint32_t texCoordBitsFor(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t maxBits) {
+std::uint32_t texCoordBitsFor(const BaseMesh& base, std::size_t set, const TexCoordBox& box, std::uint32_t maxBits) {
+  const std::vector<Vec2f>& texCoords = texCoordsOf(base, set);
   const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
-    const Vec2f from = base.texCoords[base.corners[a]], to = base.texCoords[base.corners[b]];
+    const Vec2f from = texCoords[base.corners[a]], to = texCoords[base.corners[b]];
     return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
   });
-  const double steps = stepsPerTextureEdge * std::max(geometry.texCoordSize.x, geometry.texCoordSize.y) / edge;
+  const double steps = stepsPerTextureEdge * std::max(box.size.x, box.size.y) / edge;
   std::uint32_t bits = 1;
   while (bits < maxBits && std::ldexp(1.0, static_cast<int>(bits)) < steps)
     ++bits;
@@ -83,9 +84,11 @@ compact::CompactPatch quantiseBase(const BaseMesh& base, const GeometryDescripti
   normals.values.resize(
       base.wedgePositions.size()); // values are not stored: readers compute normals from the triangles
   patch.attributes.push_back(std::move(normals));
-  if (!base.texCoords.empty())
+  for (std::size_t set = 0; set < texCoordSetCount(base); ++set) {
+    const TexCoordBox& box = geometry.texCoordBoxes[set];
     patch.attributes.push_back(
-        compact::texCoordAttribute(base.texCoords, geometry, texCoordBitsFor(base, geometry, texCoordBits)));
+        compact::texCoordAttribute(texCoordsOf(base, set), box, texCoordBitsFor(base, set, box, texCoordBits)));
+  }
   if (!base.colors.empty())
     patch.attributes.push_back(compact::colorAttribute(base.colors, base.colorComponents, colorBits));
   for (std::size_t i = 0; i < base.namedAttributes.size(); ++i) {

@@ -20,15 +20,15 @@ const Reference& dataOf(const PatchDescription& patch) {
   return *patch.data;
 }
 
-/// Whether a patch has each attribute that is known by its meaning at most once, and the further attributes of the
-/// geometry in their order.
+/// Whether a patch has normals and colours at most once, no more texture coordinates than sets exist, and the further
+/// attributes of the geometry in their order.
 bool hasAttributes(const compact::CompactPatch& patch, const GeometryDescription& geometry) {
-  ByVertexRole<std::size_t> counts;
+  compact::RoleCounter roles;
   std::size_t others = 0;
   for (const compact::Attribute& attribute : patch.attributes) {
     const compact::AttributeType& type = attribute.type;
-    if (const std::optional<VertexRole> role = compact::vertexRoleOf(type.kind)) {
-      if (++counts[*role] > 1)
+    if (type.kind != compact::AttributeKind::other) {
+      if (!roles.next(type.kind))
         return false;
       continue;
     }
@@ -124,8 +124,9 @@ StoredPrecision CompactReader::precisionOf(const GeometryDescription& geometry) 
     return compact::attributesOfPatches(compact::payloadOfImage(fetch_(url), url), url);
   });
   StoredPrecision precision;
+  compact::RoleCounter roles;
   for (const compact::AttributeType& type : valueAt(*types, data)) {
-    if (const std::optional<VertexRole> role = compact::vertexRoleOf(type.kind))
+    if (const std::optional<VertexRole> role = roles.next(type.kind))
       precision.bits[*role] = type.bits;
     if (type.kind == compact::AttributeKind::normal)
       precision.normalEncoding = type.isDerived() ? NormalEncoding::derived : NormalEncoding::octahedral;

@@ -14,20 +14,30 @@ namespace imgeo::compact {
 
 enum class AttributeKind : std::uint8_t { normal, texCoord, color, other };
 
-/// The vertex attribute of a kind; nothing for further attributes.
-constexpr std::optional<VertexRole> vertexRoleOf(AttributeKind kind) {
-  switch (kind) {
-  case AttributeKind::normal:
-    return VertexRole::normal;
-  case AttributeKind::texCoord:
-    return VertexRole::texCoord;
-  case AttributeKind::color:
-    return VertexRole::color;
-  case AttributeKind::other:
-    break;
+/// Finds the vertex attributes that the attributes of a patch are. The n-th texture coordinates of a patch are those of
+/// set n.
+class RoleCounter {
+public:
+  /// The role of the next attribute; nothing for further attributes, second normals or colours, and texture coordinates
+  /// beyond the last set.
+  std::optional<VertexRole> next(AttributeKind kind) {
+    const std::size_t before = counts_[static_cast<std::size_t>(kind)]++;
+    switch (kind) {
+    case AttributeKind::normal:
+      return before == 0 ? std::optional(VertexRole::normal) : std::nullopt;
+    case AttributeKind::texCoord:
+      return before < maxTexCoordSets ? std::optional(texCoordRoles[before]) : std::nullopt;
+    case AttributeKind::color:
+      return before == 0 ? std::optional(VertexRole::color) : std::nullopt;
+    case AttributeKind::other:
+      break;
+    }
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+
+private:
+  std::array<std::size_t, 4> counts_{}; ///< attributes so far, by kind
+};
 
 /// How the normal of a wedge is predicted from the normals of its triangles: weighted by area or all alike. With a
 /// derived mode the prediction is the normal, and the file stores no normals.

@@ -15,7 +15,8 @@ constexpr std::array compactNormals{NormalEncoding::rgb, NormalEncoding::octahed
 void describeCompact(GeometryDescription& geometry, const PatchedMesh&, const EncodeOptions&) {
   geometry.normalEncoding = NormalEncoding::rgb; // the files state the encoding, the node does not
   // Texture coordinates are predicted from the shapes of triangles: one step on both axes.
-  geometry.texCoordSize.x = geometry.texCoordSize.y = std::max(geometry.texCoordSize.x, geometry.texCoordSize.y);
+  for (TexCoordBox& box : geometry.texCoordBoxes)
+    box.size.x = box.size.y = std::max(box.size.x, box.size.y);
 }
 
 std::unique_ptr<PatchReader> makeCompactReader(const FetchFile& fetch) {

@@ -53,7 +53,11 @@ Attribute attributeOf(VertexRole role, const Patch& patch, const GeometryDescrip
   case VertexRole::normal:
     return normalAttribute(patch.normals, bits);
   case VertexRole::texCoord:
-    return texCoordAttribute(patch.texCoords, geometry, bits.texCoord);
+  case VertexRole::texCoord1:
+  case VertexRole::texCoord2:
+  case VertexRole::texCoord3:
+    return texCoordAttribute(texCoordsOf(patch, texCoordSetOf(role)), geometry.texCoordBoxes[texCoordSetOf(role)],
+                             bits.texCoord);
   case VertexRole::color:
     break;
   }
@@ -114,13 +118,12 @@ Primitive primitiveOf(Topology topology) {
 
 } // namespace
 
-Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryDescription& geometry,
-                            std::uint32_t bits) {
-  const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
+Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const TexCoordBox& box, std::uint32_t bits) {
   Attribute attribute{typeOf(AttributeKind::texCoord, 2, bits), {}};
-  for (const Vec2f& texCoord : texCoords)
-    attribute.values.push_back({{quantiseFraction(texCoordFraction(texCoord.x, min.x, size.x), bits),
-                                 quantiseFraction(texCoordFraction(texCoord.y, min.y, size.y), bits)}});
+  for (const Vec2f& texCoord : texCoords) {
+    const Vec2<double> fraction = texCoordFraction(texCoord, box);
+    attribute.values.push_back({{quantiseFraction(fraction.x, bits), quantiseFraction(fraction.y, bits)}});
+  }
   return attribute;
 }
 
@@ -168,7 +171,9 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
   vertices.colorComponents = geometry.colorComponents;
   for (const std::uint32_t position : patch.wedgePositions)
     vertices.positions.push_back(patch.positions[position]);
+  RoleCounter roles;
   for (const Attribute& attribute : patch.attributes) {
+    const std::optional<VertexRole> role = roles.next(attribute.type.kind);
     if (attribute.type.kind == AttributeKind::other)
       vertices.namedAttributes.push_back(namedOf(attribute, geometry.attributes.at(vertices.namedAttributes.size())));
     for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
@@ -178,11 +183,10 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
         vertices.normals.push_back(unitNormal({double(value[0]), double(value[1]), double(value[2])}));
         break;
       case AttributeKind::texCoord: {
-        const auto at = [&](std::uint32_t i, float min, float size) {
-          return static_cast<float>(min + size * fractionOf(attribute, wedge, i));
-        };
-        vertices.texCoords.push_back({at(0, geometry.texCoordMin.x, geometry.texCoordSize.x),
-                                      at(1, geometry.texCoordMin.y, geometry.texCoordSize.y)});
+        const std::size_t set = texCoordSetOf(role.value());
+        texCoordsOf(vertices, set)
+            .push_back(texCoordAt({fractionOf(attribute, wedge, 0), fractionOf(attribute, wedge, 1)},
+                                  geometry.texCoordBoxes[set]));
         break;
       }
       case AttributeKind::color: {

@@ -19,8 +19,7 @@ struct AttributeBits {
 CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
 /// Quantised attributes with one value for each wedge.
-Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryDescription& geometry,
-                            std::uint32_t bits);
+Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const TexCoordBox& box, std::uint32_t bits);
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
 
 /// Values are rounded to 2^bits values over the range of the description; `bits` is 1 .. 8 * description.bytes.
@@ -30,7 +29,7 @@ Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription
 std::vector<Draw> drawsOf(const CompactPatch& patch);
 
 /// The vertices (wedges) and elements of a decoded patch. Normals have unit length. Attributes of kind `other` are
-/// those of the geometry, with the same components and bits.
+/// those of the geometry, with the same components and bits; each of the others has a role (RoleCounter).
 IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& geometry);
 
 } // namespace imgeo::compact

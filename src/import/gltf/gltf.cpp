@@ -130,7 +130,6 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
     warnings.push_back(
         fmt::format("Attributes of vertices that are not carried over: {}.", fmt::join(primitives.attributes, ", ")));
   addExtensionWarnings(usedExtensions(root), warnings);
-  add(materials.furtherTexCoords, "texture is", "textures are", ": they use further texture coordinates");
   add(materials.skewedTransforms, "texture transform is", "texture transforms are",
       ": X3D's cannot scale before it rotates");
   std::ranges::copy(materials.images, std::back_inserter(warnings));

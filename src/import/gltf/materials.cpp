@@ -2,6 +2,7 @@
 
 #include "images/decode_image.h"
 #include "images/encode_image.h"
+#include "import/gltf/primitive.h"
 #include "import/source_images.h"
 #include "scene/color.h"
 
@@ -156,12 +157,12 @@ void MaterialReader::addTexture(const Value& info, TextureRole role, Appearance&
   if (!index)
     return;
   const Value transform = info["extensions"]["KHR_texture_transform"];
-  if (transform["texCoord"].whole(info["texCoord"].whole(0)) != 0) {
-    ++omissions.furtherTexCoords;
+  const std::size_t set = transform["texCoord"].whole(info["texCoord"].whole(0));
+  const std::optional<std::size_t> texture = this->texture(*index);
+  if (!texture)
     return;
-  }
-  if (const std::optional<std::size_t> texture = this->texture(*index))
-    appearance.textures.push_back({role, *texture, transformOf(transform)});
+  appearance.textures.push_back({role, *texture, transformOf(transform), mappingOf(set)});
+  usedTexCoordSets_.insert(set);
 }
 
 AnyMaterial MaterialReader::materialOf(const Value& value) {
@@ -249,6 +250,7 @@ std::size_t MaterialReader::appearance(std::size_t index) {
     return found->second;
   const Value value = document_.array("materials")[index];
   Appearance appearance;
+  usedTexCoordSets_.clear();
   appearance.name = value["name"].text();
   appearance.material = materialOf(value);
   readTextures(value, appearance);
@@ -257,8 +259,14 @@ std::size_t MaterialReader::appearance(std::size_t index) {
                          : alphaMode == "MASK" ? AlphaMode::mask
                                                : AlphaMode::opaque;
   appearance.alphaCutoff = static_cast<float>(value["alphaCutoff"].real(0.5));
+  texCoordSets_[index] = usedTexCoordSets_;
   graph_.appearances.push_back(std::move(appearance));
   return appearances_[index] = graph_.appearances.size() - 1;
+}
+
+const std::set<std::size_t>& MaterialReader::texCoordSets(std::size_t material) {
+  appearance(material);
+  return texCoordSets_[material];
 }
 
 bool MaterialReader::isSolid(std::size_t material) const {

@@ -12,7 +12,6 @@
 namespace imgeo::gltf {
 
 struct MaterialOmissions {
-  std::size_t furtherTexCoords = 0; ///< textures that use further texture coordinates
   std::size_t skewedTransforms = 0; ///< texture transforms that X3D cannot express
   std::vector<std::string> images;  ///< one warning for each missing image
 };
@@ -24,6 +23,9 @@ public:
 
   /// Index of the appearance of a material, which is read at the first call.
   std::size_t appearance(std::size_t material);
+
+  /// The sets of texture coordinates that the textures of a material use.
+  const std::set<std::size_t>& texCoordSets(std::size_t material);
 
   /// Whether a material is visible from the front side only.
   bool isSolid(std::size_t material) const;
@@ -44,6 +46,8 @@ private:
   SceneGraph& graph_;
   bool isStrict_;
   std::map<std::size_t, std::size_t> appearances_;
+  std::map<std::size_t, std::set<std::size_t>> texCoordSets_; ///< by material
+  std::set<std::size_t> usedTexCoordSets_;                    ///< those of the material that is being read
   std::map<std::size_t, std::optional<std::size_t>> textures_, images_;
   /// The textures of roughness that were made, by the graph's texture and its factor of glossiness.
   std::map<std::pair<std::size_t, float>, std::optional<std::size_t>> roughnessTextures_;

@@ -228,12 +228,25 @@ std::optional<std::size_t> NodeReader::meshNode(std::size_t index, const std::st
 
 std::size_t NodeReader::shapeNode(const Value& primitive, const std::string& name) {
   Shape shape;
-  shape.mesh = meshOf(primitive);
   const std::optional<std::size_t> material = primitive.index("material", document_.array("materials"));
   const Value mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+  shape.mesh = meshOf(primitive, texCoordSetsOf(material, mappings));
   if (mappings.size() > 0)
     return variantsNode(shape, material, mappings, name);
   return addNode(scene_.graph, {name, withMaterial(shape, material), {}, ""});
+}
+
+/// The sets of texture coordinates that a primitive's material uses, or its material in any variant.
+std::set<std::size_t> NodeReader::texCoordSetsOf(std::optional<std::size_t> material, const Value& mappings) {
+  std::set<std::size_t> sets;
+  const auto add = [&](std::optional<std::size_t> of) {
+    if (of)
+      attempt([&] { sets.insert(materials_.texCoordSets(*of).begin(), materials_.texCoordSets(*of).end()); });
+  };
+  add(material);
+  for (std::size_t i = 0; i < mappings.size(); ++i)
+    add(mappings[i].index("material", document_.array("materials")));
+  return sets;
 }
 
 Shape NodeReader::withMaterial(Shape shape, std::optional<std::size_t> material) {
@@ -273,17 +286,20 @@ std::size_t NodeReader::variantsNode(const Shape& shape, std::optional<std::size
   return addNode(scene_.graph, std::move(node));
 }
 
-/// The mesh of a primitive; primitives that differ only in material and extras share one.
-std::size_t NodeReader::meshOf(const Value& primitive) {
+/// The mesh of a primitive whose textures use these sets of texture coordinates; primitives that otherwise differ only
+/// in material and extras share one.
+std::size_t NodeReader::meshOf(const Value& primitive, const std::set<std::size_t>& texCoordSets) {
   Json key = primitive.json();
   if (!key.is_object())
     primitive.fail(ErrorKind::malformed, "is no object");
   key.erase("material");
   key.erase("extras");
-  const std::string text = key.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::set<std::size_t>& sets = texCoordSets.empty() ? std::set<std::size_t>{0} : texCoordSets;
+  const std::string text =
+      fmt::format("{} {}", key.dump(-1, ' ', false, Json::error_handler_t::replace), fmt::join(sets, " "));
   if (const auto found = meshes_.find(text); found != meshes_.end())
     return found->second;
-  scene_.meshes.push_back(primitives_.read(primitive));
+  scene_.meshes.push_back(primitives_.read(primitive, texCoordSets));
   return meshes_[text] = scene_.meshes.size() - 1;
 }
 

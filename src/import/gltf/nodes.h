@@ -37,7 +37,8 @@ private:
   std::size_t variantsNode(const Shape& shape, std::optional<std::size_t> material, const Value& mappings,
                            const std::string& name);
   void addVariantNames();
-  std::size_t meshOf(const Value& primitive);
+  std::set<std::size_t> texCoordSetsOf(std::optional<std::size_t> material, const Value& mappings);
+  std::size_t meshOf(const Value& primitive, const std::set<std::size_t>& texCoordSets);
   void addCamera(const Value& node, std::vector<std::size_t>& children);
   void addLight(const Value& node, double scale, std::vector<std::size_t>& children);
   void addNavigation(const Value& extras);

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <map>
 #include <memory>
 
 namespace imgeo::gltf {
@@ -58,6 +61,10 @@ std::uint8_t byteOf(double value) {
 }
 
 } // namespace
+
+std::string mappingOf(std::size_t texCoordSet) {
+  return texCoordSet == 0 ? "" : fmt::format("TEXCOORD_{}", texCoordSet);
+}
 
 const PrimitiveData::Attribute* PrimitiveData::find(const std::string& name) const {
   const auto found = std::ranges::find(attributes, name, &Attribute::name);
@@ -127,7 +134,7 @@ std::vector<std::uint32_t> PrimitiveReader::renumberVertices(std::vector<std::ui
   return vertices;
 }
 
-Mesh PrimitiveReader::read(const Value& primitive) {
+Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& texCoordSets) {
   std::uint64_t mode = primitive["mode"].whole(triangles);
   if (mode > triangleFan)
     primitive["mode"].fail(ErrorKind::malformed, "is no mode that glTF has");
@@ -147,6 +154,7 @@ Mesh PrimitiveReader::read(const Value& primitive) {
   for (std::uint32_t i = 0; i < vertices.size(); ++i)
     mesh.wedgePositions.push_back(i);
   addVertices(primitive, data, vertices, mesh);
+  addTexCoords(primitive, data, vertices, texCoordSets, mesh);
   addNamedAttributes(primitive, data, vertices, mesh);
   omissions.morphTargets += primitive["targets"].size() > 0;
   return mesh;
@@ -163,10 +171,8 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
   const auto vec3 = [](const PrimitiveData::Attribute& from, std::uint32_t vertex) {
     return Vec3f(Vec3d{from.number(vertex, 0), from.number(vertex, 1), from.number(vertex, 2)});
   };
-  const char* texCoordName = attributeRow<VertexRole::texCoord>.gltfName;
   const PrimitiveData::Attribute *positions = attribute("POSITION", 3, 3),
                                  *normals = attribute(attributeRow<VertexRole::normal>.gltfName, 3, 3),
-                                 *texCoords = attribute(texCoordName, 2, 2),
                                  *colors = attribute(attributeRow<VertexRole::color>.gltfName, 3, 4);
   if (!positions)
     primitive["attributes"].fail(ErrorKind::malformed, "has no POSITION");
@@ -180,14 +186,6 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
       mesh.normals.push_back(vec3(*normals, vertex));
       omissions.unusableNormals += !makeUnit(mesh.normals.back());
     }
-    if (texCoords) {
-      const Vec2f texCoord{static_cast<float>(texCoords->number(vertex, 0)),
-                           static_cast<float>(1 - texCoords->number(vertex, 1))}; // glTF measures v down
-      if (!std::isfinite(texCoord.x) || !std::isfinite(texCoord.y))
-        primitive["attributes"][texCoordName].fail(ErrorKind::malformed,
-                                                   fmt::format("of vertex {} is not a number", vertex));
-      mesh.texCoords.push_back(texCoord);
-    }
     if (colors) { // linear in glTF
       const auto channel = [&](std::uint32_t c) { return byteOf(srgbOfLinear(colors->number(vertex, c))); };
       const std::uint8_t alpha = colors->components == 4 ? byteOf(colors->number(vertex, 3)) : std::uint8_t{255};
@@ -198,13 +196,51 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
   mesh.colorComponents = isOpaque ? 3 : 4;
 }
 
-/// Application-specific attributes are named "_NAME". The remaining ones belong to skins and further texture
-/// coordinates.
+void PrimitiveReader::addTexCoords(const Value& primitive, const PrimitiveData& data,
+                                   const std::vector<std::uint32_t>& vertices, const std::set<std::size_t>& sets,
+                                   Mesh& mesh) {
+  constexpr std::string_view prefix = "TEXCOORD_";
+  std::map<std::size_t, const PrimitiveData::Attribute*> kept;
+  for (const PrimitiveData::Attribute& attribute : data.attributes) {
+    if (!attribute.name.starts_with(prefix))
+      continue;
+    const std::string_view digits = std::string_view(attribute.name).substr(prefix.size());
+    std::size_t set = 0;
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), set).ec != std::errc{})
+      continue;
+    if (sets.contains(set) || (sets.empty() && set == 0) || choice_.has(attribute.name))
+      kept[set] = &attribute;
+    else if (set > 0)
+      omissions.attributes.insert(attribute.name);
+  }
+  for (; kept.size() > maxTexCoordSets; kept.erase(std::prev(kept.end())))
+    omissions.attributes.insert(kept.rbegin()->second->name);
+  std::size_t keptCount = 0;
+  for (const auto& [set, attribute] : kept) {
+    const Value name = primitive["attributes"][attribute->name.c_str()];
+    if (attribute->components != 2)
+      name.fail(ErrorKind::malformed, "has the wrong number of components");
+    std::vector<Vec2f>& texCoords = texCoordsOf(mesh, keptCount++);
+    texCoords.reserve(vertices.size());
+    for (const std::uint32_t vertex : vertices) {
+      texCoords.push_back({static_cast<float>(attribute->number(vertex, 0)),
+                           static_cast<float>(1 - attribute->number(vertex, 1))}); // glTF measures v down
+      if (!std::isfinite(texCoords.back().x) || !std::isfinite(texCoords.back().y))
+        name.fail(ErrorKind::malformed, fmt::format("of vertex {} is not a number", vertex));
+    }
+    mesh.texCoordMappings.push_back(mappingOf(set));
+  }
+  if (kept.size() == 1)
+    mesh.texCoordMappings.clear(); // a single set serves all textures
+}
+
+/// Application-specific attributes are named "_NAME". The remaining ones belong to skins and to sets of texture
+/// coordinates that no texture uses.
 void PrimitiveReader::addNamedAttributes(const Value& primitive, const PrimitiveData& data,
                                          const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
   for (const PrimitiveData::Attribute& attribute : data.attributes) {
     const std::string& name = attribute.name;
-    bool isRead = name == "POSITION";
+    bool isRead = name == "POSITION" || name.starts_with("TEXCOORD_");
     visitAttributeRows([&](const auto& row) { isRead = isRead || name == row.gltfName; });
     if (isRead)
       continue;

@@ -30,6 +30,10 @@ struct PrimitiveData {
   const Attribute* find(const std::string& name) const;
 };
 
+/// The name of a set of texture coordinates, by which textures choose it: "" for set 0, "TEXCOORD_1" ... for the
+/// others.
+std::string mappingOf(std::size_t texCoordSet);
+
 /// Content of all primitives that was not carried over.
 struct PrimitiveOmissions {
   std::uint64_t unusableNormals = 0, morphTargets = 0, skins = 0;
@@ -40,8 +44,9 @@ class PrimitiveReader {
 public:
   PrimitiveReader(Document& document, const AttributeChoice& choice) : document_(document), choice_(choice) {}
 
-  /// Throws Error for a damaged primitive: an index out of range, coordinates that are not finite.
-  Mesh read(const Value& primitive);
+  /// Keeps the sets of texture coordinates that textures use, up to maxTexCoordSets of them; the first set if they use
+  /// none. Throws Error for a damaged primitive: an index out of range, coordinates that are not finite.
+  Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets);
 
   PrimitiveOmissions omissions;
   std::set<std::string> furtherAttributes; ///< names of application-specific attributes without "_", kept or not
@@ -51,6 +56,8 @@ private:
   void addAccessors(const Value& primitive, PrimitiveData& data);
   void addVertices(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
                    Mesh& mesh);
+  void addTexCoords(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
+                    const std::set<std::size_t>& sets, Mesh& mesh);
   void addNamedAttributes(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
                           Mesh& mesh);
   std::vector<std::uint32_t> renumberVertices(std::vector<std::uint32_t>& corners, std::size_t vertexCount);

@@ -70,6 +70,52 @@ TEST(GltfPrimitive, ReadsEveryTypeOfNumber) {
   EXPECT_EQ(mesh.colorComponents, 4u);
 }
 
+/// A triangle with texture coordinates of the sets 0 to 4, whose u is the number of the set, and a material whose
+/// textures use the sets 0, 2 and, by their transform, 4.
+GltfText withTexCoordSets() {
+  GltfText gltf;
+  gltf.addTriangle();
+  GltfText::Json& primitive = gltf.json["meshes"][0]["primitives"][0];
+  for (const int set : {0, 1, 2, 3, 4}) {
+    const auto u = static_cast<float>(set);
+    primitive["attributes"]["TEXCOORD_" + std::to_string(set)] =
+        gltf.addAccessor<float>({u, 0, u, 1, u, 0.5f}, "VEC2", 5126);
+  }
+  primitive["material"] = 0;
+  gltf.json["images"] = {{{"uri", GltfText::dataUrl({0x89, 'P', 'N', 'G', 13, 10, 26, 10})}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  gltf.json["materials"] = {
+      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+       {"occlusionTexture", {{"index", 0}, {"texCoord", 2}}},
+       {"emissiveTexture",
+        {{"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 4}}}}}}}}};
+  return gltf.show(0);
+}
+
+TEST(GltfPrimitive, KeepsTheTextureCoordinatesThatTexturesUse) {
+  const Imported imported = read(withTexCoordSets());
+  const Mesh& mesh = imported.scene.meshes.at(0);
+  EXPECT_TRUE(isConsistent(mesh));
+  ASSERT_EQ(texCoordSetCount(mesh), 3u);
+  EXPECT_EQ(mesh.texCoords[1], (Vec2f{0, 0}));
+  EXPECT_EQ(mesh.texCoords1[1], (Vec2f{2, 0}));
+  EXPECT_EQ(mesh.texCoords2[1], (Vec2f{4, 0}));
+  EXPECT_EQ(mesh.texCoordMappings, (std::vector<std::string>{"", "TEXCOORD_2", "TEXCOORD_4"}));
+  std::map<TextureRole, std::size_t> sets;
+  for (const TextureUse& use : imported.scene.graph.appearances.at(0).textures)
+    sets[use.role] = texCoordSetNamed(use.mapping, mesh);
+  EXPECT_EQ(sets, (std::map<TextureRole, std::size_t>{
+                      {TextureRole::color, 0}, {TextureRole::emissive, 2}, {TextureRole::occlusion, 1}}));
+}
+
+TEST(GltfPrimitive, KeepsTheFirstFourSetsOfTextureCoordinatesOfAllIfAsked) {
+  ImportOptions options;
+  options.attributes.all = true;
+  const Mesh mesh = onlyMeshOf(withTexCoordSets(), options);
+  ASSERT_EQ(texCoordSetCount(mesh), 4u);
+  EXPECT_EQ(mesh.texCoords3[1], (Vec2f{3, 0}));
+}
+
 TEST(GltfPrimitive, ConvertsLinearColoursToSrgb) {
   GltfText gltf;
   gltf.addTriangle();

@@ -15,7 +15,7 @@ void members(auto& archive, auto& v, const NamedAttribute*) {
 void members(auto& archive, auto& v, const Mesh*) {
   archive(v.name, v.topology, v.positions, v.wedgePositions, v.corners);
   visitAttributes(v, [&](const auto&, auto& values) { archive(values); });
-  archive(v.colorComponents, v.namedAttributes);
+  archive(v.texCoordMappings, v.colorComponents, v.namedAttributes);
 }
 void members(auto& archive, auto& v, const Viewpoint*) {
   archive(v.description, v.position, v.orientation, v.fieldOfView, v.centerOfRotation);
@@ -44,6 +44,9 @@ void members(auto& archive, auto& v, const ImageFile*) {
 void members(auto& archive, auto& v, const PhysicalMaterial*) {
   archive(v.baseColor, v.emissiveColor, v.metallic, v.roughness, v.transparency, v.normalScale, v.occlusionStrength,
           v.extensions);
+}
+void members(auto& archive, auto& v, const TextureUse*) {
+  archive(v.role, v.texture, v.transform, v.mapping);
 }
 void members(auto& archive, auto& v, const Appearance*) {
   archive(v.name, v.material, v.textures, v.alphaMode, v.alphaCutoff);

@@ -44,6 +44,8 @@ private:
       mesh_.normals.push_back(data_.normals[corner.normal]);
     if (corner.texCoord != none)
       mesh_.texCoords.push_back(data_.texCoords[corner.texCoord]);
+    for (std::size_t set = 1; set <= data_.furtherTexCoords.size(); ++set)
+      texCoordsOf(mesh_, set).push_back(data_.furtherTexCoords[set - 1][corner.texCoord]);
     if (corner.color != none)
       mesh_.colors.push_back(data_.colors[corner.color]);
   }
@@ -103,6 +105,7 @@ Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans) {
   Mesh mesh;
   mesh.topology = faces.topology;
   mesh.colorComponents = data.colorComponents;
+  mesh.texCoordMappings = data.texCoordMappings;
   WedgeBuilder builder(data, mesh);
   if (faces.topology != Topology::triangles) {
     for (const Corner& corner : faces.corners)

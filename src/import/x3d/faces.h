@@ -4,6 +4,7 @@
 #include "scene/mesh.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace imgeo::x3d {
@@ -13,6 +14,8 @@ inline constexpr std::uint32_t none = 0xffffffff;
 struct VertexData {
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> texCoords;
+  std::vector<std::vector<Vec2f>> furtherTexCoords; ///< sets beside the first, with the same indices
+  std::vector<std::string> texCoordMappings;        ///< names of all sets; empty for a single one
   std::vector<Rgba8> colors;
   std::uint32_t colorComponents = 3;
 };

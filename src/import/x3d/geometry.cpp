@@ -25,7 +25,8 @@ constexpr std::size_t maxExtrusionVertices = std::size_t{1} << 22;
 /// Reads the vertex data of one geometry node and gives corners their attributes.
 class GeometryReader {
 public:
-  GeometryReader(const Source& source, pugi::xml_node node) : source_(source), node_(node) {}
+  GeometryReader(const Source& source, pugi::xml_node node, const AttributeChoice& mappings)
+      : source_(source), node_(node), mappings_(mappings) {}
 
   using Readers = std::map<std::string_view, void (GeometryReader::*)()>;
   static const Readers& readers() {
@@ -112,7 +113,8 @@ private:
     data_.colorComponents = isOpaque ? 3 : 4;
   }
 
-  /// Reads the first set of texture coordinates.
+  /// Reads the first set of texture coordinates, and of the others those whose name a texture states as its mapping
+  /// (X3D 4, 18.4.1).
   void readTexCoords() {
     const std::vector<pugi::xml_node> sets = texCoordNodes(source_, node_);
     if (sets.empty())
@@ -121,9 +123,28 @@ private:
     texCoordGenerator_ = texCoordGeneratorOf(sets[0]);
     if (texCoordGenerator_)
       return;
-    const std::vector<double> points = tuples(sets[0], "point", 2);
+    data_.texCoords = texCoordsOf(sets[0]);
+    std::vector<std::string> mappings{sets[0].attribute("mapping").value()};
+    for (std::size_t i = 1; i < sets.size(); ++i) {
+      const std::string mapping = sets[i].attribute("mapping").value();
+      const bool isUsed = !texCoordGeneratorOf(sets[i]) && mappings.size() < maxTexCoordSets &&
+                          mappings_.has(mapping) && std::ranges::find(mappings, mapping) == mappings.end();
+      if (!isUsed || data_.texCoords.empty())
+        continue;
+      data_.furtherTexCoords.push_back(texCoordsOf(sets[i]));
+      mappings.push_back(mapping);
+      --furtherTexCoords_;
+    }
+    if (!data_.furtherTexCoords.empty())
+      data_.texCoordMappings = mappings;
+  }
+
+  std::vector<Vec2f> texCoordsOf(pugi::xml_node node) const {
+    std::vector<Vec2f> texCoords;
+    const std::vector<double> points = tuples(node, "point", 2);
     for (std::size_t i = 0; i < points.size(); i += 2)
-      data_.texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
+      texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
+    return texCoords;
   }
 
   /// Adds a face of vertices, which are indices into the Coordinate node.
@@ -385,6 +406,8 @@ private:
         require(corner.normal, data_.normals.size(), "normal");
       if (!data_.texCoords.empty())
         require(corner.texCoord, data_.texCoords.size(), "texture coordinate");
+      for (const std::vector<Vec2f>& texCoords : data_.furtherTexCoords)
+        require(corner.texCoord, texCoords.size(), "texture coordinate");
       if (!data_.colors.empty())
         require(corner.color, data_.colors.size(), "colour");
     }
@@ -421,6 +444,7 @@ private:
 
   const Source& source_;
   pugi::xml_node node_;
+  const AttributeChoice& mappings_;
   VertexData data_;
   Faces faces_;
   std::size_t furtherTexCoords_ = 0;
@@ -436,8 +460,8 @@ bool becomesMesh(std::string_view element) {
   return GeometryReader::readers().contains(element);
 }
 
-std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node) {
-  return GeometryReader(source, node).read();
+std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& mappings) {
+  return GeometryReader(source, node, mappings).read();
 }
 
 } // namespace imgeo::x3d

@@ -3,6 +3,7 @@
 // triangles, strips, fans and quadrilaterals with and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet,
 // PointSet, TriangleSet2D, Polyline2D, Polypoint2D, and the NURBS nodes of x3d/nurbs.h.
 
+#include "imgeo/preparation.h"
 #include "import/x3d/source.h"
 #include "scene/mesh.h"
 
@@ -23,8 +24,9 @@ struct Geometry {
 /// Whether readGeometry converts nodes of this name.
 bool becomesMesh(std::string_view element);
 
-/// Empty for nodes of other names; an empty mesh for a node without faces, lines or points. Throws Error{malformed,
-/// unsupported} for invalid fields and indices out of range.
-std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node);
+/// Empty for nodes of other names; an empty mesh for a node without faces, lines or points. Of a MultiTextureCoordinate
+/// it reads the first set, and those of the others whose name is in `mappings`. Throws Error{malformed, unsupported}
+/// for invalid fields and indices out of range.
+std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& mappings);
 
 } // namespace imgeo::x3d

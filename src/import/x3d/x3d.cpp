@@ -45,7 +45,8 @@ class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
       : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
-        inlines_(references, options, imported_.scene, imported_.warnings) {
+        mappings_(options.attributes), inlines_(references, options, imported_.scene, imported_.warnings) {
+    addTextureMappings();
     if (smallGeometryTextBytes() > maxInlineTextBytes)
       inlineBytes_ = std::min(inlineBytes_, shortTextBytes);
   }
@@ -332,6 +333,22 @@ private:
     return isDrawnInPages(node.name()) && geometryTextBytesOf(node) <= inlineBytes_;
   }
 
+  /// Adds the `mapping` of every texture of the document: the values of materials' fields such as normalTextureMapping.
+  void addTextureMappings() {
+    struct Walker : pugi::xml_tree_walker {
+      explicit Walker(std::set<std::string>& into) : names(into) {}
+      bool for_each(pugi::xml_node& node) override {
+        for (const pugi::xml_attribute& attribute : node.attributes())
+          if (std::string_view(attribute.name()).ends_with("TextureMapping"))
+            names.insert(attribute.value());
+        return true;
+      }
+      std::set<std::string>& names;
+    };
+    Walker walker(mappings_.names);
+    source_.root().traverse(walker);
+  }
+
   /// The length of a geometry's text, with its child nodes, USEs resolved.
   std::size_t geometryTextBytesOf(pugi::xml_node node) const {
     std::size_t bytes = textBytesOf(node);
@@ -373,7 +390,7 @@ private:
     if (!isNew || !node)
       return found->second;
     std::optional<Geometry> geometry =
-        attempt("A geometry is left as it is", [&] { return readGeometry(source_, node); });
+        attempt("A geometry is left as it is", [&] { return readGeometry(source_, node, mappings_); });
     if (!geometry)
       return {};
     if (geometry->mesh.corners.empty()) {
@@ -418,6 +435,7 @@ private:
   const References& references_;
   bool isStrict_;
   std::size_t inlineBytes_;
+  AttributeChoice mappings_; ///< names of the sets of texture coordinates that textures use
   Imported imported_;
   Inlines inlines_;
   std::map<std::string, std::size_t> defined_;                       ///< nodes by DEF name

@@ -102,6 +102,24 @@ TEST(X3d, ReadsAttributesPerVertexAndPerFace) {
   EXPECT_TRUE(byIndex.normals.empty()); // smooth everywhere: computed later
 }
 
+TEST(X3d, ReadsTheSetsOfTextureCoordinatesThatTexturesName) {
+  const std::string sets = "<MultiTextureCoordinate><TextureCoordinate mapping='base' point='0 0, 1 0, 1 1, 0 1'/>"
+                           "<TextureCoordinate mapping='unused' point='9 9, 9 9, 9 9, 9 9'/>"
+                           "<TextureCoordinate mapping='light' point='0 0, 2 0, 2 2, 0 2'/></MultiTextureCoordinate>";
+  const std::string surface = "<IndexedFaceSet coordIndex='0 1 2 3 -1'>" + square + sets + "</IndexedFaceSet>";
+  const std::string appearance = "<Appearance><Material emissiveTextureMapping='light'/></Appearance>";
+  const Mesh mesh = meshOf(appearance + surface);
+  ASSERT_EQ(texCoordSetCount(mesh), 2u);
+  EXPECT_EQ(mesh.texCoordMappings, (std::vector<std::string>{"base", "light"}));
+  EXPECT_EQ(mesh.texCoords[2], (Vec2f{1, 1}));
+  EXPECT_EQ(mesh.texCoords1[2], (Vec2f{2, 2}));
+  EXPECT_EQ(texCoordSetCount(meshOf(surface)), 1u);
+  EXPECT_TRUE(readScene("<Shape>" + appearance + "<IndexedFaceSet coordIndex='0 1 2 3 -1'>" + square +
+                        "<MultiTextureCoordinate><TextureCoordinate point='0 0, 1 0, 1 1, 0 1'/><TextureCoordinate "
+                        "mapping='light' point='0 0'/></MultiTextureCoordinate></IndexedFaceSet></Shape>")
+                  .scene.meshes.empty());
+}
+
 TEST(X3d, HasSharpEdgesBeyondTheCreaseAngle) {
   const std::string roof = "<Coordinate point='0 0 0 1 0 0 1 0 1 0 0 1 1 -1 0 1 -1 1'/></IndexedFaceSet>";
   const std::string faces = "coordIndex='0 3 2 1 -1 1 2 5 4'";

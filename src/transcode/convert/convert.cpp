@@ -25,6 +25,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mutex>
+#include <set>
 
 namespace imgeo {
 
@@ -151,6 +152,8 @@ public:
     report_.weld = prepared.weld;
     report_.normalsComputed = prepared.normalsComputed;
     std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
+    if (options_.target == Target::x3dom)
+      leaveOutTexCoords();
     report_.prepareSeconds = step_.lapSeconds();
   }
 
@@ -222,10 +225,31 @@ private:
       progress_(fraction, step);
   }
 
+  /// Leaves out what X3DOM does not read.
+  void leaveOutTexCoords() {
+    const auto [meshes, textures] = keepFirstTexCoords(scene_);
+    hasOnlyFirstTexCoords_ = meshes > 0;
+    if (hasOnlyFirstTexCoords_)
+      report_.warnings.push_back(
+          fmt::format("X3DOM reads one set of texture coordinates: the others of {} are left out, and with them {}",
+                      counted(meshes, "mesh", "meshes"), counted(textures, "texture", "textures")));
+  }
+
+  /// The names of all sets of texture coordinates; glTF's for a set without a name.
+  std::set<std::string> texCoordNames() const {
+    std::set<std::string> names;
+    for (const GeometryDescription& geometry : document_.geometries)
+      for (const std::string& name : geometry.texCoordMappings)
+        names.insert(name.empty() ? attributeRow<VertexRole::texCoord>.gltfName : name);
+    return names;
+  }
+
   SiteManifest manifest() const {
     std::vector<std::string> attributeNames;
     for (const AttributeReport& attribute : report_.attributes)
       attributeNames.push_back(attribute.name);
+    if (options_.keepAttributes.all)
+      std::ranges::copy(texCoordNames(), std::back_inserter(attributeNames));
     return {.generator = fmt::format("imgeo {}", version()),
             .source = input_ == "-" ? "" : input_.filename().string(),
             .encoding = *options_.encoding,
@@ -236,6 +260,7 @@ private:
             .normalErrorDegrees = hasStatedError(options_) ? report_.normalErrorDegrees : 0,
             .dropped = options_.dropped,
             .attributes = std::move(attributeNames),
+            .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
             .sourceTextureBytes = report_.textures.sourceBytes};
   }
 
@@ -245,6 +270,7 @@ private:
   StagedSite site_;
   ConvertReport report_;
   Stopwatch total_, step_;
+  bool hasOnlyFirstTexCoords_ = false;
   Scene scene_;                   ///< until encodeMeshes
   PictureSamples pictureSamples_; ///< from samplePicture on
   SceneDocument document_;        ///< from encodeMeshes on

@@ -47,9 +47,9 @@ void addAttributes(EncodedMesh& mesh, const std::vector<Patch>& patches, const C
   for (const Patch& patch : patches) {
     mesh.hasNormals |= !patch.normals.empty();
     mesh.hasColors |= !patch.colors.empty();
-    if (!patch.texCoords.empty()) {
-      const Vec2<double> error = texCoordErrorBound(mesh.geometry, options.texCoordBits);
-      mesh.texCoordError = std::max(error.x, error.y);
+    for (std::size_t set = 0; set < texCoordSetCount(patch); ++set) {
+      const Vec2<double> error = texCoordErrorBound(mesh.geometry, set, options.texCoordBits);
+      mesh.texCoordError = std::max({mesh.texCoordError.value_or(0), error.x, error.y});
     }
   }
 }

@@ -37,7 +37,8 @@ void requireMaxError(const ConvertOptions& options) {
     refuseOption("--max-error", "chooses bits for images; bg has --position-bits and --coord-type");
 }
 
-/// Whether an encoding supports the options and meshes with so many further attributes.
+/// Whether an encoding supports the options and meshes with so many further attributes, among which are the sets of
+/// texture coordinates beyond the first.
 bool canHold(const EncodingRow& row, const ConvertOptions& options, std::size_t attributeCount) {
   const Capabilities& can = row.capabilities;
   return (options.target != Target::x3dom || row.x3domVersion != nullptr) &&
@@ -103,7 +104,8 @@ ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given) {
   ConvertOptions options = resolved(given);
   std::size_t attributeCount = 0;
   for (const Mesh& mesh : scene.meshes)
-    attributeCount = std::max(attributeCount, mesh.namedAttributes.size());
+    attributeCount =
+        std::max(attributeCount, mesh.namedAttributes.size() + std::max(texCoordSetCount(mesh), std::size_t{1}) - 1);
   const std::size_t maxAttributeCount = capabilitiesOf(options).maxNamedAttributes;
   if (attributeCount <= maxAttributeCount)
     return options;

@@ -42,6 +42,8 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& 
   const StoredPrecision precision = reader.precisionOf(geometry);
   info.normalBits = precision.bits[VertexRole::normal];
   info.texCoordBits = precision.bits[VertexRole::texCoord];
+  for (const VertexRole role : texCoordRoles)
+    info.texCoordSets += precision.bits[role] > 0;
   info.colorBits = precision.bits[VertexRole::color];
   if (info.normalBits > 0)
     info.normalEncoding = nameOf(precision.normalEncoding);

@@ -65,6 +65,7 @@ Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry
   parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, location);
+  mesh.texCoordMappings = geometry.texCoordMappings;
   for (IndexedPatch& patch : patches)
     append(mesh, std::exchange(patch, {}), geometry.lattice, location);
   const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });

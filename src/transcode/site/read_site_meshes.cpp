@@ -20,8 +20,11 @@ SiteMesh siteMeshOf(const Mesh& mesh) {
     result.positions.push_back(arrayOf(position));
   for (const Vec3f& normal : mesh.normals)
     result.normals.push_back(arrayOf(normal));
-  for (const Vec2f& texCoord : mesh.texCoords)
-    result.texCoords.push_back({texCoord.x, texCoord.y});
+  for (std::size_t set = 0; set < texCoordSetCount(mesh); ++set) {
+    auto& texCoords = set == 0 ? result.texCoords : result.furtherTexCoords.emplace_back();
+    for (const Vec2f& texCoord : texCoordsOf(mesh, set))
+      texCoords.push_back({texCoord.x, texCoord.y});
+  }
   for (const Rgba8& color : mesh.colors)
     result.colors.push_back({color.r, color.g, color.b, color.a});
   for (const NamedAttribute& attribute : mesh.namedAttributes)

@@ -55,6 +55,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["droppedRepeated"] = true;
   if (!manifest.attributes.empty())
     json["attributes"] = manifest.attributes;
+  if (manifest.onlyFirstTexCoords)
+    json["onlyFirstTexCoords"] = true;
   if (manifest.normalErrorDegrees > 0)
     json["normalErrorDegrees"] = manifest.normalErrorDegrees;
   if (manifest.sourceTextureBytes > 0)
@@ -77,6 +79,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
     manifest.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
     manifest.attributes = json.value("attributes", std::vector<std::string>{});
+    manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);
     manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});
     return manifest;

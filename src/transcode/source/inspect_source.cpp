@@ -23,6 +23,7 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
     info.vertices += mesh.wedgeCount();
     info.normals |= !mesh.normals.empty();
     info.texCoords |= !mesh.texCoords.empty();
+    info.texCoordSets = std::max(info.texCoordSets, static_cast<std::uint32_t>(texCoordSetCount(mesh)));
     info.colors |= !mesh.colors.empty();
   }
   return info;

@@ -17,7 +17,8 @@ struct SourceInfo {
   ElementCounts elements;
   std::size_t shapes = 0, vertices = 0;
   bool normals = false, texCoords = false, colors = false; ///< whether any mesh has them
-  std::vector<std::string> attributes;                     ///< names of further vertex attributes
+  std::uint32_t texCoordSets = 0;      ///< the largest number of sets of texture coordinates of a mesh
+  std::vector<std::string> attributes; ///< names of further vertex attributes
   Box3d box;
   std::vector<std::string> warnings;
 };

@@ -74,4 +74,23 @@ PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, Nor
   return sum;
 }
 
+LeftOutTexCoords keepFirstTexCoords(Scene& scene) {
+  LeftOutTexCoords leftOut;
+  for (const std::size_t node : shapeNodes(scene.graph)) {
+    const Shape& shape = shapeOf(scene.graph, node);
+    if (!shape.appearance)
+      continue;
+    leftOut.textures += std::erase_if(scene.graph.appearances[*shape.appearance].textures, [&](const TextureUse& use) {
+      return texCoordSetNamed(use.mapping, scene.meshes[shape.mesh]) > 0;
+    });
+  }
+  for (Mesh& mesh : scene.meshes) {
+    leftOut.meshes += texCoordSetCount(mesh) > 1;
+    for (std::size_t set = 1; set < maxTexCoordSets; ++set)
+      texCoordsOf(mesh, set).clear();
+    mesh.texCoordMappings.clear();
+  }
+  return leftOut;
+}
+
 } // namespace imgeo

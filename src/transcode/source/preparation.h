@@ -35,4 +35,13 @@ struct PreparationReport {
 PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
                                const std::string& location);
 
+/// Meshes and textures of which something was left out.
+struct LeftOutTexCoords {
+  std::size_t meshes = 0, textures = 0;
+};
+
+/// Removes all sets of texture coordinates but the first, and the textures that use them, for programs that read one
+/// set.
+LeftOutTexCoords keepFirstTexCoords(Scene& scene);
+
 } // namespace imgeo

@@ -15,10 +15,11 @@ bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input, Topology 
          (topology != Topology::triangles && site == AnyMaterial(pointMaterialOf(input)));
 }
 
-/// Whether the input uses a texture in the same role with the same transform.
+/// Whether the input uses a texture in the same role with the same transform and the same texture coordinates.
 bool isUsedIn(const TextureUse& use, const std::vector<TextureUse>& input) {
-  return std::ranges::any_of(
-      input, [&](const TextureUse& other) { return other.role == use.role && other.transform == use.transform; });
+  return std::ranges::any_of(input, [&](const TextureUse& other) {
+    return other.role == use.role && other.transform == use.transform && other.mapping == use.mapping;
+  });
 }
 
 } // namespace

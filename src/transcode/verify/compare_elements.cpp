@@ -54,7 +54,7 @@ double angleDegrees(Vec3f a, Vec3f b) {
 /// Largest differences between the attributes of an element of the input and one of the site.
 struct Distance {
   double normalDegrees = 0;
-  Vec2<double> texCoord;
+  std::array<Vec2<double>, maxTexCoordSets> texCoords;
   double named = 0; ///< as a fraction of the allowed difference
   bool colorsDiffer = false;
 };
@@ -70,7 +70,7 @@ class Matcher {
 public:
   Matcher(const ElementList& input, const ElementList& site, const AttributeBounds& bounds)
       : input_(input), site_(site), bounds_(bounds), normals_(!input.normals.empty() && !site.normals.empty()),
-        texCoords_(!input.texCoords.empty() && !site.texCoords.empty()),
+        texCoordSets_(std::min(texCoordSetCount(input), texCoordSetCount(site))),
         colors_(!input.colors.empty() && !site.colors.empty()) {
     for (const NamedAttribute& attribute : input.namedAttributes) {
       const auto other = std::ranges::find(site.namedAttributes, attribute.name, &NamedAttribute::name);
@@ -112,8 +112,8 @@ private:
     const std::uint32_t vertex = list.elements[element][turn];
     if (normals_)
       return list.normals[vertex].x * (180 / std::numbers::pi) / bounds_.normalDegrees;
-    if (texCoords_)
-      return list.texCoords[vertex].x / bounds_.texCoord.x;
+    if (texCoordSets_ > 0)
+      return list.texCoords[vertex].x / bounds_.texCoords[0].x;
     if (colors_)
       return list.colors[vertex].r;
     if (!named_.empty()) {
@@ -153,7 +153,8 @@ private:
   Distance nearest(std::uint32_t element, const std::vector<Candidate>& candidates, const ElementList& others,
                    const ElementList& own, std::size_t ownTurns) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Distance best{180, {infinity, infinity}, infinity, true}; // the result if every cost is NaN
+    Distance best{180, {}, infinity, true}; // the result if every cost is NaN
+    best.texCoords.fill({infinity, infinity});
     double bestCost = infinity;
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
       const double ownKey = key(own, element, ownTurn);
@@ -182,10 +183,9 @@ private:
       const std::uint32_t vb = b.elements[elementB][(corner + turnB) % b.cornerCount];
       if (normals_)
         distance.normalDegrees = std::max(distance.normalDegrees, angleDegrees(a.normals[va], b.normals[vb]));
-      if (texCoords_) {
-        const Vec2<double> ta{a.texCoords[va].x, a.texCoords[va].y}, tb{b.texCoords[vb].x, b.texCoords[vb].y};
-        distance.texCoord.x = std::max(distance.texCoord.x, std::abs(ta.x - tb.x));
-        distance.texCoord.y = std::max(distance.texCoord.y, std::abs(ta.y - tb.y));
+      for (std::size_t set = 0; set < texCoordSets_; ++set) {
+        const Vec2f ta = texCoordsOf(a, set)[va], tb = texCoordsOf(b, set)[vb];
+        addToWorst({std::abs(double{ta.x} - tb.x), std::abs(double{ta.y} - tb.y)}, distance.texCoords[set]);
       }
       if (colors_)
         distance.colorsDiffer |= a.colors[va] != b.colors[vb];
@@ -215,15 +215,21 @@ private:
     double cost = std::max(distance.colorsDiffer ? 256.0 : 0.0, distance.named);
     if (normals_)
       cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
-    if (texCoords_)
-      cost = std::max({cost, distance.texCoord.x / bounds_.texCoord.x, distance.texCoord.y / bounds_.texCoord.y});
+    for (std::size_t set = 0; set < texCoordSets_; ++set) {
+      const Vec2<double>&is = distance.texCoords[set], &bound = bounds_.texCoords[set];
+      cost = std::max({cost, is.x / bound.x, is.y / bound.y});
+    }
     return cost;
+  }
+
+  static void addToWorst(const Vec2<double>& distance, Vec2<double>& worst) {
+    worst = {std::max(worst.x, distance.x), std::max(worst.y, distance.y)};
   }
 
   static void addToWorst(const Distance& distance, ElementDifference& worst) {
     worst.normalDegrees = std::max(worst.normalDegrees, distance.normalDegrees);
-    worst.texCoord.x = std::max(worst.texCoord.x, distance.texCoord.x);
-    worst.texCoord.y = std::max(worst.texCoord.y, distance.texCoord.y);
+    for (std::size_t set = 0; set < maxTexCoordSets; ++set)
+      addToWorst(distance.texCoords[set], worst.texCoords[set]);
     worst.named = std::max(worst.named, distance.named);
     worst.colorsDiffering += distance.colorsDiffer;
   }
@@ -231,7 +237,9 @@ private:
   const ElementList& input_;
   const ElementList& site_;
   const AttributeBounds& bounds_;
-  bool normals_, texCoords_, colors_;
+  bool normals_;
+  std::size_t texCoordSets_;
+  bool colors_;
   std::vector<NamedPair> named_;
 };
 

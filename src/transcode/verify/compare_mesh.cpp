@@ -44,6 +44,15 @@ void roundColors(std::vector<Rgba8>& colors, std::uint32_t bits) {
       *component = static_cast<std::uint8_t>(std::floor(*component / 255.0 * steps + 0.5) / steps * 255 + 0.5);
 }
 
+/// Allowed error of texture coordinates, by set.
+std::array<Vec2<double>, maxTexCoordSets> texCoordBounds(const GeometryDescription& geometry,
+                                                         const StoredPrecision& precision) {
+  std::array<Vec2<double>, maxTexCoordSets> bounds;
+  for (const VertexRole role : texCoordRoles)
+    bounds[texCoordSetOf(role)] = texCoordErrorBound(geometry, texCoordSetOf(role), std::max(precision.bits[role], 1u));
+  return bounds;
+}
+
 /// Allowed error of each component of the further attributes, by name.
 std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription& geometry) {
   std::map<std::string, std::vector<double>> bounds;
@@ -183,10 +192,13 @@ void addFindings(const ElementDifference& difference, const AttributeBounds& bou
   if (difference.normalDegrees > bounds.normalDegrees + normalTolerance)
     findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.", difference.normalDegrees,
                  bounds.normalDegrees);
-  if (difference.texCoord.x > bounds.texCoord.x || difference.texCoord.y > bounds.texCoord.y)
-    findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
-                 "and {:.4g}.",
-                 difference.texCoord.x, difference.texCoord.y, bounds.texCoord.x, bounds.texCoord.y);
+  for (std::size_t set = 0; set < maxTexCoordSets; ++set) {
+    const Vec2<double>&is = difference.texCoords[set], &bound = bounds.texCoords[set];
+    if (is.x > bound.x || is.y > bound.y)
+      findings.add("Texture coordinates{} are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
+                   "and {:.4g}.",
+                   set == 0 ? "" : fmt::format(" of set {}", set), is.x, is.y, bound.x, bound.y);
+  }
   report.attributeError = std::max(report.attributeError, difference.named);
   if (difference.named > 1)
     findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.", difference.named);
@@ -217,8 +229,7 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   const StoredPrecision precision = reader.precisionOf(geometry);
   roundColors(input.colors, precision.bits[VertexRole::color]);
   const AttributeBounds bounds{normalBoundDegrees(geometry, manifest.value_or(SiteManifest{})),
-                               texCoordErrorBound(geometry, std::max(precision.bits[VertexRole::texCoord], 1u)),
-                               namedBounds(geometry)};
+                               texCoordBounds(geometry, precision), namedBounds(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   addCounts(difference, input, site, topology, report);
   addFindings(difference, bounds, topology, report, findings);

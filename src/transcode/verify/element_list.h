@@ -46,15 +46,15 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
 /// Allowed differences between the attributes of equal elements.
 struct AttributeBounds {
   double normalDegrees = 0;
-  Vec2<double> texCoord;
+  std::array<Vec2<double>, maxTexCoordSets> texCoords; ///< by set
   std::map<std::string, std::vector<double>> named; ///< by name of a further attribute; one number for each component
 };
 
 struct ElementDifference {
-  std::size_t missing = 0;         ///< elements of the input that the site lacks
-  std::size_t extra = 0;           ///< elements of the site that the input lacks
-  double normalDegrees = 0;        ///< largest angle between an element and its best match
-  Vec2<double> texCoord;           ///< largest difference along each axis, likewise
+  std::size_t missing = 0;                             ///< elements of the input that the site lacks
+  std::size_t extra = 0;                               ///< elements of the site that the input lacks
+  double normalDegrees = 0;                            ///< largest angle between an element and its best match
+  std::array<Vec2<double>, maxTexCoordSets> texCoords; ///< by set: largest difference along each axis, likewise
   double named = 0;                ///< largest difference of a further attribute, as a fraction of its bound
   std::size_t colorsDiffering = 0; ///< elements without a match of the same colours
 };

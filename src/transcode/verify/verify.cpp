@@ -57,6 +57,8 @@ Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>&
     hadNormals.push_back(!mesh.normals.empty());
   const SiteManifest settings = manifest.value_or(SiteManifest{});
   prepareScene(imported.scene, settings.dropped, settings.normalWeighting, locationOf(input));
+  if (settings.onlyFirstTexCoords)
+    keepFirstTexCoords(imported.scene);
   for (std::size_t i = 0; i < hadNormals.size(); ++i)
     if (!manifest && !hadNormals[i])
       imported.scene.meshes[i].normals.clear();

@@ -24,7 +24,7 @@ function textureOf(url: string, preview = "", role: TextureDescription["role"] =
     hasMipmaps: true,
     anisotropy: 1,
   } as const;
-  return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
+  return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1], mapping: "", texCoordSet: 0 };
 }
 
 const everyTexture: TexturePriority = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownViewMetrics);

@@ -224,6 +224,7 @@ function readTextures(
       ? readTexture(
           role,
           element,
+          mapping,
           matrixOf(transformFor(mapping, children, childrenOf), warnings),
           childrenOf,
           warnings,
@@ -240,13 +241,23 @@ export function fieldOf(texture: SceneElement): string {
 function readTexture(
   role: TextureRole,
   element: SceneElement,
+  mapping: string,
   transform: TextureDescription["transform"],
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): TextureDescription[] {
   const image = readImageOf(element, childrenOf, warnings);
   if (image === undefined) return [];
-  return [{ ...image, role, sampling: { ...image.sampling, isData: dataRoles.includes(role) }, transform }];
+  return [
+    {
+      ...image,
+      role,
+      sampling: { ...image.sampling, isData: dataRoles.includes(role) },
+      transform,
+      mapping,
+      texCoordSet: 0,
+    },
+  ];
 }
 
 /** The image of an ImageTexture or PixelTexture, as colors; undefined where it has none. */
@@ -260,6 +271,27 @@ export function readImageOf(
   if (url === undefined) return undefined;
   const properties = childrenOf(element).find((child) => lowerNameOf(child) === "textureproperties");
   return { url, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: false } };
+}
+
+/**
+ * The appearance with the sets of texture coordinates that the mappings of its textures name. A mapping is the name of a
+ * set, or this name, a dot and the role of the texture, where it also names a transform. Other mappings stand for the
+ * first set.
+ */
+export function withTexCoordSets(
+  appearance: AppearanceDescription,
+  names: readonly string[] = [],
+): AppearanceDescription {
+  const setOf = ({ mapping, role }: TextureDescription) =>
+    Math.max(
+      0,
+      names.findIndex((name) => mapping === name || mapping === `${name}.${role}`),
+    );
+  if (appearance.textures.every((texture) => setOf(texture) === texture.texCoordSet)) return appearance;
+  return {
+    ...appearance,
+    textures: appearance.textures.map((texture) => ({ ...texture, texCoordSet: setOf(texture) })),
+  };
 }
 
 /** The common fields of textures; `url` is undefined where there is no image. */

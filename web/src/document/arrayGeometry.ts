@@ -1,26 +1,38 @@
 // Describes vertex arrays as BG geometry in data: URLs, so that delivery treats them like files.
 
 import type { ByVertexRole } from "../stage/attributeRows.ts";
-import { byVertexRole, byVertexRoleWith } from "../stage/attributeRows.ts";
+import { byVertexRole, byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
 import { dataUrl } from "./dataUrl.ts";
 import type { Box3, GeometryDescription, Reference } from "./description.ts";
 import type { VertexArrays } from "../tessellate/faces.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 
-/** Undefined for absent or empty arrays. */
-export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolean): GeometryDescription | undefined {
+/** Undefined for absent or empty arrays. `texCoordMappings`: the names of the sets of texture coordinates. */
+export function geometryOfArrays(
+  arrays: VertexArrays | undefined,
+  solid: boolean,
+  texCoordMappings: readonly string[] = [""],
+): GeometryDescription | undefined {
   if (arrays === undefined || arrays.positions.length === 0) return undefined;
-  const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
+  const { positions, normals, texCoords, furtherTexCoords = [], colors, colorComponents, primitive } = arrays;
   const count = positions.length / 3;
-  const array: ByVertexRole<Float32Array | Uint8Array> = { normal: normals, texCoord: texCoords, color: colors };
+  const [texCoord1, texCoord2, texCoord3] = furtherTexCoords;
+  const array: ByVertexRole<Float32Array | Uint8Array> = {
+    normal: normals,
+    texCoord: texCoords,
+    texCoord1,
+    texCoord2,
+    texCoord3,
+    color: colors,
+  };
   return {
     encoding: "bg",
     position: [0, 0, 0],
     size: [1, 1, 1],
     positionBits: 0,
     solid,
-    texCoordMin: [0, 0],
-    texCoordSize: [1, 1],
+    texCoordBoxes: texCoordRoles.map(() => ({ min: [0, 0], size: [1, 1] })),
+    texCoordMappings,
     colorComponents,
     normalEncoding: "rgb",
     decode: "auto",

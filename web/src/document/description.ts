@@ -117,6 +117,12 @@ export type ImageProfile = (typeof imageProfiles)[number];
 export const decodeModes = ["auto", "gpu", "cpu"] as const;
 export type DecodeMode = (typeof decodeModes)[number];
 
+/** The range of a set of texture coordinates: those of a stored 0, and the extent up to a stored 1. */
+export interface TexCoordBox {
+  readonly min: Vec2;
+  readonly size: Vec2;
+}
+
 export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`, ElementType>> {
   readonly encoding: Encoding;
   /** Center and size of the box that stored integers are quantized over. */
@@ -126,8 +132,10 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly positionBits: number;
   /** False: both sides are drawn. */
   readonly solid: boolean;
-  readonly texCoordMin: Vec2;
-  readonly texCoordSize: Vec2;
+  /** By set of texture coordinates. */
+  readonly texCoordBoxes: readonly TexCoordBox[];
+  /** The names of the sets, which textures state as their mapping. */
+  readonly texCoordMappings: readonly string[];
   readonly colorComponents: 3 | 4;
   readonly normalEncoding: NormalEncoding;
   /** Where images are decoded: by the shader, in workers, or wherever is better. */
@@ -236,6 +244,10 @@ export interface TextureDescription extends ImageDescription {
   readonly role: TextureRole;
   /** Maps a vertex's texture coordinates to the image's. */
   readonly transform: TextureMatrix;
+  /** As written: the name of a set of texture coordinates, and of a transform; empty: the first. */
+  readonly mapping: string;
+  /** The set of texture coordinates of the shape's geometry that `mapping` names. */
+  readonly texCoordSet: number;
 }
 
 /** X3D's PointProperties, in CSS pixels. */

@@ -18,7 +18,7 @@ import type { ElementType } from "../stage/elementType.ts";
 import { elementTypes } from "../stage/elementType.ts";
 import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
-import { byVertexRole, byVertexRoleWith, vertexRoles } from "../stage/attributeRows.ts";
+import { byVertexRole, byVertexRoleWith, texCoordRoles, vertexRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
@@ -142,7 +142,7 @@ function commonFieldsOf(
   values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
   warnings: Warning[],
 ) {
-  const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
+  const { position, size, positionBits, solid } = values;
   const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
   const normalEncoding = choiceOf(element, "normalEncoding", values.normalEncoding, normalEncodings, "rgb", warnings);
   return {
@@ -150,8 +150,8 @@ function commonFieldsOf(
     size,
     positionBits,
     solid,
-    texCoordMin,
-    texCoordSize,
+    texCoordBoxes: texCoordRoles.map((role) => ({ min: values[`${role}Min`], size: values[`${role}Size`] })),
+    texCoordMappings: values.texCoordMapping,
     indexType,
     normalEncoding,
     value: undefined,

@@ -272,6 +272,38 @@ describe("geometry in the document", () => {
     assert.equal(atStart.size, 1, [...atStart].join(" | "));
   });
 
+  test("reads sets of texture coordinates, of which each texture names its own", () => {
+    const texture = (role: string) => `<ImageTexture containerField="${role}Texture" url="a.png"></ImageTexture>`;
+    const scene = readScene(
+      elementsOf(`<X3D><Scene><Shape><Appearance>
+        <PhysicalMaterial baseTextureMapping="base" occlusionTextureMapping="light" normalTextureMapping="light.normal"
+          emissiveTextureMapping="none">
+          ${["base", "occlusion", "normal", "emissive"].map(texture).join("")}</PhysicalMaterial>
+        <MultiTextureTransform><TextureTransform mapping="light" scale="2 2"></TextureTransform>
+          <TextureTransform scale="3 3"></TextureTransform></MultiTextureTransform></Appearance>
+        <IndexedTriangleSet index="0 1 2"><Coordinate point="0 0 0 1 0 0 0 1 0"></Coordinate>
+          <MultiTextureCoordinate><TextureCoordinate mapping="base" point="0 0 1 0 0 1"></TextureCoordinate>
+            <TextureCoordinate mapping="light" point="5 5 6 5 5 6"></TextureCoordinate></MultiTextureCoordinate>
+        </IndexedTriangleSet></Shape></Scene></X3D>`),
+    );
+    const [shape] = shapesOf(scene.root);
+    const [patch] = shape?.geometry?.patches ?? [];
+    assert.deepEqual([...new Float32Array(bytesOf(patch?.texCoord))], [0, 0, 1, 0, 0, 1]);
+    assert.deepEqual([...new Float32Array(bytesOf(patch?.texCoord1))], [5, 5, 6, 5, 5, 6]);
+    assert.equal(patch?.texCoord2, undefined);
+    const sets = shape?.appearance.textures.map(({ role, texCoordSet, transform: [scale] }) => [
+      role,
+      texCoordSet,
+      scale,
+    ]);
+    assert.deepEqual(sets, [
+      ["color", 0, 3],
+      ["emissive", 0, 3],
+      ["normal", 1, 3],
+      ["occlusion", 1, 2],
+    ]);
+  });
+
   test("reads a grid of heights with vertex attributes", () => {
     const grid = '<ElevationGrid xDimension="3" zDimension="2" xSpacing="2" height="0 1 0 0 1 0"';
     const { geometry, positions, normals } = trianglesOf(`${grid}/>`);

@@ -17,7 +17,7 @@ import {
   withDefaultTexCoords,
 } from "../tessellate/faces.ts";
 import { withGeneratedTexCoords } from "../tessellate/texCoordModes.ts";
-import { texCoordModeOf, texCoordsOf } from "./texCoordNodes.ts";
+import { texCoordModeOf, texCoordSetsOf } from "./texCoordNodes.ts";
 import type { PlaneGeometry } from "../tessellate/geometry2d.ts";
 import { arc, circle, closedArc, disk, polyline, polypoint, rectangle, triangles2d } from "../tessellate/geometry2d.ts";
 import type { Values } from "./nodes.ts";
@@ -157,7 +157,7 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   const isCreased = readSurface !== undefined || name === "indexedfaceset";
   const arrays = arraysOfRuns(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
-  return geometryOfArrays(arrays && withGeneratedTexCoords(arrays, texCoordMode), fields.solid);
+  return geometryOfArrays(arrays && withGeneratedTexCoords(arrays, texCoordMode), fields.solid, data.texCoordMappings);
 };
 
 function planeGeometryOf(
@@ -211,7 +211,7 @@ function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning
   return {
     positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
     normals: normal ? readFields(normal, nodeFields.Normal, warnings).vector : [],
-    texCoords: texCoordsOf(element, resolve, warnings),
+    ...texCoordSetsOf(element, resolve, warnings),
     colors: color ? readFields(color, nodeFields.Color, warnings).color : [],
     colorComponents: color && lowerNameOf(color) === "colorrgba" ? 4 : 3,
   };

@@ -1,7 +1,7 @@
 // Reads a Shape without the state that it inherits from groups.
 
 import { colorMapOf, withValues } from "./attributes.ts";
-import { readAppearance } from "./appearance.ts";
+import { readAppearance, withTexCoordSets } from "./appearance.ts";
 import type { Box3, GeometryDescription, ShapeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
@@ -43,11 +43,14 @@ export function readShape(
   const [geometry, priorityOfGeometry] = readGeometryOf(children, context, ownBox, values.colorBy);
   const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
   const isVisible = values.visible && values.render;
-  const appearanceDescription = readAppearance(
-    appearance,
-    colorMapOf(node, values, geometry, warnings),
-    (parent) => nodesIn(parent, context),
-    warnings,
+  const appearanceDescription = withTexCoordSets(
+    readAppearance(
+      appearance,
+      colorMapOf(node, values, geometry, warnings),
+      (parent) => nodesIn(parent, context),
+      warnings,
+    ),
+    geometry?.texCoordMappings,
   );
   return {
     kind: "shape",

@@ -21,6 +21,20 @@ export interface AttributeRow {
   readonly classic: { readonly channels: 1 | 2 | 3 | 4; readonly bytesPerVertex: number };
 }
 
+/** A set of texture coordinates beside the first. */
+function furtherTexCoords<Set extends 1 | 2 | 3>(set: Set) {
+  return {
+    components: 2,
+    maxComponents: 2,
+    bufferName: `uv${set}`,
+    define: `HAS_TEX_COORDS_${set}`,
+    isForTextures: true,
+    chunkWeight: 32,
+    stageWithout: undefined,
+    classic: { channels: 4, bytesPerVertex: 3 },
+  } as const satisfies AttributeRow;
+}
+
 // In the order in which they become useful.
 const rows = {
   normal: {
@@ -42,6 +56,9 @@ const rows = {
     stageWithout: undefined,
     classic: { channels: 4, bytesPerVertex: 3 },
   },
+  texCoord1: furtherTexCoords(1),
+  texCoord2: furtherTexCoords(2),
+  texCoord3: furtherTexCoords(3),
   color: {
     components: 3,
     maxComponents: 4,
@@ -60,6 +77,17 @@ export const attributeRows: Readonly<Record<VertexRole, AttributeRow>> = rows;
 
 /** In the order in which the attributes become useful. */
 export const vertexRoles = Object.keys(rows) as readonly VertexRole[];
+
+/** The roles of texture coordinates, by set. Each texture of an appearance states its set. */
+export const texCoordRoles = ["texCoord", "texCoord1", "texCoord2", "texCoord3"] as const satisfies VertexRole[];
+
+/** A member for each set of texture coordinates. */
+export function withTexCoordRoles<Value>(
+  valueOf: (set: number) => Value,
+): Record<(typeof texCoordRoles)[number], Value> {
+  const [texCoord, texCoord1, texCoord2, texCoord3] = [valueOf(0), valueOf(1), valueOf(2), valueOf(3)];
+  return { texCoord, texCoord1, texCoord2, texCoord3 };
+}
 
 /** What is known of some attributes; others are undefined. */
 export type ByVertexRole<Value> = Readonly<Partial<Record<VertexRole, Value | undefined>>>;

@@ -13,6 +13,10 @@ export interface VertexData {
   readonly normals: readonly number[];
   /** s and t of each. */
   readonly texCoords: readonly number[];
+  /** Sets of texture coordinates beside the first, with the same indices. */
+  readonly furtherTexCoords?: readonly (readonly number[])[];
+  /** The names of all sets. */
+  readonly texCoordMappings?: readonly string[];
   /** `colorComponents` numbers each, 0 … 1. */
   readonly colors: readonly number[];
   readonly colorComponents: 3 | 4;
@@ -38,6 +42,8 @@ export interface VertexArrays {
   readonly positions: Float32Array;
   readonly normals: Float32Array | undefined;
   readonly texCoords: Float32Array | undefined;
+  /** Sets of texture coordinates beside the first. */
+  readonly furtherTexCoords?: readonly Float32Array[];
   readonly colors: Uint8Array | undefined;
   readonly colorComponents: 3 | 4;
 }
@@ -186,15 +192,18 @@ export function vertexArraysOf(
   const positions = take(data.positions, 3, ({ position }) => position);
   const normals = data.normals.length > 0 ? take(data.normals, 3, ({ normal }) => normal) : [];
   const texCoords = data.texCoords.length > 0 ? take(data.texCoords, 2, ({ texCoord }) => texCoord) : [];
+  const furtherTexCoords = (data.furtherTexCoords ?? []).map((each) => take(each, 2, ({ texCoord }) => texCoord));
   const colors = data.colors.length > 0 ? take(data.colors, colorComponents, ({ color }) => color) : [];
   if (positions === undefined || normals === undefined || texCoords === undefined || colors === undefined)
     return undefined;
+  if (furtherTexCoords.includes(undefined)) return undefined;
   return {
     primitive,
     colorComponents,
     positions: Float32Array.from(positions),
     normals: normals.length > 0 ? Float32Array.from(normals) : undefined,
     texCoords: texCoords.length > 0 ? Float32Array.from(texCoords) : undefined,
+    furtherTexCoords: furtherTexCoords.map((each) => Float32Array.from(each ?? [])),
     colors:
       colors.length > 0
         ? Uint8Array.from(colors, (value) => Math.round(255 * Math.min(Math.max(value, 0), 1)))

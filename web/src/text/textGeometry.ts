@@ -136,6 +136,8 @@ function withGlyphAtlas(
     url: glyphAtlas,
     preview: "",
     transform: [1, 0, 0, 0, 1, 0, 0, 0, 1],
+    mapping: "",
+    texCoordSet: 0,
     sampling: {
       isData: false,
       wrapS: "clamp",

@@ -1,13 +1,13 @@
 // Reads the header of a file, which precedes its streams: docs/formats/compact.md, "File".
 
-import type { VertexRole } from "../../stage/attributeRows.ts";
 import { attributeRows } from "../../stage/attributeRows.ts";
 import { DecodeError } from "../decodeError.ts";
 
 export type Topology = "points" | "lines" | "triangles";
 const topologies: readonly (Topology | undefined)[] = [undefined, "points", "lines", "triangles"];
 
-export type AttributeKind = VertexRole | "other";
+/** A patch may have several attributes of the kind "texCoord": the sets of texture coordinates, in order. */
+export type AttributeKind = "normal" | "texCoord" | "color" | "other";
 const attributeKinds: readonly (AttributeKind | undefined)[] = ["normal", "texCoord", "color", "other"];
 
 export interface AttributeType {

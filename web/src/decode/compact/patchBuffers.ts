@@ -3,9 +3,9 @@
 
 import { makeIndex } from "../indexArray.ts";
 import type { ByVertexRole, VertexRole } from "../../stage/attributeRows.ts";
-import { byVertexRole } from "../../stage/attributeRows.ts";
+import { byVertexRole, withTexCoordRoles } from "../../stage/attributeRows.ts";
 import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
-import type { AttributeType, Topology } from "./header.ts";
+import type { AttributeKind, AttributeType, Topology } from "./header.ts";
 import type { CompactPatch } from "./patch.ts";
 import { orderForVertexCache } from "./vertexCache.ts";
 
@@ -29,7 +29,7 @@ export interface OtherValues {
   readonly vertices: VertexArray;
 }
 
-/** Uses the first normals, colours and texture coordinates of the patch. */
+/** Uses the first normals and colours of the patch, and the n-th texture coordinates as those of set n. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
   return { ...verticesOf(patch), index: patch.header.topology === "points" ? undefined : orderedIndexOf(patch) };
 }
@@ -37,16 +37,22 @@ export function buffersOf(patch: CompactPatch): PatchBuffers {
 /** Makes the array of an attribute from its decoded values. */
 const makeArray: Readonly<Record<VertexRole, (values: Int32Array, type: AttributeType) => VertexArray>> = {
   normal: directionsOf,
-  texCoord: normalizedOf,
+  ...withTexCoordRoles(() => normalizedOf),
   color: normalizedOf,
 };
 
 /** All arrays except the index. */
 export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
   const { header } = patch;
+  const indicesOf = (of: AttributeKind) => header.attributes.flatMap(({ kind }, i) => (kind === of ? [i] : []));
+  const attributeIndices: ByVertexRole<number> = {
+    normal: indicesOf("normal")[0],
+    ...withTexCoordRoles((set) => indicesOf("texCoord")[set]),
+    color: indicesOf("color")[0],
+  };
   const attribute = (role: VertexRole) => {
-    const attributeIndex = header.attributes.findIndex(({ kind }) => kind === role);
-    return attributeIndex < 0
+    const attributeIndex = attributeIndices[role];
+    return attributeIndex === undefined
       ? undefined
       : makeArray[role](patch.attributes[attributeIndex]!, header.attributes[attributeIndex]!);
   };

@@ -26,7 +26,7 @@ export interface BatchedDraw {
   readonly shapeFromStored: Matrix4;
   /** Lattice step, in the shape's coordinates. */
   readonly step: readonly [number, number, number];
-  readonly texCoordFrame: readonly [number, number, number, number];
+  readonly texCoordFrames: readonly number[];
   /** As valueFrameOf returns it. */
   readonly valueFrame: { readonly min: readonly number[]; readonly step: readonly number[] };
   readonly request: MaterialRequest;

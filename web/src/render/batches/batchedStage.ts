@@ -8,7 +8,8 @@ import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { BatchingRules } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
-import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
+import { applicableTextures } from "../materials/surfaceTextures.ts";
+import { texCoordFramesOf } from "../shaders/texCoords.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
@@ -122,10 +123,10 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
         vertexCount: stage.kind === "buffers" ? stage.vertexCount : 0,
         shapeFromStored: shapeFromStoredOf(geometry, patch),
         step: dequantizationOf(geometry, patch).step,
-        texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
+        texCoordFrames: texCoordFramesOf(geometry),
         valueFrame: valueFrameOf(stage, geometry.value),
         request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
-        surfaceTextures: applicableTextures(stage, surfaceTextures),
+        surfaceTextures: applicableTextures(stage, appearance, surfaceTextures),
       },
     ];
   });
@@ -163,12 +164,11 @@ function isBlended(
   surfaceTextures: SurfaceTextures,
   batching: BatchingRules,
 ): boolean {
-  return batching.isBlended({ colors: colorsOf(stage) }, appearance, applicableTextures(stage, surfaceTextures));
-}
-
-/** Without texture coordinates, textures cannot be applied. */
-function applicableTextures(stage: Stage, surfaceTextures: SurfaceTextures): SurfaceTextures {
-  return stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+  return batching.isBlended(
+    { colors: colorsOf(stage) },
+    appearance,
+    applicableTextures(stage, appearance, surfaceTextures),
+  );
 }
 
 function materialKeyOf(
@@ -181,7 +181,7 @@ function materialKeyOf(
   return batching.materialKeyOf(
     { primitive, colors: colorsOf(stage) },
     appearance,
-    applicableTextures(stage, surfaceTextures),
+    applicableTextures(stage, appearance, surfaceTextures),
   );
 }
 

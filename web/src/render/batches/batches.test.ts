@@ -79,7 +79,7 @@ function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3, isBlende
     bounds: new Sphere(new Vector3(), 1),
     shapeFromStored: new Matrix4(),
     step: [1, 1, 1],
-    texCoordFrame: [0, 0, 1, 1],
+    texCoordFrames: [0, 0, 1, 1],
     valueFrame: { min: [first(stage), 0, 0, 0], step: [2, 0, 0, 0] },
     request,
     appearance: {} as AppearanceDescription,

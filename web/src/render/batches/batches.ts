@@ -60,7 +60,7 @@ export class Batches {
       isMirrored: false,
       sphere: new Sphere(),
     };
-    this.#table.write(member.instanceIndex, instanceFields.texCoordFrame, draw.texCoordFrame);
+    this.#table.write(member.instanceIndex, instanceFields.texCoordFrames, draw.texCoordFrames);
     this.#table.write(member.instanceIndex, instanceFields.valueMin, draw.valueFrame.min);
     this.#table.write(member.instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
     this.#table.write(member.instanceIndex, instanceFields.material, numbers);

@@ -1,7 +1,9 @@
 // Textures of an appearance that have been loaded, by their role.
 
 import type { Texture } from "three";
-import type { TextureRole } from "../../document/description.ts";
+import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
+import { texCoordRoles } from "../../stage/attributeRows.ts";
+import type { Stage } from "../../stage/stage.ts";
 
 /** A texture that is applied to a surface. */
 export interface SurfaceTexture {
@@ -10,4 +12,17 @@ export interface SurfaceTexture {
 }
 
 export type SurfaceTextures = ReadonlyMap<TextureRole, SurfaceTexture>;
-export const noSurfaceTextures: SurfaceTextures = new Map();
+
+/** The textures whose texture coordinates a stage has; the others cannot be applied yet. */
+export function applicableTextures(
+  { attributes }: Pick<Stage, "attributes">,
+  { textures }: Pick<AppearanceDescription, "textures">,
+  surfaceTextures: SurfaceTextures,
+): SurfaceTextures {
+  const missing = textures.filter(
+    ({ texCoordSet }) => attributes[texCoordRoles[texCoordSet] ?? "texCoord"] === undefined,
+  );
+  if (missing.length === 0) return surfaceTextures;
+  const rolesMissing = missing.map(({ role }) => role);
+  return new Map(Array.from(surfaceTextures).filter(([role]) => !rolesMissing.includes(role)));
+}

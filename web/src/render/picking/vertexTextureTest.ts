@@ -15,7 +15,7 @@ import {
   type WebGLRenderer,
 } from "three";
 import { decodeWithBrowser } from "../../decode/image.ts";
-import { byVertexRoleWith, vertexRoles } from "../../stage/attributeRows.ts";
+import { byVertexRoleWith, texCoordRoles, vertexRoles } from "../../stage/attributeRows.ts";
 import { textureRoles } from "../../document/description.ts";
 import { makePickMaterial, pickTargetCount, pickedWordOffsets } from "./pickMaterial.ts";
 import { makePickTarget } from "./picker.ts";
@@ -81,8 +81,9 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       coordImage2: { value: null },
       coordImage3: { value: null },
       ...byVertexRoleWith("Image", (role) => (role === "normal" ? texture : { value: null })),
-      texCoordFrame: { value: [0, 0, 1, 1] },
+      texCoordFrames: { value: texCoordRoles.flatMap(() => [0, 0, 1, 1]) },
       textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
+      textureSets: { value: textureRoles.map(() => 0) },
       firstTexels: { value: [2, ...vertexRoles.map((role) => (role === "normal" ? 3 : 0))] },
       coordFirstTexels: { value: [0, 1, 0, 0] },
       coordPlaneCount: { value: 2 },

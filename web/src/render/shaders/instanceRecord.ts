@@ -20,19 +20,20 @@ export const instanceFields = {
   step: 12,
   /** 1 + the light scope's number; 0 if the instance is invisible. */
   visibleInScope: 15,
-  /** Origin and extent of texture coordinates. */
-  texCoordFrame: 16,
+  /** Origin and extent of each set of texture coordinates. */
+  texCoordFrames: 16,
   /** Diffuse and opacity; specular and shininess, or metallic and roughness; emissive and ambient intensity. */
-  material: 20,
+  material: 32,
   /** The range of the colour map. */
-  mapRange: 32,
-  lineWidth: 34,
+  mapRange: 44,
+  lineWidth: 46,
   /** The value of a stored 0. */
-  valueMin: 36,
+  valueMin: 48,
   /** The difference between two stored values. */
-  valueStep: 40,
+  valueStep: 52,
 } as const;
-export const texelsPerInstance = 11;
+export const texelsPerInstance = 14;
+const texelOf = (field: keyof typeof instanceFields) => Math.floor(instanceFields[field] / 4);
 
 export const instanceVertexChunk = /* glsl */ `
 #ifdef ${instancesDefine}
@@ -64,15 +65,15 @@ export const instanceVertexChunk = /* glsl */ `
     return mat3(cross(y, z), cross(z, x), cross(x, y)) * normal;
   }
 
-  vec4 instanceTexCoordFrame() {
-    return instanceTexel(4);
+  vec4 instanceTexCoordFrame(int set) {
+    return instanceTexel(${texelOf("texCoordFrames")} + set);
   }
 
   // Invisible instances are moved beyond the far plane.
   void applyInstance() {
-    instanceDiffuse = instanceTexel(5);
-    instanceSpecular = instanceTexel(6);
-    instanceEmissive = instanceTexel(7);
+    instanceDiffuse = instanceTexel(${texelOf("material")});
+    instanceSpecular = instanceTexel(${texelOf("material")} + 1);
+    instanceEmissive = instanceTexel(${texelOf("material")} + 2);
     instanceFaces = instanceIndex & ${backFaces + frontFaces}u;
     float visibleInScope = instanceTexel(3).w;
     #ifdef ${scopesDefine}
@@ -90,8 +91,8 @@ export const instanceVertexChunk = /* glsl */ `
     return normal * latticeStep;
   }
 
-  vec4 instanceTexCoordFrame() {
-    return texCoordFrame;
+  vec4 instanceTexCoordFrame(int set) {
+    return texCoordFrames[set];
   }
 
   void applyInstance() {}

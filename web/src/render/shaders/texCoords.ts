@@ -2,9 +2,10 @@
 // textures of X3D for which three.js has none.
 
 import { Matrix3 } from "three";
-import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, TextureRole } from "../../document/description.ts";
 import { textureRoles } from "../../document/description.ts";
 import { extensionRoles } from "../../lighting/extendedLighting.ts";
+import { attributeRows, texCoordRoles } from "../../stage/attributeRows.ts";
 
 /** Per map: the #define that three.js sets for it, the varying for its coordinates, and the texture role. */
 const maps: readonly (readonly [define: string, varying: string, role: TextureRole])[] = [
@@ -52,8 +53,9 @@ const varyings = [
 
 /** Declarations at the head of a vertex shader. */
 export const texCoordDeclarations = /* glsl */ `
-uniform vec4 texCoordFrame;
+uniform vec4 texCoordFrames[${texCoordRoles.length}];
 uniform mat3 textureTransforms[${textureRoles.length}];
+uniform int textureSets[${textureRoles.length}];
 ${extraMapVaryings("")}
 `;
 
@@ -62,16 +64,26 @@ export const extraMapDeclarations = extraMapVaryings("uniform sampler2D ");
 
 /** Computes the coordinates of each texture, after `vertex` has been read. */
 export const texCoordChunk = /* glsl */ `
-vec4 frame = instanceTexCoordFrame();
-vec3 shapeTexCoord = vec3(frame.xy + frame.zw * vertex.texCoord, 1.0);
+vec3 shapeTexCoords[${texCoordRoles.length}];
+${texCoordRoles.map(shapeTexCoordChunk).join("\n")}
 ${varyings
   .map(
     ([define, varying, role]) => `#ifdef ${define}
-  ${varying} = (textureTransforms[${textureRoles.indexOf(role)}] * shapeTexCoord).xy;
+  ${varying} = (textureTransforms[${textureRoles.indexOf(role)}] * shapeTexCoords[textureSets[${textureRoles.indexOf(role)}]]).xy;
 #endif`,
   )
   .join("\n")}
 `;
+
+function shapeTexCoordChunk(role: (typeof texCoordRoles)[number], set: number): string {
+  return /* glsl */ `
+#ifdef ${attributeRows[role].define ?? ""}
+  vec4 frame${set} = instanceTexCoordFrame(${set});
+  shapeTexCoords[${set}] = vec3(frame${set}.xy + frame${set}.zw * vertex.${role}, 1.0);
+#else
+  shapeTexCoords[${set}] = vec3(0.0, 0.0, 1.0);
+#endif`;
+}
 
 function extraMapVaryings(sampler: string): string {
   return extraMapRoles
@@ -82,6 +94,16 @@ function extraMapVaryings(sampler: string): string {
 #endif`,
     )
     .join("\n");
+}
+
+/** The origin and the extent of each set of texture coordinates, two numbers each. */
+export function texCoordFramesOf({ texCoordBoxes }: Pick<GeometryDescription, "texCoordBoxes">): number[] {
+  return texCoordBoxes.flatMap(({ min, size }) => [...min, ...size]);
+}
+
+/** Sets of texture coordinates by texture role; 0 where the appearance has no such texture. */
+export function textureSetsOf({ textures }: Pick<AppearanceDescription, "textures">): number[] {
+  return textureRoles.map((role) => textures.find((each) => each.role === role)?.texCoordSet ?? 0);
 }
 
 /** Matrices by texture role; the identity where the appearance has no such texture. */

@@ -8,7 +8,7 @@
 // crack opens.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
-import { vertexRoles } from "../../stage/attributeRows.ts";
+import { attributeRows, texCoordRoles, vertexRoles } from "../../stage/attributeRows.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
@@ -23,6 +23,38 @@ const imageNormalsChunk = /* glsl */ `
 #endif
 `;
 
+type TexCoordRole = (typeof texCoordRoles)[number];
+
+/** Defines IMAGE_<role>, the texture coordinates of a `record`; zeros where vertices lack the set. */
+function imageTexCoordMacro(role: TexCoordRole): string {
+  return `
+#ifdef ${attributeRows[role].define ?? ""}
+  #define IMAGE_${role} readTexCoord(${role}Image, ${glslFirstTexelOf(role)}, record)
+#else
+  #define IMAGE_${role} vec2(0.0)
+#endif`;
+}
+
+/**
+ * Defines BUFFER_<role> and, for wide lines, END_<role>, and declares their attributes. three.js declares `uv`, and
+ * `uv1` … where a texture of the app uses them.
+ */
+function bufferTexCoordMacros(role: TexCoordRole): string {
+  const { bufferName, define = "" } = attributeRows[role];
+  return `
+#ifdef ${define}
+  #define BUFFER_${role} ${bufferName}
+  #define END_${role} ${bufferName}End
+  ${bufferName === "uv" ? "" : `#ifndef USE_${bufferName.toUpperCase()}\n  attribute vec2 ${bufferName};\n  #endif`}
+  #ifdef ${wideLinesDefine}
+    attribute vec2 ${bufferName}End;
+  #endif
+#else
+  #define BUFFER_${role} vec2(0.0)
+  #define END_${role} vec2(0.0)
+#endif`;
+}
+
 const readVertexChunk = /* glsl */ `
 uniform float pixelRatio;
 uniform vec3 pointSizes;
@@ -34,7 +66,7 @@ struct Vertex {
   vec3 position;
   vec3 normal;
   vec4 color;
-  vec2 texCoord;
+  vec2 ${texCoordRoles.join(", ")};
 };
 
 float pointSizeAt(float distance) {
@@ -65,7 +97,7 @@ vec3 unitOf(vec2 pair) {
 
 uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3;
 uniform sampler2D ${vertexRoles.map((role) => `${role}Image`).join(", ")};
-uniform ivec4 firstTexels;
+uniform int firstTexels[${1 + vertexRoles.length}];
 uniform ivec4 coordFirstTexels;
 uniform int coordPlaneCount;
 uniform float missingBytesMidpoint;
@@ -195,14 +227,12 @@ vec3 readNormal(int record) {
 }
 
 // Two 16-bit words: red and blue are the bytes of u, green and alpha those of v.
-vec2 readTexCoord(int record) {
-  #ifdef HAS_TEX_COORDS
-    vec4 bytes = texelOf(texCoordImage, ${glslFirstTexelOf("texCoord")}, recordTexelIndex(record)) * 255.0;
-    return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
-  #else
-    return vec2(0.0);
-  #endif
+vec2 readTexCoord(sampler2D image, int first, int record) {
+  vec4 bytes = texelOf(image, first, recordTexelIndex(record)) * 255.0;
+  return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
 }
+
+${texCoordRoles.map(imageTexCoordMacro).join("\n")}
 
 // Index of the vertex in its draw; of a wide line, that of its start (0) or end (1).
 int drawVertexIndex(int end) {
@@ -217,7 +247,8 @@ Vertex vertexAt(int end) {
   int record = recordIndex(drawVertexIndex(end));
   vec4 color = texelOf(colorImage, ${glslFirstTexelOf("color")}, recordTexelIndex(record));
   if (!colorHasAlpha) color.a = 1.0;
-  return Vertex(storedPosition(record), readNormal(record), color, readTexCoord(record));
+  return Vertex(storedPosition(record), readNormal(record), color,
+    ${texCoordRoles.map((role) => `IMAGE_${role}`).join(", ")});
 }
 
 #else
@@ -242,15 +273,10 @@ vec3 unitNormal(vec3 normal) {
 #else
   #define STORED_COLOR(color) vec4(1.0)
 #endif
-#ifdef HAS_TEX_COORDS
-  #define STORED_TEX_COORD(uv) uv
-#else
-  #define STORED_TEX_COORD(uv) vec2(0.0)
-#endif
+${texCoordRoles.map(bufferTexCoordMacros).join("\n")}
 
 #ifdef ${wideLinesDefine}
   attribute vec3 positionEnd, normalEnd;
-  attribute vec2 uvEnd;
   #if defined(USE_COLOR_ALPHA)
     attribute vec4 colorEnd;
   #elif defined(USE_COLOR)
@@ -260,9 +286,11 @@ vec3 unitNormal(vec3 normal) {
 
 Vertex vertexAt(int end) {
   #ifdef ${wideLinesDefine}
-    if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd), STORED_TEX_COORD(uvEnd));
+    if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd),
+      ${texCoordRoles.map((role) => `END_${role}`).join(", ")});
   #endif
-  return Vertex(position, unitNormal(normal), STORED_COLOR(color), STORED_TEX_COORD(uv));
+  return Vertex(position, unitNormal(normal), STORED_COLOR(color),
+    ${texCoordRoles.map((role) => `BUFFER_${role}`).join(", ")});
 }
 
 #endif

@@ -17,10 +17,12 @@ export interface VertexUniforms extends Record<string, IUniform> {
   pointSizes: IUniform<Vec3>;
   /** At distance r points are 1 / (a + b r + c r^2) as large. */
   attenuation: IUniform<Vec3>;
-  /** The texture coordinates of a stored 0 (two numbers), and the extent up to a stored 1. */
-  texCoordFrame: IUniform<[number, number, number, number]>;
+  /** By set: the texture coordinates of a stored 0 (two numbers), and the extent up to a stored 1. */
+  texCoordFrames: IUniform<readonly number[]>;
   /** Texture transforms in the order of textureRoles. */
   textureTransforms: IUniform<readonly Matrix3[]>;
+  /** The set of texture coordinates of each texture, likewise. */
+  textureSets: IUniform<readonly number[]>;
   /** The size of a lattice step along each axis, in the shape's coordinates. */
   latticeStep: IUniform<Vec3>;
   /** LineDescription's width and dashes, for wide lines. */

@@ -14,7 +14,7 @@ import type { BatchingPlan } from "../batches/batchingPlan.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { MaterialFactory, SceneUniforms } from "../materials/materialFactory.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
-import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
+import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { materialRequestOf } from "../stages/materialRequests.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
@@ -48,7 +48,7 @@ export function warmUpObjects(
     for (const expected of expectedStages(described, textures.length > 0)) {
       const stage = lines ? withWideLines(expected) : expected;
       for (const range of stage.draws) {
-        const applicable = stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+        const applicable = applicableTextures(stage, appearance, surfaceTextures);
         const isBatched =
           materialFactory.batching !== undefined &&
           drawModeOf(stage, plan.drawModesOf(described), appearance, applicable, materialFactory.batching) !== "alone";

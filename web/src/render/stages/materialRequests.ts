@@ -5,6 +5,7 @@ import type { AppearanceDescription, GeometryDescription } from "../../document/
 import type { Stage, DrawRange } from "../../stage/stage.ts";
 import type { SceneUniforms, MaterialRequest, VertexColors, Shading } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { valueDefinesOf } from "../materials/valueColors.ts";
 import type { PickMaterialRequest } from "../picking/pickMaterial.ts";
 import { alphaMaskOf } from "../picking/pickMaterial.ts";
@@ -44,7 +45,7 @@ export function pickRequestOf(
   appearance: AppearanceDescription,
   surfaceTextures: SurfaceTextures,
 ): Omit<PickMaterialRequest, "primitive"> {
-  const texture = stage.attributes.texCoord === undefined ? undefined : surfaceTextures.get("color")?.texture;
+  const texture = applicableTextures(stage, appearance, surfaceTextures).get("color")?.texture;
   const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
   return { ...vertexFormatOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }

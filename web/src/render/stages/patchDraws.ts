@@ -11,7 +11,7 @@ import type { DrawnObject } from "../primitives/drawnObject.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
-import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
+import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
 import type { PatchContext } from "./patchContext.ts";
 import { setAppearanceUniforms, uniformsOf } from "./stageUniforms.ts";
@@ -42,9 +42,6 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   const { box, sphere } = boundsOf(geometry, patch, stage);
   const shapeFromStored = shapeFromStoredOf(geometry, patch);
   const uniforms = uniformsOf(stage, context);
-  // Without texture coordinates, textures cannot be applied.
-  const applicable = (surfaceTextures: SurfaceTextures) =>
-    stage.attributes.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
   const draws = context.geometries.acquire(stage).flatMap((bufferGeometry, drawIndex) => {
     const range = stage.draws[drawIndex];
@@ -57,7 +54,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       materialFactory.makeMaterial(
         { ...request, uniforms: { ...request.uniforms, lightScope } },
         displayed.appearance,
-        applicable(displayed.surfaceTextures),
+        applicableTextures(stage, displayed.appearance, displayed.surfaceTextures),
       ),
     );
     const pick = new PickDraw(stage, range, {
@@ -105,7 +102,12 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       setAppearanceUniforms(uniforms.common, geometry, appearance);
       for (const { materials, pick } of draws) {
         for (const material of materials.all)
-          materialFactory.applyAppearance(material, appearance, colorsOf(stage), applicable(surfaceTextures));
+          materialFactory.applyAppearance(
+            material,
+            appearance,
+            colorsOf(stage),
+            applicableTextures(stage, appearance, surfaceTextures),
+          );
         pick.releaseResources();
       }
     },

@@ -13,7 +13,7 @@ import type {
 } from "../../document/description.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { maxStoredValueOf, dequantizationOf } from "../../document/dequantization.ts";
-import { textureTransformsOf } from "../shaders/texCoords.ts";
+import { texCoordFramesOf, textureSetsOf, textureTransformsOf } from "../shaders/texCoords.ts";
 import { colorMapUniformsOf, valueUniformsOf } from "../materials/valueColors.ts";
 import type { ImageVertexUniforms, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { lineCountOf } from "../lines/wideLines.ts";
@@ -76,11 +76,18 @@ const defaultLines: LineDescription = { width: 1, dashes: [] };
 
 type AppearanceUniforms = Pick<
   VertexUniforms,
-  "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms"
+  | "pointSizes"
+  | "attenuation"
+  | "lineWidth"
+  | "dashes"
+  | "dashCount"
+  | "texCoordFrames"
+  | "textureTransforms"
+  | "textureSets"
 >;
 
 function appearanceUniformsOf(
-  { texCoordMin, texCoordSize }: GeometryDescription,
+  geometry: GeometryDescription,
   appearance: AppearanceDescription,
 ): AppearanceUniforms & Record<string, IUniform> {
   const { points = defaultPoints, lines: { width, dashes } = defaultLines } = appearance;
@@ -90,8 +97,9 @@ function appearanceUniformsOf(
     lineWidth: { value: width },
     dashes: { value: Array.from({ length: maxDashLengths }, (_, i) => dashes[i] ?? 0) },
     dashCount: { value: dashes.length },
-    texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
+    texCoordFrames: { value: texCoordFramesOf(geometry) },
     textureTransforms: { value: textureTransformsOf(appearance) },
+    textureSets: { value: textureSetsOf(appearance) },
     ...colorMapUniformsOf(appearance.colorMap),
   };
 }

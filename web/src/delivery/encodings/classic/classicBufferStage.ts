@@ -2,6 +2,7 @@
 // buffers.
 
 import type { VertexRole } from "../../../stage/attributeRows.ts";
+import { withTexCoordRoles } from "../../../stage/attributeRows.ts";
 import type { IndexArray, VertexArray } from "../../../stage/vertexArray.ts";
 import type { ImageFile, RecordLayout } from "../../../decode/classic/classicArrays.ts";
 import type { GridArrays } from "../../../decode/classic/classicGrid.ts";
@@ -33,7 +34,7 @@ type AttributeDecoder = (
 const attributeDecoders: Readonly<Record<VertexRole, AttributeDecoder>> = {
   normal: (run, image, geometry, signal) =>
     run("classicNormals", { ...image, format: normalFormatOf(geometry) }, signal),
-  texCoord: (run, image, _, signal) => run("classicTexCoords", image, signal),
+  ...withTexCoordRoles((): AttributeDecoder => (run, image, _, signal) => run("classicTexCoords", image, signal)),
   color: (run, image, { colorComponents }, signal) =>
     run("classicColors", { ...image, components: colorComponents }, signal),
 };
