@@ -47,7 +47,7 @@ protected:
 };
 
 TEST_F(DamagedSource, MalformedFieldsCountAsAbsent) {
-  expectWarning("<Viewpoint position='a b c'/>", "index.html:15: Viewpoint: position holds a word that is no number");
+  expectWarning("<Viewpoint position='a b c'/>", "index.html:16: Viewpoint: position holds a word that is no number");
   expectWarning("<OrthoViewpoint fieldOfView='1 2'/>", "fieldOfView has 2 numbers and needs 4");
   expectWarning("<DirectionalLight direction='down'/>", "direction holds");
   expectWarning("<Background skyColor='blue'/>", "skyColor holds");
