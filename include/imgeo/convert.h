@@ -5,6 +5,7 @@
 #include "imgeo/elements.h"
 #include "imgeo/encoding.h"
 #include "imgeo/preparation.h"
+#include "imgeo/source_axes.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,17 @@ enum class Primitives : std::uint8_t {
 const char* nameOf(Primitives primitives);
 /// "area", "angle", "uniform".
 const char* nameOf(NormalWeighting weighting);
+
+/// Side from which a scene is shown first. The front is +z, as in glTF.
+enum class StartView : std::uint8_t {
+  automatic, ///< the source's first viewpoint, else a three-quarter view that shows much of the surface
+  front,
+  left, ///< from -x
+  back,
+  right,
+  top,
+  bottom,
+};
 
 /// The largest distance by which quantisation may move a vertex.
 struct MaxError {
@@ -70,13 +82,15 @@ struct ConvertOptions {
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
   AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
   std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
-  std::optional<double> basePercent{}; ///< compact: triangles of the base mesh in percent, 0..25; default: 2
-  TextureOptions textures{};           ///< texture images
-  int effort = 5;                      ///< 0 fastest .. 9 smallest
-  std::string title{};                 ///< title of the page; empty: the source's title or file name
-  bool outside = false;                ///< the source may refer to files outside of its folder
-  bool strict = false;                 ///< refuse damaged sources instead of leaving the damaged content out
-  bool force = false;                  ///< replace a directory that is not an imgeo site
+  std::optional<double> basePercent{};   ///< compact: triangles of the base mesh in percent, 0..25; default: 2
+  TextureOptions textures{};             ///< texture images
+  SourceAxesOptions axes{};              ///< axes and unit of the source
+  StartView view = StartView::automatic; ///< side from which the scene is shown first
+  int effort = 5;                        ///< 0 fastest .. 9 smallest
+  std::string title{};                   ///< title of the page; empty: the source's title or file name
+  bool outside = false;                  ///< the source may refer to files outside of its folder
+  bool strict = false;                   ///< refuse damaged sources instead of leaving the damaged content out
+  bool force = false;                    ///< replace a directory that is not an imgeo site
 };
 
 /// Bytes of all files of one role.
@@ -109,6 +123,7 @@ struct TextureReport {
 struct ConvertReport {
   std::string format;                                  ///< format of the source: "PLY" ...
   std::uint64_t sourceBytes = 0;                       ///< size of the source
+  SourceAxesReport axes;                               ///< how the source was brought upright and to metres
   Encoding encoding = Encoding::classic;               ///< the encoding chosen
   ElementCounts elements;                              ///< elements as drawn
   std::size_t vertices = 0;                            ///< vertices of all patches

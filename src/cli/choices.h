@@ -32,6 +32,21 @@ inline constexpr Choice<std::optional<ElementType>> coordTypeChoices[] = {
     {"auto", std::nullopt},          {"uint8", ElementType::uint8}, {"int8", ElementType::int8},
     {"uint16", ElementType::uint16}, {"int16", ElementType::int16}, {"float32", ElementType::float32}};
 
+/// auto: what the format says, otherwise a guess.
+inline constexpr Choice<std::optional<AxisDirection>> upChoices[] = {
+    {"auto", std::nullopt},        {"x", AxisDirection::x},       {"y", AxisDirection::y},      {"z", AxisDirection::z},
+    {"-x", AxisDirection::minusX}, {"-y", AxisDirection::minusY}, {"-z", AxisDirection::minusZ}};
+
+/// Metres in a unit. auto: what the file says, otherwise metres.
+inline constexpr Choice<std::optional<double>> unitChoices[] = {
+    {"auto", std::nullopt}, {"m", 1},       {"cm", 0.01},   {"mm", 0.001},  {"um", 1e-6},
+    {"km", 1000},           {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144}, {"mi", 1609.344}};
+
+inline constexpr Choice<StartView> viewChoices[] = {{"auto", StartView::automatic}, {"front", StartView::front},
+                                                    {"left", StartView::left},      {"back", StartView::back},
+                                                    {"right", StartView::right},    {"top", StartView::top},
+                                                    {"bottom", StartView::bottom}};
+
 inline constexpr Choice<Layout> layoutChoices[] = {{"separate", Layout::separate},
                                                    {"interleaved", Layout::interleaved}};
 

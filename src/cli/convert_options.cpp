@@ -27,6 +27,36 @@ AttributeChoice attributesNamed(const std::string& text) {
   return choice;
 }
 
+/// Parses "x:90,y:-45".
+std::vector<AxisRotation> rotationsFrom(const std::string& text) {
+  std::vector<AxisRotation> rotations;
+  if (text.empty())
+    return rotations;
+  for (std::size_t begin = 0, end = 0; begin <= text.size(); begin = end + 1) {
+    end = std::min(text.find(',', begin), text.size());
+    const std::string_view part = std::string_view(text).substr(begin, end - begin);
+    AxisRotation rotation;
+    const bool isAxis = part.size() > 2 && part[0] >= 'x' && part[0] <= 'z' && part[1] == ':';
+    const char* const last = part.data() + part.size();
+    const auto [read, fault] =
+        isAxis ? std::from_chars(part.data() + 2, last, rotation.degrees) : std::from_chars_result{};
+    if (!isAxis || fault != std::errc{} || read != last || !std::isfinite(rotation.degrees))
+      throw Error(ErrorKind::usage, "--rotate", fmt::format("\"{}\" is not an axis with an angle, as x:90 is", part));
+    rotation.axis = part[0] - 'x';
+    rotations.push_back(rotation);
+  }
+  return rotations;
+}
+
+double scaleFrom(const std::string& text) {
+  double scale = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, fault] = std::from_chars(text.data(), end, scale);
+  if (fault != std::errc{} || last != end || !(scale >= 1e-12 && scale <= 1e12))
+    throw Error(ErrorKind::usage, "--scale", fmt::format("\"{}\" is not a factor within 1e-12..1e12", text));
+  return scale;
+}
+
 /// Parses "0.02" or "0.05%".
 MaxError maxErrorFrom(const std::string& text) {
   MaxError error;
@@ -105,6 +135,11 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));
   options.textures = texturesFrom(arguments);
   options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
+  options.axes = {.up = valueNamed(upChoices, arguments.text("up")),
+                  .rotations = rotationsFrom(arguments.text("rotate")),
+                  .scale = scaleFrom(arguments.text("scale")),
+                  .metres = valueNamed(unitChoices, arguments.text("unit"))};
+  options.view = valueNamed(viewChoices, arguments.text("view"));
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
   options.outside = arguments.has("outside");

@@ -41,6 +41,13 @@ std::string positionsOf(const Arguments& arguments, const ConvertReport& report)
                      asFloats ? " as float32" : "", report.positionError);
 }
 
+/// "z up, guessed: it stands upright along z ... (--up states another axis)"
+std::string upOf(const SourceAxesReport& report) {
+  return report.isGuess
+             ? fmt::format("{}, guessed: {} (--up states another axis)", nameOf(report.axes.up), report.upReason)
+             : fmt::format("{}, {}", nameOf(report.axes.up), report.upReason);
+}
+
 /// "12 files: 34.1 MB as found, 3.2 MB as written; 2 made smaller, 10 re-encoded; 12 previews of 14 kB"
 std::string texturesOf(const TextureReport& textures) {
   std::string text =
@@ -91,6 +98,10 @@ void printWelding(const Arguments& arguments, const ConvertReport& report) {
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const EncodingRow& row = rowOf(report.encoding);
   printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
+  printLine("up", upOf(report.axes));
+  if (report.axes.axes.scale != 1)
+    printLine("scale",
+              fmt::format("{:.6g} metres a unit; the unit is {}", report.axes.axes.scale, report.axes.unitReason));
   if (report.patches == 0) { // a scene of a few primitives
     printLine("elements", "none to encode: what geometry there is stays in the document as it is");
     return printTextures(report.textures);
@@ -166,6 +177,14 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
     json["embed"] = embedSnippet(arguments.text("output"));
   json["format"] = report.format;
   json["sourceBytes"] = report.sourceBytes;
+  json["up"] = nameOf(report.axes.axes.up);
+  json["upReason"] = report.axes.upReason;
+  json["isUpGuessed"] = report.axes.isGuess;
+  json["rotate"] = Json::array();
+  for (const AxisRotation& rotation : report.axes.axes.rotations)
+    json["rotate"].push_back(fmt::format("{}:{}", static_cast<char>('x' + rotation.axis), rotation.degrees));
+  json["scale"] = report.axes.axes.scale;
+  json["view"] = arguments.text("view");
   json["container"] = arguments.text("container");
   json["profile"] = rowOf(report.encoding).profile;
   for (const char* name : {"target", "primitives", "index"})

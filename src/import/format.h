@@ -24,6 +24,7 @@ struct Format {
   Sniffing sniffing = Sniffing::signature;
   /// Whether the name's extension is one of the format's, where `extensions` cannot list these; null: it lists them.
   bool (*readsExtension)(const std::string& name) = nullptr;
+  bool isYUpInMetres = false; ///< the format states the axes and the unit; false: `read` tells what is known of them
   /// Reads bytes that are unpacked, not empty and without a byte order mark. `name` stands for the file in messages.
   /// Does all that import.h promises, except what importBytes adds: unique names, a title, the limit of shape
   /// instances.

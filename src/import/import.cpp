@@ -50,7 +50,12 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
   if (bytes.empty())
     throw Error(ErrorKind::truncated, name, "the file is empty");
 
-  Imported imported = formatOf(bytes, name).read(bytes, name, options);
+  const Format& format = formatOf(bytes, name);
+  Imported imported = format.read(bytes, name, options);
+  if (format.isYUpInMetres) {
+    imported.up = AxisDirection::y;
+    imported.metres = 1;
+  }
   const auto hasElements = [&](const ShapeInstance& instance) {
     return !imported.scene.meshes[shapeOf(imported.scene.graph, instance.node).mesh].corners.empty();
   };

@@ -8,19 +8,23 @@
 
 #include "base/bytes.h"
 #include "imgeo/preparation.h"
+#include "imgeo/source_axes.h"
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace imgeo {
 
 struct Imported {
-  Scene scene;                         ///< meshes may have no normals: prepare/normals computes them
-  std::vector<std::string> attributes; ///< names of all further vertex attributes of the source, kept or not
-  std::string format;                  ///< "PLY", "OBJ", "GLB" ...: for reports
-  std::vector<std::string> warnings;   ///< one sentence per kind of content that is not carried over
+  Scene scene;                          ///< meshes may have no normals: prepare/normals computes them
+  std::vector<std::string> attributes;  ///< names of all further vertex attributes of the source, kept or not
+  std::string format;                   ///< "PLY", "OBJ", "GLB" ...: for reports
+  std::vector<std::string> warnings;    ///< one sentence per kind of content that is not carried over
+  std::optional<AxisDirection> up = {}; ///< the direction that points up, where the format or the file says it
+  std::optional<double> metres = {};    ///< length of a unit, where the format or the file says it
 };
 
 struct ImportOptions {

@@ -78,6 +78,16 @@ private:
 
 } // namespace
 
+bool isDrawable(const Affine3d& worldFromShape) {
+  constexpr double minScale = 1e-15, maxScale = 1e15;
+  for (const Vec3d& axis : {worldFromShape.x, worldFromShape.y, worldFromShape.z}) {
+    const double scale = length(axis);
+    if (!(scale <= maxScale) || (scale > 0 && scale < minScale))
+      return false;
+  }
+  return length(worldFromShape.translation) <= maxScale;
+}
+
 void checkShapeInstanceLimit(const SceneGraph& graph, const std::string& location) {
   if (InstanceCounter(graph).countInSubtrees(graph.roots) > maxShapeInstances)
     failAtLimit(location);

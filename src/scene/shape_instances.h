@@ -21,4 +21,8 @@ std::vector<ShapeInstance> shapeInstances(const SceneGraph& graph, const std::st
 /// Throws the same Error if the instances of all shapes, Shape elements in GenericNodes included, exceed the limit.
 void checkShapeInstanceLimit(const SceneGraph& graph, const std::string& location);
 
+/// Whether a shape can be drawn in single precision together with others: its map scales by 10^-15 to 10^15, or to
+/// nothing, and moves it no farther than 10^15.
+bool isDrawable(const Affine3d& worldFromShape);
+
 } // namespace imgeo

@@ -3,6 +3,7 @@
 
 #include "scene/transform.h"
 
+#include <span>
 #include <string>
 
 namespace imgeo {
@@ -27,7 +28,9 @@ struct OrthoViewpoint {
   friend bool operator==(const OrthoViewpoint&, const OrthoViewpoint&) = default;
 };
 
-/// A default viewpoint from which a whole box is visible: centred on the box, slightly above and to the side.
-Viewpoint viewpointFor(const Box3d& box);
+/// A viewpoint in the direction `towardsViewer` (of unit length) from the centre of `box`, which it looks at, upright.
+/// All points of `outline` are visible from it, with a margin of a tenth of the picture; without points, the whole box
+/// is. Seen from above, -z is at the top; seen from below, +z.
+Viewpoint viewpointFrom(Vec3d towardsViewer, const Box3d& box, std::span<const Vec3d> outline = {});
 
 } // namespace imgeo

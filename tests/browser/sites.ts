@@ -41,9 +41,15 @@ export function meshFile(name: GeneratedMesh): string {
   return path;
 }
 
+/** A viewpoint that convert adds beside the first one. */
+const namedViewpoint = /<viewpoint description="(?:Front|Left|Back|Right|Top)"[\s\S]*?<\/viewpoint>\s*/gi;
+
 const converted = new Map<string, string>();
 
-/** The directory of the site that `imgeo convert INPUT OPTIONS` makes; converts once a run for each set of arguments. */
+/**
+ * The directory of the site that `imgeo convert INPUT OPTIONS` makes, with the first viewpoint only: a menu of several
+ * would cover a corner of every picture. PLY files have y up. Converts once a run for each set of arguments.
+ */
 export function siteOf(input: string, ...options: string[]): string {
   const name = [basename(input).replace(/\..*/, ""), ...options].join("").replaceAll(/[^\w]+/g, "-");
   const known = converted.get(name);
@@ -52,7 +58,12 @@ export function siteOf(input: string, ...options: string[]): string {
   const directory = join(outputDirectory, "sites", name);
   rmSync(directory, { recursive: true, force: true });
   mkdirSync(join(outputDirectory, "sites"), { recursive: true });
-  execFileSync(converter, ["convert", input, "-o", directory, ...options], { stdio: ["ignore", "ignore", "inherit"] });
+  const axes = input.endsWith(".ply") && !options.includes("--up") ? ["--up", "y"] : [];
+  execFileSync(converter, ["convert", input, "-o", directory, ...options, ...axes], {
+    stdio: ["ignore", "ignore", "inherit"],
+  });
+  const page = join(directory, "index.html");
+  writeFileSync(page, readFileSync(page, "utf8").replaceAll(namedViewpoint, ""));
   converted.set(name, directory);
   return directory;
 }

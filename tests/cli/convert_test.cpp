@@ -244,6 +244,21 @@ TEST_F(Convert, TakesTheTitle) {
   EXPECT_NE(textOf(site_ + "/index.html").find("<title>&lt;Tom &amp; "), std::string::npos);
 }
 
+TEST_F(Convert, ReportsAxesUnitAndView) {
+  const Outcome guessed = run({"convert", input_, "-o", site_});
+  EXPECT_NE(guessed.out.find("guessed: "), std::string::npos) << guessed.out;
+  const Outcome stated = run({"convert", input_, "-o", site_, "--up", "-x", "--rotate", "y:90,x:-12.5", "--unit", "mm",
+                              "--scale", "2", "--view", "top", "--json"});
+  ASSERT_EQ(stated.code, 0) << stated.err;
+  const Json report = Json::parse(stated.out);
+  EXPECT_EQ(report["up"], "-x");
+  EXPECT_EQ(report["isUpGuessed"], false);
+  EXPECT_EQ(report["rotate"], Json::parse(R"(["y:90", "x:-12.5"])"));
+  EXPECT_EQ(report["scale"], 0.002);
+  EXPECT_EQ(report["view"], "top");
+  EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+}
+
 TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
   write(input_, gridPly(120));
   const std::string other = directory_ / "other.ply";

@@ -164,6 +164,13 @@ TEST_F(Faults, RefusesOptionsThatCannotBeHonoured) {
   refuse("--max-error", {"--max-error", "0.1%", "--position-bits", "12"});
   refuse("--max-error", {"--max-error", "0.1%", "--container", "bg"});
   refuse("--target", {"--target", "vrml"});
+  refuse("--up", {"--up", "north"});
+  for (const char* rotation : {"90", "w:90", "x:", "x:90,", "x:90y:90", "x:inf", "x:1e999"})
+    refuse("--rotate", {"--rotate", rotation});
+  for (const char* scale : {"0", "-1", "2x", "inf", "1e13"})
+    refuse("--scale", {"--scale", scale});
+  refuse("--unit", {"--unit", "mile"});
+  refuse("--view", {"--view", "outside"});
   refuse("--position-bits", {"--target", "x3dom", "--container", "bg", "-vp", "17"});
   refuse("--x3dom-url", {"--x3dom-url", "lib/"});
   refuse("--primitives", {"--primitives", "fans"});

@@ -62,7 +62,7 @@ void members(auto& archive, auto& v, const SceneGraph*) {
           v.headlight, v.isComplete);
 }
 void members(auto& archive, auto& v, const Imported*) {
-  archive(v.scene.graph, v.scene.meshes, v.attributes, v.format, v.warnings);
+  archive(v.scene.graph, v.scene.meshes, v.attributes, v.format, v.warnings, v.up, v.metres);
 }
 
 class Serializer {

@@ -7,6 +7,7 @@
 #include "imgeo/site.h"
 #include "imgeo/version.h"
 #include "import/warnings.h"
+#include "scene/source_axes.h"
 #include "transcode/convert/peak_memory.h"
 #include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/default_nodes.h"
@@ -18,6 +19,7 @@
 #include "transcode/site/site_manifest.h"
 #include "transcode/site/site_pages.h"
 #include "transcode/site/staged_site.h"
+#include "transcode/source/detect_axes.h"
 #include "transcode/source/preparation.h"
 
 #include <algorithm>
@@ -129,7 +131,9 @@ public:
     requireAttributes(imported, options_);
     report_.format = imported.format;
     report_.warnings = std::move(imported.warnings);
+    report_.axes = detectAxes(imported, options_.axes);
     scene_ = std::move(imported.scene);
+    applySourceAxes(scene_.graph, report_.axes.axes);
     nameScene(scene_.graph, options_.title, input_);
   }
 
@@ -160,6 +164,14 @@ public:
   /// Samples the surface for the page's pictures, before the meshes are encoded.
   void samplePicture() { pictureSamples_ = pictureSamplesOf(scene_); }
 
+  /// Samples the surface for the default viewpoints, before the meshes are encoded.
+  void sampleSurface() {
+    if (scene_.graph.isComplete && options_.view != StartView::automatic)
+      throw Error(ErrorKind::usage, "--view", "an X3D source shows its own viewpoints");
+    if (!scene_.graph.isComplete && (options_.view != StartView::automatic || !hasViewpoint(scene_.graph)))
+      viewSamples_ = viewSamplesOf(scene_);
+  }
+
   void encodeMeshes() {
     reportProgress(0.3, "writing");
     std::size_t elementCount = 0, elementsDone = 0;
@@ -181,7 +193,7 @@ public:
     ContentFiles files(site_.path(), textureFolder);
     report_.textures = writeTextures(document_.graph, options_, files, report_.warnings);
     if (!document_.graph.isComplete)
-      addDefaultNodes(document_, report_.warnings);
+      addDefaultNodes(document_, options_.view, viewSamples_, report_.warnings);
   }
 
   void writeDocuments() {
@@ -258,6 +270,7 @@ private:
             .normalWeighting = options_.normalWeighting,
             .elements = report_.elements,
             .normalErrorDegrees = hasStatedError(options_) ? report_.normalErrorDegrees : 0,
+            .axes = report_.axes.axes,
             .dropped = options_.dropped,
             .attributes = std::move(attributeNames),
             .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
@@ -273,6 +286,7 @@ private:
   bool hasOnlyFirstTexCoords_ = false;
   Scene scene_;                   ///< until encodeMeshes
   PictureSamples pictureSamples_; ///< from samplePicture on
+  ViewSamples viewSamples_;       ///< from sampleSurface on
   SceneDocument document_;        ///< from encodeMeshes on
 };
 
@@ -289,6 +303,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   conversion.resolveOptions();
   conversion.prepareMeshes();
   conversion.samplePicture();
+  conversion.sampleSurface();
   conversion.encodeMeshes();
   conversion.completeScene();
   conversion.writeDocuments();

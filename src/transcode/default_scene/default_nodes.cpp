@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <ranges>
 #include <type_traits>
 #include <utility>
 
@@ -46,18 +47,9 @@ bool isShiningLight(const NodeContent& content) {
          is(std::type_identity<SpotLight>{});
 }
 
-struct ExistingNodes {
-  bool viewpoint = false, shiningLight = false;
-};
-
-ExistingNodes existingNodes(const SceneGraph& graph) {
-  ExistingNodes existing;
-  for (const std::size_t index : nodesInOrder(graph)) {
-    const NodeContent& content = graph.nodes[index].content;
-    existing.viewpoint |= std::holds_alternative<Viewpoint>(content) || std::holds_alternative<OrthoViewpoint>(content);
-    existing.shiningLight |= isShiningLight(content);
-  }
-  return existing;
+bool hasShiningLight(const SceneGraph& graph) {
+  return std::ranges::any_of(nodesInOrder(graph),
+                             [&](std::size_t node) { return isShiningLight(graph.nodes[node].content); });
 }
 
 void addFirst(SceneGraph& graph, NodeContent content) {
@@ -71,11 +63,45 @@ void addLights(SceneGraph& graph) {
   addFirst(graph, keyLight);
 }
 
+struct NamedView {
+  const char* description;
+  StartView view;
+};
+
+constexpr NamedView namedViews[] = {{"Front", StartView::front}, {"Left", StartView::left},
+                                    {"Back", StartView::back},   {"Right", StartView::right},
+                                    {"Top", StartView::top},     {"Bottom", StartView::bottom}};
+
+/// The default viewpoints in the order of the document, whose first one is bound: the view that is asked for and, with
+/// `all`, those from the other sides but from below.
+std::vector<Viewpoint> defaultViewpoints(const Box3d& box, StartView view, const ViewSamples& samples, bool all) {
+  std::vector<Viewpoint> viewpoints;
+  const auto add = [&](const char* description, Vec3d direction) {
+    viewpoints.push_back(withShortNumbers(viewpointFrom(direction, box, samples.outline)));
+    viewpoints.back().description = description;
+  };
+  if (view == StartView::automatic)
+    add("Start", bestDirection(samples.surface));
+  else
+    add(std::ranges::find(namedViews, view, &NamedView::view)->description, directionOf(view));
+  for (const NamedView& named : namedViews)
+    if (all && named.view != view && named.view != StartView::bottom)
+      add(named.description, directionOf(named.view));
+  return viewpoints;
+}
+
 } // namespace
 
-void addDefaultNodes(SceneDocument& document, std::vector<std::string>& warnings) {
+bool hasViewpoint(const SceneGraph& graph) {
+  return std::ranges::any_of(nodesInOrder(graph), [&](std::size_t node) {
+    const NodeContent& content = graph.nodes[node].content;
+    return std::holds_alternative<Viewpoint>(content) || std::holds_alternative<OrthoViewpoint>(content);
+  });
+}
+
+void addDefaultNodes(SceneDocument& document, StartView view, const ViewSamples& samples,
+                     std::vector<std::string>& warnings) {
   SceneGraph& graph = document.graph;
-  const ExistingNodes existing = existingNodes(graph);
   const WorldBox world = worldBoxOf(document);
   if (world.undrawableShapes > 0)
     warnings.push_back(fmt::format("{} scaled by more than 10^15 or less than 10^-15, or moved as far: what "
@@ -84,11 +110,15 @@ void addDefaultNodes(SceneDocument& document, std::vector<std::string>& warnings
   const Box3d box = world.box.empty() ? Box3d{{}, {}} : world.box;
   setCentersOfRotation(graph, box.center());
   // A source with lights is lit by them alone: a headlight would wash out what its author has lit.
-  graph.headlight = !existing.shiningLight;
-  if (!existing.shiningLight)
+  graph.headlight = !hasShiningLight(graph);
+  if (graph.headlight)
     addLights(graph);
-  if (!existing.viewpoint)
-    addFirst(graph, viewpointFraming(box));
+  const bool isOwn = hasViewpoint(graph);
+  if (!isOwn || view != StartView::automatic) {
+    std::vector<Viewpoint> viewpoints = defaultViewpoints(box, view, samples, !isOwn);
+    for (Viewpoint& viewpoint : viewpoints | std::views::reverse)
+      addFirst(graph, std::move(viewpoint));
+  }
   if (!graph.background)
     graph.background = lightGray;
 }

@@ -24,7 +24,7 @@ std::size_t lightsAddedTo(SceneDocument& document) {
   };
   const auto before = count();
   std::vector<std::string> warnings;
-  addDefaultNodes(document, warnings);
+  addDefaultNodes(document, StartView::automatic, {}, warnings);
   EXPECT_TRUE(warnings.empty());
   return static_cast<std::size_t>(count() - before);
 }

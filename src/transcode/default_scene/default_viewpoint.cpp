@@ -48,8 +48,7 @@ private:
 
 } // namespace
 
-Viewpoint viewpointFraming(const Box3d& box) {
-  Viewpoint viewpoint = viewpointFor(box);
+Viewpoint withShortNumbers(Viewpoint viewpoint) {
   const double tolerance = 1e-6 * length(viewpoint.position - viewpoint.centerOfRotation);
   for (int axis = 0; axis < 3; ++axis) {
     viewpoint.position[axis] = shortestWithin(viewpoint.position[axis], tolerance);

@@ -1,13 +1,13 @@
 #pragma once
-// Makes the default viewpoint and sets the centres of rotation of all viewpoints.
+// Rounds the numbers of a viewpoint and sets the centres of rotation of all viewpoints.
 
 #include "scene/scene.h"
 
 namespace imgeo {
 
-/// A viewpoint that shows the whole box. Its numbers are rounded to few digits, each by less than a millionth of
-/// the distance to the box's centre.
-Viewpoint viewpointFraming(const Box3d& box);
+/// The viewpoint with its numbers rounded to few digits, each by less than a millionth of the distance to its centre of
+/// rotation.
+Viewpoint withShortNumbers(Viewpoint viewpoint);
 
 /// Sets every viewpoint's centre of rotation, which sources do not state, to `center` (world coordinates). A USEd
 /// viewpoint gets it in the coordinates of its first instance.

@@ -2,31 +2,13 @@
 
 #include "scene/shape_instances.h"
 
-#include <cmath>
-
 namespace imgeo {
-
-namespace {
-
-/// Range of the scales of shapes that can be drawn together in single precision.
-constexpr double minScale = 1e-15, maxScale = 1e15;
-
-bool canBeDrawn(const Affine3d& worldFromShape) {
-  for (const Vec3d& axis : {worldFromShape.x, worldFromShape.y, worldFromShape.z}) {
-    const double scale = length(axis);
-    if (!(scale <= maxScale) || (scale > 0 && scale < minScale))
-      return false;
-  }
-  return length(worldFromShape.translation) <= maxScale;
-}
-
-} // namespace
 
 WorldBox worldBoxOf(const SceneDocument& document) {
   WorldBox world;
   for (const ShapeInstance& instance : shapeInstances(document.graph)) {
     const Box3d& box = document.geometries[shapeOf(document.graph, instance.node).mesh].box;
-    if (!canBeDrawn(instance.worldFromShape)) {
+    if (!isDrawable(instance.worldFromShape)) {
       ++world.undrawableShapes;
       continue;
     }

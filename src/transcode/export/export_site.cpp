@@ -5,9 +5,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "export/export.h"
+#include "scene/source_axes.h"
 #include "transcode/export/write_scene.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/site_document.h"
+#include "transcode/site/site_manifest.h"
 
 #include <algorithm>
 
@@ -35,6 +37,11 @@ ExportReport exportSite(const fs::path& site, const fs::path& output) {
   Scene scene = readMeshes(document);
   if (*format == MeshFormat::glb) // PLY and OBJ do not contain images
     readImages(document, scene.graph);
+
+  // PLY and OBJ have no convention for axes and unit: they get the source's. glTF is y up, in metres.
+  if (*format != MeshFormat::glb)
+    if (const std::optional<SiteManifest> manifest = manifestOf(document))
+      undoSourceAxes(scene.graph, manifest->axes);
 
   ExportReport report = writeScene(scene, *format, output);
   if (*format == MeshFormat::glb)

@@ -1,9 +1,12 @@
 #include "transcode/site/site_manifest.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "containers/encodings.h"
+#include "transcode/site/site_files.h"
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace imgeo {
@@ -11,6 +14,8 @@ namespace imgeo {
 namespace {
 
 constexpr std::array primitiveKinds{Primitives::triangles, Primitives::strips, Primitives::points};
+constexpr std::array axisDirections{AxisDirection::x,      AxisDirection::y,      AxisDirection::z,
+                                    AxisDirection::minusX, AxisDirection::minusY, AxisDirection::minusZ};
 constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
 
 template <typename Value, std::size_t count>
@@ -19,6 +24,31 @@ Value valueNamed(const std::array<Value, count>& values, const std::string& name
     if (nameOf(value) == name)
       return value;
   throw Error(ErrorKind::malformed, location, "has the unknown value \"" + name + "\"");
+}
+
+/// Writes the steps that change something.
+void writeAxes(nlohmann::ordered_json& json, const SourceAxes& axes) {
+  if (axes.up != AxisDirection::y)
+    json["up"] = nameOf(axes.up);
+  for (const AxisRotation& rotation : axes.rotations)
+    json["rotate"].push_back({{"axis", nameOf(axisDirections[rotation.axis])}, {"degrees", rotation.degrees}});
+  if (axes.scale != 1)
+    json["scale"] = axes.scale;
+}
+
+SourceAxes readAxes(const nlohmann::json& json, const std::string& location) {
+  SourceAxes axes;
+  axes.up = valueNamed(axisDirections, json.value("up", "y"), location);
+  for (const nlohmann::json& rotation : json.value("rotate", nlohmann::json::array())) {
+    const AxisDirection axis = valueNamed(axisDirections, rotation.at("axis"), location);
+    if (axis > AxisDirection::z)
+      throw Error(ErrorKind::malformed, location, "rotates about a negative axis");
+    axes.rotations.push_back({static_cast<int>(axis), rotation.at("degrees")});
+  }
+  axes.scale = json.value("scale", 1.0);
+  if (!(axes.scale > 0) || !std::isfinite(axes.scale))
+    throw Error(ErrorKind::malformed, location, "has a scale that is not a positive number");
+  return axes;
 }
 
 Encoding encodingNamed(const std::string& container, const std::string& profile, const std::string& location) {
@@ -49,6 +79,7 @@ std::string writeManifest(const SiteManifest& manifest) {
   json["triangles"] = manifest.elements.triangles;
   json["lines"] = manifest.elements.lines;
   json["points"] = manifest.elements.points;
+  writeAxes(json, manifest.axes);
   if (manifest.dropped.degenerate)
     json["droppedDegenerate"] = true;
   if (manifest.dropped.repeated)
@@ -64,6 +95,14 @@ std::string writeManifest(const SiteManifest& manifest) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+std::optional<SiteManifest> manifestOf(const SiteDocument& document) {
+  const std::filesystem::path file = document.root / manifestName;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    return std::nullopt;
+  return readManifest(asText(readFile(file)), file.string());
+}
+
 SiteManifest readManifest(std::string_view text, const std::string& name) {
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
@@ -77,6 +116,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     if (manifest.normalsComputed)
       manifest.normalWeighting = valueNamed(weightings, normals, name);
     manifest.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
+    manifest.axes = readAxes(json, name);
     manifest.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
     manifest.attributes = json.value("attributes", std::vector<std::string>{});
     manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);

@@ -3,9 +3,12 @@
 // that do not follow from the document.
 
 #include "imgeo/convert.h"
+#include "imgeo/source_axes.h"
 #include "prepare/normals.h"
 #include "prepare/weld.h"
+#include "transcode/site/site_document.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,10 +28,16 @@ struct SiteManifest {
   /// Names of the further attributes that were kept, and with them of sets of texture coordinates that no texture uses.
   std::vector<std::string> attributes;
   bool onlyFirstTexCoords = false;      ///< further sets of texture coordinates were left out, with their textures
+  SourceAxes axes;                      ///< the Transform at the top of the document
+  DroppedElements dropped;              ///< elements of the source that were dropped
+  std::vector<std::string> attributes;  ///< names of the further attributes that were kept
   std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
 };
 
 std::string writeManifest(const SiteManifest& manifest);
+
+/// The site's imgeo.json; nothing if another program wrote the site. Throws Error.
+std::optional<SiteManifest> manifestOf(const SiteDocument& document);
 
 /// Safe for untrusted text. Throws Error{malformed}; `name` is its location.
 SiteManifest readManifest(std::string_view text, const std::string& name);

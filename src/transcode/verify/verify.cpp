@@ -3,15 +3,16 @@
 #include "imgeo/verify.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "scene/shape_instances.h"
+#include "scene/source_axes.h"
 #include "transcode/site/site_document.h"
-#include "transcode/site/site_files.h"
+#include "transcode/site/site_manifest.h"
 #include "transcode/source/preparation.h"
 #include "transcode/verify/check_files.h"
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/compare_mesh.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
@@ -32,15 +33,6 @@ bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
       return false;
   }
   return true;
-}
-
-/// The site's imgeo.json; nothing if another program wrote the site.
-std::optional<SiteManifest> manifestOf(const SiteDocument& document) {
-  const fs::path file = document.root / manifestName;
-  std::error_code ignored;
-  if (!fs::exists(file, ignored))
-    return std::nullopt;
-  return readManifest(asText(readFile(file)), file.string());
 }
 
 /// The input, prepared as convert prepared it for this site. For a site of another program normals are not computed.
@@ -65,6 +57,23 @@ Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>&
   return imported;
 }
 
+/// Counts instances of shapes that stand elsewhere than in the input. The input may have the coordinates of the source
+/// or, as exported GLB files have, those of the document.
+class MovedShapes {
+public:
+  explicit MovedShapes(const SourceAxes& axes) : documentFromSource_(documentFromSource(axes)) {}
+
+  void compare(const Affine3d& site, const Affine3d& input, const Box3d& box) {
+    fromSource_ += !isSameTransform(site, documentFromSource_ * input, box);
+    fromDocument_ += !isSameTransform(site, input, box);
+  }
+  std::size_t count() const { return std::min(fromSource_, fromDocument_); }
+
+private:
+  Affine3d documentFromSource_;
+  std::size_t fromSource_ = 0, fromDocument_ = 0;
+};
+
 /// Compares the transform and material of every instance of a shape, and each mesh once.
 void compareScenes(const SiteDocument& document, const Scene& input, const std::optional<SiteManifest>& manifest,
                    VerifyReport& report, Findings& findings) {
@@ -75,7 +84,8 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     return findings.add("The site has {} shapes, the input {}.", siteShapes.size(), inputShapes.size());
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
-  std::size_t movedShapes = 0, differentMaterials = 0;
+  MovedShapes movedShapes(manifest ? manifest->axes : SourceAxes{});
+  std::size_t differentMaterials = 0;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
     const Shape &siteShape = shapeOf(siteGraph, siteShapes[i].node),
                 &inputShape = shapeOf(input.graph, inputShapes[i].node);
@@ -85,13 +95,12 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
       differentMaterials +=
           !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape, input.meshes[mesh].topology);
     }
-    movedShapes +=
-        !isSameTransform(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
+    movedShapes.compare(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
     if (compared.emplace(geometry, mesh).second)
       compareMesh(reader, document.scene.geometries.at(geometry), input.meshes[mesh], manifest, report, findings);
   }
-  if (movedShapes > 0)
-    findings.add("{} of {} shapes stand elsewhere than in the input.", movedShapes, siteShapes.size());
+  if (movedShapes.count() > 0)
+    findings.add("{} of {} shapes stand elsewhere than in the input.", movedShapes.count(), siteShapes.size());
   if (differentMaterials > 0)
     findings.add("{} of {} shapes have other materials than in the input, or other texture transforms.",
                  differentMaterials, report.comparedMaterials);

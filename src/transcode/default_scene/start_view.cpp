@@ -1,0 +1,173 @@
+#include "transcode/default_scene/start_view.h"
+
+#include "base/parallel.h"
+#include "scene/shape_instances.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace imgeo {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Candidate {
+  double azimuth, elevation; ///< degrees: from +z towards +x, and above the horizon
+};
+
+/// Three-quarter views from the front and from behind. Views along an axis are left out: they hide depth.
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> list;
+  for (const double side : {25.0, -25.0, 45.0, -45.0, 65.0, -65.0})
+    for (const double back : {0.0, 180.0})
+      for (const double elevation : {8.0, 20.0, 35.0, 50.0})
+        list.push_back({side + back, elevation});
+  return list;
+}
+
+Vec3d directionOf(Candidate candidate) {
+  const double azimuth = candidate.azimuth * degree, elevation = candidate.elevation * degree;
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+}
+
+struct Visibility {
+  double surface = 0; ///< share of the samples that are visible
+  double picture = 0; ///< share of the picture that they cover
+};
+
+/// Draws the samples as points into a depth buffer with a parallel projection.
+class DepthBuffer {
+public:
+  DepthBuffer(const std::vector<SurfaceSample>& samples, const Box3d& box, Vec3d towardsViewer)
+      : samples_(samples), center_(box.center()), back_(towardsViewer),
+        right_(Vec3d{back_.z, 0, -back_.x} * (1 / std::hypot(back_.x, back_.z))), up_(cross(back_, right_)),
+        pixelsPerUnit_(edge / length(box.size())) {
+    for (const SurfaceSample& sample : samples_)
+      if (!isBackface(sample)) {
+        float& depth = depths_[pixelOf(sample)];
+        depth = std::max(depth, depthOf(sample));
+      }
+  }
+
+  Visibility visibility() const {
+    Visibility sum;
+    // Within a pixel, depths on a surface that is seen at 60 degrees differ by two pixels.
+    constexpr float tolerance = 2;
+    for (const SurfaceSample& sample : samples_)
+      sum.surface += !isBackface(sample) && depthOf(sample) >= depths_[pixelOf(sample)] - tolerance;
+    sum.surface /= static_cast<double>(samples_.size());
+    sum.picture = static_cast<double>(std::ranges::count_if(depths_, [](float depth) { return depth > none; })) /
+                  static_cast<double>(depths_.size());
+    return sum;
+  }
+
+private:
+  static constexpr int edge = 40; ///< pixels; a pixel of a visible surface has several of the samples
+  static constexpr float none = std::numeric_limits<float>::lowest();
+
+  bool isBackface(const SurfaceSample& sample) const { return sample.isSolid && dot(Vec3d(sample.normal), back_) < 0; }
+  float depthOf(const SurfaceSample& sample) const {
+    return static_cast<float>(dot(sample.point - center_, back_) * pixelsPerUnit_);
+  }
+  std::size_t pixelOf(const SurfaceSample& sample) const {
+    const Vec3d offset = sample.point - center_;
+    const auto pixel = [&](Vec3d axis) {
+      return static_cast<std::size_t>(std::clamp(dot(offset, axis) * pixelsPerUnit_ + edge / 2.0, 0.0, edge - 1.0));
+    };
+    return pixel(up_) * edge + pixel(right_);
+  }
+
+  const std::vector<SurfaceSample>& samples_;
+  Vec3d center_, back_, right_, up_;
+  double pixelsPerUnit_;
+  std::vector<float> depths_ = std::vector<float>(std::size_t{edge} * edge, none); ///< larger is nearer
+};
+
+/// The vertices that are farthest along the axes and diagonals of a mesh: samples may miss thin tips.
+std::vector<Vec3f> tipsOf(const Mesh& mesh) {
+  std::vector<Vec3f> tips;
+  if (mesh.positions.empty())
+    return tips;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        tips.push_back(*std::ranges::max_element(mesh.positions, {}, [&](const Vec3f& p) {
+          return static_cast<float>(x) * p.x + static_cast<float>(y) * p.y + static_cast<float>(z) * p.z;
+        }));
+  return tips;
+}
+
+/// 1 for the front at a height of 20 degrees, less the farther a view is from it.
+double preferenceFor(Candidate candidate) {
+  const double fromFront = (1 - std::cos(candidate.azimuth * degree)) / 2; // 0 in front, 1 behind
+  return 1 - 0.12 * fromFront - 0.002 * std::abs(candidate.elevation - 20);
+}
+
+} // namespace
+
+ViewSamples viewSamplesOf(const Scene& scene) {
+  constexpr std::size_t sampleCount = 20'000, maxInstances = 50'000;
+  ViewSamples samples{surfaceSamples(scene, sampleCount), {}};
+  const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
+  if (instances.size() > maxInstances)
+    return samples;
+  std::vector<std::vector<Vec3f>> tips(scene.meshes.size());
+  parallelFor(scene.meshes.size(), [&](std::size_t i) { tips[i] = tipsOf(scene.meshes[i]); });
+  for (const SurfaceSample& sample : samples.surface)
+    samples.outline.push_back(sample.point);
+  for (const ShapeInstance& instance : instances)
+    if (isDrawable(instance.worldFromShape))
+      for (const Vec3f& tip : tips[shapeOf(scene.graph, instance.node).mesh])
+        samples.outline.push_back(instance.worldFromShape.point(Vec3d(tip)));
+  return samples;
+}
+
+Vec3d directionOf(StartView view) {
+  switch (view) {
+  case StartView::left:
+    return {-1, 0, 0};
+  case StartView::right:
+    return {1, 0, 0};
+  case StartView::back:
+    return {0, 0, -1};
+  case StartView::top:
+    return {0, 1, 0};
+  case StartView::bottom:
+    return {0, -1, 0};
+  case StartView::front:
+  case StartView::automatic:
+    break;
+  }
+  return {0, 0, 1};
+}
+
+Vec3d bestDirection(const std::vector<SurfaceSample>& samples) {
+  const std::vector<Candidate> list = candidates();
+  Box3d box;
+  for (const SurfaceSample& sample : samples)
+    box.add(sample.point);
+  if (!(length(box.size()) > 0))
+    return directionOf(Candidate{25, 20});
+  std::vector<Visibility> seen(list.size());
+  parallelFor(list.size(),
+              [&](std::size_t i) { seen[i] = DepthBuffer(samples, box, directionOf(list[i])).visibility(); });
+  Visibility best;
+  for (const Visibility& one : seen)
+    best = {std::max(best.surface, one.surface), std::max(best.picture, one.picture)};
+  if (!(best.surface > 0)) // solid surfaces that all face away
+    return directionOf(Candidate{25, 20});
+  std::size_t chosen = 0;
+  double chosenScore = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const double score = (seen[i].surface / best.surface + seen[i].picture / best.picture) / 2 * preferenceFor(list[i]);
+    if (score > chosenScore)
+      chosen = i, chosenScore = score;
+  }
+  return directionOf(list[chosen]);
+}
+
+} // namespace imgeo
