@@ -136,8 +136,8 @@ TEST(TessellationVectors, ReadGeometryNodes) {
     const std::string node = vector["node"];
     ImportOptions options;
     options.inlineBytes = 0;
-    const Mesh mesh =
-        testing::onlyMesh("<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>", "a.x3d", options);
+    const Mesh mesh = imgeo::testing::onlyMesh("<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>",
+                                               "a.x3d", options);
     VertexData data;
     Numbers colors;
     for (std::size_t i = 0; i < mesh.corners.size(); ++i) {

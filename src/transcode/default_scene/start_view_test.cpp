@@ -39,17 +39,6 @@ TEST(StartView, ShowsTheFrontOfASurfaceThatIsOpenBehind) {
   EXPECT_LT(bestFor(scene).z, -0.5);
 }
 
-TEST(StartView, IsInFrontOfWhatItHides) {
-  // A wall before a wider one: from behind the small one is hidden.
-  Mesh small = plate({2, 0, 0}, {0, 2, 0});
-  for (Vec3f& position : small.positions)
-    position += Vec3f{1, 0, -1};
-  Scene scene = testing::sceneOf({plate({4, 0, 0}, {0, 3, 0}), small});
-  for (const std::size_t node : shapeNodes(scene.graph))
-    std::get<Shape>(scene.graph.nodes[node].content).solid = false;
-  EXPECT_LT(bestFor(scene).z, 0);
-}
-
 TEST(StartView, ExistsForPointsLinesAndNothing) {
   for (const Scene& scene :
        {testing::sceneOf({testing::pointCloud(50, 1)}), testing::sceneOf({testing::polylines(5, 1)}),

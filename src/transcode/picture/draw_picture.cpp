@@ -35,11 +35,14 @@ std::optional<PictureCamera> firstCamera(const SceneGraph& graph, std::size_t in
   return std::nullopt;
 }
 
+/// The unit vector to a viewer who is to the right, above and in front.
+constexpr Vec3d threeQuarterFront{0.48, 0.36, 0.8};
+
 PictureCamera cameraFraming(const std::vector<PictureSample>& samples) {
   Box3d box;
   for (const PictureSample& sample : samples)
     box.add({sample.position.x, sample.position.y, sample.position.z});
-  const Viewpoint viewpoint = viewpointFor(box);
+  const Viewpoint viewpoint = viewpointFrom(threeQuarterFront, box);
   Affine3d pose = affineOf(viewpoint.orientation);
   pose.translation = viewpoint.position;
   return {pose, viewpoint.fieldOfView};

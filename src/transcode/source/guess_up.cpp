@@ -119,7 +119,7 @@ AxisEvidence evidenceAlong(int axis, const std::vector<SurfaceSample>& samples, 
   return evidence;
 }
 
-constexpr std::array axisDirections{AxisDirection::x, AxisDirection::y, AxisDirection::z};
+constexpr std::array positiveAxes{AxisDirection::x, AxisDirection::y, AxisDirection::z};
 
 /// The lesser extent across an axis.
 double widthAcross(int axis, const std::array<AxisEvidence, 3>& evidence) {
@@ -160,7 +160,7 @@ int percent(double share) {
 
 std::string reasonFor(int axis, const std::array<AxisEvidence, 3>& evidence) {
   const AxisEvidence& along = evidence[axis];
-  const char* const name = nameOf(axisDirections[axis]);
+  const char* const name = nameOf(positiveAxes[axis]);
   if (isColumn(axis, evidence))
     return fmt::format("it is longest along {}, between two flat ends, as a column is", name);
   if (along.foot - along.top >= decisive || !isAloneOnZero(axis, evidence))
@@ -196,13 +196,13 @@ UpGuess guessUp(const std::vector<SurfaceSample>& samples) {
     const double facing = std::abs(evidence[axis].facing),
                  thinness = evidence[axis].height / widthAcross(axis, evidence);
     if (facing >= 0.4 && thinness <= (facing >= 0.7 ? 0.5 : 0.35))
-      return {axisDirections[axis],
+      return {positiveAxes[axis],
               fmt::format("it is thin along {}, and {} % of its surface faces that side, as a terrain's does",
-                          nameOf(axisDirections[axis]), percent(facing))};
+                          nameOf(positiveAxes[axis]), percent(facing))};
     if (havePoints && (thinness <= 0.05 || (thinness <= 0.35 && evidence[axis].layering <= 0.4) ||
                        (thinness <= 0.5 && evidence[axis].layering <= 0.15)))
-      return {axisDirections[axis],
-              fmt::format("its points are one thin layer across {}, as a terrain's are", nameOf(axisDirections[axis]))};
+      return {positiveAxes[axis],
+              fmt::format("its points are one thin layer across {}, as a terrain's are", nameOf(positiveAxes[axis]))};
   }
 
   std::array<double, 3> scores{};
@@ -213,7 +213,7 @@ UpGuess guessUp(const std::vector<SurfaceSample>& samples) {
   const bool isNearY = scores[best] < scores[y] + decisive && scores[best] < 2 * scores[y];
   if (scores[best] < decisive || (best != y && isNearY))
     return undecided;
-  return {axisDirections[best], reasonFor(best, evidence)};
+  return {positiveAxes[best], reasonFor(best, evidence)};
 }
 
 } // namespace imgeo

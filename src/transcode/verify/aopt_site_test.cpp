@@ -21,7 +21,7 @@ namespace {
 using testing::TemporaryDirectory;
 
 /// A torus, longer than wide and wider than high, with every attribute, far from the origin.
-Mesh source() {
+Mesh sourceMesh() {
   Mesh mesh = testing::torus(24, 11);
   for (Vec3f& p : mesh.positions)
     p = {p.x * 3 + 20, p.y * 2 - 7, p.z + 100};
@@ -33,7 +33,7 @@ Mesh source() {
 
 class AoptSite : public ::testing::Test {
 protected:
-  Mesh mesh = source();
+  Mesh mesh = sourceMesh();
   Box3d box = boxOf(mesh);
   TemporaryDirectory directory;
   Bytes index;

@@ -23,6 +23,11 @@ _imgeo() {
       '-i[X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
+      '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
+      '--rotate[then turn the source\: y\:90 about the upward axis, x\:-30,y\:90 about x first]:rotate: ' \
+      '--scale[then multiply its lengths]:scale: ' \
+      '--unit[the unit of the source'\''s numbers, which become metres; auto\: what the file says, otherwise m]:unit:(auto m cm mm um km in ft yd mi)' \
+      '--view[the side that is shown first; auto\: the source'\''s viewpoint, otherwise the three-quarter view that shows the most of the surface]:view:(auto front left back right top bottom)' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \
       '--profile[of sig. compact\: a coarse shape first, then patches, decoded by workers; classic\: three times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; auto\: compact, but classic with --primitives strips, --index off, --normals palette or spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep]:profile:(auto compact classic)' \
       '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
