@@ -86,6 +86,7 @@ struct ConvertOptions {
   TextureOptions textures{};             ///< texture images
   SourceAxesOptions axes{};              ///< axes and unit of the source
   StartView view = StartView::automatic; ///< side from which the scene is shown first
+  bool pictures = true;                  ///< draw the page's icon and the picture that previews of links show
   int effort = 5;                        ///< 0 fastest .. 9 smallest
   std::string title{};                   ///< title of the page; empty: the source's title or file name
   bool outside = false;                  ///< the source may refer to files outside of its folder

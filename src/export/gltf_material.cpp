@@ -144,8 +144,10 @@ void addExtensionTexture(Json& extensions, TextureRole role, Json info) {
       {TextureRole::thickness, "KHR_materials_volume", "thicknessTexture"},
   };
   for (const Row& row : rows)
-    if (row.role == role)
+    if (row.role == role) {
       extensions[row.extension][row.member] = std::move(info);
+      return;
+    }
 }
 
 void addTexture(Json& material, const TextureUse& use, std::size_t index, std::size_t texCoordSet,

@@ -53,7 +53,7 @@ export const boundsOfQuantised: Bounds = { mean: 0.01 };
 export const boundsOfInput: Bounds = { mean: 0.05, offShare: 0.0001 };
 
 /** The same for compact, whose normals of 8 bits differ by up to a degree (classic: 0.4). */
-export const boundsOfCompact: Bounds = { mean: 0.1, offShare: 0.0001 };
+export const boundsOfCompact: Bounds = { mean: 0.12, offShare: 0.0001 };
 
 export function isWithin(difference: Difference, bounds: Bounds): boolean {
   return difference.mean <= bounds.mean && difference.offShare <= (bounds.offShare ?? 1);

@@ -162,7 +162,10 @@ public:
   }
 
   /// Samples the surface for the page's pictures, before the meshes are encoded.
-  void samplePicture() { pictureSamples_ = pictureSamplesOf(scene_); }
+  void samplePicture() {
+    if (options_.pictures)
+      pictureSamples_ = pictureSamplesOf(scene_);
+  }
 
   /// Samples the surface for the default viewpoints, before the meshes are encoded.
   void sampleSurface() {
@@ -200,7 +203,8 @@ public:
     writeInlinedDocuments(document_, options_.target, site_.path());
     warnOfCollapsed(report_);
     writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest())));
-    const PagePictures pictures = writePictures(document_.graph, pictureSamples_, site_.path());
+    const PagePictures pictures =
+        options_.pictures ? writePictures(document_.graph, pictureSamples_, site_.path()) : PagePictures{};
     if (options_.target == Target::x3dom) {
       const X3domRelease release = x3domReleaseFor(*options_.encoding, options_.x3domUrl);
       report_.x3domVersion = release.version;

@@ -9,7 +9,7 @@ namespace imgeo {
 namespace {
 
 /// Effort of PNG: higher ones save few bytes in pictures of this size.
-constexpr int pictureEffort = 4;
+constexpr int pictureEffort = 1;
 
 /// The background of pages without one.
 constexpr Vec3f defaultBackground{0.93f, 0.94f, 0.95f};

@@ -41,6 +41,7 @@ TEST(X3domSite, EqualsItsSourceForEveryMesh) {
     else if (options.positionBits > 8)
       options.normals = seed % 3 == 0 ? NormalEncoding::spherical : NormalEncoding::rgb;
     writeMesh(mesh, directory.path() / "in.ply");
+    options.pictures = false;
     convert(directory.path() / "in.ply", directory.path() / "site", options);
     const VerifyReport report = verify(directory.path() / "site", directory.path() / "in.ply");
     EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
@@ -74,6 +75,7 @@ TEST(X3domSite, EqualsItsSourceForEveryArrayType) {
       options.normals = arrayCase.normals;
       options.patchVertices = 256;
       writeMesh(mesh, directory.path() / "in.ply");
+      options.pictures = false;
       convert(directory.path() / "in.ply", directory.path() / "site", options);
       const VerifyReport report = verify(directory.path() / "site", directory.path() / "in.ply");
       EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
