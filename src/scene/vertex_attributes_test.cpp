@@ -45,7 +45,8 @@ TEST(VertexAttributes, AreVisitedInTheOrderOfTheirRoles) {
     EXPECT_EQ(hasAttribute(attributes, row.role), !values.empty());
     visited.push_back(row.name + std::to_string(values.size()) + std::to_string(otherValues.size()));
   });
-  EXPECT_EQ(visited, (std::vector<std::string>{"normal00", "texCoord10", "color02"}));
+  EXPECT_EQ(visited, (std::vector<std::string>{"normal00", "texCoord10", "texCoord100", "texCoord200", "texCoord300",
+                                               "color02"}));
   EXPECT_FALSE(hasAnyAttribute({}));
   EXPECT_TRUE(hasAnyAttribute(attributes));
   others = {};

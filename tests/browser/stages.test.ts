@@ -243,7 +243,8 @@ describe("files are requested", () => {
         .filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
       const strange = others.filter(
         (path, index) =>
-          !/^\/(imgeo\.css|icon\.png|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) || others.indexOf(path) < index,
+          !/^\/(imgeo\.css|icon\.png|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) ||
+          others.indexOf(path) < index,
       );
       assert.deepEqual(strange, []); // other than the page, its icon, modules and style sheet, each once
       assert.ok(view.server.requests.every(({ status }) => status === 200));

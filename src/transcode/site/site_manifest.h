@@ -24,13 +24,11 @@ struct SiteManifest {
   ElementCounts elements; ///< as drawn; for strips they do not follow from vertex counts
   /// Maximum error of normals, for palettes and compact; 0: see normalErrorBound.
   double normalErrorDegrees = 0;
+  SourceAxes axes;         ///< the Transform at the top of the document
   DroppedElements dropped; ///< elements of the source that were dropped
   /// Names of the further attributes that were kept, and with them of sets of texture coordinates that no texture uses.
   std::vector<std::string> attributes;
   bool onlyFirstTexCoords = false;      ///< further sets of texture coordinates were left out, with their textures
-  SourceAxes axes;                      ///< the Transform at the top of the document
-  DroppedElements dropped;              ///< elements of the source that were dropped
-  std::vector<std::string> attributes;  ///< names of the further attributes that were kept
   std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
 };
 

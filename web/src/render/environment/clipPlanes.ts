@@ -1,6 +1,6 @@
 // ClipPlane (ISO/IEC 19775-1, 11.4.1) in shaders. Programs of scenes without clip planes contain no such code.
 
-import type { Camera, Matrix4, WebGLProgramParametersWithUniforms , Vector2} from "three";
+import type { Camera, Matrix4, WebGLProgramParametersWithUniforms, Vector2 } from "three";
 import { Vector4 } from "three";
 import type { ClipPlaneInstance } from "../../scene/instances.ts";
 import type { LightScope } from "../../scene/lightScope.ts";
