@@ -70,22 +70,8 @@ const extensionTextureFields: Readonly<Record<string, TextureFields>> = {
   volumematerialextension: { thickness: "thicknessTexture" },
 };
 
-const dataRoles: readonly TextureRole[] = [
-  "metallicRoughness",
-  "normal",
-  "occlusion",
-  "shininess",
-  "anisotropy",
-  "clearcoat",
-  "clearcoatRoughness",
-  "clearcoatNormal",
-  "iridescence",
-  "iridescenceThickness",
-  "sheenRoughness",
-  "specularStrength",
-  "transmission",
-  "thickness",
-];
+/** The roles of textures that hold colors in sRGB; the others hold data. */
+const colorRoles: readonly TextureRole[] = ["color", "emissive", "ambient", "specular", "sheenColor", "specularColor"];
 
 /** `colorMap` comes from the Shape: X3D's Appearance has no such field. */
 export function readAppearance(
@@ -252,7 +238,7 @@ function readTexture(
     {
       ...image,
       role,
-      sampling: { ...image.sampling, isData: dataRoles.includes(role) },
+      sampling: { ...image.sampling, isData: !colorRoles.includes(role) },
       transform,
       mapping,
       texCoordSet: 0,
@@ -274,8 +260,8 @@ export function readImageOf(
 }
 
 /**
- * The appearance with the sets of texture coordinates that the mappings of its textures name. A mapping is the name of a
- * set, or this name, a dot and the role of the texture, where it also names a transform. Other mappings stand for the
+ * The appearance with the sets of texture coordinates that the mappings of its textures name. A mapping is the name of
+ * a set, or this name, a dot and the role of the texture, where it also names a transform. Other mappings stand for the
  * first set.
  */
 export function withTexCoordSets(

@@ -204,6 +204,23 @@ export interface SamplingDescription {
 /** 3 x 3, column by column. */
 export type TextureMatrix = readonly [number, number, number, number, number, number, number, number, number];
 
+/** The roles of the textures of PhysicalMaterial's extensions. */
+export const extensionTextureRoles = [
+  "anisotropy",
+  "clearcoat",
+  "clearcoatRoughness",
+  "clearcoatNormal",
+  "iridescence",
+  "iridescenceThickness",
+  "sheenColor",
+  "sheenRoughness",
+  "specularStrength",
+  "specularColor",
+  "transmission",
+  "thickness",
+] as const;
+export type ExtensionTextureRole = (typeof extensionTextureRoles)[number];
+
 /**
  * The material property that a texture modulates. `color` is diffuseColor, baseColor or an UnlitMaterial's
  * emissiveColor.
@@ -217,18 +234,7 @@ export const textureRoles = [
   "ambient",
   "specular",
   "shininess",
-  "anisotropy",
-  "clearcoat",
-  "clearcoatRoughness",
-  "clearcoatNormal",
-  "iridescence",
-  "iridescenceThickness",
-  "sheenColor",
-  "sheenRoughness",
-  "specularStrength",
-  "specularColor",
-  "transmission",
-  "thickness",
+  ...extensionTextureRoles,
 ] as const;
 export type TextureRole = (typeof textureRoles)[number];
 

@@ -6,25 +6,8 @@
 // Neubelt's visibility; `sheenAlbedo` is our fit of its integral over the hemisphere (rms error 0.015). Transmission
 // reads what has been drawn behind the surface, refracted once.
 
-import type { TextureRole } from "../document/description.ts";
+import type { ExtensionTextureRole } from "../document/description.ts";
 import { toLinearChunk } from "./physicalLighting.ts";
-
-/** The roles of the textures of extensions. */
-export const extensionRoles = [
-  "anisotropy",
-  "clearcoat",
-  "clearcoatRoughness",
-  "clearcoatNormal",
-  "iridescence",
-  "iridescenceThickness",
-  "sheenColor",
-  "sheenRoughness",
-  "specularStrength",
-  "specularColor",
-  "transmission",
-  "thickness",
-] as const satisfies readonly TextureRole[];
-type ExtensionRole = (typeof extensionRoles)[number];
 
 /** Defined in physical materials that have extensions. */
 export const extendedDefine = "EXTENDED";
@@ -212,7 +195,7 @@ vec3 transmittedLight(vec3 viewPosition, vec3 normal, vec3 viewDirection, vec3 b
  * which a surface is anisotropic.
  */
 export function extendedSurface(
-  ifTexture: (role: ExtensionRole, use: (texel: string, uv: string) => string) => string,
+  ifTexture: (role: ExtensionTextureRole, use: (texel: string, uv: string) => string) => string,
   tangentUv: string,
 ): string {
   return /* glsl */ `

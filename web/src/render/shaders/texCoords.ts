@@ -3,8 +3,7 @@
 
 import { Matrix3 } from "three";
 import type { AppearanceDescription, GeometryDescription, TextureRole } from "../../document/description.ts";
-import { textureRoles } from "../../document/description.ts";
-import { extensionRoles } from "../../lighting/extendedLighting.ts";
+import { extensionTextureRoles, textureRoles } from "../../document/description.ts";
 import { attributeRows, texCoordRoles } from "../../stage/attributeRows.ts";
 
 /** Per map: the #define that three.js sets for it, the varying for its coordinates, and the texture role. */
@@ -23,7 +22,7 @@ export const extraMapRoles = [
   "metallicRoughness",
   "ambient",
   "shininess",
-  ...extensionRoles,
+  ...extensionTextureRoles,
 ] as const satisfies readonly TextureRole[];
 export type ExtraMapRole = (typeof extraMapRoles)[number];
 
