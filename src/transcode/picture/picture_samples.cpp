@@ -4,6 +4,8 @@
 #include "images/decode_image.h"
 #include "images/image_type.h"
 #include "images/resize.h"
+#include "scene/color.h"
+#include "scene/surface_samples.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -11,19 +13,15 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 
 namespace imgeo {
 
 namespace {
 
-/// Instances and triangles beyond these numbers are left out or thinned out: a picture has fewer pixels.
-constexpr std::size_t maxInstances = 200'000, maxVisitedElements = 20'000'000;
+/// A scene of more instances has no picture: it has fewer pixels.
+constexpr std::size_t maxInstances = 200'000;
 constexpr std::uint32_t textureEdge = 512;
-
-struct Instance {
-  std::size_t node = 0;
-  Affine3d worldFromShape;
-};
 
 const std::string* fieldOf(const Node& node, const char* name) {
   const auto field = std::ranges::find(node.fields, name, &FieldText::name);
@@ -45,7 +43,7 @@ public:
       visit(root, {});
   }
 
-  std::vector<Instance> instances;
+  std::vector<ShapeInstance> instances;
   bool isWhole = true;
 
 private:
@@ -88,12 +86,9 @@ private:
   const SceneGraph& graph_;
 };
 
-float srgbOf(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 /// The colour of a material in sRGB, 0..1.
 Vec3f colorOf(const AnyMaterial& material) {
+  const auto srgbOf = [](float linear) { return static_cast<float>(srgbOfLinear(linear)); };
   if (const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&material))
     return {srgbOf(physical->baseColor.x), srgbOf(physical->baseColor.y), srgbOf(physical->baseColor.z)};
   if (const UnlitMaterial* unlit = std::get_if<UnlitMaterial>(&material))
@@ -143,12 +138,11 @@ public:
       return;
     color_ = colorOf(appearance->material);
     isLit = !std::holds_alternative<UnlitMaterial>(appearance->material);
-    if (mesh.texCoords.empty())
-      return;
     for (const TextureUse& use : appearance->textures)
       if (use.role == TextureRole::color) {
+        texCoords_ = texCoordsOf(mesh, texCoordSetNamed(use.mapping, mesh));
         transform_ = use.transform;
-        raster_ = textures.rasterOf(graph.textures[use.texture]);
+        raster_ = texCoords_.empty() ? nullptr : textures.rasterOf(graph.textures[use.texture]);
       }
   }
 
@@ -182,8 +176,8 @@ private:
   Vec3f texel(std::size_t first, std::span<const float> weights) const {
     float s = transform_.translation.x + transform_.center.x, t = transform_.translation.y + transform_.center.y;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      s += weights[i] * mesh_.texCoords[mesh_.corners[first + i]].x;
-      t += weights[i] * mesh_.texCoords[mesh_.corners[first + i]].y;
+      s += weights[i] * texCoords_[mesh_.corners[first + i]].x;
+      t += weights[i] * texCoords_[mesh_.corners[first + i]].y;
     }
     const float sine = std::sin(transform_.rotation), cosine = std::cos(transform_.rotation);
     const float u = transform_.scale.x * (cosine * s - sine * t) - transform_.center.x;
@@ -202,139 +196,47 @@ private:
   const Mesh& mesh_;
   Vec3f color_{0.8f, 0.8f, 0.8f};
   const Raster* raster_ = nullptr;
+  std::span<const Vec2f> texCoords_; ///< those of the texture
   TextureTransform transform_;
 };
-
-Vec3d cornerOf(const Mesh& mesh, const Affine3d& worldFromShape, std::size_t corner) {
-  const Vec3f& position = mesh.cornerPosition(corner);
-  return worldFromShape.point({position.x, position.y, position.z});
-}
 
 Vec3f singleOf(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Samples all instances.
-class Sampler {
+/// The colours of the surfaces of all shapes.
+class Surfaces {
 public:
-  Sampler(const Scene& scene, const std::vector<Instance>& instances, std::size_t maxSamples)
-      : scene_(scene), instances_(instances), maxSamples_(static_cast<double>(maxSamples)) {
-    std::size_t elements = 0;
-    for (const Instance& instance : instances)
-      elements += meshOf(instance).elementCount();
-    stride_ = elements / maxVisitedElements + 1;
-    for (const Instance& instance : instances)
-      measure(instance);
-  }
+  explicit Surfaces(const Scene& scene) : scene_(scene), textures_(scene.graph) {}
 
-  std::vector<PictureSample> sample() {
-    TextureColors textures(scene_.graph);
-    for (const Instance& instance : instances_) {
-      const Shape& shape = shapeOf(scene_.graph, instance.node);
-      const Appearance* appearance = shape.appearance ? &scene_.graph.appearances[*shape.appearance] : nullptr;
-      const Surface surface(meshOf(instance), appearance, textures, scene_.graph);
-      add(instance, surface);
-    }
-    return std::move(samples_);
+  const Surface& operator[](std::size_t shapeNode) {
+    const auto known = surfaces_.find(shapeNode);
+    if (known != surfaces_.end())
+      return known->second;
+    const Shape& shape = shapeOf(scene_.graph, shapeNode);
+    const Appearance* appearance = shape.appearance ? &scene_.graph.appearances[*shape.appearance] : nullptr;
+    return surfaces_.try_emplace(shapeNode, scene_.meshes[shape.mesh], appearance, textures_, scene_.graph)
+        .first->second;
   }
 
 private:
-  const Mesh& meshOf(const Instance& instance) const {
-    return scene_.meshes[shapeOf(scene_.graph, instance.node).mesh];
-  }
-
-  template <typename Visit> void forEachElement(const Instance& instance, Visit visit) const {
-    const Mesh& mesh = meshOf(instance);
-    const std::size_t corners = cornersPerElement(mesh.topology);
-    for (std::size_t element = 0; element < mesh.elementCount(); element += stride_)
-      visit(mesh, element * corners);
-  }
-
-  /// Adds the instance to the total area, length and number of points.
-  void measure(const Instance& instance) {
-    forEachElement(instance, [&](const Mesh& mesh, std::size_t first) {
-      const Vec3d a = cornerOf(mesh, instance.worldFromShape, first);
-      box_.add(a);
-      if (mesh.topology == Topology::points) {
-        points_ += 1;
-        return;
-      }
-      const Vec3d b = cornerOf(mesh, instance.worldFromShape, first + 1);
-      if (mesh.topology == Topology::lines)
-        length_ += length(b - a);
-      else
-        area_ += length(cross(b - a, cornerOf(mesh, instance.worldFromShape, first + 2) - a)) / 2;
-    });
-  }
-
-  void add(const Instance& instance, const Surface& surface) {
-    const double diagonal = length(box_.size());
-    if (!(diagonal > 0) || !std::isfinite(diagonal))
-      return;
-    // Points stand for a surface as large as a side of the box.
-    const float pointSize = static_cast<float>(diagonal / std::sqrt(std::max(2 * points_, 1e4)));
-    const float lineSize = static_cast<float>(diagonal / 1000);
-    const float surfaceSize = static_cast<float>(std::sqrt(area_ / maxSamples_));
-    forEachElement(instance, [&](const Mesh& mesh, std::size_t first) {
-      const Vec3d a = cornerOf(mesh, instance.worldFromShape, first);
-      if (mesh.topology == Topology::points) {
-        if (takes(std::min(1.0, maxSamples_ / points_)) > 0)
-          samples_.push_back({singleOf(a), {0, 0, 0}, pointSize, surface.colorAt(first, std::array{1.0f})});
-        return;
-      }
-      const Vec3d ab = cornerOf(mesh, instance.worldFromShape, first + 1) - a;
-      if (mesh.topology == Topology::lines) {
-        for (std::size_t left = takes(std::min(length(ab) / lineSize, maxSamples_ * length(ab) / length_)); left > 0;
-             --left) {
-          const auto [u, unused] = nextPoint();
-          samples_.push_back({singleOf(a + ab * u),
-                              {0, 0, 0},
-                              lineSize,
-                              surface.colorAt(first, std::array{static_cast<float>(1 - u), static_cast<float>(u)})});
-        }
-        return;
-      }
-      const Vec3d ac = cornerOf(mesh, instance.worldFromShape, first + 2) - a, normal = cross(ab, ac);
-      const double doubleArea = length(normal);
-      for (std::size_t left = doubleArea > 0 ? takes(maxSamples_ * doubleArea / 2 / area_) : 0; left > 0; --left) {
-        auto [u, v] = nextPoint();
-        if (u + v > 1)
-          u = 1 - u, v = 1 - v;
-        const std::array weights{static_cast<float>(1 - u - v), static_cast<float>(u), static_cast<float>(v)};
-        samples_.push_back({singleOf(a + ab * u + ac * v),
-                            surface.isLit ? singleOf(normal * (1 / doubleArea)) : Vec3f{0, 0, 0}, surfaceSize,
-                            surface.colorAt(first, weights)});
-      }
-    });
-  }
-
-  /// How many samples an element gets that should get `share` of one on average: the remainder goes to later elements.
-  std::size_t takes(double share) {
-    carried_ += share;
-    const double whole = std::floor(carried_);
-    carried_ -= whole;
-    return static_cast<std::size_t>(whole);
-  }
-
-  /// The next point of the R2 sequence (Roberts, 2018), which covers the unit square evenly.
-  std::array<double, 2> nextPoint() {
-    next_[0] += 0.7548776662466927;
-    next_[1] += 0.5698402909980532;
-    for (double& coordinate : next_)
-      coordinate -= std::floor(coordinate);
-    return next_;
-  }
-
   const Scene& scene_;
-  const std::vector<Instance>& instances_;
-  double maxSamples_;
-  std::size_t stride_ = 1;
-  Box3d box_;
-  double area_ = 0, length_ = 0, points_ = 0;
-  double carried_ = 0.5;
-  std::array<double, 2> next_{0.5, 0.5};
-  std::vector<PictureSample> samples_;
+  TextureColors textures_;
+  std::map<std::size_t, Surface> surfaces_; ///< by Shape node
 };
+
+/// The length of the side of the square that a sample stands for.
+double squareSideOf(Topology topology, const TopologySamples& samples, double diagonal) {
+  switch (topology) {
+  case Topology::triangles:
+    return std::sqrt(samples.size / static_cast<double>(samples.samples.size()));
+  case Topology::lines:
+    return diagonal / 1000;
+  case Topology::points: // they stand for a surface as large as a side of the scene's box
+    return diagonal / std::sqrt(std::max(2 * samples.size, 1e4));
+  }
+  return 0;
+}
 
 } // namespace
 
@@ -342,7 +244,26 @@ PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples) {
   const VisibleShapes visible(scene.graph);
   if (!visible.isWhole)
     return {{}, false};
-  return {Sampler(scene, visible.instances, maxSamples).sample(), true};
+  std::map<Topology, TopologySamples> samplesByTopology;
+  Box3d box;
+  for (const Topology topology : allTopologies) {
+    TopologySamples& samples = samplesByTopology[topology];
+    samples = surfaceSamples(scene, visible.instances, topology, maxSamples);
+    for (const SurfaceSample& sample : samples.samples)
+      box.add(sample.point);
+  }
+  PictureSamples picture;
+  Surfaces surfaces(scene);
+  for (const auto& [topology, samples] : samplesByTopology) {
+    const auto side = static_cast<float>(squareSideOf(topology, samples, length(box.size())));
+    const std::size_t cornerCount = cornersPerElement(topology);
+    for (const SurfaceSample& sample : samples.samples) {
+      const Surface& surface = surfaces[sample.shape];
+      picture.samples.push_back({singleOf(sample.point), surface.isLit ? sample.normal : Vec3f{0, 0, 0}, side,
+                                 surface.colorAt(sample.firstCorner, std::span(sample.weights).first(cornerCount))});
+    }
+  }
+  return picture;
 }
 
 } // namespace imgeo

@@ -23,7 +23,7 @@ struct PictureSamples {
 };
 
 /// Samples triangles by area, lines by length, and points, of all visible shapes: the first level of each LOD, the
-/// chosen child of each Switch. At most `maxSamples` of triangles and as many of lines and points. Colours are those of
+/// chosen child of each Switch. About `maxSamples` of triangles and as many of lines and points. Colours are those of
 /// materials, vertices, and images of at most 2^26 pixels together; an image that cannot be decoded counts as white.
 /// Deterministic.
 PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples = 200'000);
