@@ -161,16 +161,10 @@ public:
     report_.prepareSeconds = step_.lapSeconds();
   }
 
-  /// Samples the surface for the page's pictures, before the meshes are encoded.
-  void samplePicture() {
+  /// Samples the surfaces for the page's pictures and the default viewpoints, before the meshes are encoded.
+  void sampleSurfaces() {
     if (options_.pictures)
       pictureSamples_ = pictureSamplesOf(scene_);
-  }
-
-  /// Samples the surface for the default viewpoints, before the meshes are encoded.
-  void sampleSurface() {
-    if (scene_.graph.isComplete && options_.view != StartView::automatic)
-      throw Error(ErrorKind::usage, "--view", "an X3D source shows its own viewpoints");
     if (!scene_.graph.isComplete && (options_.view != StartView::automatic || !hasViewpoint(scene_.graph)))
       viewSamples_ = viewSamplesOf(scene_);
   }
@@ -289,8 +283,8 @@ private:
   Stopwatch total_, step_;
   bool hasOnlyFirstTexCoords_ = false;
   Scene scene_;                   ///< until encodeMeshes
-  PictureSamples pictureSamples_; ///< from samplePicture on
-  ViewSamples viewSamples_;       ///< from sampleSurface on
+  PictureSamples pictureSamples_; ///< from sampleSurfaces on
+  ViewSamples viewSamples_;       ///< from sampleSurfaces on
   SceneDocument document_;        ///< from encodeMeshes on
 };
 
@@ -306,8 +300,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   conversion.readSource();
   conversion.resolveOptions();
   conversion.prepareMeshes();
-  conversion.samplePicture();
-  conversion.sampleSurface();
+  conversion.sampleSurfaces();
   conversion.encodeMeshes();
   conversion.completeScene();
   conversion.writeDocuments();

@@ -101,6 +101,8 @@ std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options) {
 }
 
 ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given) {
+  if (scene.graph.isComplete && given.view != StartView::automatic)
+    refuseOption("--view", "an X3D source shows its own viewpoints");
   ConvertOptions options = resolved(given);
   std::size_t attributeCount = 0;
   for (const Mesh& mesh : scene.meshes)

@@ -12,7 +12,8 @@ namespace imgeo {
 ConvertOptions resolved(ConvertOptions options);
 
 /// The options with all defaults filled in for this scene: if no encoding is stated, classic for meshes with more
-/// further attributes than compact holds. Throws Error{usage} if the stated encoding cannot hold them.
+/// further attributes than compact holds. Throws Error{usage} if the stated encoding cannot hold them, and for a stated
+/// view of an X3D source.
 ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given);
 
 /// The position bits for a mesh with this box: as stated, or the smallest number that keeps the stated maximum error.
