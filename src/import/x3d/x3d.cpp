@@ -4,6 +4,7 @@
 #include "import/source_images.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
+#include "import/x3d/geometry_text.h"
 #include "import/x3d/inlines.h"
 #include "import/x3d/node_conversions.h"
 #include "import/x3d/prototypes.h"
@@ -47,7 +48,7 @@ public:
       : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
         mappings_(options.attributes), inlines_(references, options, imported_.scene, imported_.warnings) {
     addTextureMappings();
-    if (smallGeometryTextBytes() > maxInlineTextBytes)
+    if (smallGeometryTextBytes(source_, inlineBytes_) > maxInlineTextBytes)
       inlineBytes_ = std::min(inlineBytes_, shortTextBytes);
   }
 
@@ -330,7 +331,7 @@ private:
 
   /// Whether a geometry stays in the document because it is short and pages draw it from there.
   bool staysInline(pugi::xml_node node) const {
-    return isDrawnInPages(node.name()) && geometryTextBytesOf(node) <= inlineBytes_;
+    return isDrawnInPages(node.name()) && geometryTextBytesOf(source_, node) <= inlineBytes_;
   }
 
   /// Adds the `mapping` of every texture of the document: the values of materials' fields such as normalTextureMapping.
@@ -347,40 +348,6 @@ private:
     };
     Walker walker(mappings_.names);
     source_.root().traverse(walker);
-  }
-
-  /// The length of a geometry's text, with its child nodes, USEs resolved.
-  std::size_t geometryTextBytesOf(pugi::xml_node node) const {
-    std::size_t bytes = textBytesOf(node);
-    for (const pugi::xml_node& child : node.children())
-      if (child.type() == pugi::node_element)
-        bytes += textBytesOf(source_.resolved(child));
-    return bytes;
-  }
-
-  /// The total text of all geometry that is short enough to stay in the document.
-  std::size_t smallGeometryTextBytes() const {
-    struct Walker : pugi::xml_tree_walker {
-      explicit Walker(const SceneReader& scene) : reader(scene) {}
-      bool for_each(pugi::xml_node& node) override {
-        if (becomesMesh(node.name()))
-          if (const std::size_t text = reader.geometryTextBytesOf(node); text <= reader.inlineBytes_)
-            bytes += text;
-        return true;
-      }
-      const SceneReader& reader;
-      std::size_t bytes = 0;
-    };
-    Walker walker(*this);
-    source_.root().traverse(walker);
-    return walker.bytes;
-  }
-
-  static std::size_t textBytesOf(pugi::xml_node element) {
-    std::size_t bytes = std::string_view(element.name()).size();
-    for (const pugi::xml_attribute& attribute : element.attributes())
-      bytes += std::string_view(attribute.name()).size() + std::string_view(attribute.value()).size();
-    return bytes;
   }
 
   /// A shape with the mesh of a geometry node, one mesh for all its USEs. Empty for geometry that stays in the

@@ -1,0 +1,16 @@
+#pragma once
+// The length of the text of geometry nodes, which decides what geometry stays in the document.
+
+#include "import/x3d/source.h"
+
+#include <cstddef>
+
+namespace imgeo::x3d {
+
+/// The bytes of a geometry node's text, with its child nodes, USEs resolved.
+std::size_t geometryTextBytesOf(const Source& source, pugi::xml_node geometry);
+
+/// The bytes of all geometry that can become a mesh and has at most `maxBytes`, together.
+std::size_t smallGeometryTextBytes(const Source& source, std::size_t maxBytes);
+
+} // namespace imgeo::x3d
