@@ -182,8 +182,8 @@ private:
       material.remove_attribute(field);
   }
 
-  /// X3DOM's and InstantReality's shader has the fields of a Material under other names, and other defaults. It takes
-  /// the place of the Material beside it.
+  /// X3DOM's and InstantReality's shader has the fields of a Material under other names, and other defaults. It
+  /// replaces the Material beside it.
   void convertSurfaceShader(pugi::xml_node shader) {
     for (const pugi::xml_node& sibling : elementsOf(shader.parent()))
       if (sibling != shader && isMaterialNode(sibling.name()))

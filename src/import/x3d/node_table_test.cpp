@@ -50,7 +50,7 @@ std::string page() {
       "is a note, the summary has a line with it |\n"
       "| dropped | {} | is left out with its children; the summary has a line with the reason, the number of such "
       "nodes "
-      "and the place of the first; `--strict` refuses the file |\n\n"
+      "and the location of the first; `--strict` refuses the file |\n\n"
       "An element of no row is dropped as well. A USE of a dropped node is left out too; a USE of one of its "
       "descendants "
       "is not.\n\n"

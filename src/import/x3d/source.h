@@ -24,7 +24,7 @@ public:
   /// The first element that has this DEF; a null node where there is none.
   pugi::xml_node defined(std::string_view name) const;
 
-  /// "hall.wrl:12:3", the place of an element.
+  /// "hall.wrl:12:3": the file, line and column of an element.
   std::string locationOf(pugi::xml_node element) const;
   [[noreturn]] void fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const;
 

@@ -52,10 +52,10 @@ void Summary::noteKept(std::string_view element) {
     ++kept_[std::string(row->note)][std::string(element)];
 }
 
-void Summary::noteLeftOut(std::string_view element, const std::string& where) {
+void Summary::noteLeftOut(std::string_view element, const std::string& location) {
   LeftOut& kind = leftOut_[std::string(element)];
   if (++kind.count == 1)
-    kind.first = where;
+    kind.firstLocation = location;
 }
 
 void Summary::noteNurbs(double relativeError) {
@@ -66,7 +66,8 @@ void Summary::noteNurbs(double relativeError) {
 void Summary::addTo(std::vector<std::string>& warnings) const {
   for (const auto& [element, kind] : leftOut_)
     warnings.push_back(fmt::format("{} ({}) left out, since {}; {} at {}.", element, kind.count,
-                                   reasonToLeaveOut(element), kind.count == 1 ? "it is" : "the first is", kind.first));
+                                   reasonToLeaveOut(element), kind.count == 1 ? "it is" : "the first is",
+                                   kind.firstLocation));
   for (const auto& [reason, counts] : kept_)
     warnOfElements(warnings, fmt::format("Without effect, since {}", reason), counts);
   if (remoteImages > 0)

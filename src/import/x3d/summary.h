@@ -36,15 +36,15 @@ public:
   void noteNurbs(double relativeError);
   /// Counts a node that stays, where its row says that it has no effect.
   void noteKept(std::string_view element);
-  /// Counts an element that is left out; `where` is its place in the source.
-  void noteLeftOut(std::string_view element, const std::string& where);
+  /// Counts an element that is left out; `location` is its file, line and column.
+  void noteLeftOut(std::string_view element, const std::string& location);
 
   void addTo(std::vector<std::string>& warnings) const;
 
 private:
   struct LeftOut {
     std::size_t count = 0;
-    std::string first; ///< the place of the first
+    std::string firstLocation;
   };
 
   std::map<std::string, Counts, std::less<>> kept_; ///< by reason

@@ -19,7 +19,7 @@ constexpr std::uint32_t oversampling = 2;
 /// A picture that is coarser is not drawn: inside of a building, samples that are near look like tiles.
 constexpr double maxCoarseShare = 0.1;
 
-/// Finds the first viewpoint and its place in the world.
+/// Finds the first viewpoint and its pose in the world.
 std::optional<PictureCamera> firstCamera(const SceneGraph& graph, std::size_t index, const Affine3d& worldFromParent) {
   const Node& node = graph.nodes[index];
   if (const Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content)) {
