@@ -60,7 +60,10 @@ function findingsIn(text: string, banned: ReadonlySet<string>, allowed: Readonly
   return findings;
 }
 
-/** Names of libraries and published interfaces; "look" in its standard sense, turning a first-person camera; least squares. */
+/**
+ * Names of libraries and published interfaces; "look" in its standard sense, turning a first-person camera; least
+ * squares.
+ */
 const allowed = new Set(["in_place", "in_place_type", "lookAt", "mLookAt", "leastSquaresFit"]);
 for (const name of ["look", "lookRate", "lookRotation", "lookAheadSeconds"]) allowed.add(name);
 

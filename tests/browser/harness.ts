@@ -31,7 +31,9 @@ export interface PageOptions {
   motion?: boolean;
   /** Runs in the page before its scripts; self-contained. */
   before?: () => void;
-  /** The view has its toolbar. Pictures are compared without it, because it appears while the mouse is over the view. */
+  /**
+   * The view has its toolbar. Pictures are compared without it, because it appears while the mouse is over the view.
+   */
   hasToolbar?: boolean;
   /** Sets up the server (rules, bodies) before the page sends requests. */
   server?: (server: TestServer) => void;
@@ -49,7 +51,10 @@ export interface View {
   errors: string[];
   /** Requests to anywhere but the test's server. */
   foreignRequests: string[];
-  /** Paths of requests without the first slash, in the order in which the page sent them; the network may change that order. */
+  /**
+   * Paths of requests without the first slash, in the order in which the page sent them; the network may change that
+   * order.
+   */
   requestedPaths: string[];
   /** Resolves when the promise of that name on the element does; throws after `seconds` (20 by default). */
   promise: (name: "firstImage" | "complete", selector?: string, seconds?: number) => Promise<void>;
@@ -82,7 +87,10 @@ async function openPage(device: Device): Promise<Page> {
   return page;
 }
 
-/** Opens the page that opens all pages of a device. Its host is that of all test servers, so that pages which it opens stay in its process. */
+/**
+ * Opens the page that opens all pages of a device. Its host is that of all test servers, so that pages which it opens
+ * stay in its process.
+ */
 async function openOpener({ deviceScaleFactor, hasTouch, motion }: Device): Promise<Page> {
   // With reduced motion the progress bar does not fade while pictures are taken.
   const reducedMotion = motion ? "no-preference" : "reduce";

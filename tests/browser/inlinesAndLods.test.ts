@@ -10,7 +10,10 @@ import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { siteOf } from "./sites.ts";
 
-/** A wall, 2 wide and 2 high, with so many vertices that convert writes files for it. Another number of columns gives other files. */
+/**
+ * A wall, 2 wide and 2 high, with so many vertices that convert writes files for it. Another number of columns gives
+ * other files.
+ */
 function wall(columns: number): { points: string; faces: string } {
   const points: string[] = [],
     faces: string[] = [];

@@ -28,7 +28,9 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo><Viewpoint pos
   <Transform translation="0 0 ${lamp}"><SpotLight location="0 0 0" direction="0 0 -1" beamWidth="${beamWidth}" cutOffAngle="${cutOffAngle}" attenuation="${attenuation.join(" ")}" radius="2.3"></SpotLight></Transform>
   <Shape><Appearance><Material diffuseColor="1 1 1" ambientIntensity="0"></Material></Appearance>${wall}</Shape>`;
 
-/** Brightness of a white wall at a distance `aside` from the point that the lamp points at: ISO/IEC 19775-1, 17.2.2.4. */
+/**
+ * Brightness of a white wall at a distance `aside` from the point that the lamp points at: ISO/IEC 19775-1, 17.2.2.4.
+ */
 function lit(aside: number): number {
   const distance = Math.hypot(aside, lamp);
   if (distance > 2.3) return 0;

@@ -240,7 +240,9 @@ describe("a point is hit where it is drawn", () => {
     });
   }
 
-  /** The nearest point whose square of two pixels covers the center of this pixel; "unsure" near the edge of the square. */
+  /**
+   * The nearest point whose square of two pixels covers the center of this pixel; "unsure" near the edge of the square.
+   */
   function pointAt(points: ProjectedPoint[], x: number, y: number): number | "unsure" {
     const covering = points.filter((point) => Math.max(Math.abs(point.x - x), Math.abs(point.y - y)) < 1.02);
     const [nearest] = covering.sort((a, b) => a.depth - b.depth);

@@ -125,7 +125,9 @@ describe("borders between patches are watertight", () => {
     html
       .replace(/<Material[^>]*>/i, `<Material diffuseColor="0 0 0" emissiveColor="1 1 1">`)
       .replace(/skyColor="[^"]*"/i, `skyColor="0 0 0"`);
-  /** A camera inside the sphere. Second bytes, which are held, are requested after the first bytes of patches behind it. */
+  /**
+   * A camera inside the sphere. Second bytes, which are held, are requested after the first bytes of patches behind it.
+   */
   const fromInside = (html: string): string =>
     glowing(html)
       .replace(/<X3D/i, `<X3D chunkPriority="refinement: 0"`)

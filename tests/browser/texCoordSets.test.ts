@@ -103,7 +103,9 @@ before(async () => {
 });
 
 const bounds: Bounds = { mean: 0.5, offShare: 0.002 };
-/** In pages, surfaces also reflect ambient light: 5.7 were measured, and 44 with texture coordinates of the wrong set. */
+/**
+ * In pages, surfaces also reflect ambient light: 5.7 were measured, and 44 with texture coordinates of the wrong set.
+ */
 const boundsInAmbientLight: Bounds = { mean: 7, offShare: 0.02 };
 
 describe("a baked interior with two sets of texture coordinates", () => {

@@ -110,7 +110,8 @@ describe("a text", () => {
               ).positionAndNormalFromPoint(x!, y!)?.shape.id,
             [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit],
           );
-        // The empty corner above the "a" of "Hall", beside the text, and through the hole of the Q the surface behind it.
+        // The empty corner above the "a" of "Hall", beside the text, and through the hole of the Q the surface behind
+        // it.
         assert.deepEqual(
           [await hit(-3.9, 3.3), await hit(-1, 3.3), await hit(-4.9, -0.2), await hit(2, 0)],
           ["lit", undefined, "bold", "large"],

@@ -1,6 +1,6 @@
 // Draws each document of nodes/ in imgeo's runtime, in X_ITE and in X3DOM, in the same browser, and compares the
-// pictures. imgeo draws documents with NURBS as `build/imgeo convert` has written them. Writes docs/conformance.md and its picture; fails if imgeo differs from one of them and explanations.ts
-// does not explain it.
+// pictures. imgeo draws documents with NURBS as `build/imgeo convert` has written them. Writes docs/conformance.md and
+// its picture; fails if imgeo differs from one of them and explanations.ts does not explain it.
 //
 //   scripts/conformance [NAME…]      only those documents; pictures only in build/conformance
 //   scripts/conformance --check      all of them, without writing into docs/

@@ -18,7 +18,9 @@ function randomFrom(seed: number): () => number {
   };
 }
 
-/** The definitions that blocks use: a tree, a lamp, and the corners of a house, all of them in a Switch that hides them. */
+/**
+ * The definitions that blocks use: a tree, a lamp, and the corners of a house, all of them in a Switch that hides them.
+ */
 const library = `Switch { whichChild -1
   DEF Tree Separator {
     Transform { translation 0 .75 0 }

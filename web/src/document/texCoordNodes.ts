@@ -30,8 +30,8 @@ export function texCoordNodesOf(geometry: SceneElement, resolve: Resolve): Scene
 }
 
 /**
- * The numbers of the first set, empty where there is none or a generator computes it; and those of further sets that have
- * a name of their own.
+ * The numbers of the first set, empty where there is none or a generator computes it; and those of further sets that
+ * have a name of their own.
  */
 export function texCoordSetsOf(
   geometry: SceneElement,

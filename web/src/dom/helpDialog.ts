@@ -10,7 +10,9 @@ export class HelpDialog {
     this.#dialog = dialog;
   }
 
-  /** Opens the dialog; its focus returns to where it was when it is closed, by Escape, its button or a click beside it. */
+  /**
+   * Opens the dialog; its focus returns to where it was when it is closed, by Escape, its button or a click beside it.
+   */
   open(type: NavigationType): void {
     if (this.#dialog.open) return;
     const table = document.createElement("table");

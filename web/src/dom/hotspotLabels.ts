@@ -8,7 +8,10 @@ export interface LabelBox {
   readonly height: number;
   /** The label with the first key stays: keys are compared number by number, lower ones first. */
   readonly order: readonly number[];
-  /** Whether the label gave way in the last frame: it comes back only where it has some space, so that it does not flicker. */
+  /**
+   * Whether the label gave way in the last frame: it comes back only where it has some space, so that it does not
+   * flicker.
+   */
   readonly isDisplaced: boolean;
 }
 

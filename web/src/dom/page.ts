@@ -25,7 +25,9 @@ async function start(): Promise<void> {
   for (const preview of previews) if (!preview.canvas.isConnected) preview.end(); // the page has removed it
 }
 
-/** Requests the documents of Inlines in the viewport, which the runtime needs first, while the runtime is being loaded. */
+/**
+ * Requests the documents of Inlines in the viewport, which the runtime needs first, while the runtime is being loaded.
+ */
 function preloadInlined(): void {
   for (const inline of document.querySelectorAll("x3d inline[url]")) {
     const [url = ""] = /^[^"]+$|(?<=")[^"]+(?=")/.exec(inline.getAttribute("url") ?? "") ?? [];

@@ -231,8 +231,8 @@ export class PageViewer {
   }
 
   /**
-   * Whether the shape with this DEF or id is visible, inlined documents included; undefined if there is none. Of several
-   * instances one is enough.
+   * Whether the shape with this DEF or id is visible, inlined documents included; undefined if there is none. Of
+   * several instances one is enough.
    */
   isShapeVisible(name: string): boolean | undefined {
     const scene = this.#core.scene;

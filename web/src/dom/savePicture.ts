@@ -16,7 +16,9 @@ export function savePicture(canvas: HTMLCanvasElement, label: string, onSaved: (
   });
 }
 
-/** The label in lower case with hyphens between its words, at most 60 characters: "Marble statue" to "marble-statue". */
+/**
+ * The label in lower case with hyphens between its words, at most 60 characters: "Marble statue" to "marble-statue".
+ */
 export function fileNameOf(label: string): string {
   const words =
     label

@@ -74,7 +74,9 @@ export class ImgeoViewer extends HTMLElement {
     if (inline === undefined) scene.append(target);
   }
 
-  /** Moves slotted children (hotspots, a poster …) into the <x3d>. A saved page brings an <x3d> of its own, too late. */
+  /**
+   * Moves slotted children (hotspots, a poster …) into the <x3d>. A saved page brings an <x3d> of its own, too late.
+   */
   #adoptChildren(x3d: Element): void {
     for (const child of Array.from(this.children)) {
       if (child === x3d) continue;
@@ -95,7 +97,9 @@ for (const name of [...viewMethods, ...viewProperties, ...loadingProperties]) {
   });
 }
 
-/** Defines <imgeo-viewer>. False if the page has it already: another runtime, of another site or version, came first. */
+/**
+ * Defines <imgeo-viewer>. False if the page has it already: another runtime, of another site or version, came first.
+ */
 export function defineViewer(): boolean {
   if (customElements.get(viewerTag) !== undefined) return false;
   customElements.define(viewerTag, ImgeoViewer);

@@ -6,7 +6,9 @@ import { physicalDefine, toSrgbChunk, toLinearChunk } from "../lighting/physical
 import { x3dLighting } from "../lighting/x3dLighting.ts";
 import type { LightKind } from "./previewLights.ts";
 
-/** Attribute locations in every program. A base mesh without vertex colours is drawn with the constant attribute white. */
+/**
+ * Attribute locations in every program. A base mesh without vertex colours is drawn with the constant attribute white.
+ */
 export const attributeLocations = { position: 0, normal: 1, color: 2 } as const;
 
 /** The properties of a shape that its program is compiled for. */

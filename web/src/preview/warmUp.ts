@@ -3,7 +3,10 @@
 
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 
-/** A triangle without area, in the element types that most bases have. For bases with other types, the warm-up may be incomplete. */
+/**
+ * A triangle without area, in the element types that most bases have. For bases with other types, the warm-up may be
+ * incomplete.
+ */
 export const warmUpBuffers: PatchBuffers = {
   topology: "triangles",
   positionBits: 16,

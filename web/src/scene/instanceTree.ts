@@ -124,8 +124,8 @@ function transformOf(description: NodeDescription): unknown {
 function childFrameOf(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
   if (description.kind !== "group") return sceneFromParent;
   if (description.transform) return sceneFromParent.clone().multiply(matrixOf(description.transform));
-  // The renderer rotates a billboard for each view. Its own matrix makes its descendants count as moved when it begins or
-  // ceases to be one.
+  // The renderer rotates a billboard for each view. Its own matrix makes its descendants count as moved when it begins
+  // or ceases to be one.
   return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent;
 }
 

@@ -1,6 +1,8 @@
 // The level of a LOD for a distance (ISO/IEC 19775-1, 23.4.3): level i begins at range[i - 1].
 
-/** A level is left only when the distance is beyond its bound by this fraction, so that levels do not alternate there. */
+/**
+ * A level is left only when the distance is beyond its bound by this fraction, so that levels do not alternate there.
+ */
 const hysteresis = 0.05;
 
 /** `count` is the number of levels, `current` the visible one. An empty range gives level 0. */

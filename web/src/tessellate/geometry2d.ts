@@ -1,4 +1,5 @@
-// X3D's 2D geometry (ISO/IEC 19775-1, clause 14): points, lines and faces in the plane z = 0, whose front is towards +z.
+// X3D's 2D geometry (ISO/IEC 19775-1, clause 14): points, lines and faces in the plane z = 0, whose front is towards
+// +z.
 
 import type { Corner, Surface, VertexArrays } from "./faces.ts";
 

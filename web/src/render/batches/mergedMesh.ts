@@ -110,7 +110,9 @@ export class MergedMesh implements MergedGeometry {
     return geometry;
   }
 
-  /** Sets the vertex attributes of a geometry. They share memory with this object, and are valid until the next `add`. */
+  /**
+   * Sets the vertex attributes of a geometry. They share memory with this object, and are valid until the next `add`.
+   */
   setVerticesOf(geometry: BufferGeometry): void {
     for (const column of this.#columns) geometry.setAttribute(column.name, attributeOf(column));
     geometry.setAttribute("instanceIndex", new BufferAttribute(this.#instanceIndices.used, 1));

@@ -1,5 +1,5 @@
-// The pictures of X3D's Background and TextureBackground (ISO/IEC 19775-1, 24.2.1): the inner sides of a cube around the
-// viewer, in front of sky and ground.
+// The pictures of X3D's Background and TextureBackground (ISO/IEC 19775-1, 24.2.1): the inner sides of a cube around
+// the viewer, in front of sky and ground.
 
 import type { Texture } from "three";
 import {

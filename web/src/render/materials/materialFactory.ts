@@ -41,8 +41,8 @@ export interface BatchingRules {
     surfaceTextures: SurfaceTextures,
   ): boolean;
   /**
-   * The remaining numbers of an appearance, which the shader reads from the instance's record: the fields from `material`
-   * to `lineWidth` of `instanceFields`.
+   * The remaining numbers of an appearance, which the shader reads from the instance's record: the fields from
+   * `material` to `lineWidth` of `instanceFields`.
    */
   instanceNumbersOf(
     request: Pick<MaterialRequest, "shading" | "colors">,

@@ -124,8 +124,8 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   /**
-   * Follows a new description of the scene. Returns whether light scopes have been renumbered. The listener is not called
-   * for an instance whose scope just has another number.
+   * Follows a new description of the scene. Returns whether light scopes have been renumbered. The listener is not
+   * called for an instance whose scope just has another number.
    */
   follow(root: GroupDescription): boolean {
     const { summary } = this.#tree.update(root).root;
