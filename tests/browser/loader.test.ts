@@ -5,13 +5,13 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
-import { build } from "esbuild";
 import type { Page } from "playwright-core";
+import { bundleApp } from "./appBundles.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { until, withPage, type PageOptions, type View } from "./harness.ts";
 import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
 import { readPly } from "./meshes.ts";
-import { outputDirectory, repository } from "./paths.ts";
+import { outputDirectory } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
 import { referenceSettingsOf, patchOfInput } from "./reference.ts";
 import { gate } from "./server.ts";
@@ -22,16 +22,7 @@ const bundles = { "app.js": "tests/browser/loaderPage.ts", "worker.js": "web/src
 const directory = join(outputDirectory, "loader");
 
 before(async () => {
-  for (const [name, entry] of Object.entries(bundles)) {
-    await build({
-      entryPoints: [join(repository, entry)],
-      outfile: join(directory, name),
-      bundle: true,
-      format: "esm",
-      target: "es2022",
-      logLevel: "error",
-    });
-  }
+  await bundleApp(bundles, directory);
 });
 
 const page = `<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/app.css"><script type="module" src="/app.js"></script><body>`;

@@ -5,11 +5,11 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
-import { build } from "esbuild";
+import { bundleApp } from "./appBundles.ts";
 import { interiorFiles, writeBakedInterior } from "./bakedInterior.ts";
 import { assertSamePicture, savePicture, type Bounds } from "./compare.ts";
 import { until, withPage } from "./harness.ts";
-import { outputDirectory, repository } from "./paths.ts";
+import { outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
 
@@ -88,16 +88,7 @@ function wallIn({ width, height, channels, data }: Picture, wall: number): Pictu
 let reference: Picture;
 
 before(async () => {
-  for (const [name, entry] of Object.entries(bundles)) {
-    await build({
-      entryPoints: [join(repository, entry)],
-      outfile: join(directory, name),
-      bundle: true,
-      format: "esm",
-      target: "es2022",
-      logLevel: "error",
-    });
-  }
+  await bundleApp(bundles, directory);
   reference = await pictureOfApp(siteIn("compact", "reference"), "/baked-interior.glb");
   savePicture("interior-three", reference);
 });
