@@ -33,7 +33,7 @@ export interface AppShapesListener {
 /** A shape's object, made for the shape's first instance. */
 interface InstancedObject {
   readonly object: ShapeObject;
-  /** The shape's description by instance: each has its own visibility and light scope. */
+  /** The shape's description by instance: each has its own visibility and effect scope. */
   readonly instances: Map<NodeInstance, ShapeDescription>;
 }
 

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Matrix4 } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
-import { sceneScope } from "../scene/lightScope.ts";
+import { sceneScope } from "../scene/effectScope.ts";
 import { instancesOf } from "../scene/sceneInstances.ts";
 import type { LightUniforms } from "./previewLights.ts";
 import { lightKindsOf, lightUniformsOf } from "./previewLights.ts";
@@ -12,10 +12,10 @@ function uniformsOf(
   markup: string,
   headlight: boolean,
   viewFromScene = new Matrix4(),
-  lightScope = sceneScope,
+  effectScope = sceneScope,
 ): LightUniforms {
   const { lights } = instancesOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)));
-  return lightUniformsOf({ lights, headlight }, lightScope, viewFromScene);
+  return lightUniformsOf({ lights, headlight }, effectScope, viewFromScene);
 }
 
 const rounded = (values: readonly number[]) => values.map((value) => Math.round(value * 1e6) / 1e6 + 0);
@@ -60,8 +60,8 @@ test("a light that is not global is black outside of its group", () => {
     <DirectionalLight/><Shape/></Scene></X3D>`),
   );
   const { lights, shapes } = instancesOf(scene);
-  const uniformsByShape = shapes.map(({ lightScope }) =>
-    lightUniformsOf({ lights, headlight: true }, lightScope, new Matrix4()),
+  const uniformsByShape = shapes.map(({ effectScope }) =>
+    lightUniformsOf({ lights, headlight: true }, effectScope, new Matrix4()),
   );
   assert.deepEqual(
     uniformsByShape.map(({ lightColors }) => lightColors),

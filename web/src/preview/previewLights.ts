@@ -3,7 +3,7 @@
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
-import type { LightScope } from "../scene/lightScope.ts";
+import type { EffectScope } from "../scene/effectScope.ts";
 import type { LightInstance } from "../scene/instances.ts";
 import { lengthScaleOf } from "../scene/transforms.ts";
 import type { PreviewScene } from "./previewScene.ts";
@@ -27,18 +27,18 @@ export function lightKindsOf({ lights, headlight }: Pick<PreviewScene, "lights" 
   return [...lights.map(({ light }) => light.kind), ...(headlight ? ["directional" as const] : [])];
 }
 
-/** The lights for shapes in a light scope. Lights that do not reach the scope are black. */
+/** The lights for shapes in a effect scope. Lights that do not reach the scope are black. */
 export function lightUniformsOf(
   { lights, headlight }: Pick<PreviewScene, "lights" | "headlight">,
-  lightScope: LightScope,
+  effectScope: EffectScope,
   viewFromScene: Matrix4,
 ): LightUniforms {
   const all = lights.map((light) => ({
     ...lightValuesOf(light, viewFromScene),
-    ...(!light.scope.contains(lightScope) && { color: [0, 0, 0] }),
+    ...(!light.scope.contains(effectScope) && { color: [0, 0, 0] }),
   }));
   if (headlight) all.push({ ...directionalDefaults, color: [1, 1, 1], direction: [0, 0, -1] });
-  const lightsInScope = lights.filter(({ scope }) => scope.contains(lightScope));
+  const lightsInScope = lights.filter(({ scope }) => scope.contains(effectScope));
   const ambient = [0, 1, 2].map((channel) =>
     lightsInScope.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
   );

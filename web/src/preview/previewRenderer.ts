@@ -8,7 +8,7 @@ import { elementTypeOf, glTypeOf } from "../stage/elementType.ts";
 import { latticeBitsOf } from "../document/encodings.ts";
 import { isBlended, litParametersOf } from "../lighting/materialParameters.ts";
 import { lensOf } from "../navigation/cameraPose.ts";
-import type { LightScope } from "../scene/lightScope.ts";
+import type { EffectScope } from "../scene/effectScope.ts";
 import type { LightUniforms } from "./previewLights.ts";
 import { lightKindsOf, lightUniformsOf } from "./previewLights.ts";
 import type { PreviewProgram, PreviewProgramKind } from "./previewProgram.ts";
@@ -79,10 +79,10 @@ export class PreviewRenderer {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     const { clipFromView, viewFromScene } = cameraMatricesOf(scene, width / height);
-    const uniformsByScope = new Map<LightScope, LightUniforms>();
+    const uniformsByScope = new Map<EffectScope, LightUniforms>();
     for (const shape of scene.shapes) {
-      const lights = uniformsByScope.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
-      uniformsByScope.set(shape.lightScope, lights);
+      const lights = uniformsByScope.get(shape.effectScope) ?? lightUniformsOf(scene, shape.effectScope, viewFromScene);
+      uniformsByScope.set(shape.effectScope, lights);
       const buffers = buffersOf(shape);
       if (buffers === undefined) continue;
       const program = this.#programFor(kindOf(shape, scene, buffers));

@@ -18,7 +18,7 @@ import { sphereAround } from "../scene/bounds.ts";
 import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homePoseOf } from "../navigation/homePose.ts";
 import { shapeFromStoredOf } from "../scene/transforms.ts";
 import { navigationTypesOf } from "../navigation/navigationType.ts";
-import type { LightScope } from "../scene/lightScope.ts";
+import type { EffectScope } from "../scene/effectScope.ts";
 import type { CameraSetting } from "../navigation/orbit.ts";
 import type { LightInstance, ShapeInstance } from "../scene/instances.ts";
 import { instancesOf } from "../scene/sceneInstances.ts";
@@ -45,7 +45,7 @@ export interface PreviewShape {
   readonly sceneFromShape: Matrix4;
   /** Maps the lattice coordinates that the base stores to the shape's coordinates. */
   readonly shapeFromStored: Matrix4;
-  readonly lightScope: LightScope;
+  readonly effectScope: EffectScope;
 }
 
 /** Drawing more would take longer than loading the runtime. */

@@ -7,7 +7,7 @@ import { deepEqual } from "../document/deepEqual.ts";
 import type { GroupDescription, LightDescription, NodeDescription, Vec4 } from "../document/description.ts";
 import { boxOfAllRotations, isDrawable, transformedBox } from "./bounds.ts";
 import type { LightInstance } from "./instances.ts";
-import { LightScope, sceneScope } from "./lightScope.ts";
+import { EffectScope, sceneScope } from "./effectScope.ts";
 import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
 import { emptySummary, NodeInstance } from "./nodeInstance.ts";
 import { mergeSummaries } from "./subtreeSummary.ts";
@@ -39,7 +39,7 @@ export class InstanceTree {
       sceneFromNode: this.root.inherited?.sceneFromNode ?? new Matrix4(),
       isVisible: true,
       isUnbounded: true,
-      lightScope: sceneScope,
+      effectScope: sceneScope,
     });
     return this;
   }
@@ -54,7 +54,7 @@ export class InstanceTree {
     node.description = description;
     node.inherited = inherited;
     if (hasMoved) node.sceneFromNode = childFrameOf(inherited.sceneFromNode, description);
-    node.lightScope = lightScopeOf(node, inherited.lightScope);
+    node.effectScope = effectScopeOf(node, inherited.effectScope);
     if (previouslyInherited === undefined) this.#listener?.onEnter(node);
     else this.#listener?.onChange(node, hasMoved, previous);
     node.summary =
@@ -64,7 +64,7 @@ export class InstanceTree {
   #updateChildren(
     node: NodeInstance,
     group: GroupDescription,
-    { isVisible, isUnbounded, lightScope: scopeAround }: InheritedState,
+    { isVisible, isUnbounded, effectScope: scopeAround }: InheritedState,
   ): SubtreeSummary {
     const { sceneFromNode } = node;
     const isGroupVisible = isVisible && group.visible;
@@ -73,7 +73,7 @@ export class InstanceTree {
       sceneFromNode,
       isVisible: isGroupVisible,
       isUnbounded: isUnbounded && node.box === undefined,
-      lightScope: node.lightScope,
+      effectScope: node.effectScope,
     };
     const { kept, removed } = matchChildren(node, group.children);
     for (const child of removed) this.#leave(child);
@@ -86,7 +86,7 @@ export class InstanceTree {
       boundedGroups: node.box ? [node] : [],
       anchors: group.anchor && isGroupVisible ? [group.anchor] : [],
       billboards: group.billboardAxis ? [node] : [],
-      lightScopes: node.lightScope === scopeAround ? [] : [node.lightScope],
+      effectScopes: node.effectScope === scopeAround ? [] : [node.effectScope],
       lods: group.lod && isGroupVisible ? [{ ...group.lod, sceneFromLod: sceneFromNode }] : [],
     });
     return group.billboardAxis ? rotatingSummary(summary, sceneFromNode) : summary;
@@ -103,7 +103,7 @@ function isSameState(a: InheritedState, b: InheritedState): boolean {
     a.sceneFromNode === b.sceneFromNode &&
     a.isVisible === b.isVisible &&
     a.isUnbounded === b.isUnbounded &&
-    a.lightScope === b.lightScope
+    a.effectScope === b.effectScope
   );
 }
 
@@ -111,9 +111,9 @@ function isSameState(a: InheritedState, b: InheritedState): boolean {
  * A group with lights that are not global, clip planes or local fogs has a scope of its own, kept while it has such
  * nodes. Those of the root have an effect on the whole scene.
  */
-function lightScopeOf({ description, lightScope: previous, parent }: NodeInstance, around: LightScope): LightScope {
+function effectScopeOf({ description, effectScope: previous, parent }: NodeInstance, around: EffectScope): EffectScope {
   if (parent === undefined || description.kind !== "group" || !description.children.some(isScoped)) return around;
-  return previous.parent === around ? previous : new LightScope(around);
+  return previous.parent === around ? previous : new EffectScope(around);
 }
 
 /** The fields that a group's own transform depends on. */
@@ -131,7 +131,7 @@ function childFrameOf(sceneFromParent: Matrix4, description: NodeDescription): M
 
 function leafSummary(
   { description, sceneFromNode }: NodeInstance,
-  { isVisible, isUnbounded, lightScope }: InheritedState,
+  { isVisible, isUnbounded, effectScope }: InheritedState,
 ): SubtreeSummary {
   switch (description.kind) {
     case "shape": {
@@ -156,16 +156,16 @@ function leafSummary(
       return description.enabled && isVisible
         ? {
             ...emptySummary,
-            localFogs: [{ fog: description.fog, scale: lengthScaleOf(sceneFromNode), scope: lightScope }],
+            localFogs: [{ fog: description.fog, scale: lengthScaleOf(sceneFromNode), scope: effectScope }],
           }
         : emptySummary;
     case "clipPlane": {
       const plane = description.enabled && isVisible ? scenePlaneOf(description.plane, sceneFromNode) : undefined;
-      return plane ? { ...emptySummary, clipPlanes: [{ plane, scope: lightScope }] } : emptySummary;
+      return plane ? { ...emptySummary, clipPlanes: [{ plane, scope: effectScope }] } : emptySummary;
     }
     case "light":
       return description.light.on && isVisible
-        ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, lightScope)] }
+        ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, effectScope)] }
         : emptySummary;
     case "group":
       return emptySummary;
@@ -205,7 +205,7 @@ function scenePlaneOf(plane: Vec4, sceneFromNode: Matrix4): Vector4 | undefined 
   return length > 0 ? scenePlane.divideScalar(length) : undefined;
 }
 
-function lightInstance(light: LightDescription, sceneFromLight: Matrix4, around: LightScope): LightInstance {
+function lightInstance(light: LightDescription, sceneFromLight: Matrix4, around: EffectScope): LightInstance {
   return { light, sceneFromLight, scope: light.global ? sceneScope : around };
 }
 

@@ -11,20 +11,20 @@ import type {
   ViewpointDescription,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import type { LightScope } from "./lightScope.ts";
+import type { EffectScope } from "./effectScope.ts";
 
 export interface ShapeInstance {
   readonly shape: ShapeDescription;
   readonly sceneFromShape: Matrix4;
   /** The innermost scope that contains the shape. */
-  readonly lightScope: LightScope;
+  readonly effectScope: EffectScope;
 }
 
 export interface LightInstance {
   readonly light: LightDescription;
   readonly sceneFromLight: Matrix4;
   /** The light illuminates the shapes in this scope. */
-  readonly scope: LightScope;
+  readonly scope: EffectScope;
 }
 
 export interface LodInstance extends LodDescription {
@@ -39,7 +39,7 @@ export interface ClipPlaneInstance {
   /** In scene coordinates; x, y, z have length 1. */
   readonly plane: Vector4;
   /** The plane clips the shapes in this scope. */
-  readonly scope: LightScope;
+  readonly scope: EffectScope;
 }
 
 export interface FogInstance extends FogNodeDescription {
@@ -51,7 +51,7 @@ export interface LocalFogInstance {
   readonly fog: FogDescription;
   readonly scale: number;
   /** The fog is around the shapes in this scope. */
-  readonly scope: LightScope;
+  readonly scope: EffectScope;
 }
 
 export interface ViewpointInstance {

@@ -12,8 +12,8 @@ import type {
   LodInstance,
   ViewpointInstance,
 } from "./instances.ts";
-import type { LightScope } from "./lightScope.ts";
-import { sceneScope } from "./lightScope.ts";
+import type { EffectScope } from "./effectScope.ts";
+import { sceneScope } from "./effectScope.ts";
 
 /** What a subtree adds to its scene; lists are in document order. */
 export interface SubtreeSummary {
@@ -37,7 +37,7 @@ export interface SubtreeSummary {
   /** Each before the billboards inside it. */
   readonly billboards: readonly NodeInstance[];
   /** Scopes of lights that are not global, of clip planes and of local fogs; each before the scopes inside it. */
-  readonly lightScopes: readonly LightScope[];
+  readonly effectScopes: readonly EffectScope[];
 }
 
 const none: readonly never[] = [];
@@ -53,7 +53,7 @@ export const emptySummary: SubtreeSummary = {
   boundedGroups: none,
   anchors: none,
   billboards: none,
-  lightScopes: none,
+  effectScopes: none,
 };
 
 /** What a node inherits from the groups around it. */
@@ -63,7 +63,7 @@ export interface InheritedState {
   /** Whether no group around the node has a box, so that the node's own bounds count. */
   readonly isUnbounded: boolean;
   /** The innermost scope around the node. */
-  readonly lightScope: LightScope;
+  readonly effectScope: EffectScope;
 }
 
 /** One occurrence of a node in the scene. */
@@ -80,7 +80,7 @@ export class NodeInstance {
   /** Bounds in scene coordinates, for visible groups whose description has a box. */
   box: Box3 | undefined;
   /** The innermost scope around the node; for a group: around its children. */
-  lightScope = sceneScope;
+  effectScope = sceneScope;
   summary: SubtreeSummary = emptySummary;
   /** Undefined before the first update. */
   inherited: InheritedState | undefined;

@@ -36,7 +36,7 @@ export function instancesOf(scene: SceneDescription): SceneInstances {
   };
 }
 
-function* shapesIn({ description, sceneFromNode, lightScope, children }: NodeInstance): Generator<ShapeInstance> {
-  if (description.kind === "shape") yield { shape: description, sceneFromShape: sceneFromNode, lightScope };
+function* shapesIn({ description, sceneFromNode, effectScope, children }: NodeInstance): Generator<ShapeInstance> {
+  if (description.kind === "shape") yield { shape: description, sceneFromShape: sceneFromNode, effectScope };
   for (const child of children) yield* shapesIn(child);
 }

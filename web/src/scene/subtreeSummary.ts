@@ -20,7 +20,7 @@ const none: readonly never[] = [];
  */
 export function mergeSummaries(
   children: readonly NodeInstance[],
-  own: Pick<SubtreeSummary, "box" | "lods" | "boundedGroups" | "anchors" | "billboards" | "lightScopes">,
+  own: Pick<SubtreeSummary, "box" | "lods" | "boundedGroups" | "anchors" | "billboards" | "effectScopes">,
 ): SubtreeSummary {
   let union: Box3 | undefined;
   const lights = new ConcatenatedList<LightInstance>(),
@@ -33,7 +33,7 @@ export function mergeSummaries(
     boundedGroups = new ConcatenatedList(own.boundedGroups);
   const anchors = new ConcatenatedList(own.anchors),
     billboards = new ConcatenatedList(own.billboards),
-    lightScopes = new ConcatenatedList(own.lightScopes);
+    effectScopes = new ConcatenatedList(own.effectScopes);
   for (const { summary } of children) {
     if (summary === emptySummary) continue;
     if (summary.box && own.box === undefined) union = union?.union(summary.box) ?? summary.box.clone();
@@ -47,7 +47,7 @@ export function mergeSummaries(
     boundedGroups.add(summary.boundedGroups);
     anchors.add(summary.anchors);
     billboards.add(summary.billboards);
-    lightScopes.add(summary.lightScopes);
+    effectScopes.add(summary.effectScopes);
   }
   return {
     box: own.box ?? union,
@@ -61,7 +61,7 @@ export function mergeSummaries(
     boundedGroups: boundedGroups.all,
     anchors: anchors.all,
     billboards: billboards.all,
-    lightScopes: lightScopes.all,
+    effectScopes: effectScopes.all,
   };
 }
 

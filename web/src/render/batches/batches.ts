@@ -84,7 +84,7 @@ export class Batches {
     if (this.#members.size === 0) this.#disposeBatches(); // a restored context starts without objects of the lost one
   }
 
-  /** Call when the group has moved, has become visible or invisible, or has another light scope. */
+  /** Call when the group has moved, has become visible or invisible, or has another effect scope. */
   updateRecord(member: Member): void {
     this.#updateRecordIn(this.#rootFromScene, member);
   }
@@ -99,7 +99,7 @@ export class Batches {
     this.updateAllRecords();
   }
 
-  /** Call when all groups have moved or light scopes have new numbers. */
+  /** Call when all groups have moved or effect scopes have new numbers. */
   updateAllRecords(): void {
     const rootFromScene = this.#rootFromScene;
     for (const member of this.#members) this.#updateRecordIn(rootFromScene, member);
@@ -155,7 +155,7 @@ export class Batches {
     this.#join(member);
   }
 
-  /** Writes the matrix, lattice step, visibility and light scope into the record. Returns whether they have changed. */
+  /** Writes the matrix, lattice step, visibility and effect scope into the record. Returns whether they have changed. */
   #write(member: Member, rootFromScene: Matrix4): boolean {
     const {
       draw: { shapeFromStored, bounds, step },
@@ -185,7 +185,7 @@ export class Batches {
       zz,
       oz,
       ...step,
-      member.isVisible ? 1 + (group.lightScope?.value ?? 0) : 0,
+      member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0,
     ]);
   }
 

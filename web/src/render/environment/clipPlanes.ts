@@ -3,7 +3,7 @@
 import type { Camera, Matrix4, WebGLProgramParametersWithUniforms, Vector2 } from "three";
 import { Vector4 } from "three";
 import type { ClipPlaneInstance } from "../../scene/instances.ts";
-import type { LightScope } from "../../scene/lightScope.ts";
+import type { EffectScope } from "../../scene/effectScope.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { scopeRangeOf } from "../shaders/drawScope.ts";
 
@@ -49,7 +49,7 @@ export function planeIn(plane: Vector4, sceneFromOther: Matrix4): Vector4 {
 }
 
 /** The planes that clip the draws of a scope, in scene coordinates. */
-export function clipPlanesOf(scope: LightScope, instances: readonly ClipPlaneInstance[]): readonly Vector4[] {
+export function clipPlanesOf(scope: EffectScope, instances: readonly ClipPlaneInstance[]): readonly Vector4[] {
   return instances.slice(0, maxClipPlanes).flatMap((each) => (each.scope.contains(scope) ? [each.plane] : []));
 }
 

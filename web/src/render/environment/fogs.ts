@@ -3,7 +3,7 @@
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { Vector2, Vector3 } from "three";
 import type { FogDescription } from "../../document/description.ts";
-import type { LightScope } from "../../scene/lightScope.ts";
+import type { EffectScope } from "../../scene/effectScope.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { scopeRangeOf } from "../shaders/drawScope.ts";
 
@@ -12,7 +12,7 @@ export interface ScopedFog {
   readonly fog: FogDescription;
   /** Its lengths, in units of the scene. */
   readonly scale: number;
-  readonly scope: LightScope;
+  readonly scope: EffectScope;
 }
 
 /** Further fogs are not drawn. */

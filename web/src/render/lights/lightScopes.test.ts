@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { ShaderLib } from "three";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
-import { numberLightScopes } from "../../scene/lightScope.ts";
+import { numberEffectScopes } from "../../scene/effectScope.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
 import { hasLightScopes, addLightScopes } from "./lightScopes.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
@@ -11,11 +11,11 @@ import { makeLights } from "./sceneLights.ts";
 
 function uniformsOf(markup: string): SceneLightUniforms {
   const { summary } = new InstanceTree().update(readScene(elementsOf(`<X3D>${markup}</X3D>`)).root).root;
-  numberLightScopes(summary.lightScopes);
+  numberEffectScopes(summary.effectScopes);
   return makeLights(summary.lights).uniforms;
 }
 
-test("programs of scenes with only global lights contain no light scopes", () => {
+test("programs of scenes with only global lights contain no effect scopes", () => {
   assert.ok(
     !hasLightScopes(
       uniformsOf(

@@ -1,17 +1,17 @@
-// Light scopes (scene/lightScope.ts) in three.js, which applies every light of a scene to every
+// Effect scopes (scene/effectScope.ts) in three.js, which applies every light of a scene to every
 // object. Shader programs test the scope in scenes that have scopes, and contain no such code in
 // other scenes.
 
 import type { Group, WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
-import type { LightScope } from "../../scene/lightScope.ts";
+import type { EffectScope } from "../../scene/effectScope.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 /** A group that holds one instance of a shape. */
 export interface ShapeGroup extends Group {
-  /** The innermost light scope around the instance; undefined: the global lights only. */
-  lightScope?: LightScope;
+  /** The innermost effect scope around the instance; undefined: the global lights only. */
+  effectScope?: EffectScope;
 }
 
 export function hasLightScopes({ lightScopeRanges }: SceneLightUniforms): boolean {

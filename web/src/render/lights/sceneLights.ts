@@ -6,7 +6,7 @@ import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Ve
 import type { LightDescription } from "../../document/description.ts";
 import { coneOf, scaledFalloff } from "../../lighting/falloff.ts";
 import { lengthScaleOf } from "../../scene/transforms.ts";
-import { sceneScope } from "../../scene/lightScope.ts";
+import { sceneScope } from "../../scene/effectScope.ts";
 import type { LightInstance } from "../../scene/instances.ts";
 import { scopeRangeOf } from "../shaders/drawScope.ts";
 import { setColor } from "./linearColor.ts";

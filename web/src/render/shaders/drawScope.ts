@@ -1,8 +1,8 @@
-// The scope of a draw (scene/lightScope.ts) in fragment shaders: a uniform, or of the instance's record.
+// The scope of a draw (scene/effectScope.ts) in fragment shaders: a uniform, or of the instance's record.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { Vector2 } from "three";
-import type { LightScope } from "../../scene/lightScope.ts";
+import type { EffectScope } from "../../scene/effectScope.ts";
 import { instancesDefine, scopesDefine } from "./instanceRecord.ts";
 
 const fragmentChunk = /* glsl */ `
@@ -11,8 +11,8 @@ const fragmentChunk = /* glsl */ `
   flat varying float instanceScope;
   #define drawScope instanceScope
 #else
-  uniform float lightScope;
-  #define drawScope lightScope
+  uniform float effectScope;
+  #define drawScope effectScope
 #endif
 
 // 1 if the draw is in one of the scopes from range.x to range.y, otherwise 0.
@@ -33,6 +33,6 @@ export function addDrawScope(
 const maxScopeNumber = 2 ** 24;
 
 /** The first and the last number of a scope and the scopes inside it. */
-export function scopeRangeOf({ value, last }: LightScope): Vector2 {
+export function scopeRangeOf({ value, last }: EffectScope): Vector2 {
   return new Vector2(value, Math.min(last, maxScopeNumber));
 }

@@ -18,7 +18,7 @@ export const instanceFields = {
   matrix: 0,
   /** The lattice step. */
   step: 12,
-  /** 1 + the light scope's number; 0 if the instance is invisible. */
+  /** 1 + the effect scope's number; 0 if the instance is invisible. */
   visibleInScope: 15,
   /** Origin and extent of each set of texture coordinates. */
   texCoordFrames: 16,

@@ -45,7 +45,7 @@ class Watched {
         .sort()
         .join();
     const shapes = Array.from(this.shapes.values(), ({ shape, group }) =>
-      [shape.priority, group.visible, group.lightScope?.value, group.matrixWorld.elements].join(" "),
+      [shape.priority, group.visible, group.effectScope?.value, group.matrixWorld.elements].join(" "),
     );
     return {
       box,

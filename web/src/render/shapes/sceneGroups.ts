@@ -21,7 +21,7 @@ import type {
 } from "../../scene/instances.ts";
 import { bindableOf } from "../../scene/bindable.ts";
 import { billboardRotation } from "../../scene/billboard.ts";
-import { numberLightScopes } from "../../scene/lightScope.ts";
+import { numberEffectScopes } from "../../scene/effectScope.ts";
 import { matrixOf } from "../../scene/transforms.ts";
 import type { InstanceTreeListener } from "../../scene/instanceTree.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
@@ -34,7 +34,7 @@ import { makeLights } from "../lights/sceneLights.ts";
 export interface ShapeInstanceListener {
   /** Called for a new instance of a shape. */
   onEnter(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
-  /** Called when the description, the transform or the light scope of an instance has changed. */
+  /** Called when the description, the transform or the effect scope of an instance has changed. */
   onChange(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
   /** Called when an instance has been removed. */
   onLeave(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
@@ -124,7 +124,7 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   /**
-   * Follows a new description of the scene. Returns whether light scopes have been renumbered. The listener is not
+   * Follows a new description of the scene. Returns whether effect scopes have been renumbered. The listener is not
    * called for an instance whose scope just has another number.
    */
   follow(root: GroupDescription): boolean {
@@ -133,13 +133,13 @@ export class SceneGroups implements InstanceTreeListener {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
     });
-    const areLightScopesRenumbered = numberLightScopes(summary.lightScopes);
-    if (!areLightScopesRenumbered && deepEqual(summary.lights, this.#lightInstances)) return false;
+    const areEffectScopesRenumbered = numberEffectScopes(summary.effectScopes);
+    if (!areEffectScopesRenumbered && deepEqual(summary.lights, this.#lightInstances)) return false;
     this.#lightInstances = summary.lights;
     this.#lights.root.removeFromParent();
     this.#lights = makeLights(summary.lights);
     this.root.add(this.#lights.root);
-    return areLightScopesRenumbered;
+    return areEffectScopesRenumbered;
   }
 
   /** Whether the scene has billboards. */
@@ -181,7 +181,7 @@ export class SceneGroups implements InstanceTreeListener {
       this.#addGroup(node, description, this.#listener.makeGroup?.(description) ?? new Group());
     if (description.kind !== "shape") return;
     const group: ShapeGroup = new Group();
-    group.lightScope = node.lightScope;
+    group.effectScope = node.effectScope;
     this.#shapeGroups.set(node, group);
     this.#addGroup(node, description, group);
     this.#listener.onEnter(description, node, group);
@@ -193,7 +193,7 @@ export class SceneGroups implements InstanceTreeListener {
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
     this.#applyDescription(description, group, hasMoved);
     const shapeGroup = this.#shapeGroups.get(node);
-    if (shapeGroup) shapeGroup.lightScope = node.lightScope;
+    if (shapeGroup) shapeGroup.effectScope = node.effectScope;
     if (shapeGroup && description.kind === "shape" && before.kind === "shape")
       this.#listener.onChange(description, node, shapeGroup, before);
   }

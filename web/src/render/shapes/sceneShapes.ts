@@ -23,7 +23,7 @@ import { setFogs } from "../environment/fogs.ts";
 import { sceneEffectsKey } from "../environment/sceneEffects.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import { BindingStack } from "../../navigation/bindingStack.ts";
-import { sceneScope } from "../../scene/lightScope.ts";
+import { sceneScope } from "../../scene/effectScope.ts";
 import type { BoundedGroup } from "./sceneGroups.ts";
 import { SceneGroups } from "./sceneGroups.ts";
 import type { SceneChanges } from "./shapeChanges.ts";
@@ -120,11 +120,11 @@ export class SceneShapes {
    * Replaces the scene. GPU resources of shapes that it no longer has, or that have another geometry, are freed.
    */
   setScene(description: SceneDescription): BuiltScene {
-    const areLightScopesRenumbered = this.#graph.follow(description.root);
+    const areEffectScopesRenumbered = this.#graph.follow(description.root);
     this.#boundFogs.follow(this.#graph.fogs);
     this.#setEffects();
     const changes = this.#applyChanges();
-    if (areLightScopesRenumbered) this.#batches.updateAllRecords();
+    if (areEffectScopesRenumbered) this.#batches.updateAllRecords();
     const { box, boundedGroups, viewpoints, backgrounds, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
@@ -264,8 +264,8 @@ export class SceneShapes {
     const { clipPlanes } = this.#graph;
     for (const drawn of object.pickCandidates()) {
       if (!isVisibleInScene(drawn.group)) continue;
-      const { lightScope = sceneScope } = drawn.group as ShapeGroup;
-      yield clipPlanes.length > 0 ? { ...drawn, clipPlanes: clipPlanesOf(lightScope, clipPlanes) } : drawn;
+      const { effectScope = sceneScope } = drawn.group as ShapeGroup;
+      yield clipPlanes.length > 0 ? { ...drawn, clipPlanes: clipPlanesOf(effectScope, clipPlanes) } : drawn;
     }
   }
 

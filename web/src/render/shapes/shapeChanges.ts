@@ -22,7 +22,7 @@ export class ShapeChangeRecorder {
 
   recordPresent(shape: ShapeDescription, instance: NodeInstance): void {
     this.shapes.set(shape.element, shape);
-    this.instances.set(instance, { shape, sceneFromShape: instance.sceneFromNode, lightScope: instance.lightScope });
+    this.instances.set(instance, { shape, sceneFromShape: instance.sceneFromNode, effectScope: instance.effectScope });
   }
 
   /** Records that one instance of a shape has been removed; others may remain. */

@@ -71,7 +71,7 @@ export class ShapeObject {
     for (const { draws } of this.#patches.values()) draws.addInstance(group);
   }
 
-  /** Call when the group has moved, has become visible or invisible, or has another light scope. */
+  /** Call when the group has moved, has become visible or invisible, or has another effect scope. */
   updateInstance(group: ShapeGroup): void {
     for (const { draws } of this.#patches.values()) draws.updateInstance(group);
   }

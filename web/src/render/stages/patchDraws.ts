@@ -4,8 +4,8 @@ import type { BufferGeometry, Material, Matrix4 } from "three";
 import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import type { LightScope } from "../../scene/lightScope.ts";
-import { sceneScope } from "../../scene/lightScope.ts";
+import type { EffectScope } from "../../scene/effectScope.ts";
+import { sceneScope } from "../../scene/effectScope.ts";
 import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
@@ -27,7 +27,7 @@ export interface PatchDraws {
   readonly picks: readonly PickDraw[];
   /** Adds an instance of the shape, which `group` holds. */
   addInstance(group: ShapeGroup): void;
-  /** Call when the group has moved, has become visible or invisible, or has another light scope. */
+  /** Call when the group has moved, has become visible or invisible, or has another effect scope. */
   updateInstance(group: ShapeGroup): void;
   /** Removes an instance. */
   removeInstance(group: ShapeGroup): void;
@@ -50,9 +50,9 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     bufferGeometry.boundingSphere = sphere;
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared);
     const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
-    const materials = new MaterialPerLightScope((lightScope) =>
+    const materials = new MaterialPerEffectScope((effectScope) =>
       materialFactory.makeMaterial(
-        { ...request, uniforms: { ...request.uniforms, lightScope } },
+        { ...request, uniforms: { ...request.uniforms, effectScope } },
         displayed.appearance,
         applicableTextures(stage, displayed.appearance, displayed.surfaceTextures),
       ),
@@ -122,12 +122,12 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   };
 }
 
-/** The materials of a draw, one per light scope of its instances. */
-class MaterialPerLightScope {
-  readonly #make: (lightScope: LightScope) => Material;
-  readonly #materials = new Map<LightScope, Material>();
+/** The materials of a draw, one per effect scope of its instances. */
+class MaterialPerEffectScope {
+  readonly #make: (effectScope: EffectScope) => Material;
+  readonly #materials = new Map<EffectScope, Material>();
 
-  constructor(make: (lightScope: LightScope) => Material) {
+  constructor(make: (effectScope: EffectScope) => Material) {
     this.#make = make;
   }
 
@@ -135,9 +135,9 @@ class MaterialPerLightScope {
     return this.#materials.values();
   }
 
-  of({ lightScope = sceneScope }: ShapeGroup): Material {
-    const material = this.#materials.get(lightScope) ?? this.#make(lightScope);
-    this.#materials.set(lightScope, material);
+  of({ effectScope = sceneScope }: ShapeGroup): Material {
+    const material = this.#materials.get(effectScope) ?? this.#make(effectScope);
+    this.#materials.set(effectScope, material);
     return material;
   }
 }

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { RandomNumbers, EditedDocument } from "../document/edits.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
-import { sceneScope, numberLightScopes } from "./lightScope.ts";
+import { sceneScope, numberEffectScopes } from "./effectScope.ts";
 import type { SceneInstances } from "./sceneInstances.ts";
 import { instancesOf } from "./sceneInstances.ts";
 import { InstanceTree } from "./instanceTree.ts";
@@ -16,7 +16,7 @@ function instancesIn(markup: string): SceneInstances {
 function litShapes({ lights, shapes }: SceneInstances): string[] {
   return lights.map(({ scope }) =>
     shapes
-      .filter(({ lightScope }) => scope.contains(lightScope))
+      .filter(({ effectScope }) => scope.contains(effectScope))
       .map(({ shape }) => shape.element.getAttribute("id"))
       .join(""),
   );
@@ -44,7 +44,7 @@ test("a USEd light lights each of its groups, and a USEd group is lit by each in
   const lit = instancesIn('<Group DEF="G"><Shape id="a"/></Group><Group><DirectionalLight/><Group USE="G"/></Group>');
   assert.deepEqual(litShapes(lit), ["a"]);
   assert.deepEqual(
-    lit.shapes.map(({ lightScope }) => lightScope === sceneScope),
+    lit.shapes.map(({ effectScope }) => effectScope === sceneScope),
     [true, false],
   );
 });
@@ -81,9 +81,9 @@ test("scope numbers tell which scope contains which, in random documents", () =>
     const tree = new InstanceTree();
     for (let round = 0; round < 10; ++round) {
       edited.edit();
-      const { lightScopes: scopes } = tree.update(edited.reader.read().root).root.summary;
-      numberLightScopes(scopes);
-      assert.ok(!numberLightScopes(scopes), "the numbers change only once");
+      const { effectScopes: scopes } = tree.update(edited.reader.read().root).root.summary;
+      numberEffectScopes(scopes);
+      assert.ok(!numberEffectScopes(scopes), "the numbers change only once");
       const all = [sceneScope, ...scopes];
       for (const outer of all) {
         for (const inner of all) {
