@@ -4,27 +4,22 @@
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import { progressOf } from "../delivery/progress.ts";
-import { ResourcePool } from "../delivery/resourcePool.ts";
-import type { AnchorDescription, NodeDescription, SceneDescription } from "../document/description.ts";
-import { attributeOf } from "../document/element.ts";
+import type { AnchorDescription, SceneDescription } from "../document/description.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import type { NavigatedScene } from "../navigation/cameraController.ts";
 import { CameraController } from "../navigation/cameraController.ts";
 import type { PreviewedShape } from "../preview/preview.ts";
-import { takePrefetchedBases } from "../preview/previewRegistry.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { LodInstance } from "../scene/instances.ts";
 import { LodSelection } from "../scene/lodSelection.ts";
-import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
 import { FontLoading } from "../text/fontLoading.ts";
 import { Throttle } from "../viewer/throttle.ts";
-import { UploadPipeline } from "../viewer/uploadPipeline.ts";
 import type { ViewerHost } from "../viewer/viewerCore.ts";
 import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
@@ -32,8 +27,10 @@ import { LoadingEvents } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
 import { PageBackground } from "./pageBackground.ts";
 import { PageInlines } from "./pageInlines.ts";
+import { absoluteUrlOf, makePagePool } from "./pagePool.ts";
 import type { PageShape } from "./pageShapes.ts";
 import { displayedStageOf, PageShapes } from "./pageShapes.ts";
+import { ShapeVisibility } from "./shapeVisibility.ts";
 
 /** Nested LODs whose levels are chosen at once; deeper ones are chosen after the next frame. */
 const maxNestedLods = 8;
@@ -86,8 +83,7 @@ export class PageViewer {
   #isLoading = false;
   #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
   #hasAnchors = false;
-  /** The shapes of `scene`; listed when a hotspot asks for one. */
-  #shapeVisibility: { readonly scene: SceneDescription; readonly byName: ReadonlyMap<string, boolean> } | undefined;
+  readonly #shapeVisibility = new ShapeVisibility();
   /** Nesting depth of calls of `core.read`: LODs of the scene that one call has read cause the next. */
   #nestedReads = 0;
   readonly #progress = new Throttle(progressIntervalMs, () => {
@@ -121,7 +117,12 @@ export class PageViewer {
       this.#onFrame();
     });
     this.#readsTextures = this.renderer.hasVertexTextureUnits;
-    const pool = this.#makePool();
+    const pool = makePagePool(this.renderer, this.#scheduler, this.#workers, {
+      readsTextures: () => this.#readsTextures,
+      onTransfer: () => {
+        this.#progress.request();
+      },
+    });
     const deliveries = sceneDeliveriesOf(pool);
     this.#shapes = new PageShapes(
       this.renderer,
@@ -235,10 +236,7 @@ export class PageViewer {
    * several instances one is enough.
    */
   isShapeVisible(name: string): boolean | undefined {
-    const scene = this.#core.scene;
-    if (scene === undefined) return undefined;
-    if (this.#shapeVisibility?.scene !== scene) this.#shapeVisibility = { scene, byName: visibilityByName(scene.root) };
-    return this.#shapeVisibility.byName.get(name);
+    return this.#core.scene && this.#shapeVisibility.isVisible(this.#core.scene, name);
   }
 
   /** Sets the GPU memory, in bytes, that vertex data and textures may take. */
@@ -269,26 +267,6 @@ export class PageViewer {
     this.#loading.abandon();
     this.#workers.dispose();
     this.renderer.dispose();
-  }
-
-  #makePool(): ResourcePool {
-    const uploads = new UploadPipeline(this.renderer);
-    return new ResourcePool({
-      scheduler: this.#scheduler,
-      makeImage: (png, signal) => uploads.makeImage(png, signal),
-      readsTextures: () => Promise.resolve(this.#readsTextures),
-      maxTextureSize: this.renderer.maxTextureSize,
-      runJob: (name, input, signal) => this.#workers.run(name, input, signal),
-      runOnMainThread: (name, input, signal) => this.#workers.runOnMainThread(name, input, signal),
-      makeTextureImage: (bytes, sampling, signal) => uploads.makeTextureImage(bytes, sampling, signal),
-      storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
-      download: defaultDownloadOptions,
-      prefetchedBases: takePrefetchedBases,
-      resolve: absoluteUrlOf,
-      onTransfer: () => {
-        this.#progress.request();
-      },
-    });
   }
 
   #makeHost(): ViewerHost {
@@ -462,26 +440,6 @@ export class PageViewer {
   #warn(message: string): void {
     this.#core.log.warn(`<${this.#x3d.localName}> ${message}`);
   }
-}
-
-/** Whether the shapes with a DEF or an id are visible. */
-function visibilityByName(root: NodeDescription): Map<string, boolean> {
-  const byName = new Map<string, boolean>();
-  const add = (node: NodeDescription): void => {
-    if (node.kind === "group") node.children.forEach(add);
-    if (node.kind !== "shape") return;
-    for (const attribute of ["DEF", "id"]) {
-      const name = attributeOf(node.element, attribute);
-      if (name !== undefined) byName.set(name, node.visible || byName.get(name) === true);
-    }
-  };
-  add(root);
-  return byName;
-}
-
-/** Returns an invalid URL unchanged: its request fails with a message. */
-function absoluteUrlOf(url: string): string {
-  return URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url;
 }
 
 function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {

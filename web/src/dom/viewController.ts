@@ -4,7 +4,7 @@
 import type { StageName } from "../stage/stage.ts";
 import { orbitOf } from "../navigation/orbit.ts";
 import type { ViewSettings } from "../element/attributes.ts";
-import { cameraSettingOf, readSettings, viewAttributes } from "../element/attributes.ts";
+import { cameraSettingOf, readSettings } from "../element/attributes.ts";
 import { listenForCameraInput } from "./pointerInput.ts";
 import type { UserInterface } from "./userInterface.ts";
 import type { Preview } from "../preview/preview.ts";
@@ -21,11 +21,12 @@ import { keepTouchAction } from "./touchAction.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import { deviceSizeOf, observeDeviceSize, whenNearViewport } from "../element/visibility.ts";
 import { ResetButtons } from "./resetButtons.ts";
-import { Toolbar } from "./toolbar.ts";
+import type { Toolbar } from "./toolbar.ts";
 import { savePicture } from "./savePicture.ts";
+import { adoptSlotted, observeView } from "./viewObservers.ts";
+import { makeViewToolbar } from "./viewToolbar.ts";
 import {
   drawingLabels,
-  fullScreenRefusedLabel,
   keyLabels,
   navigationTypeLabels,
   pictureSavedLabel,
@@ -51,7 +52,6 @@ export class ViewController {
   readonly #hotspots: Hotspots;
   readonly #toolbar: Toolbar;
   readonly #help: HelpDialog;
-  readonly #host: HTMLElement;
   readonly #onLabel: (label: string) => void;
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
@@ -77,7 +77,6 @@ export class ViewController {
   ) {
     this.#onLabel = onLabel;
     this.#x3d = x3d;
-    this.#host = host;
     this.#ui = ui;
     this.#help = new HelpDialog(ui.help);
     this.#hotspots = new Hotspots(host, ui.hotspots, {
@@ -124,7 +123,29 @@ export class ViewController {
       this.#warnOnce(sentence);
     });
     this.#resetButtons = new ResetButtons(ui.controls, cameraController, signal);
-    this.#toolbar = this.#makeToolbar();
+    this.#toolbar = makeViewToolbar(
+      host,
+      ui,
+      {
+        togglePoints: () => {
+          this.#toggleDrawing();
+        },
+        isDrawnAsPoints: () => x3d.getAttribute("draw-as") === "points",
+        onFullScreen: () => {
+          this.#updateDescription();
+        },
+        savePicture: () => {
+          this.viewer.renderer.draw(); // what the canvas holds now can be read in this turn of the event loop only
+          savePicture(ui.canvas, this.#label, () => {
+            ui.announce(pictureSavedLabel);
+          });
+        },
+        openHelp: () => {
+          this.#help.open(this.#cameraInput.type);
+        },
+      },
+      signal,
+    );
     this.#settings = this.#readSettings();
     cameraController.isInstant = this.#reducedMotion.matches;
     this.#reducedMotion.addEventListener(
@@ -141,7 +162,22 @@ export class ViewController {
       signal,
     );
     adoptSlotted(x3d, host);
-    this.#followChanges(host);
+    observeView(
+      x3d,
+      host,
+      {
+        onAttributes: () => {
+          this.#settings = this.#readSettings();
+          this.#applySettings();
+        },
+        onHotspots: () => {
+          this.#hotspots.read();
+          this.viewer.renderer.requestFrame();
+        },
+      },
+      signal,
+    );
+    this.#hotspots.read();
     this.#applySettings();
     if (preview !== undefined) this.#coverWith(preview);
     this.poster.show(this.#settings.poster, this.#label);
@@ -254,32 +290,6 @@ export class ViewController {
     canPan: !this.#settings["disable-pan"],
   });
 
-  /** Follows later changes of attributes and of slotted elements. */
-  #followChanges(host: Element): void {
-    const childObserver = new MutationObserver(() => {
-      adoptSlotted(this.#x3d, host);
-    });
-    childObserver.observe(this.#x3d, { childList: true });
-    const attributeObserver = new MutationObserver(() => {
-      this.#settings = this.#readSettings();
-      this.#applySettings();
-    });
-    attributeObserver.observe(this.#x3d, { attributeFilter: [...Object.keys(viewAttributes), "aria-label", "title"] });
-    const hotspotObserver = new MutationObserver(() => {
-      this.#hotspots.read();
-      this.viewer.renderer.requestFrame();
-    });
-    hotspotObserver.observe(host, {
-      childList: true,
-      subtree: true,
-      attributeFilter: ["slot", "data-position", "data-normal", "data-shape", "data-priority"],
-    });
-    this.#hotspots.read();
-    this.#listeners.signal.addEventListener("abort", () => {
-      for (const observer of [childObserver, attributeObserver, hotspotObserver]) observer.disconnect();
-    });
-  }
-
   #readSettings(): ViewSettings {
     return readSettings(this.#x3d, (sentence) => {
       this.#warnOnce(`<${this.#x3d.localName}> ${sentence}`);
@@ -361,54 +371,6 @@ export class ViewController {
     else if (key === "?") this.#help.open(this.#cameraInput.type);
   }
 
-  #makeToolbar(): Toolbar {
-    const { signal } = this.#listeners;
-    const isFullScreen = () => document.fullscreenElement === this.#host;
-    const toolbar = new Toolbar(
-      this.#ui.controls,
-      {
-        points: {
-          onClick: () => {
-            this.#toggleDrawing();
-          },
-          isPressed: () => this.#x3d.getAttribute("draw-as") === "points",
-        },
-        fullScreen: {
-          onClick: () => {
-            void (isFullScreen() ? document.exitFullscreen() : this.#host.requestFullscreen()).catch(() => {
-              this.#ui.announce(fullScreenRefusedLabel);
-            });
-          },
-          isPressed: isFullScreen,
-        },
-        picture: {
-          onClick: () => {
-            this.viewer.renderer.draw(); // what the canvas holds now can be read in this turn of the event loop only
-            savePicture(this.#ui.canvas, this.#label, () => {
-              this.#ui.announce(pictureSavedLabel);
-            });
-          },
-        },
-        help: {
-          onClick: () => {
-            this.#help.open(this.#cameraInput.type);
-          },
-          opensDialog: true,
-        },
-      },
-      signal,
-    );
-    if (!document.fullscreenEnabled) toolbar.hide("fullScreen"); // on iPhones, and in frames without permission
-    document.addEventListener(
-      "fullscreenchange",
-      () => {
-        this.#updateDescription();
-      },
-      { signal },
-    );
-    return toolbar;
-  }
-
   /** Changes the attribute `draw-as`, so that pages can observe it. */
   #toggleDrawing(): void {
     const drawing = this.#settings["draw-as"] === "points" ? "surface" : "points";
@@ -444,9 +406,4 @@ export class ViewController {
   #send(name: string, detail: object): void {
     this.#x3d.dispatchEvent(new CustomEvent(name, { detail, bubbles: false }));
   }
-}
-
-/** Moves the page's slotted elements from <x3d> into the view, whose shadow root has the slots. */
-function adoptSlotted(x3d: Element, host: Element): void {
-  host.append(...Array.from(x3d.children).filter((child) => child !== host && child.hasAttribute("slot")));
 }

@@ -1,0 +1,147 @@
+// The geometry of a shape as plain data: its encoding, its patches, and where their data lies in files.
+
+import type { ElementType } from "../stage/elementType.ts";
+import type { VertexRole } from "../stage/attributeRows.ts";
+import type { Vec2, Vec3 } from "./fieldTypes.ts";
+
+export interface Box3 {
+  readonly min: Vec3;
+  readonly max: Vec3;
+}
+
+export type Primitive = "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
+
+/**
+ * `count` indices (vertices, where there is no index) drawn as one kind of primitive, following the previous draw's.
+ */
+export interface Draw {
+  readonly primitive: Primitive;
+  readonly count: number;
+}
+
+/** Texels of an image, from `firstTexel` on, row by row (classic). */
+export interface TexelReference {
+  readonly url: string;
+  readonly firstTexel: number;
+}
+
+/** Elements of typed arrays (BG). */
+export interface ByteReference {
+  readonly url: string;
+  readonly byteOffset: number;
+  /** Bytes from one element to the next; 0: tightly packed. */
+  readonly byteStride: number;
+}
+
+/** A patch or a base mesh in a file that may hold several (compact). */
+export interface PatchReference {
+  readonly url: string;
+  /** Index of the patch, or of the base mesh, in the file. */
+  readonly patchIndex: number;
+}
+
+/** Where data lies in a file. All references of a geometry are of the kind that its encoding has. */
+export type Reference = TexelReference | ByteReference | PatchReference;
+
+/** A surface over a grid of texels. */
+export interface GridDescription {
+  readonly kind: Exclude<MeshMode, "sig">;
+  readonly columns: number;
+  readonly rows: number;
+}
+
+export interface PatchDescription extends Readonly<Record<VertexRole, Reference | undefined>> {
+  /** The tight bounding box; undefined where the document has none. */
+  readonly box: Box3 | undefined;
+  /** Vertices in coord, normal, …; 0: as many as the data has. */
+  readonly vertexCount: number;
+  readonly draws: readonly Draw[];
+  /** Vertex n is texel (n mod implicitWidth, n div implicitWidth). Images only. */
+  readonly implicitWidth: number;
+  readonly implicitHeight: number;
+  /** A surface over the texels, which replaces the document's draws. Images only. */
+  readonly grid: GridDescription | undefined;
+  /** Undefined: vertices are drawn in order. */
+  readonly index: Reference | undefined;
+  /** Images: byte planes, most significant first. Typed arrays: one. */
+  readonly coord: readonly Reference[];
+  /** Compact only: all of the patch. */
+  readonly data: Reference | undefined;
+  /** The files of all further attributes, one after the other, `fileCount` each. */
+  readonly attributes: readonly Reference[];
+  /** The files of the attribute that colors the geometry. */
+  readonly value: readonly Reference[];
+}
+
+/** A custom vertex attribute (FloatVertexAttribute). */
+export interface AttributeDescription {
+  readonly name: string;
+  readonly components: 1 | 2 | 3 | 4;
+  /**
+   * Its files in each patch: byte planes, most significant first, or one array; 0 for compact, whose patches hold it.
+   */
+  readonly fileCount: number;
+  /** Bits of a stored integer; undefined: floats are stored as they are. */
+  readonly bits: number | undefined;
+  /** By component: the range that stored integers are quantized over, or that floats lie in. */
+  readonly min: readonly number[];
+  readonly size: readonly number[];
+}
+
+/** The meaning of an image geometry's texels: vertices and indices, or a surface over their grid. */
+export const meshModes = ["sig", "heightMap", "geometryImage", "sculpt"] as const;
+export type MeshMode = (typeof meshModes)[number];
+
+/** The encoding of unit normals: three components, two numbers, or RGB from a palette. */
+export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
+export type NormalEncoding = (typeof normalEncodings)[number];
+
+/**
+ * How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), or as
+ * typed arrays (BG).
+ */
+export type Encoding = "compact" | "classic" | "bg";
+
+/** The encodings of an ImageGeometry, by the values of its `profile` field. */
+export const imageProfiles = ["classic", "compact"] as const;
+export type ImageProfile = (typeof imageProfiles)[number];
+
+export const decodeModes = ["auto", "gpu", "cpu"] as const;
+export type DecodeMode = (typeof decodeModes)[number];
+
+/** The range of a set of texture coordinates: those of a stored 0, and the extent up to a stored 1. */
+export interface TexCoordBox {
+  readonly min: Vec2;
+  readonly size: Vec2;
+}
+
+export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`, ElementType>> {
+  readonly encoding: Encoding;
+  /** Center and size of the box that stored integers are quantized over. */
+  readonly position: Vec3;
+  readonly size: Vec3;
+  /** Quantization bits, left-justified in the stored bytes; 0: all bits. */
+  readonly positionBits: number;
+  /** False: both sides are drawn. */
+  readonly solid: boolean;
+  /** By set of texture coordinates. */
+  readonly texCoordBoxes: readonly TexCoordBox[];
+  /** The names of the sets, which textures state as their mapping. */
+  readonly texCoordMappings: readonly string[];
+  readonly colorComponents: 3 | 4;
+  readonly normalEncoding: NormalEncoding;
+  /** Where images are decoded: by the shader, in workers, or wherever is better. */
+  readonly decode: DecodeMode;
+  /** In images, Uint16 stands for the vertex's column and row, Uint32 for its index. */
+  readonly indexType: ElementType;
+  /** Typed arrays only, as are `normalType` and the types of the other attributes. */
+  readonly coordType: ElementType;
+  readonly attributes: readonly AttributeDescription[];
+  /** The attribute whose values color the vertices. */
+  readonly value: AttributeDescription | undefined;
+  readonly patches: readonly PatchDescription[];
+  /** The base mesh that stands in for the patches until they are loaded. */
+  readonly base: Reference | undefined;
+  /** Text only: the URL of the glyph atlas. */
+  readonly glyphAtlas?: string;
+}

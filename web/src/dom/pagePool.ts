@@ -1,0 +1,45 @@
+// The resource pool of a page's view: files from the network, images and arrays in the view's WebGL context, decoding in
+// the page's workers.
+
+import { ResourcePool } from "../delivery/resourcePool.ts";
+import { takePrefetchedBases } from "../preview/previewRegistry.ts";
+import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import { defaultDownloadOptions } from "../scheduler/download.ts";
+import type { Scheduler } from "../scheduler/scheduler.ts";
+import { UploadPipeline } from "../viewer/uploadPipeline.ts";
+import type { WorkerPool } from "../workers/workerPool.ts";
+
+export interface PagePoolOptions {
+  /** Whether shaders read vertices from images. */
+  readonly readsTextures: () => boolean;
+  /** Called whenever a transfer has changed. */
+  readonly onTransfer: () => void;
+}
+
+export function makePagePool(
+  renderer: SceneRenderer,
+  scheduler: Scheduler,
+  workers: WorkerPool,
+  { readsTextures, onTransfer }: PagePoolOptions,
+): ResourcePool {
+  const uploads = new UploadPipeline(renderer);
+  return new ResourcePool({
+    scheduler,
+    makeImage: (png, signal) => uploads.makeImage(png, signal),
+    readsTextures: () => Promise.resolve(readsTextures()),
+    maxTextureSize: renderer.maxTextureSize,
+    runJob: (name, input, signal) => workers.run(name, input, signal),
+    runOnMainThread: (name, input, signal) => workers.runOnMainThread(name, input, signal),
+    makeTextureImage: (bytes, sampling, signal) => uploads.makeTextureImage(bytes, sampling, signal),
+    storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
+    download: defaultDownloadOptions,
+    prefetchedBases: takePrefetchedBases,
+    resolve: absoluteUrlOf,
+    onTransfer,
+  });
+}
+
+/** Returns an invalid URL unchanged: its request fails with a message. */
+export function absoluteUrlOf(url: string): string {
+  return URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url;
+}
