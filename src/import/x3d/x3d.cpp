@@ -264,8 +264,8 @@ private:
     return {};
   }
 
-  /// Keeps, of fields for images without an image, only the URLs of other hosts: pages request the first URL, and the
-  /// local ones name no readable file.
+  /// Keeps, of fields for images without an image, only the URLs of other hosts: the local ones name no readable
+  /// file.
   void keepRemoteUrls(const GenericNode& node, std::vector<FieldText>& fields) {
     for (const std::string_view name : imageFieldsOf(node.element)) {
       const auto field = std::ranges::find(fields, name, &FieldText::name);

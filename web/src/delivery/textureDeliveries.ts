@@ -38,7 +38,9 @@ export type TexturePriority = (key: string, chunk: TextureChunk) => number | und
 /** A file of a texture, and its state. */
 interface TextureFile {
   readonly chunk: TextureChunk;
-  readonly url: string;
+  /** The one to be requested, of the file's URLs; the ones before it have failed. */
+  url: string;
+  readonly furtherUrls: string[];
   handle: ResourceHandle | undefined;
   state: "absent" | "requested" | "ready" | "failed";
   image: TextureImage | undefined;
@@ -62,8 +64,8 @@ const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
 const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
 
 /** Textures of equal keys share an image. */
-export function textureKeyOf({ url, preview, sampling }: ImageDescription): string {
-  return JSON.stringify([url, preview, sampling]);
+export function textureKeyOf({ urls, preview, sampling }: ImageDescription): string {
+  return JSON.stringify([urls, preview, sampling]);
 }
 
 export class TextureDeliveries {
@@ -171,10 +173,10 @@ export class TextureDeliveries {
       expectedBytes: expected[chunk].bytes,
     });
     file.state = "requested";
-    void this.#receive(shared, file, file.handle);
+    void this.#receive(shared, file, file.handle, priority);
   }
 
-  async #receive(shared: SharedTexture, file: TextureFile, handle: ResourceHandle): Promise<void> {
+  async #receive(shared: SharedTexture, file: TextureFile, handle: ResourceHandle, priority: number): Promise<void> {
     // The file may have been released since, and requested again.
     const isReplaced = () => file.handle !== handle;
     try {
@@ -186,6 +188,13 @@ export class TextureDeliveries {
       updateDisplayed(shared);
     } catch (error) {
       if (isReplaced()) return;
+      const next = file.furtherUrls.shift();
+      if (next !== undefined) {
+        handle.release();
+        file.url = next;
+        this.#startRequest(shared, file, priority);
+        return;
+      }
       file.state = "failed";
       if (file.chunk === "texture") {
         shared.error = asDeliveryError(error, file.url);
@@ -196,10 +205,11 @@ export class TextureDeliveries {
   }
 }
 
-function sharedOf({ url, preview, sampling }: ImageDescription): SharedTexture {
-  const makeFile = (chunk: TextureChunk, url: string): TextureFile => ({
+function sharedOf({ urls, preview, sampling }: ImageDescription): SharedTexture {
+  const makeFile = (chunk: TextureChunk, [url = "", ...furtherUrls]: readonly string[]): TextureFile => ({
     chunk,
     url,
+    furtherUrls,
     handle: undefined,
     state: "absent",
     image: undefined,
@@ -211,7 +221,7 @@ function sharedOf({ url, preview, sampling }: ImageDescription): SharedTexture {
     members: new Members(),
     displayed: undefined,
     error: undefined,
-    files: [...(preview === "" ? [] : [makeFile("preview", preview)]), makeFile("texture", url)],
+    files: [...(preview === "" ? [] : [makeFile("preview", [preview])]), makeFile("texture", urls)],
   };
 }
 

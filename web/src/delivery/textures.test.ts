@@ -24,7 +24,7 @@ function textureOf(url: string, preview = "", role: TextureDescription["role"] =
     hasMipmaps: true,
     anisotropy: 1,
   } as const;
-  return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1], mapping: "", texCoordSet: 0 };
+  return { role, urls: [url], preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1], mapping: "", texCoordSet: 0 };
 }
 
 const everyTexture: TexturePriority = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownViewMetrics);
@@ -104,6 +104,19 @@ describe("a texture", () => {
     await eventsWithin();
     assert.deepEqual(await eventsWithin(Infinity, () => undefined), []);
     assert.equal(site.textureImages.open, 2);
+  });
+
+  test("is fetched from the next URL where one fails, and is an error where all do", async () => {
+    const texture = (...urls: string[]) => ({ ...textureOf(""), urls });
+    const second = shapeWith([texture("missing.png", "broken.png", "b.png")], {
+      "broken.png": new Uint8Array(8),
+      "b.png": large,
+    });
+    assert.deepEqual(await second.eventsWithin(), ["color 256"]);
+    assert.deepEqual(second.site.requested, ["missing.png", "broken.png", "b.png"]);
+    const none = shapeWith([texture("missing.png", "absent.png")], {});
+    assert.deepEqual(await none.eventsWithin(), ["no absent.png"]);
+    assert.deepEqual(none.site.requested, ["missing.png", "absent.png"]);
   });
 
   test("is fetched once for several roles, and replaced for one of them", async () => {

@@ -252,11 +252,11 @@ export function readImageOf(
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): ImageDescription | undefined {
-  const { url, preview, repeatS, repeatT } =
+  const { urls, preview, repeatS, repeatT } =
     lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
-  if (url === undefined) return undefined;
+  if (urls.length === 0) return undefined;
   const properties = childrenOf(element).find((child) => lowerNameOf(child) === "textureproperties");
-  return { url, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: false } };
+  return { urls, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: false } };
 }
 
 /**
@@ -280,22 +280,19 @@ export function withTexCoordSets(
   };
 }
 
-/** The common fields of textures; `url` is undefined where there is no image. */
+/** The common fields of textures; `urls` is empty where there is no image. */
 type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & {
-  readonly url: string | undefined;
+  readonly urls: readonly string[];
 };
 
 function readImage(element: SceneElement, warnings: Warning[]): ReadTexture {
-  const {
-    url: [url],
-    ...rest
-  } = readFields(element, nodeFields.ImageTexture, warnings);
-  return { ...rest, url };
+  const { url: urls, ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
+  return { ...rest, urls };
 }
 
 function readPixels(element: SceneElement, warnings: Warning[]): ReadTexture {
   const { image, ...rest } = readFields(element, nodeFields.PixelTexture, warnings);
-  return { ...rest, preview: "", url: image.pixels.length > 0 ? dataUrl("image/png", pngOfPixels(image)) : undefined };
+  return { ...rest, preview: "", urls: image.pixels.length > 0 ? [dataUrl("image/png", pngOfPixels(image))] : [] };
 }
 
 function samplingOf(

@@ -89,7 +89,8 @@ export type TextureRole = (typeof textureRoles)[number];
 
 /** An image and how it is sampled. */
 export interface ImageDescription {
-  readonly url: string;
+  /** Tried in order until one loads; at least one. */
+  readonly urls: readonly string[];
   /** The URL of a small version, displayed until the image is loaded; empty: none. */
   readonly preview: string;
   readonly sampling: SamplingDescription;

@@ -158,7 +158,7 @@ describe("a scene", () => {
   test("assigns each texture to the field of its containerField, also where it is USEd", () => {
     const texturesOf = (markup: string) =>
       shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.textures.map(
-        ({ role, url, preview, sampling: { isData } }) => [role, url, preview, isData].join(" "),
+        ({ role, urls, preview, sampling: { isData } }) => [role, urls[0], preview, isData].join(" "),
       );
     assert.deepEqual(texturesOf('<Material/><ImageTexture url="a.png" preview="small.webp"/>'), [
       "color a.png small.webp false",

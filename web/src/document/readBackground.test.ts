@@ -34,19 +34,19 @@ describe("a background", () => {
     assert.deepEqual(skyOf(`${first}${second}<Background bind="true" skyColor="0 0 1"/>`), [0, 0, 1]);
   });
 
-  test("has the first picture of each URL field, which does not repeat", () => {
+  test("has the picture of each URL field, which does not repeat", () => {
     const [node] = backgroundsIn(`<Background bottomUrl='"b.png" "c.png"' frontUrl="a.png" url="x.png"/>`);
     assert.deepEqual(
-      node?.background.pictures.map(({ role, url, sampling: { wrapS, wrapT, isData } }) => [
+      node?.background.pictures.map(({ role, urls, sampling: { wrapS, wrapT, isData } }) => [
         role,
-        url,
+        urls.join(" "),
         wrapS,
         wrapT,
         isData,
       ]),
       [
         ["front", "a.png", "clamp", "clamp", false],
-        ["bottom", "b.png", "clamp", "clamp", false],
+        ["bottom", "b.png c.png", "clamp", "clamp", false],
       ],
     );
   });
@@ -56,7 +56,7 @@ describe("a background", () => {
       backgroundsIn(`<TextureBackground skyColor="1 1 1"><ImageTexture DEF="T" containerField="topTexture" url="a.png"/>
       <ImageTexture USE="T" containerField="leftTexture"/><PixelTexture containerField="backTexture" image="1 1 3 0xff0000"/></TextureBackground>`);
     assert.deepEqual(
-      node?.background.pictures.map(({ role, url }) => [role, url.slice(0, 10)]),
+      node?.background.pictures.map(({ role, urls: [url] }) => [role, url?.slice(0, 10)]),
       [
         ["back", "data:image"],
         ["left", "a.png"],

@@ -50,8 +50,8 @@ const smooth: SamplingDescription = { isData: false, ...edgeToEdge, isSmooth: tr
 function picturesByUrl(node: SceneElement, warnings: Warning[]): PanoramaPicture[] {
   const fields = readFields(node, nodeFields.Background, warnings);
   return panoramaSides.flatMap((role) => {
-    const [url] = fields[`${role}Url`];
-    return url === undefined ? [] : [{ role, url, preview: "", sampling: smooth }];
+    const urls = fields[`${role}Url`];
+    return urls.length === 0 ? [] : [{ role, urls, preview: "", sampling: smooth }];
   });
 }
 

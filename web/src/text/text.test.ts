@@ -227,7 +227,7 @@ describe("a shape of text", () => {
       });
     });
     assert.deepEqual(
-      appearance.textures.map(({ role, url, sampling }) => [role, url, sampling.isDistanceField]),
+      appearance.textures.map(({ role, urls: [url], sampling }) => [role, url, sampling.isDistanceField]),
       [["color", geometry.glyphAtlas, true]],
     );
     assert.equal(appearance.alpha.mode, "BLEND");

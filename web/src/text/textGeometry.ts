@@ -133,7 +133,7 @@ function withGlyphAtlas(
   if (appearance.textures.length > 0) warnings.push({ element, message: "is a text: its textures are not shown" });
   const texture: TextureDescription = {
     role: "color",
-    url: glyphAtlas,
+    urls: [glyphAtlas],
     preview: "",
     transform: [1, 0, 0, 0, 1, 0, 0, 0, 1],
     mapping: "",
