@@ -123,14 +123,13 @@ test("the Inline of the document shows the same scene, with the page's attribute
 });
 
 test("a script adds a viewer, points it to another scene, removes it and adds it again", async () => {
-  const knot = siteOfGenerated("sphere");
-  cpSync(knot, join(folder, "knot"), { recursive: true });
-  const server = (test: TestServer) => {
+  cpSync(siteOfGenerated("sphere"), join(folder, "sphere"), { recursive: true });
+  const server = (host: TestServer) => {
     putTour(
-      test,
+      host,
       '<script type="module" src="statue/runtime/imgeo.js"></script><script type="module" src="tour.js"></script>',
     );
-    test.put("/tour.js", blockWith("js", "createElement"));
+    host.put("/tour.js", blockWith("js", "createElement"));
   };
   await withPage(folder, { path: "tour.html", server }, async (view) => {
     const { page } = view;
@@ -152,7 +151,7 @@ test("a script adds a viewer, points it to another scene, removes it and adds it
       viewer.addEventListener("load", () => {
         viewer.dataset.loads = `${Number(viewer.dataset.loads ?? 0) + 1}`;
       });
-      viewer.src = "knot";
+      viewer.src = "sphere";
     });
     await until("the other scene has loaded", async () =>
       page.evaluate(() => document.querySelector<HTMLElement>("imgeo-viewer")!.dataset.loads !== undefined),
@@ -184,8 +183,8 @@ test("a script adds a viewer, points it to another scene, removes it and adds it
 
 test("two sites in one page, each with its own script, are displayed by one runtime", async () => {
   const body = blockWith("html", '<imgeo-viewer src="statue/">');
-  const server = (test: TestServer) => {
-    putTour(test, body + body.replaceAll("statue/", "knot/"));
+  const server = (host: TestServer) => {
+    putTour(host, body + body.replaceAll("statue/", "sphere/"));
   };
   await withPage(folder, { path: "tour.html", server }, async (view) => {
     await view.promise("complete", "imgeo-viewer");
@@ -222,10 +221,10 @@ test("a site of another server is displayed, with its textures and its own inlin
   const foreign = await startServer(folder);
   try {
     foreign.when(/./, { headers: { "Access-Control-Allow-Origin": "*" } });
-    const server = (test: TestServer) => {
-      test.contentPolicy = "";
+    const server = (host: TestServer) => {
+      host.contentPolicy = "";
       putTour(
-        test,
+        host,
         body.replaceAll("https://models.example/", foreign.origin) +
           `<imgeo-viewer src="${foreign.origin}world/"></imgeo-viewer>`,
       );

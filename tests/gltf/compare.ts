@@ -6,7 +6,7 @@ import { build } from "esbuild";
 import type { Browser, Page } from "playwright-core";
 import { repository } from "../browser/paths.ts";
 import type { TestServer } from "../browser/server.ts";
-import type { Picture } from "./threePage.ts";
+import type { CameraView } from "./threePage.ts";
 
 export const size = { width: 320, height: 240 };
 
@@ -30,8 +30,8 @@ export async function serveThree(server: TestServer): Promise<void> {
   for (const file of readdirSync(draco)) server.put(`/draco/${file}`, readFileSync(join(draco, file)));
 }
 
-/** The lights, background and camera of three.js' page in place of those of a document. */
-function withPicture(page: string, { position, orientation, fieldOfView }: Picture): string {
+/** Replaces the lights, background and camera of a document by those of three.js' page. */
+function withCameraAndLights(page: string, { position, orientation, fieldOfView }: CameraView): string {
   const own = `<NavigationInfo headlight="false"></NavigationInfo><Background skyColor="0.9294 0.9294 0.949"></Background>
     <Viewpoint position="${position.join(" ")}" orientation="${orientation.join(" ")}" fieldOfView="${String(fieldOfView)}" set_bind="true"></Viewpoint>
     <DirectionalLight direction="-0.45 -0.8 -0.6" intensity="1" color="1 1 1" ambientIntensity="0.2" global="true"></DirectionalLight>`;
@@ -48,9 +48,7 @@ export interface Pictures {
   readonly three: Buffer;
 }
 
-/**
- * Both pictures. `site` is the directory of the file's site, below the server's directory or put on it at `path`.
- */
+/** Both pictures. `site`: the directory of the file's site, a child of the server's directory. */
 export async function draw(browser: Browser, server: TestServer, file: string, site: string): Promise<Pictures> {
   for (const other of readdirSync(dirname(file)))
     if (/\.(gltf|glb|bin|png|jpe?g|webp)$/i.test(other))
@@ -58,14 +56,14 @@ export async function draw(browser: Browser, server: TestServer, file: string, s
   const three = await newPage(browser);
   await three.goto(`${server.origin}three.html`);
   await three.waitForFunction(() => "drawModel" in window);
-  const picture = await three.evaluate(
+  const camera = await three.evaluate(
     async (url) => await window.drawModel(url),
     `/model/${encodeURIComponent(basename(file))}`,
   );
   const threePicture = await three.screenshot();
   await three.close();
   const path = basename(site);
-  server.put(`/${path}/sheet.html`, withPicture(readFileSync(join(site, "index.html"), "utf8"), picture));
+  server.put(`/${path}/sheet.html`, withCameraAndLights(readFileSync(join(site, "index.html"), "utf8"), camera));
   const page = await newPage(browser);
   await page.goto(`${server.origin}${path}/sheet.html`);
   await page.waitForFunction(() => customElements.get("imgeo-view") !== undefined);

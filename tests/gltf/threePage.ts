@@ -20,8 +20,8 @@ import { DRACOLoader } from "three/addons/loaders/DRACOLoader.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 
-/** What another runtime needs for the same picture; numbers in scene units and radians. */
-export interface Picture {
+/** The camera of a picture, in scene units and radians. */
+export interface CameraView {
   readonly position: readonly number[];
   /** Axis and angle. */
   readonly orientation: readonly number[];
@@ -30,11 +30,11 @@ export interface Picture {
 
 declare global {
   interface Window {
-    drawModel: (url: string) => Promise<Picture>;
+    drawModel: (url: string) => Promise<CameraView>;
   }
 }
 
-/** The light that both runtimes add; a headlight of this direction, and ambient light. */
+/** The lights that both runtimes add: a directional light from this direction, and ambient light. */
 const direction = new Vector3(0.45, 0.8, 0.6);
 const ambient = 0.2;
 /** The radiance of the grey room that metals reflect in pages (lighting/physicalLighting.ts). */

@@ -1,4 +1,4 @@
-/** Index arrays of the smallest type that WebGL 2 draws correctly. */
+// Index arrays of the smallest type that WebGL 2 draws correctly.
 
 /** WebGL 2 restarts a strip at the index 65535 of Uint16 arrays, so that this index is not a vertex. */
 const maxUint16VertexCount = 65535;

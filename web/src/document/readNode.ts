@@ -292,8 +292,8 @@ function lodReader(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
 }
 
 /**
- * The document replaces the Inline and has its own DEF names; its NavigationInfo holds where the documents that contain
- * it have none.
+ * The document replaces the Inline and has its own DEF names; its NavigationInfo has an effect only where the documents
+ * around it have none.
  */
 function inlineReader(node: SceneElement, { warnings, inlined }: NodeReadingContext): FragmentReader {
   const { load, url, ...fields } = readFields(node, nodeFields.Inline, warnings);

@@ -1,5 +1,5 @@
-// Keeps the camera in front of surfaces while it approaches its center. The renderer tells how far the surface is that
-// covers the center of the view: one pixel, picked without blocking, and only while the camera approaches.
+// Keeps the camera in front of surfaces while it approaches its center. The renderer picks one pixel to find the distance
+// of the surface ahead, asynchronously and only while the camera approaches.
 
 import type { Sphere } from "three";
 import type { Pose } from "./cameraPose.ts";
@@ -14,18 +14,18 @@ export class SurfaceAhead {
   #known: { readonly pose: Pose; readonly distance: number } | undefined;
   /** Whether the next frame is to find the surface again. */
   #isSearchDue = false;
-  /** The zoom factor that waits for what is ahead; 1: none. */
-  #pending = 1;
+  /** The zoom factor that waits until the surface ahead is known; 1: none. */
+  #waitingFactor = 1;
 
   /**
-   * The pose on the way to `to`, on the line to the center, that keeps the gap to the surface. Movements away from the
-   * center, and outside of the scene's bounds, need no surface to be known.
+   * The pose between `from` and `to` up to which the camera may move without getting too close to the surface.
+   * Movements away from the center, and outside of the scene's bounds, are not limited.
    */
   approach(from: Pose, to: Pose, { center, radius }: Sphere): Pose {
     const length = to.position.distanceTo(from.position);
     const distance = from.position.distanceTo(from.center);
     if (length === 0 || to.position.distanceTo(to.center) >= distance) {
-      this.#pending = 1;
+      this.#waitingFactor = 1;
       return to;
     }
     this.#isSearchDue = true;
@@ -34,7 +34,7 @@ export class SurfaceAhead {
     // Outside of the bounds nothing is in the way.
     const free = Math.max(from.position.distanceTo(center) - radius * 1.01, 0);
     const allowed = Math.min(length, Math.max(free, gap === undefined ? 0 : gap * maxStepShare));
-    if (gap === undefined && allowed < length) this.#pending *= (distance - length) / (distance - allowed);
+    if (gap === undefined && allowed < length) this.#waitingFactor *= (distance - length) / (distance - allowed);
     if (allowed === 0) return from;
     const pose =
       allowed === length ? to : { ...to, position: from.position.clone().lerp(to.position, allowed / length) };
@@ -42,7 +42,7 @@ export class SurfaceAhead {
     return pose;
   }
 
-  /** The pose to search from, once for each approach. */
+  /** `pose`, if the surface ahead of it is to be found; once after each approach. */
   takeSearch(pose: Pose): Pose | undefined {
     if (!this.#isSearchDue) return undefined;
     this.#isSearchDue = false;
@@ -54,8 +54,8 @@ export class SurfaceAhead {
    * the camera has left the line meanwhile.
    */
   found(pose: Pose, distance: number, current: Pose): number {
-    const rest = this.#pending;
-    this.#pending = 1;
+    const rest = this.#waitingFactor;
+    this.#waitingFactor = 1;
     const isSameLine = pose.center === current.center && pose.orientation === current.orientation;
     if (!isSameLine) return 1;
     this.#known = { pose: current, distance: distance - pose.position.distanceTo(current.position) };

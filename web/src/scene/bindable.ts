@@ -1,5 +1,5 @@
-// Which nodes of a kind can be bound (ISO/IEC 19775-1, 7.2.2). Those of inlined documents can only where the documents
-// that contain these have none, so that an embedded scene looks as it does in its own page.
+// Which nodes of a kind can be bound (ISO/IEC 19775-1, 7.2.2). Those of an inlined document can be bound
+// only if the documents around it have none; so an embedded scene looks as it does in its own page.
 
 /** The nodes with the fewest Inlines around them, in the given order. */
 export function bindableOf<Node extends { readonly inlineDepth: number }>(nodes: readonly Node[]): readonly Node[] {

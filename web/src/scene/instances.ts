@@ -43,14 +43,15 @@ export interface ClipPlaneInstance {
 }
 
 export interface FogInstance extends FogNodeDescription {
-  /** Its lengths, in units of the scene. */
+  /** Scene units in one unit of the node. */
   readonly scale: number;
 }
 
 export interface LocalFogInstance {
   readonly fog: FogDescription;
+  /** Scene units in one unit of the node. */
   readonly scale: number;
-  /** The fog is around the shapes in this scope. */
+  /** The fog applies to the shapes in this scope. */
   readonly scope: EffectScope;
 }
 

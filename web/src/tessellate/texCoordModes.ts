@@ -6,7 +6,10 @@ import type { VertexArrays } from "./faces.ts";
 /** COORD: x and y of the position. SPHERE-LOCAL: x and y of the normal, from −1 … 1 to 0 … 1. */
 export type TexCoordMode = "COORD" | "SPHERE-LOCAL";
 
-/** For modes that depend on the camera, or on noise: the mode of the same vertex attribute that does not. */
+/**
+ * The mode that is drawn, by the mode of the document: one that depends on the camera or on noise is replaced by the one
+ * that uses the same vertex attribute.
+ */
 export const nearestTexCoordMode: Readonly<Record<string, TexCoordMode>> = {
   COORD: "COORD",
   "COORD-EYE": "COORD",

@@ -21,7 +21,7 @@ export function makeClipPlaneUniforms(): ClipPlaneUniforms {
   return { clipPlanes: { value: [] }, clipPlaneScopes: { value: [] } };
 }
 
-/** Sets the planes of a scene, before each frame `setViewOfClipPlanes` their coordinates. */
+/** Sets the scopes of a scene's planes; `setViewOfClipPlanes` sets their coordinates before each frame. */
 export function setClipPlanes(
   { clipPlanes, clipPlaneScopes }: ClipPlaneUniforms,
   instances: readonly ClipPlaneInstance[],

@@ -7,10 +7,10 @@ import type { EffectScope } from "../../scene/effectScope.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { scopeRangeOf } from "../shaders/drawScope.ts";
 
-/** A fog around the shapes of a scope. */
+/** A fog that applies to the shapes of a scope. */
 export interface ScopedFog {
   readonly fog: FogDescription;
-  /** Its lengths, in units of the scene. */
+  /** Scene units in one unit of the node. */
   readonly scale: number;
   readonly scope: EffectScope;
 }
@@ -18,12 +18,12 @@ export interface ScopedFog {
 /** Further fogs are not drawn. */
 const maxFogs = 32;
 
-/** The last of the fogs of a draw's scope counts. */
+/** The last of the fogs that apply to a draw counts. */
 export interface FogUniforms {
   readonly fogColors: { value: Vector3[] };
   /** The visibility range, in scene units, and 1 for exponential or 0 for linear fog. */
   readonly fogRanges: { value: Vector2[] };
-  /** For each fog, the first and the last scope that it is around. */
+  /** For each fog, the first and the last scope that it applies to. */
   readonly fogScopes: { value: Vector2[] };
 }
 

@@ -13,7 +13,7 @@ import { addFogs } from "./fogs.ts";
 
 export type SceneEffectUniforms = SceneLightUniforms & ClipPlaneUniforms & FogUniforms;
 
-/** A text that is equal for scenes whose programs are. */
+/** Equal for scenes whose materials need the same programs. */
 export function sceneEffectsKey(shared: SceneEffectUniforms): string {
   const { clipPlanes, fogColors } = shared;
   return `${hasLightScopes(shared) ? "scoped lights" : ""} ${clipPlanes.value.length} ${fogColors.value.length}`;

@@ -72,7 +72,7 @@ export function makePicture(side: PanoramaSide, picture: Texture): Mesh {
       depthTest: false,
       depthWrite: false,
       side: DoubleSide,
-      // As for transparent materials, which would be drawn after all opaque shapes.
+      // Blends like a transparent material; `transparent` would draw it after all opaque shapes.
       blending: CustomBlending,
       blendEquation: AddEquation,
       blendSrc: SrcAlphaFactor,

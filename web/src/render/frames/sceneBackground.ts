@@ -30,7 +30,7 @@ export class SceneBackground {
     return this.#instances.find(({ element }) => element === this.#stack.bound);
   }
 
-  /** The backgrounds of a scene, in document order. */
+  /** `instances`: the backgrounds of the scene, in document order. */
   follow(instances: readonly BackgroundInstance[]): void {
     this.#instances = instances;
     this.#stack.follow(instances);

@@ -79,7 +79,10 @@ const shapeScaleChunk = /* glsl */ `
 #endif
 `;
 
-/** Adds the extensions to the shaders of a material that has them, and puts `lighting` into those of others. */
+/**
+ * What replaces three.js' lighting chunks: `lighting`, or, in a material with extensions, the result of `extended` and the
+ * chunks of its extensions. `extended` is called with the lighting functions of extensions.
+ */
 export function lightingChunks(
   defines: Readonly<Record<string, unknown>>,
   lighting: string,

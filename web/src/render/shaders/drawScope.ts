@@ -1,4 +1,5 @@
-// The scope of a draw (scene/effectScope.ts) in fragment shaders: a uniform, or of the instance's record.
+// The scope of a draw (scene/effectScope.ts) in fragment shaders: a uniform, or in batches a value of the
+// instance's record.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { Vector2 } from "three";

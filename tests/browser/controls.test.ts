@@ -1,5 +1,5 @@
-// Tests the face of a view on a phone and with a mouse: its toolbar and help, labels that give way to one another,
-// menus with long and empty names, and its landmarks for screen readers.
+// Tests what a view shows around its canvas, on a phone and with a mouse: its toolbar and help, labels that give way
+// to one another, menus with long and empty names, and its landmarks for screen readers.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -20,7 +20,7 @@ const longName = "The view from the gallery over the nave towards the choir, in 
  * hidden.
  */
 const site = (): string =>
-  variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "face", (page) =>
+  variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "controls", (page) =>
     page
       .replace(/<X3D/i, '<X3D alt="A knot" camera-orbit="0deg 90deg 12m" camera-target="0 0 0"')
       .replace(/<Viewpoint/, `<Viewpoint description="${longName}" position="0 0 14"></Viewpoint>$&`)
