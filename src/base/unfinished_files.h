@@ -22,8 +22,8 @@ private:
   Removal removal_;
 };
 
-/// Removes every registered file and directory, although other threads may still be writing there. Afterwards other
-/// threads that register, finish or publish files wait forever: for a process that ends at once.
+/// Removes every registered file and directory, although other threads may still be writing there. Other threads that
+/// register, finish or publish files then wait forever: call it only when the process ends at once.
 void removeUnfinishedFiles();
 
 /// Held while files are put in their final location: removeUnfinishedFiles() waits for it.

@@ -11,8 +11,8 @@ namespace imgeo {
 
 namespace {
 
-/// The rotation, exact in its matrix, that turns a direction to +y; the remaining axes follow X3D, where +z is the
-/// front: for z up, -y is the front, as in modelling programs.
+/// The rotation that turns a direction to +y, without rounding errors. For z up, -y becomes +z, X3D's front, as in
+/// modelling programs.
 Affine3d uprightFrom(AxisDirection up) {
   switch (up) {
   case AxisDirection::x:

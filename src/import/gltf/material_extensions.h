@@ -9,7 +9,7 @@
 namespace imgeo::gltf {
 
 /// The extensions that are not in their default state, or have textures, in the order of MaterialExtension.
-/// `extensions` is the member of a material. Throws Error{malformed} for wrong types; other numbers are clamped.
+/// `extensions` is the member of a material. Throws Error{malformed} for wrong types; factors out of range are clamped.
 std::vector<MaterialExtension> readMaterialExtensions(const Value& extensions);
 
 /// A texture of an extension: a member of its object.

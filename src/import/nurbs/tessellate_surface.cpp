@@ -17,13 +17,13 @@ namespace {
 /// Limit of the number of vertices of the grid of parameters.
 constexpr std::size_t maxGridVertices = std::size_t{1} << 21;
 
-/// Positions closer than this, relative to the size of the surface, are the same one: of edges that meet, and of poles.
+/// Edges that are closer than this, relative to the size of the surface, coincide; edges shorter than this are poles.
 constexpr double samePosition = 1e-7;
 
 /// The grid is refined at most this many times where the middles of its cells are too far from the surface.
 constexpr int maxRefinements = 4;
 
-/// At most this many parameters of the other direction are looked at when a direction is divided.
+/// About this many parameters of one direction are examined when the other direction is divided (samplesOf).
 constexpr std::size_t maxSamples = 48;
 
 /// Parameters at which a direction is examined: several within each interval of its knots.
@@ -45,6 +45,11 @@ struct Grid {
   std::vector<double> us, vs;
   double error = 0; ///< the largest distance between the surface and the triangles of the grid that was measured
 };
+
+/// Whether the quadrilateral a, b, c, d is divided between a and c, not between b and d.
+bool isRisingDiagonalShorter(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
+  return length(c - a) <= length(d - b);
+}
 
 class GridMaker {
 public:
@@ -86,9 +91,8 @@ private:
     return evaluate(surface_, surface_.u.spanAt(u), surface_.v.spanAt(v), u, v).point;
   }
 
-  /// Measures the distance at the middle of each cell, and divides cells that are too far away along
-  /// the direction that bends more. Returns whether there
-  /// were any.
+  /// Measures the distance between surface and triangles at the middle of each cell, and divides the rows or columns of
+  /// cells that are too far away, in the direction that bends more. Returns whether it divided any.
   bool refine() {
     const auto& [us, vs, error] = grid_;
     std::vector<Vec3d> points;
@@ -135,11 +139,6 @@ private:
     return finer;
   }
 
-public:
-  /// Whether a quadrilateral is cut between its first and third corner.
-  static bool isRisingDiagonalShorter(Vec3d a, Vec3d b, Vec3d c, Vec3d d) { return length(c - a) <= length(d - b); }
-
-private:
   const Surface& surface_;
   Tolerance tolerance_;
   Grid grid_;
@@ -174,7 +173,7 @@ Loop loopOf(const Contour& contour, const Surface& surface, const Tolerance& tol
   return loop;
 }
 
-/// Makes the vertices of a surface, each position once.
+/// Makes the vertices of a surface; equal positions are one.
 class Vertices {
 public:
   Vertices(const Surface& surface, const std::optional<Surface>& texCoords, const Grid& grid, SurfaceMesh& mesh)
@@ -231,7 +230,7 @@ private:
     return length(pointAt(u, v) - pointAt(otherU, otherV)) <= maxDistance_;
   }
 
-  /// The parameters whose position stands for all parameters with the same position.
+  /// One of all parameters that have the same position, for closed edges and poles.
   Parameters canonical(Parameters p) const {
     if (closesU_ && p.x == u1())
       p.x = u0();
@@ -328,7 +327,7 @@ private:
       return;
     }
     const auto at = [&](std::size_t i) { return vertices_.position(c[i]); };
-    if (GridMaker::isRisingDiagonalShorter(at(0), at(1), at(2), at(3))) {
+    if (isRisingDiagonalShorter(at(0), at(1), at(2), at(3))) {
       addTriangle(c[0], c[1], c[2]);
       addTriangle(c[0], c[2], c[3]);
     } else {

@@ -22,7 +22,7 @@ Transform transformOfNode(const Node& node) {
   return transform;
 }
 
-/// The Transform that applies `b` first, where it has the numbers of both.
+/// The Transform that applies `b` and then `a`, where its fields are numbers of these two; otherwise empty.
 std::optional<Transform> combined(const Transform& a, const Transform& b) {
   const auto isUnscaled = [](const Transform& t) { return t.scale == Vec3d{1, 1, 1}; };
   const Transform translationOfA{a.translation, {}, {1, 1, 1}, {}, {}};

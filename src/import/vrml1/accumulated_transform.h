@@ -19,7 +19,7 @@ public:
 
   const Affine3d& matrix() const { return matrix_; }
   bool isIdentity() const { return matrix_ == Affine3d{}; }
-  /// The numbers of the source as far as one Transform node holds them; otherwise the decomposed matrix, rounded.
+  /// Has the numbers of the source where one Transform node can hold them; otherwise the decomposed matrix, rounded.
   Transform transform() const;
 
 private:

@@ -17,7 +17,8 @@ constexpr std::initializer_list<std::pair<const char*, std::size_t>> materialFie
     {"ambientColor", 3},  {"diffuseColor", 3}, {"specularColor", 3},
     {"emissiveColor", 3}, {"shininess", 1},    {"transparency", 1}};
 
-/// The value of a field at an index, where the last is repeated; 0 for an empty list, the fallback without field.
+/// The value of a field at an index; the last value for larger indices, 0 for an empty list, the fallback for an absent
+/// field.
 Vec3d colorAt(const Node& material, const char* field, std::size_t index, Vec3d fallback) {
   const std::vector<double>& values = material.numbers(field);
   if (values.size() < 3)

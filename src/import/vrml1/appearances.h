@@ -56,7 +56,7 @@ private:
 
   x3d::VrmlElements& elements_;
   Report& report_;
-  std::map<std::string, pugi::xml_node> written_; ///< by everything that they say
+  std::map<std::string, pugi::xml_node> written_; ///< by their content as XML
 };
 
 } // namespace imgeo::vrml1

@@ -11,36 +11,6 @@ namespace imgeo::vrml1 {
 
 namespace {
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
-constexpr double maxIndex = 4294967295;
-using Indices = std::vector<std::size_t>;
-
-/// The indices of a field, `none` for negative numbers. Empty for the default, a single -1.
-Indices indicesOf(const Node& node, const char* field) {
-  const std::vector<double>& numbers = node.numbers(field);
-  Indices indices(numbers.size(), none);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (numbers[i] >= 0)
-      indices[i] = static_cast<std::size_t>(std::min(numbers[i], maxIndex));
-  return indices == Indices{none} ? Indices{} : indices;
-}
-
-bool isByVertex(const std::string& binding) {
-  return binding.starts_with("PER_VERTEX");
-}
-
-std::vector<Run> runsOf(const Indices& coordIndex) {
-  std::vector<Run> runs;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= coordIndex.size(); ++i)
-    if (i == coordIndex.size() || coordIndex[i] == none) {
-      if (i > begin)
-        runs.push_back({begin, i, runs.size()});
-      begin = i + 1;
-    }
-  return runs;
-}
-
 /// The values of a list that are used, in ascending order, and the new indices of those.
 class UsedValues {
 public:
@@ -69,14 +39,14 @@ private:
 void appendIndex(fmt::memory_buffer& text, std::size_t index) {
   if (text.size() > 0)
     text.push_back(' ');
-  if (index == none)
+  if (index == noIndex)
     fmt::format_to(std::back_inserter(text), "-1");
   else
     fmt::format_to(std::back_inserter(text), "{}", index);
 }
 
-/// Texture coordinates where the source has none: the largest extent of the box is S, the second largest is T, and both
-/// have the same scale.
+/// Texture coordinates where the source has none: the largest extent of the box is S, the second largest is T, and
+/// both have the same scale.
 std::string defaultTextureCoordinates(const std::vector<double>& points, const Indices& used) {
   std::array<double, 3> low{}, size{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -120,172 +90,8 @@ void setHints(pugi::xml_node geometry, const Node* hints, bool hasNormals) {
 
 } // namespace
 
-/// The corners of a node and what they use. Attributes have an index for each corner of coordIndex, or none.
-struct IndexedSets::Content {
-  bool isSurface = false, isPoints = false, isTextured = false;
-  Indices coordIndex;
-  std::vector<Run> allRuns; ///< of which bindings count the degenerate ones too
-  std::vector<Run> runs;
-  const std::vector<double>*points = nullptr, *normals = nullptr, *texCoords = nullptr; ///< null: none
-  Indices normalIndex, texCoordIndex;
-  Indices materialIndex;       ///< of each corner; empty where one material is bound to all
-  bool isMaterialByRun = true; ///< whether the corners of a run have the same material
-  Surfaces surfaces{nullptr};
-  const Node* hints = nullptr;
-  std::string key; ///< the node and all that its geometry uses, but for materials
-
-  std::size_t materialOf(std::size_t corner) const {
-    return materialIndex.empty() ? 0 : materialIndex[corner] % surfaces.count();
-  }
-};
-
-bool IndexedSets::isInRange(const Node& node, std::size_t index, std::size_t count, const char* what) {
-  if (index < count)
-    return true;
-  report_.omissions.push_back(fmt::format("{}: {}: left out: {}.", tokens_.locationOf(node.where), node.type,
-                                          index == none ? fmt::format("has corners without a {}", what)
-                                                        : fmt::format("names {} {} of {}", what, index, count)));
-  return false;
-}
-
-bool IndexedSets::readContent(const Node& node, Properties& properties, Content& content) {
-  static const std::vector<double> origin{0, 0, 0};
-  content.isSurface = node.is("IndexedFaceSet");
-  content.isPoints = node.is("PointSet");
-  const Node* const coordinates = properties.get(Property::coordinates);
-  content.points = coordinates && coordinates->field("point") ? &coordinates->numbers("point") : &origin;
-  const std::size_t pointCount = content.points->size() / 3;
-  if (content.isPoints) {
-    const auto first =
-        static_cast<std::size_t>(std::clamp(node.real("startIndex", 0), 0.0, static_cast<double>(pointCount)));
-    const double count = node.real("numPoints", -1);
-    const std::size_t end = count < 0 ? pointCount : first + static_cast<std::size_t>(std::min(count, maxIndex));
-    if (end > first && !isInRange(node, end - 1, pointCount, "point"))
-      return false;
-    for (std::size_t i = first; i < end; ++i)
-      content.coordIndex.push_back(i);
-  } else {
-    content.coordIndex = indicesOf(node, "coordIndex");
-  }
-  content.allRuns = runsOf(content.coordIndex);
-  const std::size_t minCorners = content.isSurface ? 3 : content.isPoints ? 1 : 2;
-  std::ranges::copy_if(content.allRuns, std::back_inserter(content.runs),
-                       [&](const Run& run) { return run.end - run.begin >= minCorners; });
-  for (const std::size_t index : content.coordIndex)
-    if (index != none && !isInRange(node, index, pointCount, "point"))
-      return false;
-  content.key = fmt::format("{} {}", fmt::ptr(&node), fmt::ptr(coordinates));
-  return true;
-}
-
-namespace {
-
-/// Gives each corner the index that a binding says. Empty for a binding to the whole shape.
-Indices boundIndices(const std::string& binding, const Indices& given, const Indices& coordIndex,
-                     const std::vector<Run>& runs) {
-  Indices indices(coordIndex.size(), none);
-  const bool isIndexed = binding.ends_with("_INDEXED");
-  if (isByVertex(binding)) {
-    std::size_t corner = 0;
-    for (const Run& run : runs)
-      for (std::size_t i = run.begin; i < run.end; ++i, ++corner)
-        if (!isIndexed)
-          indices[i] = corner;
-        else if (given.empty())
-          indices[i] = coordIndex[i];
-        else if (i < given.size())
-          indices[i] = given[i];
-    return indices;
-  }
-  if (!binding.starts_with("PER_FACE") && !binding.starts_with("PER_PART"))
-    return {};
-  for (const Run& run : runs)
-    for (std::size_t i = run.begin; i < run.end; ++i)
-      indices[i] = !isIndexed || given.empty() ? run.number : run.number < given.size() ? given[run.number] : none;
-  return indices;
-}
-
-/// The value of a MaterialBinding or NormalBinding.
-std::string bindingOf(const Node* binding) {
-  return binding ? binding->word("value", "DEFAULT") : "DEFAULT";
-}
-
-/// The single lines of polylines.
-std::vector<Run> segmentsOf(const std::vector<Run>& runs) {
-  std::vector<Run> segments;
-  for (const Run& run : runs)
-    for (std::size_t i = run.begin; i + 1 < run.end; ++i)
-      segments.push_back({i, i + 2, segments.size()});
-  return segments;
-}
-
-bool areBelow(std::size_t count, const Indices& indices, const std::vector<Run>& runs) {
-  return std::ranges::all_of(runs, [&](const Run& run) {
-    return std::ranges::all_of(std::span(indices).subspan(run.begin, run.end - run.begin),
-                               [&](std::size_t index) { return index < count; });
-  });
-}
-
-} // namespace
-
-bool IndexedSets::bindMaterials(const Node& node, Properties& properties, Content& content) {
-  content.surfaces = Surfaces(properties.get(Property::material));
-  if (content.surfaces.count() == 1)
-    return true;
-  std::string binding = bindingOf(properties.get(Property::materialBinding));
-  if (content.isPoints && binding.starts_with("PER_")) // each point is a part, a face and a vertex
-    binding = "PER_VERTEX";
-  if (node.is("IndexedLineSet") && binding.starts_with("PER_PART"))
-    content.runs = content.allRuns = segmentsOf(content.runs);
-  content.isMaterialByRun = !isByVertex(binding);
-  content.materialIndex = boundIndices(binding, indicesOf(node, "materialIndex"), content.coordIndex, content.allRuns);
-  if (content.materialIndex.empty())
-    return true;
-  for (const Run& run : content.runs)
-    for (std::size_t i = run.begin; i < run.end; ++i)
-      if (!isInRange(node, content.materialIndex[i], none, "material")) // indices are cycled
-        return false;
-  return true;
-}
-
-/// Normals count only where there are enough of them; otherwise they are computed by crease angle.
-void IndexedSets::bindNormals(const Node& node, Properties& properties, Content& content) {
-  const Node* const normals = properties.get(Property::normals);
-  if (!normals)
-    return;
-  const Node* const bindingNode = properties.get(Property::normalBinding);
-  std::string binding = bindingOf(bindingNode);
-  if (binding == "DEFAULT")
-    binding = "PER_VERTEX_INDEXED";
-  content.normalIndex = boundIndices(binding, indicesOf(node, "normalIndex"), content.coordIndex, content.allRuns);
-  if (content.normalIndex.empty())
-    content.normalIndex.assign(content.coordIndex.size(), 0);
-  if (areBelow(normals->numbers("vector").size() / 3, content.normalIndex, content.runs))
-    content.normals = &normals->numbers("vector");
-  content.key += fmt::format(" {} {}", fmt::ptr(normals), fmt::ptr(bindingNode));
-}
-
-bool IndexedSets::bindTextureCoordinates(const Node& node, Properties& properties, Content& content) {
-  content.isTextured = Appearances::isTextured(properties);
-  if (!content.isTextured)
-    return true;
-  const Node* const texCoords = properties.get(Property::textureCoordinates);
-  content.key += fmt::format(" textured {}", fmt::ptr(texCoords));
-  const std::size_t count = texCoords ? texCoords->numbers("point").size() / 2 : 0;
-  if (count == 0)
-    return true;
-  content.texCoords = &texCoords->numbers("point");
-  content.texCoordIndex =
-      boundIndices("PER_VERTEX_INDEXED", indicesOf(node, "textureCoordIndex"), content.coordIndex, content.allRuns);
-  for (const Run& run : content.runs)
-    for (std::size_t i = run.begin; i < run.end; ++i)
-      if (!isInRange(node, content.texCoordIndex[i], count, "texture coordinate"))
-        return false;
-  return true;
-}
-
 /// Faces whose materials differ in more than colour become shapes of their own; vertices cannot.
-std::vector<std::vector<Run>> IndexedSets::groupedByMaterial(const Content& content) {
+std::vector<std::vector<Run>> IndexedSets::groupedByMaterial(const IndexedContent& content) {
   if (!content.isSurface || content.materialIndex.empty() || !content.surfaces.differInMoreThanColor())
     return {content.runs};
   const auto surfaceOf = [&](std::size_t corner) {
@@ -314,21 +120,14 @@ std::vector<std::vector<Run>> IndexedSets::groupedByMaterial(const Content& cont
 }
 
 void IndexedSets::add(pugi::xml_node parent, const Node& node, Properties& properties) {
-  Content content;
-  if (!readContent(node, properties, content) || content.runs.empty() || !bindMaterials(node, properties, content))
+  const std::optional<IndexedContent> content = readIndexedContent(node, properties, tokens_, report_);
+  if (!content)
     return;
-  if (content.isSurface) {
-    content.hints = properties.get(Property::shapeHints);
-    content.key += fmt::format(" {}", fmt::ptr(content.hints));
-    bindNormals(node, properties, content);
-    if (!bindTextureCoordinates(node, properties, content))
-      return;
-  }
-  for (const std::vector<Run>& runs : groupedByMaterial(content))
-    addShape(parent, node, content, runs, properties);
+  for (const std::vector<Run>& runs : groupedByMaterial(*content))
+    addShape(parent, node, *content, runs, properties);
 }
 
-void IndexedSets::addShape(pugi::xml_node parent, const Node& node, const Content& content,
+void IndexedSets::addShape(pugi::xml_node parent, const Node& node, const IndexedContent& content,
                            const std::vector<Run>& runs, Properties& properties) {
   Indices materials; // that are used
   for (const Run& run : runs)
@@ -366,7 +165,7 @@ void IndexedSets::addShape(pugi::xml_node parent, const Node& node, const Conten
   x3d::set(elements_.add(shape, node.type, node.where), "USE", written.attribute("DEF").value());
 }
 
-void IndexedSets::addGeometry(pugi::xml_node shape, const Node& node, const Content& content,
+void IndexedSets::addGeometry(pugi::xml_node shape, const Node& node, const IndexedContent& content,
                               const std::vector<Run>& runs, const Indices& colors) {
   UsedValues points, normals, texCoords;
   for (const Run& run : runs)
@@ -407,9 +206,9 @@ void IndexedSets::addGeometry(pugi::xml_node shape, const Node& node, const Cont
         appendIndex(colorIndex, colorOf(i));
     }
     for (fmt::memory_buffer* index : {&coordIndex, &normalIndex, &texCoordIndex})
-      appendIndex(*index, none);
+      appendIndex(*index, noIndex);
     if (!content.isMaterialByRun)
-      appendIndex(colorIndex, none);
+      appendIndex(colorIndex, noIndex);
   }
   if (!content.isPoints)
     x3d::set(geometry, "coordIndex", fmt::to_string(coordIndex));
@@ -435,8 +234,8 @@ void IndexedSets::addGeometry(pugi::xml_node shape, const Node& node, const Cont
     addColors(geometry, node, content, runs, colors);
 }
 
-void IndexedSets::addColors(pugi::xml_node geometry, const Node& node, const Content& content,
-                            const std::vector<Run>& runs, const std::vector<std::size_t>& colors) {
+void IndexedSets::addColors(pugi::xml_node geometry, const Node& node, const IndexedContent& content,
+                            const std::vector<Run>& runs, const Indices& colors) {
   const bool hasAlpha =
       std::ranges::any_of(colors, [&](std::size_t index) { return content.surfaces.at(index).transparency != 0; });
   fmt::memory_buffer text;

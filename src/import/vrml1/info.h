@@ -1,5 +1,5 @@
 #pragma once
-// Info nodes of VRML 1.0: the names that browsers agreed on, and notes of authors.
+// Info nodes of VRML 1.0: settings under names that browsers agreed on, and notes of authors.
 
 #include "import/vrml/elements.h"
 #include "import/vrml1/tree.h"

@@ -12,7 +12,7 @@ namespace imgeo::vrml1 {
 
 namespace {
 
-/// Lights of VRML 1.0 have no end.
+/// Lights of VRML 1.0 reach any distance.
 constexpr const char* unlimitedRadius = "1e+09";
 
 Vec3d withShortDecimals(const Vec3d& v) {
@@ -68,7 +68,7 @@ void addCamera(pugi::xml_node parent, const Node& node, x3d::VrmlElements& eleme
   const Rotation rotation = turn.size() < 4 ? Rotation{} : Rotation{{turn[0], turn[1], turn[2]}, turn[3]};
   if (rotation.angle != 0)
     x3d::set(camera, "orientation", fmt::format("{} {}", textOf(rotation.axis), rotation.angle));
-  if (node.field("focalDistance")) // exporters that state none mean none
+  if (node.field("focalDistance")) // the default is no statement of the author
     x3d::set(
         camera, "centerOfRotation",
         textOf(withShortDecimals(position + affineOf(rotation).direction({0, 0, -node.real("focalDistance", 5)}))));

@@ -43,7 +43,7 @@ public:
   const PropertyNodes& nodes() const { return nodes_; }
   void restore(const PropertyNodes& nodes) { nodes_ = nodes; }
 
-  /// Records from here on which current properties are read before they are set.
+  /// Records, until endRecord, which of the current properties are read before they are set.
   void beginRecord() { records_.push_back({nodes_, {}}); }
   PropertySet endRecord();
   /// Reads properties on behalf of a subtree that is used again.

@@ -14,7 +14,7 @@ public:
   void add(pugi::xml_node parent, const Node& node, Properties& properties);
 
 private:
-  /// The current materials of the parts of a shape; one for all where none are bound to parts.
+  /// The current materials of the parts of a shape; a single one where all parts have the same.
   std::vector<Surface> surfacesOfParts(const Node& node, Properties& properties, std::size_t parts) const;
   pugi::xml_node addShape(pugi::xml_node parent, const Node& node, const Surface& surface, const char* geometry,
                           Properties& properties);

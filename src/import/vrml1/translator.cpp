@@ -25,7 +25,7 @@ namespace {
 
 using pugi::xml_node;
 
-/// Limits of what nested USEs repeat: nodes beyond those that the text mentions, and indices of shapes.
+/// Limits of what nested USEs repeat: nodes beyond those that the text contains, and indices of shapes.
 constexpr std::size_t maxRepeatedNodes = 250'000, maxRepeatedIndices = std::size_t{1} << 26;
 
 class Translator {
@@ -36,7 +36,7 @@ public:
 
   void translate(xml_node scene) {
     for (const Node& node : tree_.nodes)
-      mentions_ += node.children.size();
+      nodesInText_ += node.children.size();
     group_ = scene;
     addSceneInfo(tree_, elements_, scene);
     for (const Node* child : tree_.root().children)
@@ -83,7 +83,7 @@ private:
     if (isRepeated && isShape(node.type))
       for (const Field& field : node.fields)
         repeatedIndices_ += field.numbers.size();
-    if (++visits_ > mentions_ + maxRepeatedNodes || repeatedIndices_ > maxRepeatedIndices)
+    if (++visits_ > nodesInText_ + maxRepeatedNodes || repeatedIndices_ > maxRepeatedIndices)
       tokens_.fail(
           node.where, ErrorKind::limit,
           fmt::format("nested USEs repeat more than {} nodes or {} indices", maxRepeatedNodes, maxRepeatedIndices));
@@ -122,7 +122,8 @@ private:
       shapes_.add(destination(), node, properties_);
   }
 
-  /// Opens a group for a light and what follows it, unless nothing precedes it: a light does not shine backwards.
+  /// Adds a light, in a group with what follows it where something precedes it: lights do not shine on what precedes
+  /// them.
   void addLight(const Node& node) {
     const auto isDrawn = [](const xml_node& child) {
       const std::string_view name = child.name();
@@ -169,7 +170,7 @@ private:
     properties_.restore(outerProperties);
   }
 
-  /// Group and TransformSeparator: properties and lights reach the nodes that follow.
+  /// Group and TransformSeparator: their properties and lights also apply to the nodes that follow.
   void addGroup(const Node& node) {
     const AccumulatedTransform outer = transform_;
     if (node.name.empty() || node.lightsSiblings || !node.draws) {
@@ -211,14 +212,14 @@ private:
       translations_[&node].push_back({element, before, read});
   }
 
-  /// Removes an element. Its address may return.
+  /// Removes an element. Another element may get its address.
   void remove(xml_node element) {
     transforms_.erase(element.internal_object());
     element.parent().remove_child(element);
   }
 
-  /// A group without a name and with one node is that node, one without any is nothing, and a named one around a
-  /// Transform is a Transform.
+  /// Removes an empty group, replaces a group that has no DEF and one child by the child, and merges a group that has a
+  /// DEF with the Transform that is its only child. Returns the element that remains, null for none.
   xml_node simplified(xml_node group) {
     xml_node only = group.first_child();
     if (!only) {
@@ -327,9 +328,9 @@ private:
   }
 
   struct Translation {
-    xml_node element; ///< null where nothing is drawn
-    PropertyNodes before;
-    PropertySet read;
+    xml_node element;     ///< null where nothing is drawn
+    PropertyNodes before; ///< the properties at its beginning
+    PropertySet read;     ///< those of them that it reads
   };
 
   const Tree& tree_;
@@ -344,11 +345,11 @@ private:
   AccumulatedTransform transform_;
   Properties properties_;
   bool isLit_ = false;
-  std::map<pugi::xml_node_struct*, Affine3d> transforms_;        ///< the matrices of Transforms
+  std::map<pugi::xml_node_struct*, Affine3d> transforms_;        ///< the matrices of Transform elements
   std::map<const Node*, std::vector<Translation>> translations_; ///< of named Separators
   std::set<const Node*> visited_;
   std::size_t visits_ = 0, repeatedIndices_ = 0;
-  std::size_t mentions_ = 0; ///< of nodes in the text, USEs included
+  std::size_t nodesInText_ = 0; ///< USEs included
 };
 
 } // namespace

@@ -22,8 +22,8 @@ using x3d::VrmlTokens;
 
 constexpr std::size_t maxDepth = 200;
 
-/// A number in decimal or, in images, in hexadecimal notation; empty where the word is none or is not finite in single
-/// precision.
+/// A number in decimal or, in images, in hexadecimal notation; empty for a word that is no number or not finite in
+/// single precision.
 std::optional<double> numberOf(std::string_view word) {
   if (word.starts_with('+'))
     word.remove_prefix(1);
@@ -78,7 +78,7 @@ std::string inUtf8(std::string text) {
   return utf8;
 }
 
-/// Whether the values of a field are text, whose quotes old exporters leave out: "filename wood.gif".
+/// Whether the values of a field are text, which old exporters write without quotes: "filename wood.gif".
 bool isText(std::string_view field) {
   return field == "name" || field == "filename" || field == "string" || field == "description";
 }
@@ -176,7 +176,7 @@ private:
       readField(node, word);
   }
 
-  /// Skips "[ SFFloat size, MFString title ]": values show their types themselves.
+  /// Skips "[ SFFloat size, MFString title ]": the types of values are recognized without it.
   void skipDeclarations() {
     tokens_.take(TokenKind::openList, "[");
     while (!tokens_.nextIs(TokenKind::closeList))

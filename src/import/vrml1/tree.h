@@ -1,6 +1,6 @@
 #pragma once
-// The nodes of a VRML 1.0 file as they stand in it (G. Bell, A. Parisi, M. Pesce: "The Virtual Reality Modeling
-// Language, Version 1.0 Specification", 1995).
+// The nodes of a VRML 1.0 file, before properties and transforms are applied (G. Bell, A. Parisi, M. Pesce: "The
+// Virtual Reality Modeling Language, Version 1.0 Specification", 1995).
 
 #include "base/vec.h"
 #include "import/vrml/tokens.h"
@@ -14,7 +14,7 @@
 
 namespace imgeo::vrml1 {
 
-/// The values of a field: numbers, or strings and words.
+/// A field with its values: numbers, or strings and words.
 struct Field {
   std::string_view name;
   std::vector<double> numbers; ///< finite in single precision

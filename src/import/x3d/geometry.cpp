@@ -162,7 +162,7 @@ private:
     return at < index.size() && index[at] >= 0 ? static_cast<std::uint32_t>(index[at]) : none;
   }
 
-  // 11.2.2.4: one value per vertex or per face.
+  // 11.2.2.4: attributes have one value per vertex or per face.
   void readIndexedFaces() { readRuns(Topology::triangles); }
   void readIndexedLines() { readRuns(Topology::lines); }
 
@@ -338,7 +338,7 @@ private:
     hasCreaseAngle_ = !normalPerVertex;
   }
 
-  /// 13.3.4: heights over a grid in x and z.
+  /// Reads heights over a grid in x and z (13.3.4).
   void readElevationGrid() {
     const std::vector<double> heights = source_.reals(node_, "height");
     const double columnsField = source_.real(node_, "xDimension", 0), rowsField = source_.real(node_, "zDimension", 0);
@@ -386,7 +386,8 @@ private:
     hasCreaseAngle_ = true;
   }
 
-  /// Sharp edges of swept surfaces are those of their curves, whose smooth parts turn by less from piece to piece.
+  /// Reads a NURBS node. Of swept surfaces, only corners of their curves become sharp edges: smooth parts of curves
+  /// turn by less than the crease angle from one segment to the next.
   void readNurbs() {
     data_ = {};
     nurbsError_ = addNurbs(source_, node_, data_, faces_);

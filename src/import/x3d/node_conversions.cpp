@@ -54,7 +54,7 @@ double average(const std::vector<double>& color) {
   return color.empty() ? 0 : (color[0] + color.at(1) + color.at(2)) / 3;
 }
 
-/// The numbers of a field; `fallback` where there are fewer numbers than it has.
+/// The numbers of a field; `fallback` where the field has fewer numbers than `fallback`.
 std::vector<double> numbersOf(pugi::xml_node element, const char* field, const std::vector<double>& fallback) {
   std::optional<std::vector<double>> values = parseReals(element.attribute(field).value());
   if (!values || values->size() < fallback.size())
@@ -77,7 +77,7 @@ public:
 private:
   void convertBelow(pugi::xml_node parent) {
     for (const pugi::xml_node& element : elementsOf(parent)) {
-      convert(element); // before its children, which lose the field of it that they are in
+      convert(element); // before its children: it needs their containerField, which their conversion removes
       convertBelow(element);
     }
   }

@@ -45,7 +45,7 @@ public:
 
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { source_.fail(node_, kind, message); }
 
-  /// A whole number.
+  /// The value of a field, which must be a whole number from 0 to `maximum`.
   std::size_t count(const char* field, double fallback, std::size_t maximum) const {
     const double value = source_.real(node_, field, fallback);
     if (!(value >= 0) || value > static_cast<double>(maximum) || value != std::floor(value))
@@ -53,7 +53,8 @@ public:
     return static_cast<std::size_t>(value);
   }
 
-  /// `repeatsFirst`: the last control point repeats the first, and the node says that it is closed.
+  /// The given knots, or clamped ones for invalid knots. `repeatsFirst`: the node is closed, and its last control point
+  /// repeats the first.
   nurbs::Basis basis(const char* orderField, const char* knotField, std::size_t controlPoints,
                      bool repeatsFirst) const {
     nurbs::Basis basis{count(orderField, 3, nurbs::maxOrder), source_.reals(node_, knotField)};
@@ -256,7 +257,7 @@ private:
     if (isSwung)
       for (ControlPoint& point : trajectory.points)
         point.point = {point.point.x, 0, point.point.y};
-    double reach = 0; // of the cross-section, from the trajectory
+    double reach = 0; // the largest distance of the cross-section from the trajectory
     for (const ControlPoint& point : section.points)
       reach = std::max(reach, length(point.point));
     const double size = diagonalOf(trajectory.points) + 2 * reach;

@@ -11,10 +11,10 @@ namespace imgeo::x3d {
 
 bool isNurbs(std::string_view element);
 
-/// Appends the vertices and the faces or lines of a node for which isNurbs holds. Patches have
-/// normals and texture coordinates; swept and swung surfaces have texture coordinates alone. Returns the
-/// largest distance between geometry and result that was measured, relative to the diagonal of the control points' box.
-/// Throws Error{malformed, unsupported, limit} for invalid fields.
+/// Appends the vertices and the faces or lines of a node for which isNurbs holds. Patches have normals and texture
+/// coordinates; swept and swung surfaces have texture coordinates alone. Returns the largest distance between geometry
+/// and result that was measured, relative to the diagonal of the control points' box. Throws Error{malformed,
+/// unsupported, limit} for invalid fields.
 double addNurbs(const Source& source, pugi::xml_node node, VertexData& data, Faces& faces);
 
 } // namespace imgeo::x3d

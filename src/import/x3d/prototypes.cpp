@@ -44,8 +44,8 @@ std::vector<pugi::xml_node> elementsIn(pugi::xml_node parent) {
 
 /// A declaration and the prototypes that its body declares; or the scope of a document.
 struct Prototype {
-  /// The meaning of a name. A body may use only names that were declared before it, so that no prototype of one file
-  /// can contain itself.
+  /// The prototype that a name stands for. A body may use only names that were declared before it, so that no prototype
+  /// of one file can contain itself.
   struct Entry {
     Prototype* prototype = nullptr; ///< null for an external one that has not been read
     pugi::xml_node externDeclaration;
@@ -56,7 +56,7 @@ struct Prototype {
   Prototype* enclosing = nullptr;                              ///< the scope that contains the declaration
   std::size_t order = std::numeric_limits<std::size_t>::max(); ///< as in Entry; max for a document
   std::map<std::string, Entry> inner;
-  bool isExpanding = false; ///< an instance of it is being written out
+  bool isExpanding = false; ///< an instance of it is being expanded
 };
 
 class PrototypeExpander {
@@ -210,7 +210,7 @@ private:
     element.attribute(attribute).set_value(value);
   }
 
-  /// Makes the DEF names of a copied body unique, since each copy needs its own.
+  /// Gives the DEF names of a copied body suffixes where the scene already has them.
   void rename(pugi::xml_node element, std::map<std::string, std::string>& names, std::size_t offset) {
     if (++expandedElements_ > maxExpandedElements)
       throw Error(ErrorKind::limit, name_,

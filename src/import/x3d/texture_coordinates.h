@@ -30,7 +30,8 @@ struct TexCoordGenerator {
 std::optional<TexCoordGenerator> texCoordGeneratorOf(pugi::xml_node node);
 
 /// Gives each corner texture coordinates of this mode. Computes smooth normals if the mode needs normals and there are
-/// none. vectors/tessellation/geometryNodes.json tests this and withGeneratedTexCoords in web/src/tessellate.
+/// none; lines and points, which have no normals, then get no texture coordinates.
+/// vectors/tessellation/geometryNodes.json tests this and withGeneratedTexCoords in web/src/tessellate.
 void addGeneratedTexCoords(TexCoordMode mode, VertexData& data, Faces& faces);
 
 } // namespace imgeo::x3d

@@ -138,7 +138,7 @@ private:
       return found->second;
     const pugi::xml_node target = source_.resolved(element);
     if (target && isLeftOut(target.name()))
-      return {}; // a consequence of what the summary says of its DEF
+      return {}; // the summary already names its DEF
     const bool isEnclosing = reading_.contains(target.internal_object());
     if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
       return define(target, readNode(target));
@@ -188,7 +188,8 @@ private:
         addTo(node.children, child);
   }
 
-  /// Whether a node of the scene is a child of a node without effect (a sensor's target): pages would draw it there.
+  /// Whether a node that pages draw is a child of a node without effect, such as a sensor, which refers to it: pages
+  /// would draw it there too.
   static bool wouldAppear(pugi::xml_node child, pugi::xml_node parent) {
     const NodeRow *row = nodeRow(child.name()), *parentRow = nodeRow(parent.name());
     const bool isOfScene = row && row->containerField == "children" && row->treatment == NodeTreatment::drawn;

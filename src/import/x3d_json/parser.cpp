@@ -22,7 +22,7 @@ using JsonLibrary = nlohmann::json;
 
 constexpr std::size_t maxJsonNesting = 200; ///< of nested elements
 
-/// Reads characters for nlohmann's parser and tells where it is: its events have no positions.
+/// Gives characters to nlohmann's parser and stores how far it has read: its events have no positions.
 class CountingIterator {
 public:
   using iterator_category = std::input_iterator_tag;
@@ -153,7 +153,7 @@ private:
     frames_.pop_back();
   }
 
-  /// What an object is that begins in `outer`, after key_ where that is an object.
+  /// The frame of an object that begins in `outer`; key_ is its key where `outer` is an object.
   JsonFrame objectIn(const JsonFrame& outer) {
     switch (outer.kind) {
     case JsonFrameKind::file:
@@ -179,6 +179,7 @@ private:
     return {};
   }
 
+  /// The same for an array.
   JsonFrame arrayIn(const JsonFrame& outer) {
     switch (outer.kind) {
     case JsonFrameKind::element:
@@ -189,7 +190,7 @@ private:
       return {key_.starts_with('#') ? JsonFrameKind::lines : JsonFrameKind::statements, outer.element, key_};
     case JsonFrameKind::nodes:
       return {key_.starts_with('#') ? JsonFrameKind::lines : JsonFrameKind::statements, outer.element, key_};
-    case JsonFrameKind::statements: // values, as it turns out
+    case JsonFrameKind::statements: // a field without its @ that has a list of values
     case JsonFrameKind::values:
       return {JsonFrameKind::values, outer.element, outer.name};
     case JsonFrameKind::nodeList:

@@ -16,7 +16,8 @@ constexpr std::uint32_t pictureWidth = 1200, pictureHeight = 630, iconEdge = 64;
 /// Pixels that are drawn for each pixel of a picture, along an axis: edges become smooth.
 constexpr std::uint32_t oversampling = 2;
 
-/// A picture that is coarser is not drawn: inside of a building, samples that are near look like tiles.
+/// No picture is drawn where a larger share of its pixels shows large squares: inside of a building, samples that are
+/// near look like tiles.
 constexpr double maxCoarseShare = 0.1;
 
 /// Finds the first viewpoint and its pose in the world.
@@ -222,7 +223,7 @@ std::optional<Image> drawIcon(const std::vector<PictureSample>& samples, const P
     for (std::uint32_t x = 0; x < iconEdge; ++x) {
       const std::uint32_t x0 = pixelAt(left, x), x1 = pixelAt(left, x + 1), y0 = pixelAt(top, y),
                           y1 = pixelAt(top, y + 1);
-      // A square of fewer than 64 pixels has icon pixels between its own.
+      // Where the square has fewer than 64 pixels along an edge, several pixels of the icon show the same one.
       const Mean mean =
           meanOf(canvas, x0, y0, std::min(std::max(x1, x0 + 1), edge), std::min(std::max(y1, y0 + 1), edge));
       const bool isInside = x0 < edge && y0 < edge;

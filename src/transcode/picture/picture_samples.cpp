@@ -19,7 +19,7 @@ namespace imgeo {
 
 namespace {
 
-/// A scene of more instances has no picture: it has fewer pixels.
+/// Scenes of more instances than a picture has samples get no picture.
 constexpr std::size_t maxInstances = 200'000;
 constexpr std::uint32_t textureEdge = 512;
 

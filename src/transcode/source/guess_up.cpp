@@ -139,13 +139,13 @@ bool isColumn(int axis, const std::array<AxisEvidence, 3>& evidence) {
          along.height > 1.5 * std::max(u.height, v.height);
 }
 
-/// Whether it is low for its ground plan, as cities are, with less at the top than at the foot.
+/// Whether the shape is low for its ground plan, as cities are, with less at the top than at the foot.
 bool isWide(int axis, const std::array<AxisEvidence, 3>& evidence) {
   const AxisEvidence& along = evidence[axis];
   return along.height <= 0.5 * widthAcross(axis, evidence) && along.foot >= 0.5 && along.foot - along.top >= 0.1;
 }
 
-/// A score from which an axis, and a difference of scores from which one axis rather than another, points up.
+/// An axis is chosen from this score on, and instead of y from this difference of scores on.
 constexpr double decisive = 0.15;
 
 double scoreOf(int axis, const std::array<AxisEvidence, 3>& evidence) {
