@@ -8,6 +8,9 @@ export interface SceneElement {
   getAttributeNames(): string[];
 }
 
+/** The element that a USE names, or the element itself; undefined where the name is unknown. */
+export type Resolve = (element: SceneElement) => SceneElement | undefined;
+
 /** An element without attributes, whose fields all have their defaults. */
 export const emptyElement: SceneElement = {
   localName: "",

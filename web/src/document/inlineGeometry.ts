@@ -3,7 +3,7 @@
 
 import { geometryOfArrays } from "./arrayGeometry.ts";
 import type { GeometryDescription, Warning } from "./description.ts";
-import type { SceneElement } from "./element.ts";
+import type { Resolve, SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import { elevationGrid } from "../tessellate/elevationGrid.ts";
 import { extrusion } from "../tessellate/extrusion.ts";
@@ -24,9 +24,6 @@ import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import type { Solid } from "../tessellate/solids.ts";
 import { box, cylinderOrCone, sphere } from "../tessellate/solids.ts";
-
-/** The element that a USE names, or the element itself; undefined where the name is unknown. */
-export type Resolve = (element: SceneElement) => SceneElement | undefined;
 
 type Fields = Values<typeof nodeFields.InlineGeometry>;
 

@@ -1,16 +1,13 @@
 // Reads the nodes of texture coordinates that a geometry node can have as children.
 
 import type { Warning } from "./description.ts";
-import type { SceneElement } from "./element.ts";
+import type { Resolve, SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { TexCoordMode } from "../tessellate/texCoordModes.ts";
 import { nearestTexCoordMode } from "../tessellate/texCoordModes.ts";
 import type { VertexData } from "../tessellate/faces.ts";
 import { texCoordRoles } from "../stage/attributeRows.ts";
 import { nodeFields, readFields } from "./nodes.ts";
-
-/** The element that a USE names, or the element itself; undefined where the name is unknown. */
-type Resolve = (element: SceneElement) => SceneElement | undefined;
 
 const singleNodes = ["texturecoordinate", "texturecoordinategenerator"];
 

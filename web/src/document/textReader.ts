@@ -1,8 +1,7 @@
 // How the scene reader reads Text nodes: an interface, because measuring and drawing glyphs needs a browser.
 
 import type { AppearanceDescription, GeometryDescription, Warning } from "./description.ts";
-import type { SceneElement } from "./element.ts";
-import type { Resolve } from "./inlineGeometry.ts";
+import type { Resolve, SceneElement } from "./element.ts";
 
 export interface TextReader {
   /** The geometry of a <Text> element: a rectangle for each run of glyphs; undefined where there is nothing to draw. */

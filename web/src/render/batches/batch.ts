@@ -6,7 +6,7 @@ import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isSurface } from "../primitives/primitives.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { MaterialRequest } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { backFaces, frontFaces } from "../shaders/instanceRecord.ts";

@@ -5,7 +5,7 @@ import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { dequantizationOf } from "../../document/dequantization.ts";
 import { shapeFromStoredOf } from "../../scene/transforms.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { BatchingRules } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { applicableTextures } from "../materials/surfaceTextures.ts";

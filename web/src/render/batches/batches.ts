@@ -7,7 +7,7 @@ import type { BufferStage, Stage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { MaterialFactory, MaterialRequest } from "../materials/materialFactory.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";

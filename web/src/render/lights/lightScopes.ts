@@ -1,18 +1,10 @@
-// Effect scopes (scene/effectScope.ts) in three.js, which applies every light of a scene to every
-// object. Shader programs test the scope in scenes that have scopes, and contain no such code in
-// other scenes.
+// Limits lights to their effect scopes (scene/effectScope.ts): three.js applies every light of a scene to every object.
+// Programs of scenes without such lights contain no such code.
 
-import type { Group, WebGLProgramParametersWithUniforms } from "three";
+import type { WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
-import type { EffectScope } from "../../scene/effectScope.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
-
-/** A group that holds one instance of a shape. */
-export interface ShapeGroup extends Group {
-  /** The innermost effect scope around the instance; undefined: the global lights only. */
-  effectScope?: EffectScope;
-}
 
 export function hasLightScopes({ lightScopeRanges }: SceneLightUniforms): boolean {
   return lightScopeRanges.value.length > 0;

@@ -11,7 +11,7 @@ import { readInlineGeometry } from "../../document/inlineGeometry.ts";
 import { SceneReader } from "../../document/sceneReader.ts";
 import { matrixOf } from "../../scene/transforms.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "./shapeGroup.ts";
 import { SceneGroups } from "./sceneGroups.ts";
 
 const viewer = new PerspectiveCamera();

@@ -26,7 +26,7 @@ import { matrixOf } from "../../scene/transforms.ts";
 import type { InstanceTreeListener } from "../../scene/instanceTree.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
 

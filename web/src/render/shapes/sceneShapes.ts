@@ -21,7 +21,7 @@ import type { PickCandidate } from "../picking/picker.ts";
 import { clipPlanesOf, setClipPlanes, setViewOfClipPlanes } from "../environment/clipPlanes.ts";
 import { setFogs } from "../environment/fogs.ts";
 import { sceneEffectsKey } from "../environment/sceneEffects.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "./shapeGroup.ts";
 import { BindingStack } from "../../navigation/bindingStack.ts";
 import { sceneScope } from "../../scene/effectScope.ts";
 import type { BoundedGroup } from "./sceneGroups.ts";

@@ -16,7 +16,7 @@ import type { Batches } from "../batches/batches.ts";
 import { BatchedStage, drawModeOf } from "../batches/batchedStage.ts";
 import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";

@@ -9,7 +9,7 @@ import { sceneScope } from "../../scene/effectScope.ts";
 import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
-import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
