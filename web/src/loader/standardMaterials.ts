@@ -32,8 +32,7 @@ import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
 import { addValueColors } from "../render/materials/valueColors.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../render/points/roundPoints.ts";
 import { addVertexReading } from "../render/shaders/vertexChunk.ts";
-import { vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
-import { srgbColorsDefine } from "../render/shaders/vertexFormat.ts";
+import { srgbColorsDefine, vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
 import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
 /**

@@ -1,0 +1,266 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { missingBytesMidpoint, dequantizationOf } from "./dequantization.ts";
+import type { GeometryDescription } from "./description.ts";
+import { shapesOf } from "./description.ts";
+import { elementsOf } from "./elements.testing.ts";
+import { referenceOf } from "./geometry.ts";
+import { readInlineGeometry } from "./inlineGeometry.ts";
+import { SceneReader } from "./sceneReader.ts";
+import { onlyShape, sceneOf, twoPatches } from "./scenes.testing.ts";
+
+function geometryOf(markup: string): GeometryDescription {
+  const { geometry } = onlyShape(`<Shape>${markup}</Shape>`);
+  assert.ok(geometry);
+  return geometry;
+}
+
+describe("a compact geometry with neither position nor size", () => {
+  const data = 'bboxCenter="3 5 0.5" bboxSize="4 2 1" recordCount="4" vertexCount="6" data="a.png#3"';
+
+  test("has the cube over the longest edge of its box, and profile compact", () => {
+    const { encoding, position, size, patches: read } = geometryOf(`<ImageGeometry ${data}/>`);
+    assert.deepEqual({ encoding, position, size }, { encoding: "compact", position: [3, 6, 2], size: [4, 4, 4] });
+    assert.deepEqual(read[0]?.data, { url: "a.png", patchIndex: 3 });
+    assert.deepEqual(read[0].box, { min: [1, 4, 0], max: [5, 6, 1] });
+  });
+
+  test("has the defaults where it has a size or no box", () => {
+    assert.deepEqual(geometryOf(`<ImageGeometry ${data} size="8 8 8"/>`).position, [0, 0, 0]);
+    assert.deepEqual(geometryOf('<ImageGeometry data="a.png"/>').size, [1, 1, 1]);
+  });
+});
+
+describe("a geometry", () => {
+  test("takes draws and references from its patches only, where it has any", () => {
+    const geometry = geometryOf(twoPatches);
+    const [first, second] = geometry.patches;
+    assert.equal(geometry.patches.length, 2);
+    assert.equal(geometry.encoding, "classic");
+    assert.equal(geometry.solid, false);
+    assert.deepEqual(first?.draws, [
+      { primitive: "triangles", count: 900 },
+      { primitive: "triangleStrip", count: 12 },
+    ]);
+    assert.deepEqual(first.index, { url: "i.png", firstTexel: 1024 });
+    assert.deepEqual(first.coord, [
+      { url: "a.png", firstTexel: 0 },
+      { url: "b.png", firstTexel: 512 },
+    ]);
+    assert.equal(first.implicitWidth, 512);
+    assert.deepEqual(first.box, { min: [0, 1.5, 2.5], max: [2, 2.5, 3.5] });
+    assert.deepEqual(second?.draws, [{ primitive: "lineStrip", count: 4 }]);
+    assert.equal(second.index, undefined);
+    assert.equal(second.vertexCount, 4);
+  });
+
+  test("takes images from ImageTexture children, as in X3DOM, with byte planes in document order", () => {
+    const [patch, ...others] = geometryOf(`
+      <ImageGeometry vertexCount="6" implicitMeshSize="300 0">
+        <ImageTexture containerField="coord" url="high.png"/><ImageTexture containerField="index" url='"i.png"'/>
+        <ImageTexture containerField="coord" url="low.png"/><ImageTexture containerField="normal" url="n.png"/>
+      </ImageGeometry>`).patches;
+    assert.deepEqual(others, []);
+    assert.deepEqual(
+      patch?.coord.map((plane) => plane.url),
+      ["high.png", "low.png"],
+    );
+    assert.equal(patch.index?.url, "i.png");
+    assert.equal(patch.normal?.url, "n.png");
+    assert.equal(patch.box, undefined);
+  });
+
+  test("has types, offsets and strides of typed arrays, and X3DOM's stride in a file's name", () => {
+    const {
+      patches: [patch],
+      ...geometry
+    } = geometryOf(`
+      <BinaryGeometry coordType="uint16" normalType="Int8" indexType="Uint32" rgbaColors="true" vertexCount="3"
+        coord="c.bin#12+8" normal="n.bin+4" index="i.bin"/>`);
+    assert.equal(geometry.coordType, "Uint16");
+    assert.equal(geometry.indexType, "Uint32");
+    assert.equal(geometry.colorComponents, 4);
+    assert.deepEqual(patch?.coord, [{ url: "c.bin", byteOffset: 12, byteStride: 8 }]);
+    assert.deepEqual(patch.normal, { url: "n.bin+4", byteOffset: 0, byteStride: 4 });
+  });
+
+  test("has 16-bit indices in images by default", () => {
+    assert.equal(geometryOf('<ImageGeometry coord="a" index="i"/>').indexType, "Uint16");
+    assert.equal(geometryOf('<ImageGeometry coord="a" index="i" indexType="uint32"/>').indexType, "Uint32");
+  });
+
+  test("has the encoding of normals of two numbers, and their location in X3DOM's files", () => {
+    assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" vertexCount="3"/>').normalEncoding, "rgb");
+    assert.equal(
+      geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding,
+      "octahedral",
+    );
+    for (const [coord, byteOffset, byteStride] of [
+      ["c.bin", 6, 8],
+      ["c.bin?+8", 6, 8],
+      ["c.bin#24+32", 30, 32],
+    ] as const) {
+      const {
+        patches: [patch],
+        ...geometry
+      } = geometryOf(`
+        <BinaryGeometry coordType="Uint16" normalAsSphericalCoordinates="true" normal="ignored" coord="${coord}"/>`);
+      assert.deepEqual([geometry.normalEncoding, geometry.normalType], ["spherical", "Uint8"]);
+      assert.deepEqual(patch?.normal, { url: patch?.coord[0]?.url, byteOffset, byteStride });
+    }
+    const wrong = sceneOf(
+      '<Shape><BinaryGeometry coord="c" normalAsSphericalCoordinates="true" normalEncoding="cube"/></Shape>',
+    );
+    assert.equal(wrong.warnings.length, 2);
+  });
+
+  test("has triangles for an unknown primitive and the default for an unknown element type, with warnings", () => {
+    const scene = sceneOf('<Shape><BinaryGeometry coordType="Float64" primType="QUADS" vertexCount="3 -1"/></Shape>');
+    const geometry = shapesOf(scene.root)[0]?.geometry;
+    assert.equal(geometry?.coordType, "Float32");
+    assert.deepEqual(geometry.patches[0]?.draws, [
+      { primitive: "triangles", count: 3 },
+      { primitive: "triangles", count: 0 },
+    ]);
+    assert.equal(scene.warnings.length, 3);
+  });
+
+  test("has the first four of more byte planes, with a warning", () => {
+    const scene = sceneOf('<Shape><ImageGeometry coord="a b c d e"/></Shape>');
+    assert.deepEqual(
+      shapesOf(scene.root)[0]?.geometry?.patches[0]?.coord.map(({ url }) => url),
+      ["a", "b", "c", "d"],
+    );
+    assert.match(scene.warnings[0]?.message ?? "", /4 of 5/);
+  });
+
+  test("gives its shape the union of the patches' boxes where the shape has none", () => {
+    assert.deepEqual(onlyShape(`<Shape>${twoPatches}</Shape>`).box, { min: [0, 1, 2.5], max: [2, 3, 3.5] });
+    assert.deepEqual(onlyShape(`<Shape bboxCenter="0 0 0" bboxSize="2 2 2">${twoPatches}</Shape>`).box, {
+      min: [-1, -1, -1],
+      max: [1, 1, 1],
+    });
+    assert.deepEqual(onlyShape('<Shape><ImageGeometry position="1 1 1" size="2 2 2"/></Shape>').box, {
+      min: [0, 0, 0],
+      max: [2, 2, 2],
+    });
+  });
+
+  test("reads references of each encoding in the units of its files", () => {
+    assert.deepEqual(referenceOf("a/b.png#70", "classic"), { url: "a/b.png", firstTexel: 70 });
+    assert.deepEqual(referenceOf("a+4.png", "classic"), { url: "a+4.png", firstTexel: 0 });
+    assert.deepEqual(referenceOf("a.png#7", "compact"), { url: "a.png", patchIndex: 7 });
+    assert.deepEqual(referenceOf("a.bin#0+0", "bg"), { url: "a.bin", byteOffset: 0, byteStride: 0 });
+    assert.deepEqual(referenceOf("a.bin#-1+x", "bg"), { url: "a.bin", byteOffset: 0, byteStride: 0 });
+  });
+});
+
+describe("a second reading", () => {
+  const x3d = elementsOf(`<X3D><Shape>${twoPatches}</Shape></X3D>`);
+  const element = x3d.children[0]?.children[0];
+  assert.ok(element);
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+  const read = () => shapesOf(reader.read().root)[0]?.geometry;
+  const first = read();
+
+  test("gives the same object where nothing has changed, even if it was touched", () => {
+    assert.ok(first);
+    assert.equal(read(), first);
+    reader.touch(element);
+    assert.equal(read(), first);
+  });
+
+  test("gives another object where something has changed", () => {
+    element.attributes.set("solid", "true");
+    reader.touch(element);
+    assert.equal(read()?.solid, true);
+    assert.notEqual(read(), first);
+    assert.equal(read(), read());
+  });
+});
+
+test("geometries with the same files and fields are one object, for as long as they are equal", () => {
+  const copy = '<ImageGeometry coord="a.png" index="i.png" vertexCount="3"/>';
+  const shapes = [
+    copy,
+    copy,
+    copy.replace("a.png", "b.png"),
+    copy.replace("index", 'decode="cpu" index'),
+    "<Box/>",
+    "<Box/>",
+  ];
+  const x3d = elementsOf(`<X3D>${shapes.map((geometry) => `<Shape>${geometry}</Shape>`).join("")}</X3D>`);
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+  const read = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
+  const before = read();
+  assert.deepEqual(
+    before.map((geometry) => before.indexOf(geometry)),
+    [0, 0, 2, 3, 4, 5],
+  );
+  const changed = x3d.children[1]?.children[0];
+  assert.ok(changed);
+  changed.attributes.set("coord", "b.png");
+  reader.touch(changed);
+  const after = read();
+  assert.deepEqual(
+    after.map((geometry) => before.indexOf(geometry)),
+    [0, 2, 2, 3, 4, 5],
+  );
+});
+
+describe("stored integers", () => {
+  const planesOf = (count: number, bits = 8 * count) =>
+    geometryOf(`
+    <ImageGeometry position="10 0 0" size="4 4 4" positionBits="${bits}" vertexCount="3"
+      coord='${Array.from({ length: count }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
+  const coordinateOf = (geometry: GeometryDescription, stored: number) => {
+    const patch = geometry.patches[0];
+    assert.ok(patch);
+    const { origin, step } = dequantizationOf(geometry, patch);
+    return origin[0] + stored * step[0];
+  };
+
+  for (const count of [1, 2, 3, 4]) {
+    test(`with ${count} bytes span the whole quantization box`, () => {
+      assert.equal(coordinateOf(planesOf(count), 0), 8);
+      assert.ok(Math.abs(coordinateOf(planesOf(count), 256 ** count - 1) - 12) < 1e-12);
+    });
+  }
+
+  test("in typed arrays follow X3DOM: unsigned from the corner, signed around the center, floats as they are", () => {
+    const typed = (type: string) =>
+      geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" vertexCount="3"/>`);
+    assert.equal(coordinateOf(typed("Uint16"), 65535), 12);
+    assert.equal(coordinateOf(typed("Int16"), 0), 10);
+    assert.ok(Math.abs(coordinateOf(typed("Int16"), -16383) - 8) < 1e-3);
+    assert.equal(coordinateOf(typed("Float32"), 7.5), 7.5);
+  });
+
+  test("have a step above 0 along a flat side of the box, so that the matrix can be inverted", () => {
+    const flat = geometryOf('<ImageGeometry size="4 4 0" vertexCount="3" coord="a.png"/>');
+    const patch = flat.patches[0];
+    assert.ok(patch && dequantizationOf(flat, patch).step.every((step) => step > 0));
+  });
+
+  test("are at the midpoint of the possible values while their low bytes are missing", () => {
+    for (const [planes, bits] of [
+      [2, 16],
+      [2, 12],
+      [2, 9],
+      [3, 24],
+      [3, 17],
+      [4, 32],
+      [1, 8],
+    ] as const) {
+      for (let present = 1; present <= planes; ++present) {
+        // The values that the missing bytes can take, given that the lowest bits are 0.
+        const low = 0;
+        const high = 2 ** (8 * (planes - present)) - 2 ** Math.min(8 * planes - bits, 8 * (planes - present));
+        assert.equal(
+          missingBytesMidpoint(planesOf(planes, bits), planes, present),
+          present === planes ? 0 : (low + high) / 2,
+        );
+      }
+    }
+  });
+});
