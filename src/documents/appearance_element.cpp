@@ -56,7 +56,7 @@ bool needsProperties(const Texture& texture) {
 }
 
 /// Whether a texture is a child of the Appearance, as in X3D 3: that of the main colour, unless its mapping has a name.
-bool isAppearances(const TextureUse& use, bool areTransformsNamed) {
+bool isChildOfAppearance(const TextureUse& use, bool areTransformsNamed) {
   return use.role == TextureRole::color && mappingOf(use, areTransformsNamed).empty();
 }
 
@@ -69,7 +69,7 @@ void writeWithTextures(ElementWriter& writer, const SceneGraph& graph, const Nod
   std::vector<const TextureUse*> own;
   for (const TextureUse& use : uses) {
     const std::string field = textureField(node, use.role);
-    if (field.empty() || isAppearances(use, areTransformsNamed))
+    if (field.empty() || isChildOfAppearance(use, areTransformsNamed))
       continue;
     if (const std::string mapping = mappingOf(use, areTransformsNamed); !mapping.empty())
       element.groups[0].push_back({field + "Mapping", mapping});
@@ -145,7 +145,7 @@ void writeAppearance(ElementWriter& writer, const SceneGraph& graph, const Appea
       write(extension, extensionElement(extension), false, [] {});
   });
   for (const TextureUse& use : appearance.textures)
-    if (isAppearances(use, areTransformsNamed))
+    if (isChildOfAppearance(use, areTransformsNamed))
       writeTexture(writer, graph, use.texture, "", textureNames(use.texture));
   writeTransforms(writer, appearance.textures, areTransformsNamed);
   writer.close(element);

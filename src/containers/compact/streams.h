@@ -1,6 +1,5 @@
 #pragma once
-// The streams of a file, each with one coder for all patches. A coder is made when the first
-// patch uses it.
+// The streams of a file, each with one coder for all patches. A coder is made when the first patch uses it.
 
 #include "base/error.h"
 #include "containers/compact/code_attributes.h"
@@ -67,7 +66,7 @@ public:
   }
   RangeDecoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
 
-  /// Call it after the last patch: throws unless every stream ends with its contents.
+  /// Throws Error{malformed} unless all bytes of the stream have been decoded. To be called after the last patch.
   void finish(std::size_t stream) const {
     if (decoders_[stream])
       decoders_[stream]->finish();

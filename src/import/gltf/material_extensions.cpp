@@ -66,7 +66,6 @@ private:
 
 /// KHR_materials_ior: 0 stands for total reflection.
 float indexOfRefractionOf(const Members& members) {
-  constexpr float totalReflection = 1000;
   const float index = members.positive("ior", 1.5);
   return index == 0 ? totalReflection : std::max(index, 1.0f);
 }

@@ -12,6 +12,9 @@ namespace imgeo::gltf {
 /// `extensions` is the member of a material. Throws Error{malformed} for wrong types; factors out of range are clamped.
 std::vector<MaterialExtension> readMaterialExtensions(const Value& extensions);
 
+/// An index of refraction for surfaces that reflect all light.
+inline constexpr float totalReflection = 1000;
+
 /// A texture of an extension: a member of its object.
 struct ExtensionTexture {
   const char* extension;

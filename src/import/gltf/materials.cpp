@@ -14,9 +14,6 @@ namespace imgeo::gltf {
 
 namespace {
 
-/// The index of refraction of a surface that reflects all light.
-constexpr float totalReflection = 1000;
-
 float saturate(double value) {
   return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
@@ -88,8 +85,7 @@ TextureTransform MaterialReader::transformOf(const Value& extension) {
     return {};
   const Vec2<double> offset = extension["offset"].vec2({0, 0}), scale = extension["scale"].vec2({1, 1});
   const double rotation = extension["rotation"].real(0), cosine = std::cos(rotation), sine = std::sin(rotation);
-  // u' = cos sx u + sin sy v + x, v' = -sin sx u + cos sy v + y, where v is measured
-  // down; X3D measures t = 1 - v up.
+  // u' = cos sx u + sin sy v + x, v' = -sin sx u + cos sy v + y, where v is measured down; X3D measures t = 1 - v up.
   const double a = cosine * scale.x, b = sine * scale.x, c = -sine * scale.y, d = cosine * scale.y;
   const double x = offset.x + sine * scale.y, y = 1 - offset.y - cosine * scale.y;
   const std::optional<TextureTransform> transform = textureTransformOf(a, b, c, d, x, y);

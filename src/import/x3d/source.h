@@ -16,7 +16,7 @@ public:
   /// nesting.
   Source(Elements elements, std::string_view text, const std::string& name);
 
-  /// <X3D>.
+  /// The element <X3D>.
   pugi::xml_node root() const { return elements_.root(); }
   /// The element that a USE names, or the element itself without USE. A null node where no DEF has the name.
   pugi::xml_node resolved(pugi::xml_node element) const;

@@ -1,12 +1,12 @@
 #include "import/x3d/x3d.h"
 
 #include "import/references.h"
-#include "import/source_images.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/geometry_text.h"
 #include "import/x3d/inlines.h"
 #include "import/x3d/node_conversions.h"
+#include "import/x3d/node_images.h"
 #include "import/x3d/prototypes.h"
 #include "import/x3d/shared_appearances.h"
 #include "import/x3d/summary.h"
@@ -46,7 +46,8 @@ class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
       : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
-        mappings_(options.attributes), inlines_(references, options, imported_.scene, imported_.warnings) {
+        mappings_(options.attributes), images_(references, imported_.scene.graph.images),
+        inlines_(references, options, imported_.scene, imported_.warnings) {
     addTextureMappings();
     if (smallGeometryTextBytes(source_, inlineBytes_) > maxInlineTextBytes)
       inlineBytes_ = std::min(inlineBytes_, shortTextBytes);
@@ -172,7 +173,7 @@ private:
     } else {
       node.content = genericNodeOf(element);
       node.fields = fieldsOf(element);
-      keepRemoteUrls(std::get<GenericNode>(node.content), node.fields);
+      summary_.remoteImages += keepRemoteImageUrls(std::get<GenericNode>(node.content), node.fields);
     }
     if (name == "Inline")
       addInlined(element, node);
@@ -202,7 +203,7 @@ private:
     for (const std::string_view field : fields)
       if (const pugi::xml_attribute url = element.attribute(field.data())) {
         const std::optional<std::size_t> found =
-            attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
+            attempt("A texture is left as it is", [&] { return images_.read(parseStrings(url.value())); });
         if (found)
           node.images.push_back({std::string(field), *found});
       }
@@ -210,8 +211,6 @@ private:
       ++summary_.notCopied[node.element];
     return node;
   }
-
-  static bool isRemote(const std::string& url) { return url.starts_with("http:") || url.starts_with("https:"); }
 
   /// The document of the first URL of an Inline that can be read; empty where a URL of another host precedes it.
   std::optional<Inlines::Document> inlined(pugi::xml_node element) {
@@ -241,44 +240,6 @@ private:
       return;
     std::get<GenericNode>(node.content).document = document->index;
     node.children = document->roots;
-  }
-
-  /// The image of the first URL that can be read; empty where none can and other hosts may have it.
-  std::optional<std::size_t> image(const std::vector<std::string>& urls) {
-    const bool mayBeRemote = std::ranges::any_of(urls, isRemote);
-    for (std::size_t i = 0; i < urls.size(); ++i) {
-      if (const auto found = images_.find(urls[i]); found != images_.end())
-        return found->second;
-      if (isRemote(urls[i]))
-        continue;
-      try {
-        ImageFile file{urls[i].starts_with("data:") ? "" : urls[i], references_.fetch(urls[i])};
-        requireImage(file.bytes, urls[i]);
-        std::vector<ImageFile>& images = imported_.scene.graph.images;
-        images.push_back(std::move(file));
-        return images_[urls[i]] = images.size() - 1;
-      } catch (const Error&) {
-        if (i + 1 == urls.size() && !mayBeRemote)
-          throw;
-      }
-    }
-    return {};
-  }
-
-  /// Keeps, of fields for images without an image, only the URLs of other hosts: the local ones name no readable
-  /// file.
-  void keepRemoteUrls(const GenericNode& node, std::vector<FieldText>& fields) {
-    for (const std::string_view name : imageFieldsOf(node.element)) {
-      const auto field = std::ranges::find(fields, name, &FieldText::name);
-      if (field == fields.end() || std::ranges::find(node.images, name, &FieldImage::field) != node.images.end())
-        continue;
-      std::vector<std::string> urls = parseStrings(field->value);
-      std::erase_if(urls, [](const std::string& each) { return !isRemote(each); });
-      if (urls.empty())
-        continue;
-      ++summary_.remoteImages;
-      field->value = quoteStrings(urls);
-    }
   }
 
   /// Reads a Transform. Malformed fields count as absent and are removed from `fields`.
@@ -405,11 +366,11 @@ private:
   std::size_t inlineBytes_;
   AttributeChoice mappings_; ///< names of the sets of texture coordinates that textures use
   Imported imported_;
+  NodeImages images_;
   Inlines inlines_;
   std::map<std::string, std::size_t> defined_;                       ///< nodes by DEF name
   std::set<pugi::xml_node_struct*> reading_;                         ///< elements whose reading has begun but not ended
   std::map<pugi::xml_node_struct*, std::optional<Shape>> converted_; ///< by geometry node
-  std::map<std::string, std::size_t> images_;                        ///< by URL
   Summary summary_;
 };
 

@@ -73,7 +73,7 @@ constexpr NamedView namedViews[] = {{"Front", StartView::front}, {"Left", StartV
                                     {"Top", StartView::top},     {"Bottom", StartView::bottom}};
 
 /// The default viewpoints in the order of the document, whose first one is bound: the view that is asked for and, with
-/// `all`, those from the other sides but from below.
+/// `all`, those from all other sides except from below.
 std::vector<Viewpoint> defaultViewpoints(const Box3d& box, StartView view, const ViewSamples& samples, bool all) {
   std::vector<Viewpoint> viewpoints;
   const auto add = [&](const char* description, Vec3d direction) {

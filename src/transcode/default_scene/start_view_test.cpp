@@ -7,7 +7,7 @@
 namespace imgeo {
 namespace {
 
-/// A plate in the plane z = 0 that is wide along x, with a front at +z.
+/// A rectangle with these two edges. Its front faces cross(right, up).
 Mesh plate(Vec3d right, Vec3d up) {
   Mesh mesh;
   mesh.positions = {Vec3f{}, Vec3f(right), Vec3f(right + up), Vec3f(up)};

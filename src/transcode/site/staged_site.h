@@ -28,9 +28,9 @@ public:
   /// or its parent is not writable), the staging directory is inside the target, and is published as on file systems
   /// without renameat2.
   ///
-  /// Throws Error{usage} if the target is a directory that is neither empty nor a site, or a site with a file that is
-  /// not of a site, unless `force` allows to replace it with everything in it; Error{io} if the target is a file or
-  /// nothing can be written.
+  /// Throws Error{usage} if the target is a directory that is neither empty nor a site, or a site with a file that
+  /// convert has not written, unless `force` allows to replace it with everything in it; Error{io} if the target is a
+  /// file or nothing can be written.
   StagedSite(const std::filesystem::path& target, bool force);
   ~StagedSite();
   StagedSite(const StagedSite&) = delete;
@@ -40,8 +40,8 @@ public:
 
   /// Renames the staging directory to the target: a new target by RENAME_NOREPLACE; an existing one by RENAME_EXCHANGE,
   /// after which the destructor removes the old one. On file systems that support neither, moves the files one by one,
-  /// the page last, and then deletes what else the old site consists of. Throws Error; the target's page is
-  /// then the old one.
+  /// the page last, and then deletes the remaining files of the old site. Throws Error; the target's page is then the
+  /// old one.
   void publish(const Rename& rename = renameBySystem);
 
 private:

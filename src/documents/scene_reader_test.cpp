@@ -1,0 +1,235 @@
+// Reads texts of documents: those of other programs, with defaults, and damaged ones.
+
+#include "base/error.h"
+#include "documents/documents.h"
+#include "scene/shape_instances.h"
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::shapeName;
+
+ErrorKind errorKindOf(const std::string& text, const std::string& location = "") {
+  try {
+    readScene(text, "s.x3d");
+  } catch (const Error& error) {
+    EXPECT_TRUE(location.empty() || location == error.location()) << error.what();
+    return error.kind();
+  }
+  ADD_FAILURE() << "was read: " << text;
+  return ErrorKind::usage;
+}
+
+TEST(ReadScene, ReadsImagesFromImageTextures) {
+  const SceneDocument document = readScene(R"(<html><body><x3d><scene><shape def="S"><appearance></appearance>
+    <imagegeometry primType='TRIANGLESTRIP' vertexCount='9' implicitMeshSize='512 204'>
+      <imagetexture containerField='index' url='i.png'></imagetexture>
+      <imagetexture containerField='coord' url='"high.png"'><textureproperties></textureproperties></imagetexture>
+      <imagetexture containerField='coord' url='low.png'></imagetexture>
+      <imagetexture containerField='normal' url='n.png'></imagetexture>
+    </imagegeometry></shape></scene></x3d></body></html>)",
+                                           "x");
+  ASSERT_EQ(document.geometries.size(), 1u);
+  PatchDescription patch;
+  patch.draws = {{Primitive::triangleStrip, 9}};
+  patch.implicitMeshSize = {512, 204};
+  patch.index = Reference{"i.png", {}};
+  patch.coord = {{"high.png", {}}, {"low.png", {}}};
+  patch.vertexAttributes[VertexRole::normal] = Reference{"n.png", {}};
+  EXPECT_EQ(document.geometries[0].patches, std::vector<PatchDescription>{patch});
+  EXPECT_EQ(document.geometries[0].lattice.bits, 16u);
+  EXPECT_EQ(shapeName(document.graph, 0), "S");
+}
+
+TEST(ReadScene, IgnoresTextThatResemblesTheX3dElement) {
+  const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
+                                           "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
+                                           "x");
+  EXPECT_EQ(document.graph.title, "here");
+}
+
+TEST(ReadScene, RefusesDocumentTypesAndEntities) {
+  EXPECT_EQ(errorKindOf("<!DOCTYPE X3D [<!ENTITY a 'aaaaaaaa'>]><X3D><Scene/></X3D>", "s.x3d:1"),
+            ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
+}
+
+TEST(ReadScene, ReportsTheLineOfAMalformedField) {
+  const std::string before = "<X3D><Scene>\n<Shape>\n";
+  const auto shape = [&](const std::string& fields) {
+    return before + "<ImageGeometry><GeometryPatch coord='a' " + fields +
+           "></GeometryPatch></ImageGeometry></Shape></Scene></X3D>";
+  };
+  for (const std::string fields :
+       {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'", "index='a#b'",
+        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'",
+        "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
+    EXPECT_EQ(errorKindOf(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
+}
+
+GeometryDescription readBinaryGeometry(const std::string& fields) {
+  const SceneDocument document =
+      readScene("<X3D><Scene><Shape><BinaryGeometry " + fields + "/></Shape></Scene></X3D>", "x");
+  return document.geometries.at(0);
+}
+
+TEST(ReadScene, ReadsTheStrideOfAUrlAsX3domDoes) {
+  const auto referenceOf = [](const std::string& url) {
+    return readBinaryGeometry("coordType='Int16' coord='" + url + "'").patches[0].coord[0];
+  };
+  EXPECT_EQ(referenceOf("a.bin"), (Reference{"a.bin", ByteLocation{}}));
+  EXPECT_EQ(referenceOf("a.bin+8"), (Reference{"a.bin+8", ByteLocation{0, 8}}));
+  EXPECT_EQ(referenceOf("a.bin?+8"), (Reference{"a.bin", ByteLocation{0, 8}}));
+  EXPECT_EQ(referenceOf("a.bin#16+24"), (Reference{"a.bin", ByteLocation{16, 24}}));
+  EXPECT_EQ(referenceOf("c++/a.bin"), (Reference{"c++/a.bin", ByteLocation{}}));
+  EXPECT_EQ(referenceOf("+8"), (Reference{"+8", ByteLocation{0, 8}}));
+}
+
+TEST(ReadScene, CentresSignedCoordinatesInABoxOfAnyShape) {
+  const Lattice lattice = readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
+  EXPECT_EQ(lattice.bits, 16u);
+  const Vec3d middle = lattice.point({32768, 32768, 32768}), corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(middle[axis], (Vec3d{1, 2, 3}[axis]), 1e-12);
+    EXPECT_NEAR(corner[axis], (Vec3d{5, 0, 3}[axis]), 1e-12);
+  }
+}
+
+TEST(ReadScene, RefusesAttributesThatPatchesLack) {
+  const auto messageOf = [](const std::string& attribute, const std::string& attrib) -> std::string {
+    const std::string text = "<X3D><Scene><Shape><ImageGeometry coord='a.png' vertexCount='3' attrib='" + attrib +
+                             "'><FloatVertexAttribute " + attribute +
+                             "></FloatVertexAttribute></ImageGeometry></Shape></Scene></X3D>";
+    try {
+      readScene(text, "s.x3d");
+    } catch (const Error& error) {
+      return error.message();
+    }
+    return "read";
+  };
+  const std::string good = "name='heat' numComponents='1' valueBits='16'";
+  EXPECT_EQ(messageOf(good, "\"b.png\" \"c.png\""), "read");
+  EXPECT_NE(messageOf(good, "b.png").find("fewer"), std::string::npos);
+  EXPECT_NE(messageOf(good, "\"b\" \"c\" \"d\"").find("more"), std::string::npos);
+  EXPECT_NE(messageOf("numComponents='1'", "\"b\" \"c\"").find("no name"), std::string::npos);
+  EXPECT_NE(messageOf(good + " valueSize='-1'", "\"b\" \"c\"").find("range"), std::string::npos);
+  EXPECT_NE(messageOf("name='heat' numComponents='5'", "b").find("1 to 4"), std::string::npos);
+  EXPECT_NE(messageOf("name='heat' numComponents='1' valueBits='12'", "b").find("8, 16"), std::string::npos);
+}
+
+TEST(ReadScene, UsesX3domsDefaultsForABinaryGeometry) {
+  const GeometryDescription geometry = readBinaryGeometry("coord='a' index='i'");
+  EXPECT_EQ(geometry.coordType, ElementType::float32);
+  EXPECT_EQ(geometry.indexType, ElementType::uint16);
+  EXPECT_EQ(geometry.normalEncoding, NormalEncoding::rgb);
+  EXPECT_EQ(geometry.patches[0].draws, (std::vector<Draw>{{Primitive::triangles, 0}}));
+}
+
+TEST(ReadScene, ReadsX3domsSphericalNormalsFromTheFourthElementOfCoordinates) {
+  const std::string spherical = " coordType='Uint16' normalAsSphericalCoordinates='true'";
+  for (const auto& [coord, normal] : {std::pair{"a.bin", Reference{"a.bin", ByteLocation{6, 8}}},
+                                      {"a.bin?+8", {"a.bin", ByteLocation{6, 8}}},
+                                      {"a.bin#24+32", {"a.bin", ByteLocation{30, 32}}}}) {
+    const GeometryDescription geometry =
+        readBinaryGeometry(std::string("normal='ignored' coord='") + coord + "'" + spherical);
+    EXPECT_EQ(geometry.normalEncoding, NormalEncoding::spherical);
+    EXPECT_EQ(geometry.attributeTypes[VertexRole::normal], ElementType::uint8);
+    EXPECT_EQ(geometry.patches[0].vertexAttributes[VertexRole::normal], normal);
+  }
+  EXPECT_THROW(readBinaryGeometry("coord='a' normalAsSphericalCoordinates='true'"), Error);
+}
+
+TEST(ReadScene, ReadsIndicesOf16And32BitsFromImages) {
+  const auto read = [](const std::string& type) {
+    return readScene("<X3D><Scene><Shape><ImageGeometry indexType='" + type +
+                         "' coord='a' index='i'/></Shape></Scene></X3D>",
+                     "x")
+        .geometries.at(0)
+        .indexType;
+  };
+  EXPECT_EQ(read(""), ElementType::uint16);
+  EXPECT_EQ(read("uint32"), ElementType::uint32);
+  EXPECT_THROW(read("Uint8"), Error);
+}
+
+TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
+  const auto shape = [](const std::string& appearance, const std::string& coord) {
+    return "<Shape bboxSize='1 1 1'><Appearance " + appearance +
+           "><Material diffuseColor='1 0 0'/></Appearance>"
+           "<BinaryGeometry size='2 2 2' coordType='Uint16' coord='" +
+           coord + "'/></Shape>";
+  };
+  const auto scene = [](const std::string& shapes) {
+    return readScene("<X3D><Scene><Group DEF='statue' bboxSize='3 3 3'>" + shapes + "</Group></Scene></X3D>", "x");
+  };
+  const SceneDocument joined = scene(shape("DEF='A'", "a") + shape("USE='A'", "b"));
+  ASSERT_EQ(shapeNodes(joined.graph).size(), 1u);
+  EXPECT_EQ(shapeName(joined.graph, 0), "statue");
+  EXPECT_EQ(testing::appearanceOf(joined.graph, 0).material, AnyMaterial(Material{.diffuseColor{1, 0, 0}}));
+  ASSERT_EQ(joined.geometries.at(0).patches.size(), 2u);
+  EXPECT_EQ(joined.geometries[0].patches[1].coord[0].url, "b");
+  EXPECT_EQ(joined.geometries[0].patches[1].box.size(), (Vec3d{1, 1, 1}));
+  EXPECT_EQ(joined.geometries[0].box.size(), (Vec3d{3, 3, 3}));
+
+  EXPECT_EQ(shapeNodes(scene(shape("DEF='A'", "a") + shape("DEF='B'", "b")).graph).size(), 2u);
+  EXPECT_EQ(shapeNodes(scene(shape("", "a") + shape("", "b")).graph).size(), 2u);
+  const std::string otherBox =
+      "<Shape><Appearance USE='A'/><BinaryGeometry size='3 3 3' coordType='Uint16' coord='b'/></Shape>";
+  EXPECT_EQ(shapeNodes(scene(shape("DEF='A'", "a") + otherBox).graph).size(), 2u);
+}
+
+TEST(ReadScene, RefusesGeometryWithoutALattice) {
+  const auto geometry = [](const std::string& fields, const std::string& coord) {
+    return "<X3D><Scene><Shape><ImageGeometry " + fields + " coord='" + coord + "'/></Shape></Scene></X3D>";
+  };
+  EXPECT_EQ(errorKindOf(geometry("size='1 -2 1'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("positionBits='16'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("positionBits='7'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(errorKindOf(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(geometry("", "")), ErrorKind::malformed);
+}
+
+TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {
+  const SceneDocument document = readScene("<X3D><Scene>\n<Shape/><Viewpoint position='1 2' fieldOfView='1'/>\n"
+                                           "<Shape><Appearance USE='a'/><ImageGeometry coord='c'/></Shape>"
+                                           "</Scene></X3D>",
+                                           "folder/s.x3d");
+  EXPECT_EQ(document.warnings,
+            (std::vector<std::string>{
+                "s.x3d:2: Viewpoint: position has 2 numbers and needs 3; it counts as absent.",
+                "s.x3d:3: Appearance: USE names no Appearance that stands before; it has its defaults."}));
+  const Viewpoint& viewpoint = std::get<Viewpoint>(document.graph.nodes.at(0).content);
+  EXPECT_EQ(viewpoint.position, Viewpoint{}.position);
+  EXPECT_EQ(viewpoint.fieldOfView, 1);
+  EXPECT_EQ(shapeNodes(document.graph).size(), 1u);
+}
+
+TEST(ReadScene, RefusesExcessiveDepth) {
+  std::string text = "<X3D><Scene>";
+  for (int i = 0; i < 100000; ++i)
+    text += "<Group>";
+  for (int i = 0; i < 100000; ++i)
+    text += "</Group>";
+  EXPECT_EQ(errorKindOf(text + "</Scene></X3D>"), ErrorKind::limit);
+
+  std::string chain = "<X3D><Scene><Group DEF='g0'></Group>";
+  for (int i = 1; i < 100000; ++i)
+    chain += "<Group DEF='g" + std::to_string(i) + "'><Group USE='g" + std::to_string(i - 1) + "'/></Group>";
+  EXPECT_EQ(errorKindOf(chain + "</Scene></X3D>"), ErrorKind::limit);
+}
+
+TEST(ReadScene, RefusesAUseWithoutADefBefore) {
+  for (const std::string use : {"<Shape USE='a'/>", "<Group DEF='a'><Group USE='a'/></Group>",
+                                "<Transform USE='a'/><Transform DEF='a'/>", "<Shape><ImageGeometry USE='a'/></Shape>"})
+    EXPECT_EQ(errorKindOf("<X3D><Scene>" + use + "</Scene></X3D>"), ErrorKind::malformed) << use;
+}
+
+} // namespace
+} // namespace imgeo
