@@ -1,6 +1,5 @@
 #pragma once
-// Bytes in memory: owned as `Bytes`, passed as `ByteSpan`, read and appended
-// with an explicit byte order.
+// Bytes in memory: owned as `Bytes`, passed as `ByteSpan`, read and appended with an explicit byte order.
 
 #include <bit>
 #include <cassert>

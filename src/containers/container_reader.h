@@ -16,9 +16,8 @@ class ContainerReader {
 public:
   explicit ContainerReader(const FetchFile& fetch);
 
-  /// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked
-  /// against the description, and limits (containers/limits.h) bound every
-  /// allocation. Throws Error naming the url. Normals come back unit length.
+  /// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked against the description, and limits
+  /// (containers/limits.h) bound every allocation. Throws Error naming the url. Decoded normals have unit length.
   IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) const;
 
   /// Decodes the base mesh of a geometry that has one. Checks and errors are those of decode().

@@ -1,6 +1,6 @@
 #pragma once
-// The description of one geometry in a document: its lattice, its patches and the
-// references to their files. Encoders produce it, documents store it, decoders use it.
+// The description of one geometry in a document: its lattice, its patches and the references to their files. Encoders
+// produce it, documents store it, decoders use it.
 // docs/formats/nodes.md specifies its text form.
 
 #include "containers/reference.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Uncompressed size of vertices with normals, as Table 1 of the 2012 paper counts it: typed
-// arrays in single precision, and images of 16-bit positions without padding.
+// Uncompressed size of vertices with normals, as Table 1 of the 2012 paper counts it: typed arrays in single precision,
+// and images of 16-bit positions without padding.
 
 #include <cstdint>
 

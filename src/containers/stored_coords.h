@@ -1,6 +1,6 @@
 #pragma once
-// Lattice coordinates <-> stored numbers, and the document's `position` and `size`, over
-// which X3DOM spreads stored numbers: docs/formats/nodes.md, "Stored values".
+// Lattice coordinates <-> stored numbers, and the document's `position` and `size`, over which X3DOM spreads stored
+// numbers: docs/formats/nodes.md, "Stored values".
 
 #include "containers/geometry_description.h"
 
@@ -45,8 +45,8 @@ inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
 /// Throws Error{malformed} with `location` for a stored integer that is no lattice point.
 std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& location);
 
-/// The lattice point nearest to a Float32 position. Throws Error{malformed} with
-/// `location` for a position that lies outside by more than rounding. The lattice covers a cube.
+/// The lattice point nearest to a Float32 position. Throws Error{malformed} with `location` for a position that lies
+/// outside by more than rounding. The lattice covers a cube.
 Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location);
 
 /// The `position` and `size` fields of a node.

@@ -93,9 +93,9 @@ Vec3f unitFromSpherical(Vec2<std::uint32_t> encoded, std::uint32_t bits) {
 }
 
 double octahedralErrorBound(std::uint32_t bits) {
-  // On a face of the octahedron the grid is a lattice of equilateral triangles of
-  // edge sqrt(2) cell, whose points are at most edge / sqrt(3) from a corner; seen
-  // from the origin, 1 / sqrt(3) away at the face's centre, that is sqrt(2) cell.
+  // On a face of the octahedron the grid is a lattice of equilateral triangles of edge sqrt(2) cell, whose points are
+  // at most edge / sqrt(3) from a corner; seen from the origin, 1 / sqrt(3) away at the face's centre, that is sqrt(2)
+  // cell.
   const double cell = 2.0 / ((1u << bits) - 2);
   return std::sqrt(2.0) * cell * 1.001 + 1e-6;
 }

@@ -22,8 +22,8 @@ bool isBmp(ByteSpan bytes) {
          isOneOf(loadLittle<std::uint32_t>(&bytes[fileHeader]), {12, 16, 40, 52, 56, 64, 108, 124});
 }
 
-/// TGA has no signature at its beginning; few other files fit its header (Truevision
-/// TGA file format specification 2.0).
+/// TGA has no signature at its beginning; few other files fit its header (Truevision TGA file format specification
+/// 2.0).
 bool isTga(ByteSpan bytes) {
   constexpr std::size_t header = 18;
   if (bytes.size() <= header)

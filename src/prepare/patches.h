@@ -35,9 +35,9 @@ struct PatchedMesh {
 /// The tight bounding box of a patch, in the mesh's units.
 Box3d boxOf(const Patch& patch, const Lattice& lattice);
 
-/// Divides `mesh`, which has no unused wedges and positions, into patches of at most `maxWedges` wedges
-/// (3 .. maxPatchWedges) and at most `maxPatchCorners` corners. Every element is in exactly one patch. The order does
-/// not depend on threads.
+/// Divides `mesh`, which has no unused wedges and positions, into patches of at most `maxWedges` wedges (3 ..
+/// maxPatchWedges) and at most `maxPatchCorners` corners. Every element is in exactly one patch. The order does not
+/// depend on threads.
 PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxWedges);
 /// The same for a mesh that has been quantised: `points` are its positions on the lattice.
 PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice, std::uint32_t maxWedges);

@@ -1,6 +1,5 @@
 #pragma once
-// Quadric error metrics (Garland and Heckbert, "Surface simplification using quadric error metrics",
-// 1997).
+// Quadric error metrics (Garland and Heckbert, "Surface simplification using quadric error metrics", 1997).
 
 #include "base/vec.h"
 

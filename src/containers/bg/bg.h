@@ -1,6 +1,6 @@
 #pragma once
-// BG: a patch as typed arrays that go to the GPU as they are (Behr et al. 2012,
-// section 3: "explicit binary containers"; fields as X3DOM 1.7.2 reads them).
+// BG: a patch as typed arrays that go to the GPU as they are (Behr et al. 2012, section 3: "explicit binary
+// containers"; fields as X3DOM 1.7.2 reads them).
 // Specification: docs/formats/bg.md.
 
 #include "containers/encodings.h"

@@ -1,10 +1,8 @@
 #pragma once
-// SIG classic: a patch as images that a GPU reads by texel (Behr et al. 2012,
-// "Using images and explicit binary container for efficient and incremental
-// delivery of declarative 3D scenes on the web", section 4; fields as X3DOM
-// 1.7.2 reads them). Coordinates are byte planes, most significant first, so
-// that the first image alone shows the shape. Specification:
-// docs/formats/sig-classic.md.
+// SIG classic: a patch as images that a GPU reads by texel (Behr et al. 2012, "Using images and explicit binary
+// container for efficient and incremental delivery of declarative 3D scenes on the web", section 4; fields as X3DOM
+// 1.7.2 reads them). Coordinates are byte planes, most significant first, so that the first image alone shows the
+// shape. Specification: docs/formats/sig-classic.md.
 
 #include "containers/encodings.h"
 

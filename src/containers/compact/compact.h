@@ -1,6 +1,6 @@
 #pragma once
-// SIG compact: patches whose values are predicted and entropy-coded, as the pixels of
-// an image. Specification: docs/formats/compact.md.
+// SIG compact: patches whose values are predicted and entropy-coded, as the pixels of an image. Specification:
+// docs/formats/compact.md.
 
 #include "containers/compact/compact_patch.h"
 #include "containers/encodings.h"

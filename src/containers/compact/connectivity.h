@@ -1,6 +1,6 @@
 #pragma once
-// The order in which the triangles (or lines) and vertices of a patch are coded, and
-// the adjacency that later passes use for prediction.
+// The order in which the triangles (or lines) and vertices of a patch are coded, and the adjacency that later passes
+// use for prediction.
 
 #include "containers/compact/range_decoder.h"
 #include "containers/compact/range_encoder.h"

@@ -1,9 +1,8 @@
 #pragma once
-// Triangles grow from a boundary: the cut-border machine of Gumhold and Straßer,
-// "Real time compression of triangle mesh connectivity", 1998, with vertices
-// processed in the order of their discovery, and the degrees of Touma and
-// Gotsman, "Triangle mesh compression", 1998, as contexts. The same loop encodes and
-// decodes: docs/formats/compact.md, "Connectivity of triangles".
+// Triangles grow from a boundary: the cut-border machine of Gumhold and Straßer, "Real time compression of triangle
+// mesh connectivity", 1998, with vertices processed in the order of their discovery, and the degrees of Touma and
+// Gotsman, "Triangle mesh compression", 1998, as contexts. The same loop encodes and decodes: docs/formats/compact.md,
+// "Connectivity of triangles".
 
 #include "containers/compact/connectivity.h"
 #include "containers/compact/symbols.h"

@@ -1,6 +1,6 @@
 #pragma once
-// The planes on which an isosurface has its vertices: marching cubes puts them on
-// the edges of a grid, so that two of three coordinates are multiples of its step.
+// The planes on which an isosurface has its vertices: marching cubes puts them on the edges of a grid, so that two of
+// three coordinates are multiples of its step.
 
 #include "containers/compact/compact_patch.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // The probabilities of a stream's adaptive bits: docs/formats/compact.md, "Stream".
-// With each bit a probability moves towards it by 1/2, 1/4, 1/4, 1/8 ... and finally 1/64
-// of the distance: it adapts fast at first, and slowly later.
+// With each bit a probability moves towards it by 1/2, 1/4, 1/4, 1/8 ... and finally 1/64 of the distance: it adapts
+// fast at first, and slowly later.
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,7 @@
 #pragma once
-// Predicts the position of a vertex from earlier vertices: the candidates and the slope of
-// the surface of docs/formats/compact.md, "Positions". The encoder chooses among several
-// parallelograms, after Isenburg and Cohen-Or, "Geometry prediction
-// for high degree polygons", 2005, and Draco's constrained multi-parallelograms.
+// Predicts the position of a vertex from earlier vertices: the candidates and the slope of the surface of
+// docs/formats/compact.md, "Positions". The encoder chooses among several parallelograms, after Isenburg and Cohen-Or,
+// "Geometry prediction for high degree polygons", 2005, and Draco's constrained multi-parallelograms.
 
 #include "base/vec.h"
 #include "containers/compact/connectivity.h"

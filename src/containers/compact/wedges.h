@@ -1,6 +1,6 @@
 #pragma once
-// Encodes and decodes the wedge of each corner: docs/formats/compact.md, "Wedges". A seam
-// is where the wedges of two triangles differ at their common edge.
+// Encodes and decodes the wedge of each corner: docs/formats/compact.md, "Wedges". A seam is where the wedges of two
+// triangles differ at their common edge.
 
 #include "containers/compact/connectivity.h"
 #include "containers/compact/symbols.h"

@@ -1,6 +1,5 @@
 #pragma once
-// The chunks of a PNG (ISO/IEC 15948, clause 5), all checked before anything is
-// unpacked.
+// The chunks of a PNG (ISO/IEC 15948, clause 5), all checked before anything is unpacked.
 
 #include "base/bytes.h"
 

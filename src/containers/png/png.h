@@ -19,8 +19,8 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-/// Writes IHDR, PLTE if there is a palette, one IDAT and IEND. `effort` 0 (fastest) .. 9 (smallest) bounds
-/// the search for filters and matches: docs/decisions/png-effort.md.
+/// Writes IHDR, PLTE if there is a palette, one IDAT and IEND. `effort` 0 (fastest) .. 9 (smallest) bounds the search
+/// for filters and matches: docs/decisions/png-effort.md.
 /// Deterministic. The image is not empty and its edges are at most maxImageEdge.
 Bytes encodePng(const Image& image, int effort);
 

@@ -1,6 +1,5 @@
-// Ear clipping after Meisters, "Polygons have ears" (1975): an ear is a convex
-// corner whose triangle holds no other corner. Only reflex corners can lie in such a
-// triangle (Eberly, "Triangulation by ear clipping", 2002).
+// Ear clipping after Meisters, "Polygons have ears" (1975): an ear is a convex corner whose triangle holds no other
+// corner. Only reflex corners can lie in such a triangle (Eberly, "Triangulation by ear clipping", 2002).
 #include "import/mesh/triangulate.h"
 
 #include <cassert>

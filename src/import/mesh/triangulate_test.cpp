@@ -37,8 +37,8 @@ void expectCovered(const Ring& ring) {
   EXPECT_NEAR(summed, length(twiceAreaOf(ring)), 1e-5 * length(twiceAreaOf(ring)));
 }
 
-/// A polygon around the origin whose radius changes from corner to corner, in a
-/// random plane: concave, without crossings.
+/// A polygon around the origin whose radius changes from corner to corner, in a random plane: concave, without
+/// crossings.
 Ring starShaped(Random& random, std::size_t corners) {
   const Vec3d normal(random.direction());
   Vec3d u = cross(normal, Vec3d(random.direction()));

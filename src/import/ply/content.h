@@ -34,8 +34,8 @@ private:
   void append(const PlyContent& chunk);
 };
 
-/// Reads all elements after `header`. Safe for untrusted bytes; throws Error
-/// (truncated, malformed, limit) naming the record and its line or byte.
+/// Reads all elements after `header`. Safe for untrusted bytes; throws Error (truncated, malformed, limit) naming the
+/// record and its line or byte.
 PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
                           const AttributeChoice& kept);
 

@@ -21,8 +21,8 @@ struct Elements {
   std::size_t offsetOf(pugi::xml_node element) const;
 };
 
-/// Safe for untrusted text: document types with entities are refused. Throws
-/// Error{malformed, unsupported} naming `name` and the line.
+/// Safe for untrusted text: document types with entities are refused. Throws Error{malformed, unsupported} naming
+/// `name` and the line.
 Elements parseXml(std::string_view text, const std::string& name);
 
 /// "hall.wrl:12:3", the line and column of a byte of the text.
