@@ -38,8 +38,9 @@ export type TexturePriority = (key: string, chunk: TextureChunk) => number | und
 /** A file of a texture, and its state. */
 interface TextureFile {
   readonly chunk: TextureChunk;
-  /** The one to be requested, of the file's URLs; the ones before it have failed. */
+  /** The URL to request; earlier URLs of the file have failed. */
   url: string;
+  /** Tried in order where `url` fails. */
   readonly furtherUrls: string[];
   handle: ResourceHandle | undefined;
   state: "absent" | "requested" | "ready" | "failed";

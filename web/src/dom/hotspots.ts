@@ -2,7 +2,7 @@
 // remain the page's own elements, readable and focusable. This file positions them on
 // the canvas and tells whether they are visible: whether their shape is, their surface
 // faces the camera, and the scene does not cover them. Where labels would overlap, the
-// nearer one stays.
+// one that is visible, of higher priority, or nearer stays.
 
 import type { View } from "../render/view.ts";
 import type { LabelBox } from "./hotspotLabels.ts";
@@ -19,7 +19,7 @@ interface Hotspot {
   readonly normal: Point | undefined;
   /** DEF or id of the shape that the hotspot is about; empty: no particular one. */
   readonly shapeName: string;
-  /** The one of higher priority stays where two overlap. */
+  /** Where two overlap, the one of higher priority stays. */
   readonly priority: number;
   /** The position on the canvas in CSS pixels; undefined outside of it. */
   pixel: readonly [x: number, y: number] | undefined;
