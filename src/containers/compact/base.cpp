@@ -81,8 +81,8 @@ compact::CompactPatch quantiseBase(const BaseMesh& base, const GeometryDescripti
   patch.segmentCount = base.segmentCount;
   patch.residualShift = residualShiftFor(base, geometry.lattice.bits);
   compact::Attribute normals{{compact::AttributeKind::normal, 3, 8, compact::NormalMode::derivedArea}, {}};
-  normals.values.resize(
-      base.wedgePositions.size()); // values are not stored: readers compute normals from the triangles
+  // The values are not stored: readers compute normals from the triangles.
+  normals.values.resize(base.wedgePositions.size());
   patch.attributes.push_back(std::move(normals));
   for (std::size_t set = 0; set < texCoordSetCount(base); ++set) {
     const TexCoordBox& box = geometry.texCoordBoxes[set];

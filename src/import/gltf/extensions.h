@@ -28,7 +28,8 @@ struct ExtensionRow {
   std::string_view name;
   ExtensionStatus status = ExtensionStatus::ratified;
   ExtensionTreatment treatment = ExtensionTreatment::metadata;
-  /// drawn: as what, or "" where there is nothing to say. Otherwise a clause that follows the name and a colon.
+  /// drawn: as what. Otherwise the reason, a clause that warnings give after the name and a colon. "" where there is
+  /// nothing to say, for rows without a warning: drawn and metadata.
   std::string_view note;
 };
 
