@@ -18,7 +18,7 @@ namespace imgeo {
 struct SiteFile {
   std::string path; ///< relative to the site
   std::string role; ///< "document" (the page), "runtime", "coord" and other geometry roles, "texture", "preview",
-                    ///< "scene", "style", "marker"
+                    ///< "picture", "scene", "style", "marker"
   std::uint64_t bytes = 0; ///< size
 };
 
