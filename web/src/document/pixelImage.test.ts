@@ -36,7 +36,9 @@ function texturesIn(markup: string): { urls: string[]; warnings: string[] } {
     elementsOf(`<X3D><Scene><Shape><Appearance>${markup}</Appearance></Shape></Scene></X3D>`),
   );
   return {
-    urls: shapesOf(root).flatMap(({ appearance }) => appearance.textures.map(({ role, urls }) => `${role} ${urls.join(" ")}`)),
+    urls: shapesOf(root).flatMap(({ appearance }) =>
+      appearance.textures.map(({ role, urls }) => `${role} ${urls.join(" ")}`),
+    ),
     warnings: warnings.map(({ message }) => message),
   };
 }
