@@ -19,6 +19,7 @@ const char* nameOf(AxisDirection direction);
 struct AxisRotation {
   int axis = 0;       ///< 0: x, 1: y, 2: z
   double degrees = 0; ///< counterclockwise seen from the axis's positive end
+  /// Whether all members are equal.
   friend bool operator==(const AxisRotation&, const AxisRotation&) = default;
 };
 
@@ -27,6 +28,7 @@ struct SourceAxes {
   AxisDirection up = AxisDirection::y;   ///< the source's direction that becomes y
   std::vector<AxisRotation> rotations{}; ///< about the document's axes, the first one first
   double scale = 1;                      ///< document units in a unit of the source
+  /// Whether all members are equal.
   friend bool operator==(const SourceAxes&, const SourceAxes&) = default;
 };
 
@@ -40,7 +42,7 @@ struct SourceAxesOptions {
 
 /// The axes of a conversion, and why they were chosen.
 struct SourceAxesReport {
-  SourceAxes axes{};
+  SourceAxes axes{};        ///< the steps from source to document coordinates
   std::string upReason{};   ///< "stated", "by the format", or for a guess what it follows from
   bool isGuess = false;     ///< `axes.up` was guessed
   std::string unitReason{}; ///< likewise; "not stated" if the source's numbers count as metres
