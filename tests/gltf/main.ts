@@ -1,25 +1,28 @@
 // Converts every glTF file of the given folders, and samples of each extension of materials; verifies the sites, and
 // draws each beside three.js' GLTFLoader. Prints the mean difference of each picture and writes
-// build/gltf/sheet.png. Fails where a site does not equal its file, or a picture of a sample differs by more than
-// its limit.
+// build/gltf/sheet.png. Fails where a site does not equal its file, or a picture differs and explanations.ts does not
+// say why.
 //
-//   scripts/gltf [FOLDER|FILE…]      default: /usr/share/assimp/models
+//   scripts/gltf [FOLDER|FILE…]      default: assimp-testmodels, and the npm packages of `scripts/dependencies --soak`
 
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { existsSync, mkdirSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
 import { launchChromium } from "../browser/chromium.ts";
 import { difference } from "../browser/compare.ts";
 import { converter, repository } from "../browser/paths.ts";
 import { decodePng } from "../browser/png.ts";
 import { startServer } from "../browser/server.ts";
 import { draw, serveThree, size } from "./compare.ts";
+import { explanationOf, maxEqualMean } from "./explanations.ts";
 import { materialSamples, sampleDocument } from "./samples.ts";
 
-/** Mean difference of a colour channel, 0 … 255, that a sample may have. */
-const maxSampleMean = 8;
-
 const output = join(repository, "build/gltf");
+
+/** Folders of models that are installed. */
+const installed = ["/usr/share/assimp/models", join(repository, "build/soak/node_modules")].filter((folder) =>
+  existsSync(folder),
+);
 
 function filesIn(path: string): string[] {
   if (statSync(path).isFile()) return [path];
@@ -34,6 +37,11 @@ function run(...args: string[]): { status: number | null; message: string } {
   return { status, message: (status === 0 ? stdout : stderr).trim() };
 }
 
+/** A file's name with that of its folder: many models are called left.glb or scene.gltf. */
+function labelOf(file: string): string {
+  return join(basename(dirname(file)), basename(file));
+}
+
 rmSync(output, { recursive: true, force: true });
 mkdirSync(join(output, "samples"), { recursive: true });
 const samples = Object.entries(materialSamples).map(([name, materials]) => {
@@ -42,7 +50,7 @@ const samples = Object.entries(materialSamples).map(([name, materials]) => {
   return file;
 });
 const requested = process.argv.slice(2);
-const files = [...samples, ...(requested.length > 0 ? requested : ["/usr/share/assimp/models"]).flatMap(filesIn)];
+const files = [...samples, ...(requested.length > 0 ? requested : installed).flatMap(filesIn)];
 const server = await startServer(output);
 await serveThree(server);
 const browser = await launchChromium();
@@ -66,12 +74,13 @@ try {
     try {
       const { imgeo, three } = await draw(browser, server, file, site);
       const { mean } = difference(decodePng(imgeo), decodePng(three));
-      console.log(`${mean.toFixed(2).padStart(7)}  ${file}`);
-      if (samples.includes(file) && mean > maxSampleMean) failures.push(`${file}: differs by ${mean.toFixed(2)}`);
+      const why = mean > maxEqualMean ? explanationOf(file) : "";
+      console.log(`${mean.toFixed(2).padStart(7)}  ${file}${why === "" ? "" : `: ${why}`}`);
+      if (mean > maxEqualMean && why === "") failures.push(`${file}: differs by ${mean.toFixed(2)}`);
       const picture = (png: Buffer) =>
         `<img width="${String(size.width / 2)}" src="data:image/png;base64,${png.toString("base64")}">`;
       cells.push(
-        `<figure>${picture(imgeo)}${picture(three)}<figcaption>${basename(file)} ${mean.toFixed(2)}</figcaption></figure>`,
+        `<figure>${picture(imgeo)}${picture(three)}<figcaption>${labelOf(file)} ${mean.toFixed(2)}</figcaption></figure>`,
       );
     } catch (error) {
       console.log(`   none  ${file}: three.js draws nothing: ${String(error).split("\n")[0] ?? ""}`);

@@ -71,29 +71,35 @@ export const materialSamples: Readonly<Record<string, readonly Material[]>> = {
 
 const slices = 48;
 
-/** Positions (which are normals, too), texture coordinates and indices of a unit sphere. */
-function sphereArrays(): { positions: number[]; texCoords: number[]; indices: number[] } {
+/**
+ * Positions (which are normals, too), tangents, texture coordinates and indices of a unit sphere. Without tangents
+ * three.js turns anisotropic surfaces the other way: it derives bitangents that point down the texture.
+ */
+function sphereArrays(): { positions: number[]; tangents: number[]; texCoords: number[]; indices: number[] } {
   const positions: number[] = [];
+  const tangents: number[] = [];
   const texCoords: number[] = [];
   const indices: number[] = [];
   for (let row = 0; row <= slices; row++)
     for (let column = 0; column <= slices; column++) {
       const [polar, around] = [(row / slices) * Math.PI, (column / slices) * 2 * Math.PI];
       positions.push(Math.sin(polar) * Math.sin(around), Math.cos(polar), Math.sin(polar) * Math.cos(around));
+      tangents.push(Math.cos(around), 0, -Math.sin(around), 1);
       texCoords.push(column / slices, row / slices);
       if (row === slices || column === slices) continue;
       const at = row * (slices + 1) + column;
       indices.push(at, at + slices + 1, at + 1, at + 1, at + slices + 1, at + slices + 2);
     }
-  return { positions, texCoords, indices };
+  return { positions, tangents, texCoords, indices };
 }
 
 /** The text of a glTF document with a sphere for each material, and a striped wall behind them. */
 export function sampleDocument(materials: readonly Material[]): string {
-  const { positions, texCoords, indices } = sphereArrays();
+  const { positions, tangents, texCoords, indices } = sphereArrays();
   const bytes = Buffer.concat([
     Buffer.from(new Float32Array(positions).buffer),
     Buffer.from(new Float32Array(texCoords).buffer),
+    Buffer.from(new Float32Array(tangents).buffer),
     Buffer.from(new Uint16Array(indices).buffer),
   ]);
   const count = positions.length / 3;
@@ -104,7 +110,7 @@ export function sampleDocument(materials: readonly Material[]): string {
     scale: [1.2 * materials.length, 0.25, 0.05],
   }));
   const mesh = (material: number) => ({
-    primitives: [{ attributes: { POSITION: 0, NORMAL: 0, TEXCOORD_0: 1 }, indices: 2, material }],
+    primitives: [{ attributes: { POSITION: 0, NORMAL: 0, TEXCOORD_0: 1, TANGENT: 3 }, indices: 2, material }],
   });
   const colored = (baseColorFactor: number[]) => ({
     pbrMetallicRoughness: { baseColorFactor, metallicFactor: 0, roughnessFactor: 1 },
@@ -119,9 +125,15 @@ export function sampleDocument(materials: readonly Material[]): string {
     accessors: [
       { bufferView: 0, componentType: 5126, count, type: "VEC3", min: [-1, -1, -1], max: [1, 1, 1] },
       { bufferView: 1, componentType: 5126, count, type: "VEC2" },
-      { bufferView: 2, componentType: 5123, count: indices.length, type: "SCALAR" },
+      { bufferView: 3, componentType: 5123, count: indices.length, type: "SCALAR" },
+      { bufferView: 2, componentType: 5126, count, type: "VEC4" },
     ],
-    bufferViews: [view(0, count * 12), view(count * 12, count * 8), view(count * 20, indices.length * 2)],
+    bufferViews: [
+      view(0, count * 12),
+      view(count * 12, count * 8),
+      view(count * 20, count * 16),
+      view(count * 36, indices.length * 2),
+    ],
     buffers: [{ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString("base64")}` }],
   });
 }
