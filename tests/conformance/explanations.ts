@@ -9,6 +9,8 @@ const otherFonts = "glyphs come from the browser's fonts; X_ITE brings its own f
 const noNode = "X3DOM's npm package lacks the node";
 const noFans = "X3DOM's npm package does not draw the node";
 const noTexturesInMaterials = "X3DOM does not support X3D 4's textures of materials";
+const allEdgesAreSmooth =
+  "edges with angles up to `creaseAngle` are smooth, others sharp; X3DOM makes all edges smooth";
 const withoutPi =
   "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM lacks the node";
 
@@ -37,8 +39,7 @@ export const explanations: Readonly<Record<string, string>> = {
   Grouping: "X3DOM does not display a document that contains a `StaticGroup`",
   "ImageTexture-colored-material":
     "the texture is multiplied by the diffuse colour (X3D 4); in X3DOM it replaces the diffuse colour",
-  "IndexedFaceSet-creaseAngle-between":
-    "edges with angles up to `creaseAngle` are smooth, others sharp; X3DOM makes all edges smooth",
+  "IndexedFaceSet-creaseAngle-between": allEdgesAreSmooth,
   IndexedQuadSet: noNode,
   IndexedTriangleFanSet: noFans,
   IndexedTriangleStripSet: "X3DOM does not share normals between strips",
@@ -71,11 +72,14 @@ export const explanations: Readonly<Record<string, string>> = {
   "TextureCoordinateGenerator-SPHERE-LOCAL":
     "computed from the vertices' normals; X_ITE computes it from the normal of each pixel. In X3DOM the texture replaces the diffuse colour",
   TextureBackground: "X3DOM lacks the node",
+  "TextureCoordinate-mapping": noTexturesInMaterials,
   TextureTransform: "minified textures are filtered differently",
+  "TextureTransform-mapping": noTexturesInMaterials,
   "Transform-mirror":
     "a mirroring transform reverses the orientation of triangles, which imgeo corrects; X3DOM displays their backs",
   TriangleFanSet: noFans,
   TriangleStripSet: noFans,
   "UnlitMaterial-emissiveTexture": "X3DOM lacks the node",
   UnlitMaterial: "X3DOM lacks the node",
+  Vrml1: allEdgesAreSmooth,
 };

@@ -1,12 +1,13 @@
 // Draws each document of nodes/ in imgeo's runtime, in X_ITE and in X3DOM, in the same browser, and compares the
-// pictures. imgeo draws documents with NURBS as `build/imgeo convert` has written them. Writes docs/conformance.md and
-// its picture; fails if imgeo differs from one of them and explanations.ts does not explain it.
+// pictures. imgeo draws documents with NURBS or prototypes as `build/imgeo convert` has written them, and the VRML 1.0
+// file of the same name where there is one, a format that the other runtimes do not read. Writes docs/conformance.md
+// and its picture; fails if imgeo differs from one of them and explanations.ts does not explain it.
 //
 //   scripts/conformance [NAME…]      only those documents; pictures only in build/conformance
 //   scripts/conformance --check      all of them, without writing into docs/
 
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
@@ -63,9 +64,11 @@ function convert(server: TestServer, path: string, folder: string): string {
 async function show(page: Page, server: TestServer, runtime: Runtime, name: string): Promise<Buffer> {
   const path = join(here, "nodes", `${name}.x3d`);
   const source = readFileSync(path, "utf8");
-  const isConverted = runtime === "imgeo" && /<Nurbs\w*(Surface|Curve)\b/.test(source);
+  const vrml = join(here, "nodes", `${name}.wrl`);
+  const isConverted =
+    runtime === "imgeo" && (existsSync(vrml) || /<Nurbs\w*(Surface|Curve)\b|<ProtoDeclare\b/.test(source));
   const folder = isConverted ? `converted/${name}/` : "nodes/";
-  const scene = isConverted ? convert(server, path, folder) : source;
+  const scene = isConverted ? convert(server, existsSync(vrml) ? vrml : path, folder) : source;
   const address = `${folder}${runtime}-${name}.html`;
   server.put(`/${address}`, pageOf(runtime, `/nodes/${name}.x3d`, scene));
   await page.goto(server.origin + address);
@@ -117,6 +120,7 @@ function lineOf(row: Row): { text: string; isExplained: boolean } {
 const args = process.argv.slice(2);
 const requestedNames = args.filter((argument) => argument !== "--check");
 const all = readdirSync(join(here, "nodes"))
+  .filter((file) => file.endsWith(".x3d"))
   .map((file) => file.replace(/\.x3d$/, ""))
   .sort();
 const names = requestedNames.length > 0 ? all.filter((name) => requestedNames.includes(name)) : all;
