@@ -56,12 +56,14 @@ private:
   std::unordered_map<Corner, std::uint32_t, CornerHash> wedges_;
 };
 
-/// Newell's normal, normalised; zero for a face without area.
+/// Newell's normal, normalised; zero for a face without area. Positions count from the first corner: far from the
+/// origin, products of coordinates themselves would have no digits left for the face.
 Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
   Vec3d sum;
-  for (std::size_t i = 0; i < face.size(); ++i)
+  const Vec3d first = face.empty() ? Vec3d{} : Vec3d(data.positions[face[0].position]);
+  for (std::size_t i = 1; i + 1 < face.size(); ++i)
     sum = sum +
-          cross(Vec3d(data.positions[face[i].position]), Vec3d(data.positions[face[(i + 1) % face.size()].position]));
+          cross(Vec3d(data.positions[face[i].position]) - first, Vec3d(data.positions[face[i + 1].position]) - first);
   const double size = length(sum);
   return size > 0 ? sum * (1 / size) : Vec3d{};
 }

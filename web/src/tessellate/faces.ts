@@ -3,7 +3,7 @@
 
 import { triangulate } from "./earClipping.ts";
 import type { Vec3 } from "./vectors.ts";
-import { cross, dot } from "./vectors.ts";
+import { cross, dot, minus } from "./vectors.ts";
 
 /** Attribute values that corners index; an empty list means that the geometry lacks the attribute. */
 export interface VertexData {
@@ -142,12 +142,18 @@ export function withDefaultTexCoords(
   };
 }
 
-/** The unit normal by Newell's method; zero for a face without area. */
+/**
+ * The unit normal by Newell's method; zero for a face without area. Positions count from the first corner: far from the
+ * origin, products of coordinates themselves would have no digits left for the face.
+ */
 function faceNormal(positions: readonly number[], face: readonly Corner[]): Vec3 {
   let sum = zero;
-  for (const [i, { position }] of face.entries()) {
-    const next = face[(i + 1) % face.length]?.position ?? position;
-    sum = plus(sum, cross(vectorAt(positions, position), vectorAt(positions, next)));
+  const first = vectorAt(positions, face[0]?.position ?? 0);
+  let before = zero;
+  for (const { position } of face.slice(1)) {
+    const after = minus(vectorAt(positions, position), first);
+    sum = plus(sum, cross(before, after));
+    before = after;
   }
   return hasDirection(sum) ? unit(sum) : zero;
 }
