@@ -19,8 +19,13 @@ std::string withoutFullStop(const std::string& sentence) {
 
 void addOmissions(std::vector<std::string>& warnings, const std::vector<std::string>& omissions, bool isStrict,
                   const std::string& sourceName) {
-  if (isStrict && !omissions.empty())
-    throw Error(ErrorKind::malformed, sourceName, withoutFullStop(omissions.front()));
+  if (isStrict && !omissions.empty()) {
+    const std::string first = withoutFullStop(omissions.front());
+    const std::size_t end = first.starts_with(sourceName + ":") ? first.find(": ") : first.npos; // FILE:LINE: SENTENCE
+    if (end != first.npos)
+      throw Error(ErrorKind::malformed, first.substr(0, end), first.substr(end + 2));
+    throw Error(ErrorKind::malformed, sourceName, first);
+  }
   std::ranges::copy(omissions, std::back_inserter(warnings));
 }
 

@@ -14,7 +14,7 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 std::string withoutFullStop(const std::string& sentence);
 
 /// Adds the warnings about content that was left out because it is damaged. If strict, throws the first as an
-/// Error{malformed} that names the source.
+/// Error{malformed} that names the source, once: an omission may begin with "FILE:LINE: ".
 void addOmissions(std::vector<std::string>& warnings, const std::vector<std::string>& omissions, bool isStrict,
                   const std::string& sourceName);
 

@@ -44,10 +44,10 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
     bytes = read.size();
     return importBytes(read, locationOf(input), options);
   }
-  Imported imported = importFile(input, options);
-  std::error_code ignored;
-  bytes = std::filesystem::file_size(input, ignored);
-  return imported;
+  std::error_code fault; // importFile reports a file that cannot be read
+  const std::uintmax_t size = std::filesystem::file_size(input, fault);
+  bytes = fault ? 0 : size;
+  return importFile(input, options);
 }
 
 PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
