@@ -86,9 +86,8 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
       app.add_flag("--" + flag.name, arguments.switches[flag.name]);
       continue;
     }
-    // A positional argument that has a short name also has its long name.
-    const std::string names =
-        flag.positional ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name) : "--" + flag.name;
+    const std::string names = (flag.positional ? flag.name : "") + (flag.positional && flag.hasLongName() ? "," : "") +
+                              (flag.hasLongName() ? "--" + flag.name : "");
     arguments.values[flag.name] = flag.defaultValue;
     app.add_option(names, arguments.values[flag.name])->check([&flag](const std::string& value) {
       return faultOf(flag, value);

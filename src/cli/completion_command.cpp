@@ -16,10 +16,10 @@ std::vector<std::string> commandNames() {
   return names;
 }
 
-/// The short names of a flag and, unless it is positional, its long name.
+/// The short names of a flag and, if it has one, its long name.
 std::vector<std::string> spellings(const Flag& flag) {
   std::vector<std::string> all = flag.aliases;
-  if (!flag.positional)
+  if (flag.hasLongName())
     all.push_back("--" + flag.name);
   return all;
 }
@@ -52,7 +52,7 @@ std::string bashScript() {
     for (const Flag& flag : command.flags) {
       if (flag.positional)
         words.insert(words.end(), flag.choices.begin(), flag.choices.end());
-      else
+      if (flag.hasLongName())
         names.push_back("--" + flag.name);
     }
     script += fmt::format("    {}) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); "
@@ -128,11 +128,10 @@ std::string fishScript() {
   for (const Command& command : commands()) {
     const std::string prefix = fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
     for (const Flag& flag : command.flags) {
-      if (flag.positional) {
-        if (!flag.choices.empty())
-          script += fmt::format("{} -f -a '{}'\n", prefix, fmt::join(flag.choices, " "));
+      if (flag.positional && !flag.choices.empty())
+        script += fmt::format("{} -f -a '{}'\n", prefix, fmt::join(flag.choices, " "));
+      if (!flag.hasLongName())
         continue;
-      }
       script += fmt::format("{} -l {}", prefix, flag.name);
       for (const std::string& alias : flag.aliases)
         script += fmt::format(" -{} {}", alias.size() == 2 ? "s" : "o", alias.substr(1));

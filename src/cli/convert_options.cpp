@@ -140,6 +140,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
                   .scale = scaleFrom(arguments.text("scale")),
                   .metres = valueNamed(unitChoices, arguments.text("unit"))};
   options.view = valueNamed(viewChoices, arguments.text("view"));
+  options.pictures = !arguments.has("no-pictures");
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
   options.outside = arguments.has("outside");

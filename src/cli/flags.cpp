@@ -162,6 +162,8 @@ Command convertCommand() {
                  .valueKind = ValueKind::text,
                  .valueName = "TEXT",
                  .help = "the page's title; otherwise the input's name"},
+                {.name = "no-pictures",
+                 .help = "leave out icon.png and picture.png, the pictures of tabs and of previews of links"},
                 integer("effort", {}, 0, 9, "5",
                         "how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one"),
                 integer("threads", {}, 0, 1024, "0",
@@ -201,8 +203,9 @@ Command verifyCommand() {
           .summary = "read a site back and prove that it equals its input",
           .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
                   "same elements in the same orientation, positions within half a step of the lattice, normals within "
-                  "the rounding of their bits. Checks that every file is there and holds what its name says, in a site "
-                  "of another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
+                  "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
+                  "pictures what imgeo.json says; in a site of another program only that it is there. Exits with 0 "
+                  "only if all of that is so, with 3 if not.",
           .flags = {positional("site", "DIR", ValueKind::directory, "the site"),
                     positional("input", "INPUT", ValueKind::file, "the file it was converted from"), outsideFlag(),
                     jsonFlag("the result"), helpFlag()},

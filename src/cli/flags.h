@@ -24,6 +24,9 @@ struct Flag {
   bool required = false;
 
   bool takesValue() const { return valueKind != ValueKind::none; }
+
+  /// Whether --NAME is a spelling of the flag: a positional argument has one if it has a short name, too.
+  bool hasLongName() const { return !positional || !aliases.empty(); }
 };
 
 struct Command {

@@ -54,6 +54,7 @@ TEST(Help, BashCompletesOptionsAndChoices) {
   };
   EXPECT_EQ(complete("imgeo co", 1), "convert completion\n");
   EXPECT_EQ(complete("imgeo convert --cont", 2), "--container\n");
+  EXPECT_EQ(complete("imgeo convert --inp", 2), "--input\n");
   EXPECT_EQ(complete("imgeo convert --container ''", 3), "sig bg\n");
   EXPECT_EQ(complete("imgeo completion z", 2), "zsh\n");
 }

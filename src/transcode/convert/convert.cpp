@@ -196,9 +196,9 @@ public:
   void writeDocuments() {
     writeInlinedDocuments(document_, options_.target, site_.path());
     warnOfCollapsed(report_);
-    writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest())));
     const PagePictures pictures =
         options_.pictures ? writePictures(document_.graph, pictureSamples_, site_.path()) : PagePictures{};
+    writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest(pictures))));
     if (options_.target == Target::x3dom) {
       const X3domRelease release = x3domReleaseFor(*options_.encoding, options_.x3domUrl);
       report_.x3domVersion = release.version;
@@ -254,7 +254,11 @@ private:
     return names;
   }
 
-  SiteManifest manifest() const {
+  SiteManifest manifest(const PagePictures& pictures) const {
+    std::map<std::string, std::string> pictureContents;
+    for (const std::string& url : {pictures.iconUrl, pictures.pictureUrl})
+      if (!url.empty())
+        pictureContents[url] = contentName(readFile(site_.path() / url));
     std::vector<std::string> attributeNames;
     for (const AttributeReport& attribute : report_.attributes)
       attributeNames.push_back(attribute.name);
@@ -272,7 +276,8 @@ private:
             .dropped = options_.dropped,
             .attributes = std::move(attributeNames),
             .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
-            .sourceTextureBytes = report_.textures.sourceBytes};
+            .sourceTextureBytes = report_.textures.sourceBytes,
+            .pictures = std::move(pictureContents)};
   }
 
   fs::path input_;

@@ -92,6 +92,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["normalErrorDegrees"] = manifest.normalErrorDegrees;
   if (manifest.sourceTextureBytes > 0)
     json["sourceTextureBytes"] = manifest.sourceTextureBytes;
+  if (manifest.pictures)
+    json["pictures"] = *manifest.pictures;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -122,6 +124,8 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);
     manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});
+    if (json.contains("pictures"))
+      manifest.pictures = json.at("pictures").get<std::map<std::string, std::string>>();
     return manifest;
   } catch (const nlohmann::json::exception&) {
     throw Error(ErrorKind::malformed, name, "is not the manifest of a site");

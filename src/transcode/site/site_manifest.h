@@ -8,6 +8,7 @@
 #include "prepare/weld.h"
 #include "transcode/site/site_document.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ struct SiteManifest {
   std::vector<std::string> attributes;
   bool onlyFirstTexCoords = false;      ///< further sets of texture coordinates were left out, with their textures
   std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
+  /// Content names (containers/stored.h) of the page's icon and picture, by file name. Nothing: the site is of a
+  /// version that did not state them.
+  std::optional<std::map<std::string, std::string>> pictures;
 };
 
 std::string writeManifest(const SiteManifest& manifest);

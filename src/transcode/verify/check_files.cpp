@@ -42,6 +42,28 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
   return allPresent;
 }
 
+void checkPictures(const SiteDocument& page, const SiteManifest& manifest, Findings& findings) {
+  for (const std::string name : {iconName, pictureName}) {
+    std::error_code ignored;
+    const bool isThere = fs::is_regular_file(page.root / name, ignored);
+    if (!manifest.pictures) { // which content it should have is not known
+      if (!isThere && page.text.find("\"" + name + "\"") != page.text.npos)
+        findings.add("{} is named by the document but is not there.", name);
+      continue;
+    }
+    const auto stated = manifest.pictures->find(name);
+    if (stated == manifest.pictures->end()) {
+      if (isThere)
+        findings.add("{} is not of this site: {} does not name it.", name, manifestName);
+    } else if (!isThere) {
+      findings.add("{} is named by {} but is not there.", name, manifestName);
+    } else if (const std::string content = contentName(readFile(page.root / name)); content != stated->second) {
+      findings.add("{} is not the picture that convert wrote: its content is {}, {} says {}.", name, content,
+                   manifestName, stated->second);
+    }
+  }
+}
+
 void checkDocuments(const SiteDocument& page, Findings& findings) {
   if (page.name == sceneName)
     return;

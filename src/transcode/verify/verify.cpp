@@ -118,8 +118,10 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
 
   // An Error from a file of the site is a finding. Errors of the document, imgeo.json and the input are thrown.
   try {
-    if (manifest)
+    if (manifest) {
       checkDocuments(document, findings);
+      checkPictures(document, *manifest, findings);
+    }
     if (!imported.scene.graph.isComplete) // an X3D input may itself cause the warnings
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);

@@ -273,6 +273,31 @@ TEST(Verify, SeesThatTheModuleOfOtherPagesIsGoneOrLeadsNowhere) {
   expectFinding(old, "runtime/imgeo-0123456789abcdef.js is named by the document but is not there");
 }
 
+TEST(Verify, SeesPicturesThatAreGoneOrOfAnotherSite) {
+  DamagedSite site;
+  std::filesystem::copy_file(site.site() / iconName, site.site() / pictureName,
+                             std::filesystem::copy_options::overwrite_existing);
+  expectFinding(site, "picture.png is not");
+  std::filesystem::remove(site.site() / pictureName);
+  std::filesystem::remove(site.site() / iconName);
+  expectFinding(site, "icon.png is named by imgeo.json but is not there");
+  writeFile(site.site() / iconName, asBytes("another picture"));
+  expectFinding(site, "icon.png is not the picture that convert wrote");
+}
+
+TEST(Verify, SeesPicturesInASiteThatHasNone) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", testing::sphere(6, 6));
+  ConvertOptions options;
+  options.pictures = false;
+  convert(directory / "input.ply", directory / "site", options);
+  EXPECT_FALSE(std::filesystem::exists(directory / "site" / iconName));
+  EXPECT_TRUE(verify(directory / "site", directory / "input.ply").equal);
+  writeFile(directory / "site" / iconName, asBytes("of another program"));
+  EXPECT_EQ(verify(directory / "site", directory / "input.ply").findings,
+            (std::vector<std::string>{"icon.png is not of this site: imgeo.json does not name it."}));
+}
+
 TEST(Verify, ReadsNoFileOutsideTheSite) {
   DamagedSite site;
   site.geometry().patches[0].index->url = "../input.ply";

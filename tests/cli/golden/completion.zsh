@@ -21,6 +21,7 @@ _imgeo() {
   case $command in
     convert) _arguments \
       '-i[X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '--input[X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
@@ -60,6 +61,7 @@ _imgeo() {
       '--texture-preview[the longest edge of what is shown first of a large texture; 0\: nothing is]:texture-preview: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
+      '--no-pictures[leave out icon.png and picture.png, the pictures of tabs and of previews of links]' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest; in compact 1 to 6 are one]:effort: ' \
       '--threads[how many threads to use; 0\: all. The site is the same with any number]:threads: ' \
       '--outside[let the source refer to files outside of its folder]' \
