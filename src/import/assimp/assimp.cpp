@@ -6,6 +6,7 @@
 #include "import/assimp/reported_errors.h"
 #include "import/isolation/child_process.h"
 #include "import/mesh/crease_normals.h"
+#include "import/mesh/texcoord_mapping.h"
 #include "import/mesh/triangulate.h"
 #include "import/mesh/unit_normal.h"
 #include "import/text/rounded_decimal.h"
@@ -95,9 +96,9 @@ void addAxes(const aiScene& scene, std::string_view extension, Imported& importe
 /// Reads one aiScene.
 class SceneReader {
 public:
-  SceneReader(const aiScene& source, const std::string& name, const References& references, bool isStrict,
-              std::string_view extension)
-      : source_(source), name_(name), isStrict_(isStrict),
+  SceneReader(const aiScene& source, const std::string& name, const References& references,
+              const ImportOptions& options, std::string_view extension)
+      : source_(source), name_(name), choice_(options.attributes), isStrict_(options.strict),
         materials_(source, imported_.scene.graph, references, extension) {}
 
   Imported read(std::string format) {
@@ -149,26 +150,49 @@ private:
   void readMesh(unsigned index) {
     const aiMesh& source = *source_.mMeshes[index];
     std::vector<std::size_t>& shapes = shapesOf_.emplace_back();
+    const std::optional<std::size_t> appearance = materials_.appearance(source.mMaterialIndex);
+    const std::vector<unsigned> texCoordSets = keptTexCoordSets(source, appearance);
     for (const Topology topology : allTopologies) {
       Mesh mesh;
       mesh.topology = topology;
       addCorners(source, mesh);
       if (mesh.corners.empty())
         continue;
-      addVertices(source, mesh);
+      addVertices(source, texCoordSets, mesh);
       if (topology == Topology::triangles && mesh.normals.empty())
         mesh = withCreaseNormals(mesh, creaseAngle);
       Shape shape;
       shape.mesh = imported_.scene.meshes.size();
-      shape.appearance = materials_.appearance(source.mMaterialIndex);
+      shape.appearance = appearance;
       shape.solid = materials_.isSolid(source.mMaterialIndex);
       imported_.scene.meshes.push_back(std::move(mesh));
       shapes.push_back(addNode(graph(), {nameOf(source.mName), shape, {}, ""}));
     }
     skins_ += source.mNumBones > 0;
     morphTargets_ += source.mNumAnimMeshes > 0;
-    furtherTexCoords_ += source.GetNumUVChannels() > 1;
     furtherColors_ += source.GetNumColorChannels() > 1;
+  }
+
+  /// The sets of texture coordinates that textures use, the first where none uses any, and those that the user named.
+  std::vector<unsigned> keptTexCoordSets(const aiMesh& source, std::optional<std::size_t> appearance) {
+    std::set<std::string> used;
+    if (appearance)
+      for (const TextureUse& texture : graph().appearances[*appearance].textures)
+        used.insert(texture.mapping);
+    std::vector<unsigned> kept;
+    unsigned present = 0;
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
+      if (!source.HasTextureCoords(set))
+        continue;
+      ++present;
+      const bool isUsed = used.empty() ? present == 1 : used.contains(mappingOf(set));
+      if (kept.size() < maxTexCoordSets && (isUsed || choice_.has(fmt::format("TEXCOORD_{}", set))))
+        kept.push_back(set);
+    }
+    if (kept.empty() && source.HasTextureCoords(0)) // textures whose set is missing use the first
+      kept.push_back(0);
+    furtherTexCoords_ += present > kept.size();
+    return kept;
   }
 
   void addCorners(const aiMesh& source, Mesh& mesh) {
@@ -198,22 +222,25 @@ private:
   }
 
   /// Adds the vertices that the corners use, in the order of first use.
-  void addVertices(const aiMesh& source, Mesh& mesh) {
+  void addVertices(const aiMesh& source, const std::vector<unsigned>& texCoordSets, Mesh& mesh) {
     std::vector<std::uint32_t> local(source.mNumVertices, ~0u);
     for (std::uint32_t& corner : mesh.corners) {
       std::uint32_t& index = local[corner];
       if (index == ~0u) {
         index = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.wedgePositions.push_back(index);
-        addVertex(source, corner, mesh);
+        addVertex(source, corner, texCoordSets, mesh);
       }
       corner = index;
     }
     const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
     mesh.colorComponents = isOpaque ? 3 : 4;
+    if (texCoordSets.size() > 1) // a single set serves all textures
+      for (const unsigned set : texCoordSets)
+        mesh.texCoordMappings.push_back(mappingOf(set));
   }
 
-  void addVertex(const aiMesh& source, std::uint32_t vertex, Mesh& mesh) {
+  void addVertex(const aiMesh& source, std::uint32_t vertex, const std::vector<unsigned>& texCoordSets, Mesh& mesh) {
     const aiVector3D& p = source.mVertices[vertex];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       throw Error(ErrorKind::malformed, name_, fmt::format("vertex {} of a mesh is not a number", vertex));
@@ -222,9 +249,9 @@ private:
       mesh.normals.push_back(Vec3f(vectorOf(source.mNormals[vertex])));
       unusableNormals_ += !makeUnit(mesh.normals.back());
     }
-    if (source.HasTextureCoords(0)) {
-      const aiVector3D& t = source.mTextureCoords[0][vertex];
-      mesh.texCoords.push_back(std::isfinite(t.x) && std::isfinite(t.y) ? Vec2f{t.x, t.y} : Vec2f{});
+    for (std::size_t i = 0; i < texCoordSets.size(); ++i) {
+      const aiVector3D& t = source.mTextureCoords[texCoordSets[i]][vertex];
+      texCoordsOf(mesh, i).push_back(std::isfinite(t.x) && std::isfinite(t.y) ? Vec2f{t.x, t.y} : Vec2f{});
     }
     if (source.HasVertexColors(0)) {
       const aiColor4D& color = source.mColors[0][vertex];
@@ -302,8 +329,8 @@ private:
     add(source_.mNumAnimations, "animation is", "animations are");
     add(skins_, "skin is", "skins are");
     add(morphTargets_, "mesh has morph targets, which are", "meshes have morph targets, which are");
-    add(furtherTexCoords_, "mesh has further texture coordinates, which are",
-        "meshes have further texture coordinates, which are");
+    add(furtherTexCoords_, "mesh has texture coordinates that no texture uses, which are",
+        "meshes have texture coordinates that no texture uses, which are");
     add(furtherColors_, "mesh has further colours, which are", "meshes have further colours, which are");
     add(otherLights_, "light of a kind that X3D lacks is", "lights of kinds that X3D lacks are");
     add(lostTransforms_, "transform that is not finite is", "transforms that are not finite are");
@@ -315,6 +342,7 @@ private:
 
   const aiScene& source_;
   const std::string& name_;
+  const AttributeChoice& choice_;
   bool isStrict_;
   Imported imported_;
   AssimpMaterials materials_;
@@ -356,7 +384,7 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
     throw Error(ErrorKind::malformed, name,
                 fmt::format("is damaged or no {} file; Assimp, which reads the format, says: {}", format, reason));
   }
-  Imported imported = SceneReader(*scene, name, references, options.strict, extension).read(format);
+  Imported imported = SceneReader(*scene, name, references, options, extension).read(format);
   addAxes(*scene, extension, imported);
   std::vector<std::string> omissions = errors.sentences();
   for (const std::string& refused : files.refused())

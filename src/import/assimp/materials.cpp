@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "import/assimp/library.h"
+#include "import/mesh/texcoord_mapping.h"
 #include "import/warnings.h"
 
 #include <algorithm>
@@ -150,8 +151,8 @@ void AssimpMaterials::addTexture(const aiMaterial& material, aiTextureType type,
       assimp().getMaterialTexture(&material, type, 0, &path, &mapping, &texCoords, nullptr, nullptr, modes, nullptr) !=
           aiReturn_SUCCESS)
     return;
-  if (mapping != aiTextureMapping_UV || texCoords != 0) {
-    ++others_["with further or computed texture coordinates"];
+  if (mapping != aiTextureMapping_UV) {
+    ++others_["with computed texture coordinates"];
     return;
   }
   const std::optional<std::size_t> image = this->image(path.C_Str());
@@ -165,7 +166,7 @@ void AssimpMaterials::addTexture(const aiMaterial& material, aiTextureType type,
   const auto index = static_cast<std::size_t>(found - graph_.textures.begin());
   if (found == graph_.textures.end())
     graph_.textures.push_back(texture);
-  appearance.textures.push_back({role, index, {}});
+  appearance.textures.push_back({role, index, {}, mappingOf(texCoords)});
 }
 
 std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {

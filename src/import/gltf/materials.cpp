@@ -3,6 +3,7 @@
 #include "images/decode_image.h"
 #include "images/encode_image.h"
 #include "import/gltf/primitive.h"
+#include "import/mesh/texcoord_mapping.h"
 #include "import/source_images.h"
 #include "scene/color.h"
 

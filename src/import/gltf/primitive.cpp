@@ -1,5 +1,6 @@
 #include "import/gltf/primitive.h"
 
+#include "import/mesh/texcoord_mapping.h"
 #include "import/mesh/unit_normal.h"
 #include "import/text/text_scanner.h"
 #include "scene/color.h"
@@ -61,10 +62,6 @@ std::uint8_t byteOf(double value) {
 }
 
 } // namespace
-
-std::string mappingOf(std::size_t texCoordSet) {
-  return texCoordSet == 0 ? "" : fmt::format("TEXCOORD_{}", texCoordSet);
-}
 
 const PrimitiveData::Attribute* PrimitiveData::find(const std::string& name) const {
   const auto found = std::ranges::find(attributes, name, &Attribute::name);

@@ -30,10 +30,6 @@ struct PrimitiveData {
   const Attribute* find(const std::string& name) const;
 };
 
-/// The name of a set of texture coordinates, by which textures choose it: "" for set 0, "TEXCOORD_1" ... for the
-/// others.
-std::string mappingOf(std::size_t texCoordSet);
-
 /// Content of all primitives that was not carried over.
 struct PrimitiveOmissions {
   std::uint64_t unusableNormals = 0, morphTargets = 0, skins = 0;

@@ -12,6 +12,9 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
   assert(mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.namedAttributes.empty());
   x3d::VertexData data;
   data.texCoords = mesh.texCoords;
+  for (std::size_t set = 1; set < texCoordSetCount(mesh); ++set)
+    data.furtherTexCoords.push_back(texCoordsOf(mesh, set));
+  data.texCoordMappings = mesh.texCoordMappings;
   data.colors = mesh.colors;
   data.colorComponents = mesh.colorComponents;
   std::vector<std::uint32_t> mergedPositions;
