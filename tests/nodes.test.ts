@@ -254,3 +254,69 @@ test("pages may contain every node of X3D that convert writes", () => {
     [],
   );
 });
+
+/** The fields of X3D's nodes, without nodes as values, as X_ITE defines them: its sources are in the npm package. */
+function fieldsOfX3d(): Map<string, string[]> {
+  const folder = "node_modules/x_ite/dist/assets/components";
+  const components = readdirSync(join(root, folder)).filter((name) => name.endsWith("Component.js"));
+  const texts = ["node_modules/x_ite/dist/x_ite.mjs", ...components.map((name) => `${folder}/${name}`)].map(read);
+  const fields = new Map<string, string[]>();
+  const definition =
+    /Object \.defineProperties \((?:\w+_)?(\w+),|FieldDefinition[\w. ()]*\.(?:inputOutput|initializeOnly), *"(\w+)", *new [\w. ()]*\.(\w+) /g;
+  let node: string[] = [];
+  for (const [, name, field = "", type = ""] of texts.join("\n").matchAll(definition))
+    if (name !== undefined) fields.set(name, (node = fields.get(name) ?? []));
+    else if (!type.endsWith("Node")) node.push(field);
+  return fields;
+}
+
+/** Fields of every node of some kind that change no picture, and fields that X_ITE adds to X3D 4.0. */
+const fieldsOfNoPicture = [
+  ...["visible", "bboxCenter", "bboxSize", "bboxDisplay", "load", "autoRefresh", "autoRefreshTimeLimit"],
+  ...["shadowColor", "shadowBias", "shadowMapSize", "visibilityStart"],
+];
+
+/** Fields that are read where the tables of docs/formats/nodes.md do not list them for the node, by the place. */
+const readElsewhere: Readonly<Record<string, readonly string[]>> = {
+  "in the text of nodes.md": [
+    ...["solid", "ccw", "convex", "creaseAngle"].map((field) => `ElevationGrid.${field}`),
+    ...["solid", "ccw", "convex", "creaseAngle"].map((field) => `Extrusion.${field}`),
+    ...["Box", "Cone", "Cylinder", "Sphere"].map((node) => `${node}.solid`),
+    ...["ColorRGBA.color", "CoordinateDouble.point", "TextureCoordinateGenerator.mapping"],
+  ],
+  "by src/import/x3d/geometry.cpp, and kept as fields of the Shape's mesh": [
+    ...["NurbsPatchSurface", "NurbsTrimmedSurface"].map((node) => `${node}.solid`),
+    ...["NurbsSweptSurface", "NurbsSwungSurface"].flatMap((node) => [`${node}.solid`, `${node}.ccw`]),
+  ],
+  "by src/import/x3d/node_conversions.cpp": ["LayerSet.activeLayer", "LayerSet.order"],
+};
+
+test("every field of the nodes that are drawn or converted is documented, or listed as without effect", () => {
+  const listed = new Set(
+    [...read("docs/formats/x3d-nodes.md").matchAll(/^\| `(\w+)` \| `(\w+)` \| /gm)].map(
+      ([, node = "", field = ""]) => `${node}.${field}`,
+    ),
+  );
+  assert.ok(listed.size > 40, "the table of fields without effect was not found");
+  const known = new Set([...listed, ...Object.values(readElsewhere).flat()]);
+  const ofMaterial = (field: string) => field.endsWith("TextureMapping");
+  const definitions = fieldsOfX3d();
+  // Nodes of CAD, HAnim and simulation become groups, and their line in the summary says so: their other fields describe
+  // parts, skins and bodies.
+  const drawn = treatments().filter(
+    ({ name, treatment }) =>
+      treatment === "drawn" || (treatment === "converted" && !/^(CAD|HAnim|Collidable|Espdu)/.test(name)),
+  );
+  const found = drawn.filter(({ name }) => definitions.has(name));
+  assert.ok(found.length > 80, "the definitions of X_ITE were not found");
+  // A node that is written as another has the fields of that one.
+  const writtenAs = (name: string) => (name === "TwoSidedMaterial" ? "Material" : name);
+  const missing = found.flatMap(({ name }) =>
+    (definitions.get(name) ?? [])
+      .filter((field) => !fieldsOfNoPicture.includes(field) && !ofMaterial(field))
+      .filter((field) => !documentedFields(name).has(field) && !documentedFields(writtenAs(name)).has(field))
+      .map((field) => `${name}.${field}`)
+      .filter((field) => !known.has(field)),
+  );
+  assert.deepEqual(missing, []);
+});

@@ -1,6 +1,7 @@
 #include "import/x3d/node_conversions.h"
 
-#include "import/x3d/field_values.h"
+#include "import/x3d/element_edits.h"
+#include "import/x3d/surface_shader.h"
 
 #include <algorithm>
 #include <array>
@@ -16,55 +17,10 @@ namespace {
 
 using namespace std::string_view_literals;
 
-std::vector<pugi::xml_node> elementsOf(pugi::xml_node parent) {
-  std::vector<pugi::xml_node> elements;
-  for (const pugi::xml_node& child : parent.children())
-    if (child.type() == pugi::node_element)
-      elements.push_back(child);
-  return elements;
-}
-
-bool isOneOf(std::span<const std::string_view> names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
-bool isTextureNode(std::string_view element) {
-  return element == "ImageTexture" || element == "PixelTexture" || element == "MultiTexture";
-}
-
-bool isMaterialNode(std::string_view element) {
-  return element == "Material" || element == "PhysicalMaterial" || element == "UnlitMaterial" ||
-         element == "TwoSidedMaterial";
-}
-
-void setField(pugi::xml_node element, const char* field, const std::string& value) {
-  if (!element.attribute(field))
-    element.append_attribute(field);
-  element.attribute(field).set_value(value.c_str());
-}
-
-/// Gives a field another name; keeps a field that already has that name.
-void renameField(pugi::xml_node element, const char* from, const char* to) {
-  if (const pugi::xml_attribute given = element.attribute(from); given && !element.attribute(to))
-    element.append_attribute(to) = given.value();
-  element.remove_attribute(from);
-}
-
-double average(const std::vector<double>& color) {
-  return color.empty() ? 0 : (color[0] + color.at(1) + color.at(2)) / 3;
-}
-
-/// The numbers of a field; `fallback` where the field has fewer numbers than `fallback`.
-std::vector<double> numbersOf(pugi::xml_node element, const char* field, const std::vector<double>& fallback) {
-  std::optional<std::vector<double>> values = parseReals(element.attribute(field).value());
-  if (!values || values->size() < fallback.size())
-    return fallback;
-  return std::move(*values);
-}
-
 class NodeConverter {
 public:
-  explicit NodeConverter(Elements& elements) : elements_(elements) {}
+  explicit NodeConverter(Elements& elements)
+      : elements_(elements), surfaceShaders_(result_, [this](pugi::xml_node element) { takeOut(element); }) {}
 
   NodeConversions run() {
     const char* version = elements_.root().attribute("version").value();
@@ -98,7 +54,7 @@ private:
         {"HAnimSegment", &NodeConverter::convertSegment},
         {"HAnimSite", &NodeConverter::makeTransform},
         {"Layer", &NodeConverter::makeGroup},
-        {"LayerSet", &NodeConverter::makeGroup},
+        {"LayerSet", &NodeConverter::convertLayerSet},
         {"PhysicalMaterial", &NodeConverter::convertPhysicalMaterial},
         {"PickableGroup", &NodeConverter::makeGroup},
         {"TwoSidedMaterial", &NodeConverter::convertTwoSidedMaterial},
@@ -146,6 +102,42 @@ private:
     }
   }
 
+  /// Pages draw all layers with one camera: those that `order` names as groups, the others hidden. A layer binds its
+  /// own viewpoints and backgrounds, so that those of layers that are not active would turn up in the scene.
+  void convertLayerSet(pugi::xml_node set) {
+    static constexpr std::array bound{
+        "Background"sv,        "Fog"sv,       "GeoViewpoint"sv,  "NavigationInfo"sv, "OrthoViewpoint"sv,
+        "TextureBackground"sv, "Viewpoint"sv, "ViewpointGroup"sv};
+    const std::vector<double> order = numbersOf(set, "order", {0});
+    const double activeLayer = numbersOf(set, "activeLayer", {0})[0];
+    rename(set, "Group");
+    set.remove_attribute("order");
+    set.remove_attribute("activeLayer");
+    double number = 0;
+    for (const pugi::xml_node& layer : elementsOf(set)) {
+      if (std::string_view(layer.name()) != "Layer" && std::string_view(layer.name()) != "LayoutLayer")
+        continue;
+      ++number; // 0 is the scene itself
+      if (std::ranges::find(order, number) == order.end()) {
+        ++result_.hidden[layer.name()];
+        setField(layer, "visible", "false");
+      }
+      if (number != activeLayer)
+        for (const pugi::xml_node& element : descendantsOf(layer))
+          if (isOneOf(bound, element.name())) {
+            ++result_.unbound[element.name()];
+            takeOut(element);
+          }
+    }
+  }
+
+  static std::vector<pugi::xml_node> descendantsOf(pugi::xml_node parent) {
+    std::vector<pugi::xml_node> elements = elementsOf(parent);
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      std::ranges::copy(elementsOf(elements[i]), std::back_inserter(elements));
+    return elements;
+  }
+
   /// A humanoid lists the nodes of its skeleton again, and holds the points of its skin, which are no nodes of the
   /// scene.
   void convertHumanoid(pugi::xml_node humanoid) {
@@ -182,80 +174,7 @@ private:
       material.remove_attribute(field);
   }
 
-  /// X3DOM's and InstantReality's shader has the fields of a Material under other names, and other defaults. It
-  /// replaces the Material beside it.
-  void convertSurfaceShader(pugi::xml_node shader) {
-    for (const pugi::xml_node& sibling : elementsOf(shader.parent()))
-      if (sibling != shader && isMaterialNode(sibling.name()))
-        takeOut(sibling);
-    rename(shader, "Material");
-    if (shader.attribute("USE"))
-      return;
-    convertSurfaceFactors(shader);
-    convertSurfaceTextures(shader);
-    for (const pugi::xml_attribute& field : attributesOf(shader))
-      if (!isFieldOfMaterial(field.name()))
-        shader.remove_attribute(field);
-  }
-
-  static std::vector<pugi::xml_attribute> attributesOf(pugi::xml_node element) {
-    const auto all = element.attributes();
-    return {all.begin(), all.end()};
-  }
-
-  static bool isFieldOfMaterial(std::string_view field) {
-    static constexpr std::array fields{"DEF"sv,           "ambientIntensity"sv, "diffuseColor"sv, "emissiveColor"sv,
-                                       "specularColor"sv, "shininess"sv,        "transparency"sv};
-    return isOneOf(fields, field) || field.ends_with("Mapping");
-  }
-
-  static void convertSurfaceFactors(pugi::xml_node shader) {
-    const std::vector<double> ambient = numbersOf(shader, "ambientFactor", {.2, .2, .2}),
-                              diffuse = numbersOf(shader, "diffuseFactor", {.8, .8, .8});
-    if (const double brightness = average(diffuse); brightness > 0) // X3D: ambient = ambientIntensity * diffuseColor
-      setField(shader, "ambientIntensity", fmt::format("{:.4g}", std::clamp(average(ambient) / brightness, 0.0, 1.0)));
-    renameField(shader, "diffuseFactor", "diffuseColor");
-    renameField(shader, "emissiveFactor", "emissiveColor");
-    renameField(shader, "specularFactor", "specularColor");
-    renameField(shader, "shininessFactor", "shininess");
-    if (shader.attribute("alphaFactor"))
-      setField(shader, "transparency",
-               fmt::format("{:.4g}", std::clamp(1 - numbersOf(shader, "alphaFactor", {1})[0], 0.0, 1.0)));
-  }
-
-  void convertSurfaceTextures(pugi::xml_node shader) {
-    static constexpr std::array roles{"ambientTexture"sv, "diffuseTexture"sv,   "emissiveTexture"sv,
-                                      "normalTexture"sv,  "shininessTexture"sv, "specularTexture"sv};
-    for (const pugi::xml_node& child : elementsOf(shader)) {
-      const std::string field = child.attribute("containerField").value();
-      const std::string_view element = child.name();
-      if (element != "SurfaceShaderTexture" && !isTextureNode(element))
-        continue;
-      if (!isOneOf(roles, field)) {
-        ++result_.leftOut[fmt::format("the {} of CommonSurfaceShader", field.empty() ? "texture" : field)];
-        takeOut(child);
-      } else if (element == "SurfaceShaderTexture") {
-        unwrapTexture(shader, child, field);
-      }
-    }
-  }
-
-  /// Puts the texture within a SurfaceShaderTexture into the field of the SurfaceShaderTexture.
-  void unwrapTexture(pugi::xml_node material, pugi::xml_node wrapper, const std::string& field) {
-    for (pugi::xml_node child : elementsOf(wrapper))
-      if (isTextureNode(child.name())) {
-        setField(child, "containerField", field);
-        material.append_move(child);
-      } else if (std::string_view(child.name()) == "TextureTransform" && !child.attribute("USE")) {
-        const std::string mapping = fmt::format("{}-{}", field, ++mappings_);
-        setField(child, "mapping", mapping);
-        setField(material, (field + "Mapping").c_str(), mapping);
-        child.remove_attribute("containerField");
-        material.parent().append_move(child);
-      }
-    ++result_.converted["SurfaceShaderTexture as its texture"];
-    takeOut(wrapper);
-  }
+  void convertSurfaceShader(pugi::xml_node shader) { surfaceShaders_.convert(shader); }
 
   /// X3DOM's node of this name has the fields of glTF.
   void convertPhysicalMaterial(pugi::xml_node material) {
@@ -291,8 +210,8 @@ private:
   Elements& elements_;
   pugi::xml_node takenOut_;
   bool hasVisiblePerChild_ = false;
-  std::size_t mappings_ = 0; ///< the number in the last mapping that was invented
   NodeConversions result_;
+  SurfaceShaders surfaceShaders_;
 };
 
 } // namespace

@@ -14,6 +14,8 @@ struct NodeConversions {
 
   Counts converted; ///< "CADPart as Transform"
   Counts leftOut;   ///< "the alphaTexture of CommonSurfaceShader"
+  Counts hidden;    ///< layers that their LayerSet does not draw
+  Counts unbound;   ///< viewpoints, backgrounds … of layers that are not active
 };
 
 /// Converts all nodes below the document's root. Elements that the result does not contain are moved out of Scene,

@@ -107,6 +107,53 @@ TEST(NodeConversions, MakeAMaterialOfACommonSurfaceShader) {
                                    "Left out of materials: the displacementTexture of CommonSurfaceShader (1)."}));
 }
 
+TEST(NodeConversions, MakeAPhysicalMaterialOfASurfaceShaderThatReflects) {
+  const Imported imported = readScene(
+      "<Shape><Appearance><CommonSurfaceShader DEF='S' diffuseFactor='0 0.5 1' reflectionFactor='0.5 0.5 0.5' "
+      "environmentFactor='1 1 0' fresnelBlend='0.5' relativeIndexOfRefraction='1.5' shininessFactor='1' "
+      "transmissionFactor='0.2 0.2 0.2' normalSpace='OBJECT' diffuseTextureCoordinatesId='0'>"
+      "<PixelTexture containerField='diffuseTexture' image='1 1 1 0'/><ImageTexture containerField='specularTexture'/>"
+      "<ComposedCubeMapTexture containerField='environmentTexture'/></CommonSurfaceShader></Appearance><Box/></Shape>"
+      "<Shape><Appearance><CommonSurfaceShader USE='S'/></Appearance><Box/></Shape>");
+  const SceneGraph& graph = imported.scene.graph;
+  const std::string tree = "PhysicalMaterial(PixelTexture,IORMaterialExtension,SpecularMaterialExtension,"
+                           "TransmissionMaterialExtension)";
+  EXPECT_EQ(treeOf(graph, graph.roots.at(0)), "Shape(Appearance(" + tree + "),Box)");
+  EXPECT_EQ(treeOf(graph, graph.roots.at(1)), "Shape(Appearance(" + tree + "),Box)");
+  const Node& material = firstOf(graph, "PhysicalMaterial");
+  EXPECT_EQ(field(material, "baseColor"), "0 0.214 1") << "linear";
+  EXPECT_EQ(field(material, "metallic"), "0");
+  EXPECT_EQ(field(material, "roughness"), "0.3522") << "(2 / 130) ^ 1/4";
+  EXPECT_EQ(field(graph.nodes[material.children.at(0)], "containerField"), "baseTexture");
+  EXPECT_EQ(field(firstOf(graph, "SpecularMaterialExtension"), "specularColor"), "0.26 0.26 0")
+      << "0.5 (0.5 + 0.5 0.04)";
+  EXPECT_EQ(field(firstOf(graph, "TransmissionMaterialExtension"), "transmission"), "0.2");
+  EXPECT_EQ(imported.warnings,
+            (std::vector<std::string>{"Written as other nodes: CommonSurfaceShader as PhysicalMaterial (2).",
+                                      "Left out of materials: the environmentTexture of CommonSurfaceShader (1), the "
+                                      "normalSpace of CommonSurfaceShader (1), the specularTexture of "
+                                      "CommonSurfaceShader (1)."}));
+}
+
+TEST(NodeConversions, DrawTheLayersOfALayerSetWithTheCameraOfTheActiveOne) {
+  const Imported imported =
+      readScene("<Viewpoint/><LayerSet order='0 2' activeLayer='0'><Layer><Viewport/><Shape><Box/></Shape></Layer>"
+                "<Layer><Transform><Viewpoint/></Transform><Background/><Shape><Sphere/></Shape></Layer></LayerSet>");
+  const SceneGraph& graph = imported.scene.graph;
+  EXPECT_EQ(treeOf(graph, graph.roots.at(1)), "Group(Group(Viewport,Shape(Box)),Group(Transform,Shape(Sphere)))");
+  const Node& set = graph.nodes[graph.roots.at(1)];
+  EXPECT_EQ(set.fields, (std::vector<FieldText>{}));
+  EXPECT_EQ(field(graph.nodes[set.children.at(0)], "visible"), "false");
+  EXPECT_EQ(field(graph.nodes[set.children.at(1)], "visible"), "none");
+  EXPECT_EQ(
+      imported.warnings,
+      (std::vector<std::string>{
+          "Without effect, since layers fill the page's one view: Viewport (1).",
+          "Written as other nodes: Layer as Group (2), LayerSet as Group (1).",
+          "Hidden, since the order of their LayerSet does not name them: Layer (1).",
+          "Left out of layers that are not active, since pages have one camera: Background (1), Viewpoint (1)."}));
+}
+
 TEST(NodeConversions, ReadThePhysicalMaterialOfX3dom) {
   const SceneGraph graph =
       readScene("<Shape><Appearance><PhysicalMaterial baseColorFactor='1 0.5 0 0.75' metallicFactor='1' "

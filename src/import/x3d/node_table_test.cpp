@@ -1,6 +1,7 @@
 // Compares docs/formats/x3d-nodes.md with the table of nodes. IMGEO_REWRITE_GOLDEN=1 rewrites the page.
 
 #include "import/x3d/node_table.h"
+#include "import/x3d/unread_fields.h"
 
 #include "base/file.h"
 
@@ -32,6 +33,14 @@ std::string rowsOf(Origin origin) {
   return text;
 }
 
+std::string rowsOfUnreadFields() {
+  std::string text;
+  for (const UnreadField& row : unreadFields())
+    text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.node, row.field, row.defaultText,
+                        row.reason);
+  return text;
+}
+
 std::string page() {
   std::map<NodeTreatment, std::size_t> counts;
   for (const NodeRow& row : nodeTable())
@@ -56,9 +65,13 @@ std::string page() {
       "is not.\n\n"
       "## Nodes of X3D 4.0\n\n| node | component, level | treatment | note |\n|---|---|---|---|\n{}\n"
       "## Nodes of other programs\n\n| node | of | treatment | note |\n|---|---|---|---|\n{}\n"
-      "## Statements\n\n| statement | treatment | note |\n|---|---|---|\n{}",
+      "## Statements\n\n| statement | treatment | note |\n|---|---|---|\n{}\n"
+      "## Fields without effect\n\nOf nodes that are drawn or converted. All their other fields are in "
+      "[nodes.md](nodes.md). Where there is a reason, the summary has a line for values other than the default; the "
+      "rest are hints, or change nothing in a still picture.\n\n"
+      "| node | field | default | reason |\n|---|---|---|---|\n{}",
       counts[drawn], counts[converted], counts[kept], counts[dropped], rowsOf(Origin::x3d), rowsOf(Origin::others),
-      rowsOf(Origin::statements));
+      rowsOf(Origin::statements), rowsOfUnreadFields());
 }
 
 TEST(NodeTable, IsThePageOfTheDocumentation) {

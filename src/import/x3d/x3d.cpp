@@ -10,6 +10,7 @@
 #include "import/x3d/prototypes.h"
 #include "import/x3d/shared_appearances.h"
 #include "import/x3d/summary.h"
+#include "import/x3d/unread_fields.h"
 #include "scene/mf_string.h"
 
 #include <array>
@@ -382,6 +383,8 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
   const PrototypeReport prototypes = expandPrototypes(elements, name, externals);
   if (options.strict && !prototypes.failures.empty())
     throw Error(ErrorKind::unsupported, name, prototypes.failures[0]);
+  std::vector<std::string> unread;
+  warnOfUnreadFields(elements, unread);
   const NodeConversions conversions = convertNodes(elements);
   const std::size_t sharedAppearances = shareAppearances(elements);
   const std::string format = elements.format;
@@ -400,9 +403,13 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
     imported.warnings.push_back(fmt::format("{} of an equal one: the scene has more than {} shapes.",
                                             counted(sharedAppearances, "Appearance is a USE", "Appearances are USEs"),
                                             maxShapesWithOwnAppearance));
+  std::ranges::move(unread, std::back_inserter(imported.warnings));
   warnOfElements(imported.warnings, "Left out of prototypes", prototypes.leftOut);
   warnOfElements(imported.warnings, "Written as other nodes", conversions.converted);
   warnOfElements(imported.warnings, "Left out of materials", conversions.leftOut);
+  warnOfElements(imported.warnings, "Hidden, since the order of their LayerSet does not name them", conversions.hidden);
+  warnOfElements(imported.warnings, "Left out of layers that are not active, since pages have one camera",
+                 conversions.unbound);
   return imported;
 }
 
