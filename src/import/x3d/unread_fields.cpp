@@ -18,7 +18,7 @@ constexpr std::string_view noShadows = "pages draw no shadows", oneTexture = "of
                            oneMaterial = "the back of a surface has the material of its front",
                            noBorder = "textures have no border", nothing = "";
 
-constexpr auto rows = std::to_array<UnreadField>({
+constexpr auto unreadFieldTable = std::to_array<UnreadField>({
     {"Appearance", "backMaterial", "", oneMaterial},
     {"Collision", "description", "", nothing},
     {"Collision", "enabled", "true", nothing},
@@ -109,14 +109,14 @@ std::string_view unquoted(std::string_view text) {
   return begin == text.npos ? "" : text.substr(begin, end - begin + 1);
 }
 
-class Walker : public pugi::xml_tree_walker {
+class UnreadFieldWalker : public pugi::xml_tree_walker {
 public:
   std::map<std::string_view, Summary::Counts> fields; ///< by reason
 
   bool for_each(pugi::xml_node& node) override {
     if (node.type() != pugi::node_element)
       return true;
-    const auto [begin, end] = std::ranges::equal_range(rows, node.name(), {}, &UnreadField::node);
+    const auto [begin, end] = std::ranges::equal_range(unreadFieldTable, node.name(), {}, &UnreadField::node);
     for (const UnreadField& row : std::span(begin, end))
       if (!row.reason.empty() && isStated(node, row))
         ++fields[row.reason][std::string(row.node) + "." + std::string(row.field)];
@@ -147,11 +147,11 @@ private:
 } // namespace
 
 std::span<const UnreadField> unreadFields() {
-  return rows;
+  return unreadFieldTable;
 }
 
 void warnOfUnreadFields(const Elements& elements, std::vector<std::string>& warnings) {
-  Walker walker;
+  UnreadFieldWalker walker;
   elements.root().traverse(walker);
   for (auto& [reason, counts] : walker.fields) {
     std::erase_if(counts, [](const auto& count) { return count.second == 0; });
