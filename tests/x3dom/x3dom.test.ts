@@ -1,4 +1,5 @@
-// Compares sites of `--target x3dom` in X3DOM with the same mesh written inline into the same page.
+// Compares sites of `--target x3dom` in X3DOM with the same mesh written inline into the same page: a sample of the cases
+// in `make test`, all in `make soak`.
 
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -17,6 +18,7 @@ import {
 import { modelDirectory, outputDirectory } from "../browser/paths.ts";
 import { decodePng, encodePng, type Picture } from "../browser/png.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "../browser/sites.ts";
+import { soakTest } from "../browser/soak.ts";
 import { referencePage } from "./referencePage.ts";
 import { fileOf, pictureOf, hashOf, type Container } from "./releases.ts";
 
@@ -117,6 +119,15 @@ async function assertShows(name: string, site: string, container: Container, mes
   console.log(`x3dom ${name} ${container}: mean ${found.mean.toFixed(4)}, off ${(100 * found.offShare).toFixed(4)} %`);
 }
 
+/** The cases of `make test`: each attribute, element type and primitive in one of them. */
+const sample = new Set([
+  "many patches of strips with colours",
+  "triangles without an index",
+  "positions of three bytes",
+  "coordinates as int16, interleaved",
+  "coordinates as uint16 beside angles and colours",
+]);
+
 for (const container of containers) {
   describe(`A site for X3DOM in ${container === "sig" ? "images" : "arrays"}`, () => {
     /** With `bits` the reference's positions are on the lattice, whose steps are larger than pixels. */
@@ -162,7 +173,7 @@ for (const container of containers) {
       cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
     }
     for (const [what, mesh, more, bits] of cases) {
-      test(`displays ${what} like the inline mesh`, async () => {
+      (sample.has(what) ? test : soakTest)(`displays ${what} like the inline mesh`, async () => {
         const source = bits === undefined ? sourceOf(mesh) : onLattice(sourceOf(mesh), bits);
         await assertShows(
           bits === undefined ? mesh : `${mesh}-${bits}`,
@@ -183,13 +194,13 @@ for (const container of containers) {
       );
     });
 
-    test("displays positions of 12 bits like the inline mesh", async () => {
+    soakTest("displays positions of 12 bits like the inline mesh", async () => {
       const site = siteOfGenerated("sphere", ...options(container), "--position-bits", "12");
       await assertShows("sphere-12", site, container, onLattice(sourceOf("sphere"), 12));
     });
 
     if (container === "bg") {
-      test("displays a texture that repeats like the inline mesh", async () => {
+      soakTest("displays a texture that repeats like the inline mesh", async () => {
         const mesh = withTexCoords(trefoil(), 3, -1);
         const records = ["--coord-type", "float32", "--layout", "interleaved"];
         await assertShows(
@@ -200,7 +211,7 @@ for (const container of containers) {
         );
       });
 
-      test("displays positions of 8 bits as uint8 and of 11 as int16 like the inline mesh", async () => {
+      soakTest("displays positions of 8 bits as uint8 and of 11 as int16 like the inline mesh", async () => {
         for (const [type, bits] of [
           ["uint8", 8],
           ["int16", 11],
@@ -217,7 +228,7 @@ for (const container of containers) {
         }
       });
 
-      test("displays coloured points of interleaved bytes like the inline mesh", async () => {
+      soakTest("displays coloured points of interleaved bytes like the inline mesh", async () => {
         const site = siteOfGenerated(
           "points",
           ...options(container),
@@ -237,14 +248,17 @@ for (const container of containers) {
     });
 
     for (const primitives of ["triangles", "strips"]) {
-      test(`displays coloured lines as ${primitives === "strips" ? "strips" : "lines"} like the inline mesh`, async () => {
-        const site = siteOfGenerated("coil", ...options(container), "--primitives", primitives);
-        await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16, statedCube(site)));
-      });
+      (primitives === "strips" ? test : soakTest)(
+        `displays coloured lines as ${primitives === "strips" ? "strips" : "lines"} like the inline mesh`,
+        async () => {
+          const site = siteOfGenerated("coil", ...options(container), "--primitives", primitives);
+          await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16, statedCube(site)));
+        },
+      );
     }
 
     if (container === "sig") {
-      test("displays normals of a palette as its RGB values", async () => {
+      soakTest("displays normals of a palette as its RGB values", async () => {
         const site = siteOfGenerated("trefoil", ...options(container), "--normals", "palette");
         const page = pageOf(site);
         const [, normals = ""] = /containerField="normal" url='"([^"]+)"'/.exec(page) ?? [];
