@@ -10,6 +10,7 @@
 #include "import/x3d/prototypes.h"
 #include "import/x3d/shared_appearances.h"
 #include "import/x3d/summary.h"
+#include "import/x3d/texture_coordinates.h"
 #include "import/x3d/unread_fields.h"
 #include "scene/mf_string.h"
 
@@ -280,15 +281,38 @@ private:
     for (const pugi::xml_node& child : element.children()) {
       if (child.type() != pugi::node_element)
         continue;
-      const std::optional<Shape> shape = convertedShape(source_.resolved(child));
+      const pugi::xml_node geometry = source_.resolved(child);
+      const pugi::xml_node generator = hasCubeMap(element) ? cameraGeneratorOf(geometry) : pugi::xml_node();
+      const std::optional<Shape> shape = convertedShape(geometry, !generator.empty());
       if (!shape)
         continue;
       Node node;
       node.content = *shape;
       node.fields = fieldsOf(element, {"bboxCenter", "bboxSize"});
       addChildren(element, node, child);
+      if (generator)
+        addTo(node.children, generator);
       return addNode(imported_.scene.graph, std::move(node));
     }
+    return {};
+  }
+
+  /// Whether the Appearance of a Shape has a cube map.
+  bool hasCubeMap(pugi::xml_node shape) const {
+    const auto isCubeMap = [](const pugi::xml_node& node) {
+      return std::string_view(node.name()).ends_with("CubeMapTexture");
+    };
+    return std::ranges::any_of(shape.children("Appearance"), [&](const pugi::xml_node& child) {
+      return !source_.resolved(child).find_node(isCubeMap).empty();
+    });
+  }
+
+  /// The TextureCoordinateGenerator of a geometry whose mode depends on the camera: pages draw cube maps by it. It
+  /// becomes a child of the Shape, since a written geometry has no such node.
+  pugi::xml_node cameraGeneratorOf(pugi::xml_node geometry) const {
+    for (const pugi::xml_node& node : texCoordNodes(source_, geometry))
+      if (std::string_view(node.attribute("mode").value()).starts_with("CAMERASPACE"))
+        return node;
     return {};
   }
 
@@ -314,8 +338,8 @@ private:
   }
 
   /// A shape with the mesh of a geometry node, one mesh for all its USEs. Empty for geometry that stays in the
-  /// document, which is read too, to report its errors.
-  std::optional<Shape> convertedShape(pugi::xml_node node) {
+  /// document, which is read too, to report its errors. `isForCubeMap`: its generator is drawn as it is.
+  std::optional<Shape> convertedShape(pugi::xml_node node, bool isForCubeMap) {
     const auto [found, isNew] = converted_.try_emplace(node.internal_object());
     if (!isNew || !node)
       return found->second;
@@ -330,7 +354,7 @@ private:
     if (geometry->nurbsError)
       summary_.noteNurbs(*geometry->nurbsError);
     summary_.furtherTexCoords += geometry->furtherTexCoords > 0 ? 1 : 0;
-    if (!geometry->approximatedTexCoords.empty())
+    if (!geometry->approximatedTexCoords.empty() && !isForCubeMap)
       ++summary_.approximatedTexCoords[geometry->approximatedTexCoords];
     if (staysInline(node))
       return {};

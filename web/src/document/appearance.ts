@@ -4,27 +4,21 @@ import type {
   AlphaDescription,
   AppearanceDescription,
   ColorMapDescription,
-  ImageDescription,
   MaterialDescription,
   MaterialExtensions,
   PointDescription,
-  SamplingDescription,
   TextureDescription,
   TextureRole,
   Warning,
-  WrapMode,
 } from "./description.ts";
 import { textureRoles } from "./description.ts";
-import { dataUrl } from "./dataUrl.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, emptyElement, lowerNameOf } from "./element.ts";
 import { readLines } from "./lineProperties.ts";
-import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
-import { pngOfPixels } from "./pixelImage.ts";
-
-/** An element's children, with USEs resolved. */
-export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
+import { isCubeMap, readCubeMap } from "./readCubeMap.ts";
+import type { ChildrenOf } from "./readImage.ts";
+import { fieldOf, isTexture, readImageOf } from "./readImage.ts";
 
 type TextureFields = Partial<Readonly<Record<TextureRole, string>>>;
 
@@ -81,7 +75,7 @@ export function readAppearance(
   warnings: Warning[],
 ): AppearanceDescription {
   const children =
-    element === undefined ? [] : childrenOf(element).flatMap((child) => singleTextureFor(child, childrenOf, warnings));
+    element === undefined ? [] : childrenOf(element).flatMap((child) => texturesFor(child, childrenOf, warnings));
   const childNamed = (name: string) => children.find((child) => lowerNameOf(child) === name);
   const material = children.find((child) => lowerNameOf(child) in textureFields);
   const points = childNamed("pointproperties");
@@ -95,6 +89,7 @@ export function readAppearance(
         readTextures(children, extension, extensionTextureFields, childrenOf, warnings),
       ),
     ],
+    cubeMap: readAppearanceCubeMap(children, material, childrenOf, warnings),
     points: points && readPoints(points, warnings),
     lines: lines && readLines(lines, warnings),
     colorMap,
@@ -173,16 +168,34 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
 }
 
 /**
- * Replaces a MultiTexture by its first texture: X3D 4 has the materials' texture fields instead. Other elements stay.
+ * Replaces a MultiTexture by its first texture and its first cube map: X3D 4 has the materials' texture fields instead.
+ * Other elements stay.
  */
-function singleTextureFor(child: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
+function texturesFor(child: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
   if (lowerNameOf(child) !== "multitexture") return [child];
-  warnings.push({ element: child, message: "only the first texture of a <MultiTexture> is shown" });
-  return childrenOf(child).filter(isTexture).slice(0, 1);
+  const children = childrenOf(child);
+  const used = [...children.filter(isTexture).slice(0, 1), ...children.filter(isCubeMap).slice(0, 1)];
+  const message = `only ${used.length < 2 ? "the first texture" : "the first texture and the first cube map"} of a <MultiTexture> is shown`;
+  if (used.length < 2 || used.length < children.length) warnings.push({ element: child, message });
+  return used;
 }
 
-export function isTexture(child: SceneElement): boolean {
-  return ["imagetexture", "pixeltexture"].includes(lowerNameOf(child));
+/** The cube map in the field of the main color; warns of others. */
+function readAppearanceCubeMap(
+  children: readonly SceneElement[],
+  material: SceneElement | undefined,
+  childrenOf: ChildrenOf,
+  warnings: Warning[],
+): AppearanceDescription["cubeMap"] {
+  const colorField = textureFields[material ? lowerNameOf(material) : "material"]?.color ?? "";
+  const all = [...(material ? childrenOf(material) : []), ...children].filter(isCubeMap);
+  const isUsed = (texture: SceneElement) => ["", "texture", colorField.toLowerCase()].includes(fieldOf(texture));
+  const used = all.find(isUsed);
+  for (const other of all)
+    if (other !== used)
+      warnings.push({ element: other, message: `is drawn as texture of the main color only, one for each shape` });
+  const map = used && readCubeMap(used, childrenOf, warnings);
+  return map && { ...map, direction: "reflection" };
 }
 
 /** Textures are in the material's fields (X3D 4); the color texture may be the Appearance's (X3D 3). */
@@ -219,11 +232,6 @@ function readTextures(
   });
 }
 
-/** The texture's containerField in lower case; empty where it has none. */
-export function fieldOf(texture: SceneElement): string {
-  return attributeOf(texture, "containerField")?.toLowerCase() ?? "";
-}
-
 function readTexture(
   role: TextureRole,
   element: SceneElement,
@@ -246,19 +254,6 @@ function readTexture(
   ];
 }
 
-/** The image of an ImageTexture or PixelTexture, as colors; undefined where it has none. */
-export function readImageOf(
-  element: SceneElement,
-  childrenOf: ChildrenOf,
-  warnings: Warning[],
-): ImageDescription | undefined {
-  const { urls, preview, repeatS, repeatT } =
-    lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
-  if (urls.length === 0) return undefined;
-  const properties = childrenOf(element).find((child) => lowerNameOf(child) === "textureproperties");
-  return { urls, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: false } };
-}
-
 /**
  * The appearance with the sets of texture coordinates that the mappings of its textures name. A mapping is the name of
  * a set, or this name, a dot and the role of the texture, where it also names a transform. Other mappings stand for the
@@ -278,47 +273,6 @@ export function withTexCoordSets(
     ...appearance,
     textures: appearance.textures.map((texture) => ({ ...texture, texCoordSet: setOf(texture) })),
   };
-}
-
-/** The common fields of textures; `urls` is empty where there is no image. */
-type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & {
-  readonly urls: readonly string[];
-};
-
-function readImage(element: SceneElement, warnings: Warning[]): ReadTexture {
-  const { url: urls, ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
-  return { ...rest, urls };
-}
-
-function readPixels(element: SceneElement, warnings: Warning[]): ReadTexture {
-  const { image, ...rest } = readFields(element, nodeFields.PixelTexture, warnings);
-  return { ...rest, preview: "", urls: image.pixels.length > 0 ? [dataUrl("image/png", pngOfPixels(image))] : [] };
-}
-
-function samplingOf(
-  element: SceneElement | undefined,
-  repeatS: boolean,
-  repeatT: boolean,
-  warnings: Warning[],
-): Omit<SamplingDescription, "isData"> {
-  const wrap = (repeats: boolean): WrapMode => (repeats ? "repeat" : "clamp");
-  if (element === undefined)
-    return { wrapS: wrap(repeatS), wrapT: wrap(repeatT), isSmooth: true, hasMipmaps: true, anisotropy: 1 };
-  const values = readFields(element, nodeFields.TextureProperties, warnings);
-  const isNearest = (filter: string) => /^(NEAREST|FASTEST)/i.test(filter.trim());
-  return {
-    wrapS: wrapOf(values.boundaryModeS),
-    wrapT: wrapOf(values.boundaryModeT),
-    isSmooth: !isNearest(values.magnificationFilter),
-    // Mipmaps are on unless a filter without them is requested: minified textures would shimmer.
-    hasMipmaps: !/^(NEAREST|AVG|AVG_PIXEL|FASTEST|NEAREST_PIXEL)$/i.test(values.minificationFilter.trim()),
-    anisotropy: Math.max(1, values.anisotropicDegree),
-  };
-}
-
-function wrapOf(mode: string): WrapMode {
-  const name = mode.trim().toUpperCase();
-  return name.startsWith("CLAMP") ? "clamp" : name === "MIRRORED_REPEAT" ? "mirror" : "repeat";
 }
 
 function transformFor(

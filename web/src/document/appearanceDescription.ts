@@ -1,6 +1,8 @@
 // The appearance of a shape as plain data: its material, textures, points, lines and color map.
 
 import type { Vec2, Vec3 } from "./fieldTypes.ts";
+import type { ImageDescription } from "./imageDescription.ts";
+import type { AppearanceCubeMap } from "./panoramaDescription.ts";
 import type { nodeFields, Values } from "./nodes.ts";
 
 /**
@@ -32,22 +34,6 @@ export interface AlphaDescription {
   readonly mode: "AUTO" | "OPAQUE" | "MASK" | "BLEND";
   /** MASK only: fragments with a lower alpha are not drawn. */
   readonly cutoff: number;
-}
-
-export type WrapMode = "repeat" | "clamp" | "mirror";
-
-/** How a texture is filtered and wrapped. */
-export interface SamplingDescription {
-  /** The texels are numbers for shading instead of colors. */
-  readonly isData: boolean;
-  readonly wrapS: WrapMode;
-  readonly wrapT: WrapMode;
-  /** False: magnification shows square texels (nearest filter). */
-  readonly isSmooth: boolean;
-  readonly hasMipmaps: boolean;
-  readonly anisotropy: number;
-  /** Alpha is a signed distance to the nearest edge instead of an opacity. */
-  readonly isDistanceField?: true;
 }
 
 /** 3 x 3, column by column. */
@@ -87,15 +73,6 @@ export const textureRoles = [
 ] as const;
 export type TextureRole = (typeof textureRoles)[number];
 
-/** An image and how it is sampled. */
-export interface ImageDescription {
-  /** Tried in order until one loads; at least one. */
-  readonly urls: readonly string[];
-  /** The URL of a small version, displayed until the image is loaded; empty: none. */
-  readonly preview: string;
-  readonly sampling: SamplingDescription;
-}
-
 export interface TextureDescription extends ImageDescription {
   readonly role: TextureRole;
   /** Maps a vertex's texture coordinates to the image's. */
@@ -134,6 +111,7 @@ export interface AppearanceDescription {
   readonly alpha: AlphaDescription;
   /** At most one of each role. */
   readonly textures: readonly TextureDescription[];
+  readonly cubeMap?: AppearanceCubeMap | undefined;
   readonly points: PointDescription | undefined;
   /** Undefined: thin solid lines. */
   readonly lines: LineDescription | undefined;

@@ -1,13 +1,16 @@
 // A scene as plain data: the fields of a document's nodes with every default filled in. Descriptions are immutable.
 
-import type { AppearanceDescription, ImageDescription } from "./appearanceDescription.ts";
+import type { AppearanceDescription } from "./appearanceDescription.ts";
 import type { SceneElement } from "./element.ts";
 import type { Rotation, Vec2, Vec3, Vec4 } from "./fieldTypes.ts";
 import type { Box3, GeometryDescription } from "./geometryDescription.ts";
+import type { CubeMapDescription, PanoramaPicture } from "./panoramaDescription.ts";
 import type { nodeFields, Values, Warning } from "./nodes.ts";
 
 export * from "./appearanceDescription.ts";
 export * from "./geometryDescription.ts";
+export * from "./imageDescription.ts";
+export * from "./panoramaDescription.ts";
 
 export interface ViewpointDescription extends Values<typeof nodeFields.Viewpoint> {
   /** Width over height of the area that every view must show; 1 where absent. */
@@ -149,6 +152,26 @@ export interface LocalFogDescription {
   readonly fog: FogDescription;
 }
 
+/** X3D's EnvironmentLight: light from all around, which PhysicalMaterials reflect. */
+export interface EnvironmentLightDescription {
+  readonly kind: "environmentLight";
+  /** Its identity. */
+  readonly element: SceneElement;
+  readonly on: boolean;
+  /** False: it lights the children of its group only. */
+  readonly global: boolean;
+  readonly color: Vec3;
+  readonly intensity: number;
+  readonly ambientIntensity: number;
+  readonly rotation: Rotation;
+  /** What surfaces mirror. */
+  readonly specular: CubeMapDescription | undefined;
+  /** The light that falls on a surface, by the direction of its normal. Undefined: it is computed from `specular`. */
+  readonly diffuse: CubeMapDescription | undefined;
+  /** The same as nine spherical harmonics, three numbers each; empty: none. */
+  readonly diffuseCoefficients: readonly number[];
+}
+
 export type NodeDescription =
   | GroupDescription
   | ShapeDescription
@@ -157,21 +180,13 @@ export type NodeDescription =
   | BackgroundNodeDescription
   | ClipPlaneDescription
   | FogNodeDescription
-  | LocalFogDescription;
+  | LocalFogDescription
+  | EnvironmentLightDescription;
 
 /** A color at an angle, in radians, from the zenith or the nadir. */
 export interface Ring {
   readonly angle: number;
   readonly color: Vec3;
-}
-
-/** The sides of a panorama: -z, z, -x, x, y and -y of its node's coordinates. */
-export const panoramaSides = ["front", "back", "left", "right", "top", "bottom"] as const;
-export type PanoramaSide = (typeof panoramaSides)[number];
-
-/** A picture that fills one side of a cube around the viewer. */
-export interface PanoramaPicture extends ImageDescription {
-  readonly role: PanoramaSide;
 }
 
 export interface BackgroundDescription {

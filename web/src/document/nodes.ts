@@ -163,6 +163,13 @@ export const nodeFields = {
     beamWidth: SFFloat(0.7854),
     cutOffAngle: SFFloat(1.5708),
   },
+  EnvironmentLight: {
+    ...lightFields,
+    global: SFBool(false),
+    rotation: SFRotation([0, 0, 1, 0]),
+    /** Nine spherical harmonics of the light that falls on a surface, by the direction of its normal. */
+    diffuseCoefficients: MFFloat([]),
+  },
   Group: { ...prioritized, ...boundedObject, ...visibleObject },
   Anchor: {
     ...prioritized,
@@ -378,6 +385,8 @@ export const nodeFields = {
     repeatS: SFBool(true),
     repeatT: SFBool(true),
   },
+  ImageCubeMapTexture: { containerField: SFString(""), url: MFString([]), preview: SFString("") },
+  ComposedCubeMapTexture: { containerField: SFString("") },
   PixelTexture: { image: SFImage(noPixels), repeatS: SFBool(true), repeatT: SFBool(true) },
 } as const;
 

@@ -1,7 +1,5 @@
 // Reads Background and TextureBackground.
 
-import type { ChildrenOf } from "./appearance.ts";
-import { fieldOf, isTexture, readImageOf } from "./appearance.ts";
 import type { BackgroundNodeDescription, PanoramaPicture, PanoramaSide, SamplingDescription } from "./description.ts";
 import { panoramaSides } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -9,6 +7,8 @@ import { lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import type { ChildrenOf } from "./readImage.ts";
+import { edgeToEdge, fieldOf, isTexture, readImageOf } from "./readImage.ts";
 
 /** `element`: the node's identity; `node`: the element with its fields. */
 export function readBackground(
@@ -41,9 +41,6 @@ export function readBackground(
 function ringsOf(colors: readonly Vec3[], angles: readonly number[]) {
   return colors.slice(0, angles.length + 1).map((color, i) => ({ color, angle: i === 0 ? 0 : (angles[i - 1] ?? 0) }));
 }
-
-/** Sides meet at their edges, so the pictures do not repeat. */
-const edgeToEdge = { wrapS: "clamp", wrapT: "clamp" } as const;
 
 const smooth: SamplingDescription = { isData: false, ...edgeToEdge, isSmooth: true, hasMipmaps: true, anisotropy: 1 };
 

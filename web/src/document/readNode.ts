@@ -9,6 +9,7 @@ import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { asViewpoint } from "./orthoViewpoint.ts";
 import { readBackground } from "./readBackground.ts";
+import { readEnvironmentLight } from "./readCubeMap.ts";
 import { readFog, readLocalFog } from "./readFog.ts";
 import type { ShapeReadingContext } from "./readShape.ts";
 import { nodesIn, readShape } from "./readShape.ts";
@@ -36,7 +37,7 @@ export interface NodeReadingContext extends ShapeReadingContext {
 
 /** Whether a node is read together with all its descendants, which are not nodes of the scene tree. */
 export function isReadAsWhole(node: SceneElement): boolean {
-  return ["shape", "texturebackground"].includes(lowerNameOf(node));
+  return ["shape", "texturebackground", "environmentlight"].includes(lowerNameOf(node));
 }
 
 /** Reads `element`. `node`: the element with its fields, which is the one that `element` USEs, or `element` itself. */
@@ -78,6 +79,11 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
       return lightReader({ kind: "point", ...readFields(node, nodeFields.PointLight, warnings) }, warnings);
     case "spotlight":
       return lightReader({ kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) }, warnings);
+    case "environmentlight":
+      return constantReader(
+        [readEnvironmentLight(element, node, (parent) => nodesIn(parent, context), warnings)],
+        warningsOnly(warnings),
+      );
     case "viewpoint":
       return constantReader(
         [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }],

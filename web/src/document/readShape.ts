@@ -9,6 +9,8 @@ import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import type { GeometryCache, Lookup } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
+import { withCubeMapDirection } from "./readCubeMap.ts";
+import { texCoordNodesOf } from "./texCoordNodes.ts";
 import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -43,14 +45,18 @@ export function readShape(
   const [geometry, priorityOfGeometry] = readGeometryOf(children, context, ownBox, values.colorBy);
   const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
   const isVisible = values.visible && values.render;
-  const appearanceDescription = withTexCoordSets(
-    readAppearance(
-      appearance,
-      colorMapOf(node, values, geometry, warnings),
-      (parent) => nodesIn(parent, context),
-      warnings,
+  const appearanceDescription = withCubeMapDirection(
+    withTexCoordSets(
+      readAppearance(
+        appearance,
+        colorMapOf(node, values, geometry, warnings),
+        (parent) => nodesIn(parent, context),
+        warnings,
+      ),
+      geometry?.texCoordMappings,
     ),
-    geometry?.texCoordMappings,
+    texCoordGeneratorIn(node, { ...context, warnings: [] }), // USEs have been resolved with warnings
+    warnings,
   );
   return {
     kind: "shape",
@@ -68,6 +74,19 @@ export function readShape(
         ? appearanceDescription
         : context.text.appearanceOf(appearanceDescription, geometry.glyphAtlas, node, warnings),
   };
+}
+
+/** The shape's TextureCoordinateGenerator: of its geometry, or its own where convert has written the geometry. */
+function texCoordGeneratorIn(shape: SceneElement, context: ShapeReadingContext): SceneElement | undefined {
+  const isGenerator = (node: SceneElement) => lowerNameOf(node) === "texturecoordinategenerator";
+  for (const child of nodesIn(shape, context)) {
+    if (isGenerator(child)) return child;
+    const found = isGeometry(child)
+      ? texCoordNodesOf(child, (each) => resolveUse(each, context)).find(isGenerator)
+      : undefined;
+    if (found) return found;
+  }
+  return undefined;
 }
 
 /** An element's children, with USEs resolved. */

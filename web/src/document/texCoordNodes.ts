@@ -72,6 +72,8 @@ export function texCoordModeOf(
   if (first === undefined || lowerNameOf(first) !== "texturecoordinategenerator") return undefined;
   const { mode } = readFields(first, nodeFields.TextureCoordinateGenerator, warnings);
   const drawn = nearestTexCoordMode[mode] ?? "SPHERE-LOCAL";
-  if (drawn !== mode) warnings.push({ element: first, message: `mode="${mode}" is drawn as ${drawn}` });
+  // The camera's modes are for cube maps: readCubeMap.ts.
+  if (drawn !== mode && !mode.startsWith("CAMERASPACE"))
+    warnings.push({ element: first, message: `mode="${mode}" is drawn as ${drawn}` });
   return drawn;
 }

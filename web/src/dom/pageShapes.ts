@@ -1,13 +1,21 @@
 // The shapes of a page's scene: passes the stages and pictures that load to the renderer,
 // and sends the events and settles the promises of their elements.
 
-import type { DeliveryError } from "../delivery/deliveryError.ts";
+import { DeliveryError } from "../delivery/deliveryError.ts";
 import { needsWorkers } from "../delivery/encodings/encodings.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
-import type { ShapeDescription, TextureRole } from "../document/description.ts";
+import type {
+  AppearanceDescription,
+  CubeMapPicture,
+  CubeMapRole,
+  ShapeDescription,
+  TextureDescription,
+  TextureRole,
+} from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import { cubeMapProblemOf } from "../render/environment/cubeLayout.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
@@ -27,7 +35,7 @@ export interface PageShapesListener {
 /** Receives what a shape loads. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
   onStage(shape: PageShape, patch: number, stage: Stage | undefined): void;
-  onTextureImage(shape: PageShape, role: TextureRole, image: TextureImage | undefined): void;
+  onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
   onRemoved(shape: PageShape): void;
 }
@@ -37,6 +45,7 @@ export class PageShape extends LoadingShape {
   /** The stage that each patch displays. */
   readonly stages: (StageName | "none")[];
   readonly #listener: PageShapeListener;
+  #cubeMapUrl = "";
 
   /** `isPreviewed`: the preview has displayed the shape's base. */
   constructor(
@@ -56,7 +65,17 @@ export class PageShape extends LoadingShape {
     this.#listener.onStage(this, patch, stage);
   }
 
-  protected override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {
+  protected override picturesOf({
+    textures,
+    cubeMap,
+  }: AppearanceDescription): readonly (TextureDescription | CubeMapPicture)[] {
+    this.#cubeMapUrl = cubeMap?.pictures.find(({ role }) => role === "whole")?.urls[0] ?? "";
+    return [...textures, ...(cubeMap?.pictures ?? [])];
+  }
+
+  protected override onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void {
+    const problem = image && cubeMapProblemOf(role, image.image);
+    if (problem !== undefined) this.onError(new DeliveryError("unsupported", this.#cubeMapUrl, problem));
     this.#listener.onTextureImage(this, role, image);
   }
 

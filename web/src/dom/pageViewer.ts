@@ -25,7 +25,7 @@ import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/vie
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { LoadingEvents } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
-import { PageBackground } from "./pageBackground.ts";
+import { PageSurroundings } from "./pageSurroundings.ts";
 import { PageInlines } from "./pageInlines.ts";
 import { absoluteUrlOf, makePagePool } from "./pagePool.ts";
 import type { PageShape } from "./pageShapes.ts";
@@ -62,7 +62,7 @@ export class PageViewer {
   readonly #core: ViewerCore<PageShape>;
   readonly #shapes: PageShapes;
   readonly #inlines = new PageInlines();
-  readonly #background: PageBackground;
+  readonly #surroundings: PageSurroundings;
   readonly #lods = new LodSelection();
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
@@ -138,7 +138,7 @@ export class PageViewer {
       },
       previewed.map(({ element }) => element),
     );
-    this.#background = new PageBackground(this.renderer, deliveries.textures, {
+    this.#surroundings = new PageSurroundings(this.renderer, deliveries.textures, {
       onError: (error, element) => {
         this.#fail(error, element);
       },
@@ -272,7 +272,7 @@ export class PageViewer {
   #makeHost(): ViewerHost {
     return {
       view: () => this.renderer.view,
-      sceneTextures: () => this.#background.textureKeys,
+      sceneTextures: () => this.#surroundings.textureKeys,
       display: (scene) => this.#display(scene),
       onShapes: (changes) => {
         this.#onShapes(changes);
@@ -303,7 +303,8 @@ export class PageViewer {
   #display(scene: SceneDescription): SceneChanges {
     const before = this.#displayed;
     const { changes, ...built } = this.renderer.setScene(scene);
-    if (this.#background.follow()) this.#core.control.request();
+    if (this.#surroundings.follow()) this.#core.control.request();
+    if (built.environmentLights.length > 1) this.#warn("has several EnvironmentLights; the first that is on is drawn");
     if (built.anchors.length > 0 || this.#hasAnchors) this.#listener.onAnchors(built.anchors);
     this.#hasAnchors = built.anchors.length > 0;
     this.#displayed = { ...built, navigation: scene.navigation };
@@ -338,7 +339,7 @@ export class PageViewer {
     const isBound = element.getAttribute(attribute)?.trim().toLowerCase() === "true";
     if (this.renderer.bindFog(element, isBound)) return;
     if (!this.renderer.bindBackground(element, isBound)) this.cameraController.bind(element, isBound);
-    else if (this.#background.follow()) this.#core.control.request();
+    else if (this.#surroundings.follow()) this.#core.control.request();
   }
 
   #onStage(stage: Stage | undefined): void {
@@ -386,13 +387,13 @@ export class PageViewer {
   #onContextLost(): void {
     this.#warn("has lost its WebGL context; the scene is displayed again when the browser restores it");
     this.#shapes.suspend();
-    this.#background.suspend();
+    this.#surroundings.suspend();
   }
 
   /** Fetches all files again, usually from the browser's cache. Events that have been sent are not sent again. */
   #deliverAgain(): void {
     this.#shapes.join();
-    this.#background.follow();
+    this.#surroundings.follow();
     this.#core.control.request();
     this.renderer.requestFrame();
   }
@@ -431,7 +432,7 @@ export class PageViewer {
     );
     this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
     // The scene settles only after a frame: until then further shapes may join.
-    if (this.#background.isSettled && awaited.every((loading) => loading.isSettled)) this.#loading.settle();
+    if (this.#surroundings.isSettled && awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     this.#shapes.onFrame();
     this.#inlines.onFrame();
     this.#loading.onFrame(true);

@@ -7,6 +7,7 @@
 // reads what has been drawn behind the surface, refracted once.
 
 import type { ExtensionTextureRole } from "../document/description.ts";
+import { ambientLightChunk, surroundingsChunk } from "./surroundings.ts";
 import { toLinearChunk } from "./physicalLighting.ts";
 
 /** Defined in physical materials that have extensions. */
@@ -44,7 +45,8 @@ ${declarations}
 uniform sampler2D backdrop;
 uniform mat4 projectionMatrix;
 varying float vShapeScale;
-const float environmentRadiance = 0.3;
+${ambientLightChunk}
+${surroundingsChunk}
 
 struct ExtendedSurface {
   vec3 f0, f90, sheen, tangent, bitangent, coatNormal;
@@ -159,12 +161,16 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
   float a004 = min(r.x * r.x, exp2(-9.28 * NV)) * r.x + r.y;
   vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
   vec3 f0 = surface.film > 0.0 ? mix(surface.f0, filmReflectance(NV), surface.film) : surface.f0;
-  reflected.indirectDiffuse += under * light * (1.0 - material.metallic) * (1.0 - surface.transmission) *
+  vec3 ambient = allAmbientLight(light), irradiance = ambient + surroundingIrradiance(normal);
+  reflected.indirectDiffuse += under * irradiance * (1.0 - material.metallic) * (1.0 - surface.transmission) *
     material.diffuseColor;
-  reflected.indirectSpecular += under * (light + environmentRadiance * material.metallic) * (f0 * ab.x + surface.f90 * ab.y);
+  reflected.indirectSpecular += under *
+    (ambient + surroundingRadiance(reflect(-viewDirection, normal), material.roughness, material.metallic)) * (f0 * ab.x + surface.f90 * ab.y);
   float coatNV = clamp(dot(surface.coatNormal, viewDirection), 0.0, 1.0);
-  reflected.indirectSpecular += (light + environmentRadiance) * coatFresnel(coatNV);
-  reflected.indirectSpecular += light * surface.sheen * sheenAlbedo(NV);
+  vec3 coatDirection = reflect(-viewDirection, surface.coatNormal);
+  reflected.indirectSpecular +=
+    (ambient + surroundingRadiance(coatDirection, surface.coatRoughness, 1.0)) * coatFresnel(coatNV);
+  reflected.indirectSpecular += irradiance * surface.sheen * sheenAlbedo(NV);
 }
 
 vec3 backdropAt(vec3 viewPosition, vec3 ray, float lod) {

@@ -4,9 +4,10 @@
 //
 // A light of intensity 1 makes a white, rough surface that faces it white, as with X3D's Material,
 // so the factor 1/pi of all reflectances is left out. Metals reflect their surroundings only and
-// would be black without any, so a uniform grey environment surrounds them (reflectance after Karis
-// 2014, "Physically based shading on mobile").
+// would be black without any, so a uniform grey environment surrounds them, unless the scene has an EnvironmentLight
+// (reflectance after Karis 2014, "Physically based shading on mobile").
 
+import { surroundingsChunk } from "./surroundings.ts";
 import type { Vec3 } from "../document/description.ts";
 
 /** Defined in physical materials. */
@@ -14,7 +15,7 @@ export const physicalDefine = "PHYSICAL";
 
 /** The GLSL functions directX3d and ambientX3d of this model. */
 export const physicalLighting = /* glsl */ `
-const float environmentRadiance = 0.3;
+${surroundingsChunk}
 
 // The reflectance at normal incidence, F0.
 vec3 reflectanceF0(const in X3dMaterial material) {
@@ -51,9 +52,12 @@ vec3 environmentReflectance(const in X3dMaterial material, float NV) {
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  reflected.indirectDiffuse += light * (1.0 - material.metallic) * material.diffuseColor;
+  vec3 ambient = allAmbientLight(light);
+  reflected.indirectDiffuse +=
+    (ambient + surroundingIrradiance(normal)) * (1.0 - material.metallic) * material.diffuseColor;
   float NV = clamp(dot(normal, viewDirection), 0.0, 1.0);
-  vec3 radiance = light + environmentRadiance * material.metallic;
+  vec3 radiance =
+    ambient + surroundingRadiance(reflect(-viewDirection, normal), material.roughness, material.metallic);
   reflected.indirectSpecular += radiance * environmentReflectance(material, NV);
 }
 `;

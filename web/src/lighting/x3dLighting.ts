@@ -6,6 +6,7 @@
 // 128 on the screen. Colours and light of a PhysicalMaterial are linear: physicalLighting.ts.
 
 import { physicalDefine, physicalLighting } from "./physicalLighting.ts";
+import { ambientLightChunk } from "./surroundings.ts";
 
 /** What the lighting functions know of a surface. */
 export const materialStruct = /* glsl */ `
@@ -25,6 +26,7 @@ struct X3dMaterial {
  */
 export const x3dLighting = /* glsl */ `
 ${materialStruct}
+${ambientLightChunk}
 #ifdef ${physicalDefine}
 ${physicalLighting}
 #else
@@ -41,7 +43,7 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  reflected.indirectDiffuse += light * material.diffuseColor * material.ambient;
+  reflected.indirectDiffuse += allAmbientLight(light) * material.diffuseColor * material.ambient;
 }
 
 #endif

@@ -2,6 +2,7 @@
 
 import { Vector2, Vector4 } from "three";
 import { makeClipPlaneUniforms } from "../render/environment/clipPlanes.ts";
+import { makeEnvironmentUniforms } from "../render/environment/environmentLight.ts";
 import { makeFogUniforms } from "../render/environment/fogs.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
 import type { MaterialFactory } from "../render/materials/materialFactory.ts";
@@ -30,6 +31,7 @@ export function appShapeContext(
       ...makeLightUniforms(),
       ...makeClipPlaneUniforms(),
       ...makeFogUniforms(),
+      ...makeEnvironmentUniforms(),
     },
   };
 }

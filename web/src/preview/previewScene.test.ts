@@ -64,6 +64,8 @@ describe("the scene of a preview", () => {
     "a sky of several colours": `<Background skyColor="0 0 1 1 1 1" skyAngle="1.5"/>${shape()}`,
     "a transparent sky": `<Background transparency="0.5"/>${shape()}`,
     "a clip plane": `<ClipPlane/>${shape()}`,
+    "an EnvironmentLight": `<EnvironmentLight/>${shape()}`,
+    "a cube map": shape('<Appearance><Material/><ImageCubeMapTexture url="t.png"/></Appearance>'),
     fog: `<Fog visibilityRange="9"/>${shape()}`,
     "one light above the limit": "<DirectionalLight/>".repeat(maxLights + 1) + shape(),
     "more shapes than the limit": shape().repeat(300),

@@ -59,7 +59,7 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   if (inlines.length > 0) return undefined;
   const instances = instancesOf(scene);
   const { viewpoints, lods, billboards, hasClippingOrFog } = instances;
-  if (hasClippingOrFog) return undefined;
+  if (hasClippingOrFog || instances.environmentLights.length > 0) return undefined;
   // Pictures of a background arrive later than a preview, which displays their background colour.
   if (background && (background.sky.length > 1 || background.ground.length > 0 || background.transparency > 0))
     return undefined;
@@ -92,7 +92,12 @@ function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | u
   } = geometry ?? { patches: [], base: undefined };
   if (geometry === undefined || base === undefined || !("patchIndex" in base)) return undefined;
   if (patch === undefined || appearance.colorMap !== undefined) return undefined;
-  if (appearance.textures.length > 0 || appearance.alpha.mode === "MASK" || isBlended(appearance, false))
+  if (
+    appearance.textures.length > 0 ||
+    appearance.cubeMap ||
+    appearance.alpha.mode === "MASK" ||
+    isBlended(appearance, false)
+  )
     return undefined;
   return {
     element,

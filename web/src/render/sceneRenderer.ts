@@ -19,6 +19,7 @@ import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { ArrayUse, Stage } from "../stage/stage.ts";
 import type {
   AnchorDescription,
+  CubeMapRole,
   GeometryDescription,
   PanoramaSide,
   SamplingDescription,
@@ -39,6 +40,10 @@ import { x3dMaterials } from "./materials/x3dMaterials.ts";
 import { FramePacer } from "./frames/framePacing.ts";
 import type { Hit } from "./picking/picker.ts";
 import { makeClipPlaneUniforms } from "./environment/clipPlanes.ts";
+import { CubeMaps } from "./environment/cubeMaps.ts";
+import { makeEnvironmentUniforms } from "./environment/environmentLight.ts";
+import type { EnvironmentPicture, EnvironmentRole } from "./environment/sceneEnvironment.ts";
+import { SceneEnvironment } from "./environment/sceneEnvironment.ts";
 import { makeFogUniforms } from "./environment/fogs.ts";
 import { makeLightUniforms } from "./lights/sceneLights.ts";
 import type { BuiltScene } from "./shapes/sceneShapes.ts";
@@ -91,6 +96,7 @@ export class SceneRenderer {
     ...makeLightUniforms(),
     ...makeClipPlaneUniforms(),
     ...makeFogUniforms(),
+    ...makeEnvironmentUniforms(),
   };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
@@ -100,6 +106,8 @@ export class SceneRenderer {
   readonly #picker: ScreenPicker;
   readonly #depthProbe: DepthProbe;
   readonly #framePacer: FramePacer;
+  readonly #cubeMaps = new CubeMaps();
+  readonly #environment = new SceneEnvironment(this.#cubeMaps, this.#shared);
   readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
   #frames = 0;
@@ -128,6 +136,7 @@ export class SceneRenderer {
       geometries,
       buffers: this.#buffers,
       textures: this.#textures,
+      cubeMaps: this.#cubeMaps,
       shared: this.#shared,
       batches: new Batches(x3dMaterials, geometries, this.#buffers),
       drawing: { asPoints: false },
@@ -189,6 +198,7 @@ export class SceneRenderer {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
     this.#background.follow(built.backgrounds);
+    this.#environment.follow(built.environmentLights);
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
     return built;
@@ -216,6 +226,22 @@ export class SceneRenderer {
   /** Sets a picture of the bound background; `undefined` removes it. */
   setBackgroundPicture(side: PanoramaSide, image: TextureImage | undefined): void {
     this.#background.setPicture(side, image && this.#textures.textureOf(image.image));
+    this.requestPacedFrame();
+  }
+
+  /** The pictures of the scene's EnvironmentLight; the same list while they stay the same. */
+  get environmentPictures(): readonly EnvironmentPicture[] {
+    return this.#environment.pictures;
+  }
+
+  /** The EnvironmentLight; undefined where the scene has none. */
+  get environmentElement(): SceneElement | undefined {
+    return this.#environment.element;
+  }
+
+  /** Sets a picture of the EnvironmentLight; `undefined` removes it. */
+  setEnvironmentPicture(role: EnvironmentRole, image: TextureImage | undefined): void {
+    this.#environment.setPicture(role, image && this.#textures.textureOf(image.image));
     this.requestPacedFrame();
   }
 
@@ -257,7 +283,7 @@ export class SceneRenderer {
   }
 
   /** Sets a texture of a shape; `undefined` removes it. */
-  setTextureImage(element: SceneElement, role: TextureRole, image: TextureImage | undefined): void {
+  setTextureImage(element: SceneElement, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void {
     this.#shapes.setTexture(
       element,
       role,
@@ -348,6 +374,7 @@ export class SceneRenderer {
     this.#shapes.dispose();
     this.#picker.dispose();
     this.#depthProbe.dispose();
+    this.#cubeMaps.dispose();
     this.#background.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
@@ -396,6 +423,7 @@ export class SceneRenderer {
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     const { pixelRatio } = this.#shared;
     this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
+    this.#cubeMaps.update(this.#renderer);
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawCalls = this.#renderer.info.render.calls;
     this.#framePacer.end(begunAt);

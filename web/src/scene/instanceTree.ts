@@ -4,9 +4,8 @@
 
 import { Matrix4, Vector3, Vector4 } from "three";
 import { deepEqual } from "../document/deepEqual.ts";
-import type { GroupDescription, LightDescription, NodeDescription, Vec4 } from "../document/description.ts";
+import type { GroupDescription, NodeDescription, Vec4 } from "../document/description.ts";
 import { boxOfAllRotations, isDrawable, transformedBox } from "./bounds.ts";
-import type { LightInstance } from "./instances.ts";
 import { EffectScope, sceneScope } from "./effectScope.ts";
 import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
 import { emptySummary, NodeInstance } from "./nodeInstance.ts";
@@ -167,6 +166,13 @@ function leafSummary(
       return description.light.on && isVisible
         ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, effectScope)] }
         : emptySummary;
+    case "environmentLight":
+      return description.on && isVisible
+        ? {
+            ...emptySummary,
+            environmentLights: [lightInstance(description, sceneFromNode, effectScope)],
+          }
+        : emptySummary;
     case "group":
       return emptySummary;
   }
@@ -189,6 +195,8 @@ function isScoped(description: NodeDescription): boolean {
   switch (description.kind) {
     case "light":
       return !description.light.global;
+    case "environmentLight":
+      return !description.global;
     case "clipPlane":
     case "localFog":
       return description.enabled;
@@ -205,7 +213,11 @@ function scenePlaneOf(plane: Vec4, sceneFromNode: Matrix4): Vector4 | undefined 
   return length > 0 ? scenePlane.divideScalar(length) : undefined;
 }
 
-function lightInstance(light: LightDescription, sceneFromLight: Matrix4, around: EffectScope): LightInstance {
+function lightInstance<Light extends { readonly global: boolean }>(
+  light: Light,
+  sceneFromLight: Matrix4,
+  around: EffectScope,
+): { light: Light; sceneFromLight: Matrix4; scope: EffectScope } {
   return { light, sceneFromLight, scope: light.global ? sceneScope : around };
 }
 

@@ -3,6 +3,7 @@
 import type { Matrix4, Vector4 } from "three";
 import type {
   BackgroundNodeDescription,
+  EnvironmentLightDescription,
   FogDescription,
   FogNodeDescription,
   LightDescription,
@@ -52,6 +53,13 @@ export interface LocalFogInstance {
   /** Scene units in one unit of the node. */
   readonly scale: number;
   /** The fog applies to the shapes in this scope. */
+  readonly scope: EffectScope;
+}
+
+export interface EnvironmentLightInstance {
+  readonly light: EnvironmentLightDescription;
+  readonly sceneFromLight: Matrix4;
+  /** The light illuminates the shapes in this scope. */
   readonly scope: EffectScope;
 }
 

@@ -6,6 +6,7 @@ import type { AnchorDescription, NodeDescription } from "../document/description
 import type {
   BackgroundInstance,
   ClipPlaneInstance,
+  EnvironmentLightInstance,
   FogInstance,
   LightInstance,
   LocalFogInstance,
@@ -21,6 +22,8 @@ export interface SubtreeSummary {
   readonly box: Box3 | undefined;
   /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
+  /** Those that are on and visible. */
+  readonly environmentLights: readonly EnvironmentLightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
   readonly backgrounds: readonly BackgroundInstance[];
   readonly fogs: readonly FogInstance[];
@@ -44,6 +47,7 @@ const none: readonly never[] = [];
 export const emptySummary: SubtreeSummary = {
   box: undefined,
   lights: none,
+  environmentLights: none,
   viewpoints: none,
   backgrounds: none,
   fogs: none,

@@ -2,7 +2,13 @@
 
 import { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
-import type { LightInstance, LodInstance, ShapeInstance, ViewpointInstance } from "./instances.ts";
+import type {
+  EnvironmentLightInstance,
+  LightInstance,
+  LodInstance,
+  ShapeInstance,
+  ViewpointInstance,
+} from "./instances.ts";
 import { InstanceTree } from "./instanceTree.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
 
@@ -13,6 +19,7 @@ export interface SceneInstances {
   readonly shapes: readonly ShapeInstance[];
   /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
+  readonly environmentLights: readonly EnvironmentLightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
   /** Whether anything is clipped or in fog. */
   readonly hasClippingOrFog: boolean;
@@ -24,11 +31,12 @@ export interface SceneInstances {
 /** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
-  const { box, lights, viewpoints, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
+  const { box, lights, environmentLights, viewpoints, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
   return {
     box: box ?? new Box3(),
     shapes: Array.from(shapesIn(root)),
     lights,
+    environmentLights,
     viewpoints,
     hasClippingOrFog: clipPlanes.length > 0 || [...fogs, ...localFogs].some(({ fog }) => fog.visibilityRange > 0),
     lods,

@@ -4,6 +4,7 @@ import type { Box3 } from "three";
 import type {
   BackgroundInstance,
   ClipPlaneInstance,
+  EnvironmentLightInstance,
   FogInstance,
   LightInstance,
   LocalFogInstance,
@@ -24,6 +25,7 @@ export function mergeSummaries(
 ): SubtreeSummary {
   let union: Box3 | undefined;
   const lights = new ConcatenatedList<LightInstance>(),
+    environmentLights = new ConcatenatedList<EnvironmentLightInstance>(),
     viewpoints = new ConcatenatedList<ViewpointInstance>(),
     backgrounds = new ConcatenatedList<BackgroundInstance>(),
     fogs = new ConcatenatedList<FogInstance>(),
@@ -38,6 +40,7 @@ export function mergeSummaries(
     if (summary === emptySummary) continue;
     if (summary.box && own.box === undefined) union = union?.union(summary.box) ?? summary.box.clone();
     lights.add(summary.lights);
+    environmentLights.add(summary.environmentLights);
     viewpoints.add(summary.viewpoints);
     backgrounds.add(summary.backgrounds);
     fogs.add(summary.fogs);
@@ -52,6 +55,7 @@ export function mergeSummaries(
   return {
     box: own.box ?? union,
     lights: lights.all,
+    environmentLights: environmentLights.all,
     viewpoints: viewpoints.all,
     backgrounds: backgrounds.all,
     fogs: fogs.all,

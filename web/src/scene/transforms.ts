@@ -31,8 +31,17 @@ export function matrixOf(transform: TransformDescription): Matrix4 {
     .multiply(translate(center, -1));
 }
 
-function rotationOf([x, y, z, angle]: Rotation): Matrix4 {
+/** The identity for an axis without length. */
+export function rotationOf([x, y, z, angle]: Rotation): Matrix4 {
   const axis = new Vector3(x, y, z);
   if (axis.lengthSq() === 0) return new Matrix4();
   return new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(axis.normalize(), angle));
+}
+
+/** The rotation of a matrix, without its translation and scale; the identity where it flattens. */
+export function rotationIn(matrix: Matrix4): Matrix4 {
+  if (matrix.determinant() === 0) return new Matrix4();
+  const rotation = new Quaternion();
+  matrix.decompose(new Vector3(), rotation, new Vector3());
+  return new Matrix4().makeRotationFromQuaternion(rotation);
 }

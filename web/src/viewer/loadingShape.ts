@@ -8,6 +8,9 @@ import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
 import { RoleTextures } from "../delivery/roleTextures.ts";
 import type {
+  AppearanceDescription,
+  CubeMapPicture,
+  CubeMapRole,
   GeometryDescription,
   ShapeDescription,
   TextureDescription,
@@ -16,13 +19,16 @@ import type {
 import type { SceneElement } from "../document/element.ts";
 import type { Stage } from "../stage/stage.ts";
 
+/** A texture, or a picture of the cube map. */
+type LoadedPicture = TextureDescription | CubeMapPicture;
+
 export abstract class LoadingShape {
   readonly element: SceneElement;
   readonly geometry: GeometryDescription | undefined;
   readonly #deliveries: SceneDeliveries;
-  readonly #textures: RoleTextures<TextureRole>;
+  readonly #textures: RoleTextures<TextureRole | CubeMapRole>;
   #delivery: JoinedDelivery | undefined;
-  #describedTextures: readonly TextureDescription[] = [];
+  #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
 
   /** Joins no delivery before `join`. */
@@ -47,7 +53,7 @@ export abstract class LoadingShape {
   /** A patch has another stage; undefined: none. */
   protected abstract onStage(patch: number, stage: Stage | undefined): void;
   /** A texture has another image; undefined: none. The image before is not used after this call. */
-  protected abstract onTextureImage(role: TextureRole, image: TextureImage | undefined): void;
+  protected abstract onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   protected abstract onError(error: DeliveryError): void;
   /** All files that were requested of the geometry, or of a texture, have loaded or failed. */
   protected abstract onSettled(): void;
@@ -56,6 +62,11 @@ export abstract class LoadingShape {
    * longer be displayed.
    */
   abstract onRemoved(): void;
+
+  /** The pictures of an appearance that the host displays. */
+  protected picturesOf({ textures }: AppearanceDescription): readonly LoadedPicture[] {
+    return textures;
+  }
 
   /** Whether any instance of the shape is visible. */
   get isVisible(): boolean {
@@ -85,7 +96,7 @@ export abstract class LoadingShape {
   /** Follows a changed description of the same geometry; joins deliveries unless `isSuspended`. */
   follow({ visible, appearance }: ShapeDescription, isSuspended: boolean): void {
     this.#isVisible = visible;
-    this.#describedTextures = appearance.textures;
+    this.#describedTextures = this.picturesOf(appearance);
     if (!isSuspended) this.join();
   }
 

@@ -41,14 +41,15 @@ export class VisibleInstances {
       shape: {
         geometry,
         priority,
-        appearance: { textures },
+        appearance: { textures, cubeMap },
       },
       sceneFromShape,
     } = instance;
     if (geometry === undefined) return;
     const added = geometryInstance(geometry, sceneFromShape.elements, priority, textures.length > 0);
     add(this.#geometries, geometry, node, added);
-    for (const texture of textures) add(this.#textures, textureKeyOf(texture), node, added);
+    for (const texture of [...textures, ...(cubeMap?.pictures ?? [])])
+      add(this.#textures, textureKeyOf(texture), node, added);
     this.#visible.set(node, instance);
   }
 
@@ -57,13 +58,14 @@ export class VisibleInstances {
     {
       shape: {
         geometry,
-        appearance: { textures },
+        appearance: { textures, cubeMap },
       },
     }: ShapeInstance,
   ): void {
     this.#visible.delete(node);
     if (geometry) remove(this.#geometries, geometry, node);
-    for (const texture of textures) remove(this.#textures, textureKeyOf(texture), node);
+    for (const texture of [...textures, ...(cubeMap?.pictures ?? [])])
+      remove(this.#textures, textureKeyOf(texture), node);
   }
 }
 

@@ -2,11 +2,12 @@
 // moves nor scales with them.
 
 import type { Scene, Texture } from "three";
-import { Color, Group, Material, Matrix4, Mesh, Quaternion, Vector3 } from "three";
+import { Color, Group, Material, Matrix4, Mesh } from "three";
 import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { BindingStack } from "../../navigation/bindingStack.ts";
 import type { BackgroundInstance } from "../../scene/instances.ts";
+import { rotationIn } from "../../scene/transforms.ts";
 import { makePicture } from "./panorama.ts";
 import { makeSky } from "./sky.ts";
 
@@ -65,7 +66,7 @@ export class SceneBackground {
 
   #update(): void {
     const { bound } = this;
-    this.#root.matrix.copy(bound ? rotationOf(bound.sceneFromBackground) : new Matrix4());
+    this.#root.matrix.copy(bound ? rotationIn(bound.sceneFromBackground) : new Matrix4());
     if (bound?.background !== this.#drawn) {
       this.#drawn = bound?.background;
       dispose(this.#sky);
@@ -77,13 +78,6 @@ export class SceneBackground {
     }
     this.#root.updateMatrixWorld(true);
   }
-}
-
-function rotationOf(matrix: Matrix4): Matrix4 {
-  if (matrix.determinant() === 0) return new Matrix4();
-  const rotation = new Quaternion();
-  matrix.decompose(new Vector3(), rotation, new Vector3());
-  return new Matrix4().makeRotationFromQuaternion(rotation);
 }
 
 function dispose(mesh: Mesh | undefined): void {

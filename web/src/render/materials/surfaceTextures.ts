@@ -11,7 +11,9 @@ export interface SurfaceTexture {
   readonly hasAlpha: boolean;
 }
 
-export type SurfaceTextures = ReadonlyMap<TextureRole, SurfaceTexture>;
+/** `cubeMap`: that of the appearance. */
+export type SurfaceTextureRole = TextureRole | "cubeMap";
+export type SurfaceTextures = ReadonlyMap<SurfaceTextureRole, SurfaceTexture>;
 
 /** The textures whose texture coordinates a stage has; the others cannot be applied yet. */
 export function applicableTextures(
@@ -23,6 +25,6 @@ export function applicableTextures(
     ({ texCoordSet }) => attributes[texCoordRoles[texCoordSet] ?? "texCoord"] === undefined,
   );
   if (missing.length === 0) return surfaceTextures;
-  const rolesMissing = missing.map(({ role }) => role);
+  const rolesMissing: readonly SurfaceTextureRole[] = missing.map(({ role }) => role);
   return new Map(Array.from(surfaceTextures).filter(([role]) => !rolesMissing.includes(role)));
 }

@@ -4,7 +4,8 @@
 // The values of other textures are not converted.
 
 import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
-import type { MaterialDescription } from "../../document/description.ts";
+import type { AppearanceDescription } from "../../document/description.ts";
+import { cubeMapDirections } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instancesDefine } from "../shaders/instanceRecord.ts";
 import { setDefine } from "./defines.ts";
@@ -14,10 +15,15 @@ import { extraMapDefine, extraMapRoles, extraTexel } from "../shaders/texCoords.
 import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
 
 /** Samplers of the textures for which three.js' Phong and basic materials have no map. */
-export type ExtraMapUniforms = Readonly<Record<`${ExtraMapRole}Map`, { value: Texture | null }>>;
+export interface ExtraMapUniforms extends Readonly<Record<`${ExtraMapRole}Map`, { value: Texture | null }>> {
+  readonly cubeMap: { value: Texture | null };
+  /** Index of a CubeMapDirection. */
+  readonly cubeMapDirection: { value: number };
+}
 
 export function makeExtraMapUniforms(): ExtraMapUniforms {
-  return Object.fromEntries(extraMapRoles.map((role) => [`${role}Map`, { value: null }])) as ExtraMapUniforms;
+  const maps = Object.fromEntries(extraMapRoles.map((role) => [`${role}Map`, { value: null }]));
+  return { ...(maps as unknown as ExtraMapUniforms), cubeMap: { value: null }, cubeMapDirection: { value: 0 } };
 }
 
 const linear = (color: string) => `
@@ -48,11 +54,35 @@ const occlusionChunk = /* glsl */ `
 #endif
 `;
 
+const cubeMapDefine = "USE_CUBE_MAP";
+
+/** Reads the cube map after the normal is known: it is multiplied by the main color. */
+const cubeMapChunk = /* glsl */ `
+#ifdef ${cubeMapDefine}
+  vec3 cubeDirection = reflect(-normalize(vViewPosition), normal);
+  if (cubeMapDirection == ${cubeMapDirections.indexOf("reflection")}) cubeDirection = cubeDirection * mat3(viewMatrix);
+  if (cubeMapDirection == ${cubeMapDirections.indexOf("cameraNormal")}) cubeDirection = normal;
+  if (cubeMapDirection == ${cubeMapDirections.indexOf("cameraPosition")}) cubeDirection = -vViewPosition;
+  vec3 cubeTexel = textureCube(cubeMap, cubeDirection).rgb;
+  ${linear("cubeTexel")}
+  diffuseColor.rgb *= cubeTexel;
+#endif
+`;
+
+/** Declarations at the head of a fragment shader. */
+export const cubeMapDeclarations = /* glsl */ `
+#ifdef ${cubeMapDefine}
+  uniform samplerCube cubeMap;
+  uniform int cubeMapDirection;
+#endif
+`;
+
 /** Defined in materials that ignore light. */
 export const unlitDefine = "UNLIT";
 
 /** Fills `X3dMaterial material`, from which the lighting functions compute. */
 export const x3dMaterialChunk = /* glsl */ `
+${cubeMapChunk}
 #ifdef ${unlitDefine}
   totalEmissiveRadiance = diffuseColor.rgb;
   X3dMaterial material = X3dMaterial(vec3(0.0), vec3(0.0), 1.0, vec3(0.0), 0.0, 1.0);
@@ -91,7 +121,7 @@ type Slot = "map" | "emissiveMap" | "normalMap" | "aoMap" | "specularMap";
 /** Sets the texture maps of a material; when a map is added or removed, three.js compiles another program. */
 export function setTextureMaps(
   material: MeshPhongMaterial | MeshBasicMaterial,
-  description: MaterialDescription,
+  { material: description, cubeMap }: Pick<AppearanceDescription, "material" | "cubeMap">,
   surfaceTextures: SurfaceTextures,
   extraMaps: ExtraMapUniforms | undefined,
 ): void {
@@ -106,6 +136,9 @@ export function setTextureMaps(
     material.normalScale.set(description.normalScale, description.normalScale);
     material.aoMapIntensity = description.occlusionStrength;
   }
+  extraMaps.cubeMap.value = textureOf("cubeMap");
+  extraMaps.cubeMapDirection.value = cubeMapDirections.indexOf(cubeMap?.direction ?? "reflection");
+  setDefine(material, cubeMapDefine, extraMaps.cubeMap.value !== null);
   for (const role of extraMapRoles) setExtraMap(material, role, textureOf(role), extraMaps);
 }
 

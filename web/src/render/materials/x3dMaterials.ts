@@ -28,7 +28,14 @@ import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { extraMapDeclarations } from "../shaders/texCoords.ts";
 import { followViewport } from "../shaders/wideLineChunk.ts";
 import type { ExtraMapUniforms } from "./x3dMaps.ts";
-import { setTextureMaps, makeExtraMapUniforms, textureMapChunks, x3dMaterialChunk, unlitDefine } from "./x3dMaps.ts";
+import {
+  cubeMapDeclarations,
+  setTextureMaps,
+  makeExtraMapUniforms,
+  textureMapChunks,
+  x3dMaterialChunk,
+  unlitDefine,
+} from "./x3dMaps.ts";
 import { setColor } from "../lights/linearColor.ts";
 import { instanceNumbersOf, isDrawBlended, isUnlit, materialKeyOf } from "./x3dBatching.ts";
 
@@ -104,6 +111,7 @@ function makeMaterial(
     addGlyphField(shader);
     shader.fragmentShader =
       extraMapDeclarations +
+      cubeMapDeclarations +
       replaceChunks(shader.fragmentShader, [
         ["#include <lights_pars_begin>", lightsChunk],
         ...lightingChunks(material.defines ?? {}, x3dLightingChunk, extendedLightingChunkOf),
@@ -134,7 +142,7 @@ function applyAppearance(
   if (isLit) applyLit(x3dMaterial, description, litParametersOf(description, colors !== "none"));
   else setColor(x3dMaterial.color, unlitColorOf(description, colors !== "none"));
   material.opacity = opacityOf(appearance);
-  setTextureMaps(x3dMaterial, description, surfaceTextures, isLit ? x3dMaterial.userData.lit : undefined);
+  setTextureMaps(x3dMaterial, appearance, surfaceTextures, isLit ? x3dMaterial.userData.lit : undefined);
   setGlyphDefine(material, appearance);
   const isTransparent = isDrawBlended(appearance, colors, surfaceTextures);
   if (material.transparent !== isTransparent) material.needsUpdate = true;

@@ -13,6 +13,7 @@ import type {
 import type {
   BackgroundInstance,
   ClipPlaneInstance,
+  EnvironmentLightInstance,
   FogInstance,
   LightInstance,
   LocalFogInstance,
@@ -99,6 +100,11 @@ export class SceneGroups implements InstanceTreeListener {
 
   get clipPlanes(): readonly ClipPlaneInstance[] {
     return this.#tree.root.summary.clipPlanes;
+  }
+
+  /** Those that are on, in document order. */
+  get environmentLights(): readonly EnvironmentLightInstance[] {
+    return this.#tree.root.summary.environmentLights;
   }
 
   get lods(): readonly LodInstance[] {

@@ -6,19 +6,26 @@ import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
 import type {
   AnchorDescription,
+  CubeMapRole,
   GeometryDescription,
   SceneDescription,
   ShapeDescription,
   TextureRole,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
-import type { BackgroundInstance, LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import type {
+  BackgroundInstance,
+  EnvironmentLightInstance,
+  LodInstance,
+  ViewpointInstance,
+} from "../../scene/instances.ts";
 import { isDrawable, sphereAround } from "../../scene/bounds.ts";
 import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import { clipPlanesOf, setClipPlanes, setViewOfClipPlanes } from "../environment/clipPlanes.ts";
+import { setEnvironmentLight } from "../environment/environmentLight.ts";
 import { setFogs } from "../environment/fogs.ts";
 import { sceneEffectsKey } from "../environment/sceneEffects.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
@@ -40,6 +47,7 @@ export interface BuiltScene {
   /** In document order. */
   readonly viewpoints: readonly ViewpointInstance[];
   readonly backgrounds: readonly BackgroundInstance[];
+  readonly environmentLights: readonly EnvironmentLightInstance[];
   readonly lods: readonly LodInstance[];
   /** Visible Anchors. */
   readonly anchors: readonly AnchorDescription[];
@@ -125,7 +133,7 @@ export class SceneShapes {
     this.#setEffects();
     const changes = this.#applyChanges();
     if (areEffectScopesRenumbered) this.#batches.updateAllRecords();
-    const { box, boundedGroups, viewpoints, backgrounds, lods, anchors } = this.#graph;
+    const { box, boundedGroups, viewpoints, backgrounds, environmentLights, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
       this.#documentBox = box.clone();
@@ -134,7 +142,7 @@ export class SceneShapes {
     }
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#extendBounds(object, bounds);
     this.#batches.setBoundingSphere(this.#sphere);
-    return { sphere: this.#sphere, viewpoints, backgrounds, lods, anchors, changes };
+    return { sphere: this.#sphere, viewpoints, backgrounds, environmentLights, lods, anchors, changes };
   }
 
   /** Binds or unbinds a Fog, as X3D's set_bind does. Returns false if the element is none of the scene's. */
@@ -156,6 +164,7 @@ export class SceneShapes {
     shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
     setClipPlanes(shared, clipPlanes);
+    setEnvironmentLight(shared, this.#graph.environmentLights[0]);
     const bound = fogs.find(({ element, fog }) => element === this.#boundFogs.bound && fog.visibilityRange > 0);
     setFogs(shared, [...(bound ? [{ ...bound, scope: sceneScope }] : []), ...localFogs]);
     if (sceneEffectsKey(shared) === keyBefore) return;
@@ -204,7 +213,7 @@ export class SceneShapes {
     this.#extendBounds(object, stage.bounds);
   }
 
-  setTexture(element: SceneElement, role: TextureRole, texture: SurfaceTexture | undefined): void {
+  setTexture(element: SceneElement, role: TextureRole | CubeMapRole, texture: SurfaceTexture | undefined): void {
     this.#shapes.get(element)?.setTexture(role, texture);
   }
 

@@ -1,23 +1,27 @@
 // A displayed shape: the draws of each patch's newest stage, in one group per instance.
 
+import type { Texture } from "three";
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
 import { deepEqual } from "../../document/deepEqual.ts";
 import type {
   AppearanceDescription,
+  CubeMapRole,
   GeometryDescription,
   PatchDescription,
   ShapeDescription,
   TextureRole,
 } from "../../document/description.ts";
+import { isCubeMapRole } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { surfaceAsPoints } from "../points/surfaceAsPoints.ts";
 import type { Batches } from "../batches/batches.ts";
 import { BatchedStage, drawModeOf } from "../batches/batchedStage.ts";
 import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
+import type { CubeMaps, JoinedCubeMap } from "../environment/cubeMaps.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
-import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
+import type { SurfaceTexture, SurfaceTextureRole } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";
 import type { PickCandidate } from "../picking/picker.ts";
@@ -29,6 +33,8 @@ export interface ShapeContext extends Pick<
   PatchContext,
   "materialFactory" | "geometries" | "buffers" | "textures" | "shared"
 > {
+  /** Undefined: cube maps are not drawn. */
+  readonly cubeMaps?: CubeMaps;
   /** Undefined: each shape is drawn alone. */
   readonly batches: Batches | undefined;
   /** Whether surfaces are drawn as points; call ShapeObject.redraw after a change. */
@@ -55,7 +61,10 @@ export class ShapeObject {
   #appearance: AppearanceDescription;
   #geometry: GeometryDescription | undefined;
   #drawModes = alone;
-  readonly #surfaceTextures = new Map<TextureRole, SurfaceTexture>();
+  readonly #surfaceTextures = new Map<SurfaceTextureRole, SurfaceTexture>();
+  /** The pictures that have been loaded of its cube map. */
+  readonly #cubePictures = new Map<CubeMapRole, Texture>();
+  #cubeMap: JoinedCubeMap | undefined;
   #isPickable: boolean;
 
   constructor(context: ShapeContext, shape: ShapeDescription) {
@@ -120,7 +129,10 @@ export class ShapeObject {
     if (geometry !== this.#geometry) this.clear();
     this.#geometry = geometry;
     const isSame = deepEqual(appearance, this.#appearance);
+    const isSameCubeMap = deepEqual(appearance.cubeMap?.pictures, this.#appearance.cubeMap?.pictures);
     this.#appearance = appearance;
+    if (!isSameCubeMap) this.#leaveCubeMap();
+    if (!isSameCubeMap) for (const [role, picture] of this.#cubePictures) this.#setCubePicture(role, picture);
     if (!isSame) this.#applyAppearance();
   }
 
@@ -132,10 +144,33 @@ export class ShapeObject {
   }
 
   /** Applies a texture to surfaces with texture coordinates; undefined: removes it. */
-  setTexture(role: TextureRole, texture: SurfaceTexture | undefined): void {
+  setTexture(role: TextureRole | CubeMapRole, texture: SurfaceTexture | undefined): void {
+    if (isCubeMapRole(role)) {
+      this.#setCubePicture(role, texture?.texture);
+      return;
+    }
     if (texture) this.#surfaceTextures.set(role, texture);
     else this.#surfaceTextures.delete(role);
     this.#applyAppearance();
+  }
+
+  #setCubePicture(role: CubeMapRole, picture: Texture | undefined): void {
+    if (picture) this.#cubePictures.set(role, picture);
+    else this.#cubePictures.delete(role);
+    const { cubeMap } = this.#appearance;
+    if (cubeMap === undefined) return;
+    this.#cubeMap ??= this.#context.cubeMaps?.join(cubeMap, (texture) => {
+      if (texture) this.#surfaceTextures.set("cubeMap", { texture, hasAlpha: false });
+      else this.#surfaceTextures.delete("cubeMap");
+      this.#applyAppearance();
+    });
+    this.#cubeMap?.setPicture(role, picture);
+  }
+
+  #leaveCubeMap(): void {
+    this.#cubeMap?.leave();
+    this.#cubeMap = undefined;
+    this.#surfaceTextures.delete("cubeMap");
   }
 
   /** Width of its lines in CSS pixels; 0: as thin as possible. */
@@ -231,6 +266,8 @@ export class ShapeObject {
   clear(): void {
     for (const { draws } of this.#patches.values()) draws.dispose();
     this.#patches.clear();
+    this.#leaveCubeMap();
+    this.#cubePictures.clear();
     this.#surfaceTextures.clear();
   }
 

@@ -1,0 +1,75 @@
+// The pictures around a scene: those of the bound background, and of the EnvironmentLight.
+
+import { DeliveryError } from "../delivery/deliveryError.ts";
+import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import type { PanoramaPicture, PanoramaSide } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import { cubeMapProblemOf } from "../render/environment/cubeLayout.ts";
+import type { EnvironmentRole } from "../render/environment/sceneEnvironment.ts";
+import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import { PagePictures } from "./pagePictures.ts";
+
+export interface PageSurroundingsListener {
+  onError(error: DeliveryError, element: Element): void;
+  onSettled(): void;
+}
+
+const noPictures: readonly PanoramaPicture[] = [];
+
+export class PageSurroundings {
+  readonly #background: PagePictures<PanoramaSide>;
+  readonly #environment: PagePictures<EnvironmentRole>;
+
+  constructor(renderer: SceneRenderer, deliveries: TextureDeliveries, listener: PageSurroundingsListener) {
+    const fail = (error: DeliveryError, element: SceneElement | undefined) => {
+      if (element instanceof Element) listener.onError(error, element);
+    };
+    const onSettled = () => {
+      listener.onSettled();
+    };
+    this.#background = new PagePictures<PanoramaSide>(deliveries, {
+      pictures: () => renderer.background?.background.pictures ?? noPictures,
+      display: (side, image) => {
+        renderer.setBackgroundPicture(side, image);
+      },
+      onError: (error) => {
+        fail(error, renderer.background?.element);
+      },
+      onSettled,
+    });
+    this.#environment = new PagePictures<EnvironmentRole>(deliveries, {
+      pictures: () => renderer.environmentPictures,
+      display: (role, image, description) => {
+        const problem = image && cubeMapProblemOf(role, image.image);
+        if (problem !== undefined)
+          fail(new DeliveryError("unsupported", description?.urls[0] ?? "", problem), renderer.environmentElement);
+        renderer.setEnvironmentPicture(role, image);
+      },
+      onError: (error) => {
+        fail(error, renderer.environmentElement);
+      },
+      onSettled,
+    });
+  }
+
+  /** Keys (textureKeyOf) of the pictures. */
+  get textureKeys(): ReadonlySet<string> {
+    return new Set([...this.#background.textureKeys, ...this.#environment.textureKeys]);
+  }
+
+  /** Whether no picture is being loaded. */
+  get isSettled(): boolean {
+    return this.#background.isSettled && this.#environment.isSettled;
+  }
+
+  /** Call when other nodes may be bound or on. Returns whether other pictures are to be requested. */
+  follow(): boolean {
+    return [this.#background.follow(), this.#environment.follow()].includes(true);
+  }
+
+  /** Leaves all deliveries: a lost WebGL context has no pictures. `follow` joins them again. */
+  suspend(): void {
+    this.#background.suspend();
+    this.#environment.suspend();
+  }
+}
