@@ -112,6 +112,9 @@ struct GeometryDescription {
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded
+  /// The document has one node for this and other geometries, which differ in the index of their only patch. Lattice
+  /// and boxes are those of all of them.
+  bool isShared = false;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
 

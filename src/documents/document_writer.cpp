@@ -172,6 +172,11 @@ x3d {
   overflow: hidden;
 }
 
+/* Otherwise the browser lays out all elements of the scene while the runtime loads, which takes seconds. */
+x3d:not(.x3dom) > scene {
+  display: none;
+}
+
 noscript {
   display: block;
   padding: 2rem;

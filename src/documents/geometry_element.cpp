@@ -133,18 +133,32 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), draws, references}};
 }
 
+namespace {
+
+/// Tolerance of numbers that determine a lattice, in its steps; removes digits that are rounding errors.
+constexpr double exact = 1e-7;
+
+} // namespace
+
 Attributes decodeAttributes(const GeometryDescription& geometry) {
-  constexpr double tolerance = 1e-7; // in lattice steps; removes digits that are rounding errors
   const DecodeFields decode = decodeFields(geometry);
-  return {{"position", shortNumbers(decode.position, geometry.lattice, tolerance)},
-          {"size", shortNumbers(decode.size, geometry.lattice, tolerance)}};
+  return {{"position", shortNumbers(decode.position, geometry.lattice, exact)},
+          {"size", shortNumbers(decode.size, geometry.lattice, exact)}};
+}
+
+Lattice latticeInDocuments(const GeometryDescription& geometry) {
+  DecodeFields fields = decodeFields(geometry);
+  for (int axis = 0; axis < 3; ++axis) {
+    fields.position[axis] = shortestWithin(fields.position[axis], exact * geometry.lattice.step);
+    fields.size[axis] = shortestWithin(fields.size[axis], exact * geometry.lattice.step);
+  }
+  return latticeOf(fields, geometry.encoding, geometry.coordType, geometry.lattice.bits);
 }
 
 std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry) {
   if (rowOf(geometry).storage != PatchStorage::packed || !isSinglePatch(geometry) || geometry.box.empty())
     return {};
   const Lattice& lattice = geometry.lattice;
-  constexpr double exact = 1e-7; // in lattice steps, as in decodeAttributes
   const double longest = geometry.box.longestEdge();
   Vec3d size = geometry.box.size(), center;
   for (int axis = 0; axis < 3; ++axis) {
@@ -206,6 +220,18 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     std::ranges::move(group, std::back_inserter(oneLine));
   std::ranges::move(compactFields(geometry.patches[0]), std::back_inserter(oneLine));
   return {element.name, {std::move(oneLine)}};
+}
+
+Element sharedGeometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
+  GeometryDescription first = geometry;
+  first.patches[0].data->location = PatchLocation{};
+  Element element = geometryElement(first, solid, names, {});
+  std::ranges::move(boxAttributes(first.box, first.lattice), std::back_inserter(element.groups.back()));
+  return element;
+}
+
+std::string patchReference(const GeometryDescription& geometry, const std::string& name) {
+  return name + "#" + std::to_string(std::get<PatchLocation>(geometry.patches[0].data->location).patchIndex);
 }
 
 Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding) {

@@ -35,6 +35,15 @@ std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry);
 /// `position`, `size` and `profile`.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names,
                         const std::optional<Attributes>& box = {});
+/// The lattice that readers of a document get, bit for bit; that of `geometry` but for rounding in the last digits.
+Lattice latticeInDocuments(const GeometryDescription& geometry);
+
+/// The element of all geometries that differ from a shared one in their patch index: see
+/// GeometryDescription::isShared. Its reference is that of patch 0.
+Element sharedGeometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
+/// The field `patch` of a Shape with a shared geometry, whose element has this DEF: "DEF#N".
+std::string patchReference(const GeometryDescription& geometry, const std::string& name);
+
 /// The FloatVertexAttribute element of a named attribute.
 Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding);
 /// The GeometryPatch element of a patch; not for isSinglePatch() geometries.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <set>
 
@@ -84,6 +85,8 @@ private:
       readBackground(fields);
     } else if (is("Inline")) {
       return readInline(fields);
+    } else if (isGeometryNode(fields.node().name())) {
+      readSharedGeometry(fields);
     } else if (std::ranges::any_of(nodeNames, is)) {
       const std::string use = fields.text("USE");
       return use.empty() ? readNodeElement(fields, depth) : usedNode(fields, use);
@@ -252,12 +255,49 @@ private:
         shape = readGeometryOf(fields, FieldReader(source_, child));
       }
     }
+    if (const std::string patch = fields.text("patch"); !shape && !patch.empty())
+      shape = sharedPatch(fields, patch);
     if (!shape) {
       leftOut_.insert(fields.text("DEF"));
       return {};
     }
     shape->appearance = appearance;
     return add(fields, *shape);
+  }
+
+  /// Reads a geometry node outside of any Shape, to whose patches Shapes refer.
+  void readSharedGeometry(const FieldReader& fields) {
+    const std::string def = fields.text("DEF");
+    if (def.empty())
+      return;
+    SharedGeometry shared{readGeometry(source_, fields.node()), fields.boolean("solid", true), {}};
+    if (rowOf(shared.geometry).storage != PatchStorage::packed || shared.geometry.patches.size() != 1)
+      fields.fail(ErrorKind::unsupported, "a geometry outside of a Shape is no patch of compact");
+    shared.geometry.box = shared.geometry.patches[0].box;
+    shared.geometry.isShared = true;
+    sharedGeometries_.insert_or_assign(def, std::move(shared));
+  }
+
+  /// The geometry that the field `patch` of a Shape names: "DEF#N".
+  Shape sharedPatch(const FieldReader& fields, const std::string& patch) {
+    const std::size_t hash = patch.rfind('#');
+    const auto found = sharedGeometries_.find(patch.substr(0, hash));
+    std::uint32_t index = 0;
+    const char *begin = patch.data() + hash + 1, *end = patch.data() + patch.size();
+    if (hash == std::string::npos || found == sharedGeometries_.end() ||
+        std::from_chars(begin, end, index) != std::from_chars_result{end, std::errc{}})
+      fields.fail(ErrorKind::malformed, "patch names no patch of a geometry that stands before");
+    SharedGeometry& shared = found->second;
+    const auto [mesh, isNew] = shared.meshes.try_emplace(index, document_.geometries.size());
+    if (isNew) {
+      document_.geometries.push_back(shared.geometry);
+      document_.geometries.back().patches[0].data->location = PatchLocation{index};
+      isJoinable_.push_back(false);
+    }
+    Shape shape;
+    shape.mesh = mesh->second;
+    shape.solid = shared.solid;
+    return shape;
   }
 
   Shape readGeometryOf(const FieldReader& shape, const FieldReader& fields) {
@@ -296,6 +336,12 @@ private:
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
   std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry is inline in the document, or missing
   std::map<std::string, Shape> definedGeometries_;
+  struct SharedGeometry {
+    GeometryDescription geometry; ///< with patch 0
+    bool solid = true;
+    std::map<std::uint32_t, std::size_t> meshes; ///< patch index -> index of the geometry
+  };
+  std::map<std::string, SharedGeometry> sharedGeometries_; ///< by DEF
 };
 
 /// Refuses unknown character references outside of comments, which pugixml would keep as text.

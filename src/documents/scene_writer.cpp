@@ -8,6 +8,7 @@
 #include "documents/page_sanitizer.h"
 
 #include <algorithm>
+#include <set>
 
 namespace imgeo {
 
@@ -95,7 +96,10 @@ void SceneWriter::chooseNames() {
       for (const std::size_t child : graph.nodes[index].children)
         ++nodeUses[child];
     if (const Shape* shape = std::get_if<Shape>(&graph.nodes[index].content)) {
-      ++geometryUses.at(2 * shape->mesh + !shape->solid);
+      if (document_.geometries[shape->mesh].isShared)
+        sharedGeometries_.try_emplace(sharedKeyOf(*shape));
+      else
+        ++geometryUses.at(2 * shape->mesh + !shape->solid);
       if (shape->appearance && appearanceUses.at(*shape->appearance)++ == 0)
         for (const TextureUse& use : graph.appearances[*shape->appearance].textures)
           ++textureUses.at(use.texture);
@@ -112,6 +116,25 @@ void SceneWriter::chooseNames() {
     textureNames_[i] = textureUses[i] < 2 ? "" : defNames_.take(requestedName(graph.textures[i].name, 2, "texture"));
   for (std::size_t i = 0; i < geometryUses.size(); ++i)
     geometryNames_[i] = geometryUses[i] < 2 ? "" : defNames_.take("geometry");
+  for (auto& [key, name] : sharedGeometries_)
+    name = defNames_.take("g");
+}
+
+std::pair<std::string, bool> SceneWriter::sharedKeyOf(const Shape& shape) const {
+  return {document_.geometries[shape.mesh].patches[0].data->url, shape.solid};
+}
+
+/// Writes the geometry nodes whose patches are shapes. They are no child of any of these shapes, so that each can be
+/// removed.
+void SceneWriter::writeSharedGeometries() {
+  std::set<std::pair<std::string, bool>> written;
+  if (sharedGeometries_.empty())
+    return;
+  for (const std::size_t index : nodesOfDocument(document_.graph, roots_))
+    if (const Shape* shape = std::get_if<Shape>(&document_.graph.nodes[index].content))
+      if (const GeometryDescription& geometry = document_.geometries[shape->mesh]; geometry.isShared)
+        if (const auto key = sharedKeyOf(*shape); written.insert(key).second)
+          writer_.leaf(sharedGeometryElement(geometry, shape->solid, {{"DEF", sharedGeometries_.at(key)}}));
 }
 
 /// Whether the source has an element of this name.
@@ -158,6 +181,7 @@ std::string SceneWriter::write() {
   writeFileHead();
   writer_.open(scene);
   writeSceneSettings();
+  writeSharedGeometries();
   for (const std::size_t root : roots_)
     writeNode(root);
   writer_.close(scene);
@@ -315,12 +339,15 @@ void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   const Shape& shape = std::get<Shape>(node.content);
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
   Element element{"Shape", {names, furtherFields(node)}};
-  if (!boxInGeometry(geometry))
+  if (geometry.isShared)
+    element.groups.push_back({{"patch", patchReference(geometry, sharedGeometries_.at(sharedKeyOf(shape)))}});
+  else if (!boxInGeometry(geometry))
     element.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
   writer_.open(element);
   writeChildren(node);
   writeAppearanceOf(shape);
-  writeGeometryOf(shape);
+  if (!geometry.isShared)
+    writeGeometryOf(shape);
   writer_.close(element);
 }
 

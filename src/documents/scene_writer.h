@@ -5,8 +5,10 @@
 #include "documents/element_writer.h"
 #include "documents/xml_text.h"
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -71,12 +73,16 @@ private:
   void writeNode(std::size_t index);
   void writeAppearanceOf(const Shape& shape);
   void writeGeometryOf(const Shape& shape);
+  void writeSharedGeometries();
+  std::pair<std::string, bool> sharedKeyOf(const Shape& shape) const;
   std::optional<Attributes> boxInGeometry(const GeometryDescription& geometry) const;
 
   const std::vector<std::size_t>& roots_;
   const DocumentHead& head_;
   const DocumentKind kind_;
   Names geometryNames_; ///< by 2 * mesh + !solid
+  /// DEF names of the nodes of shared geometries, by url and `solid`.
+  std::map<std::pair<std::string, bool>, std::string> sharedGeometries_;
 };
 
 /// Whether the attributes are a USE instead of a DEF.

@@ -30,6 +30,10 @@ constexpr std::size_t maxNodeDepth = 250;
 /// as short as a box (docs/decisions/scenes.md).
 constexpr std::size_t maxInlineTextBytes = 64 << 10, shortTextBytes = 256;
 
+/// Documents with more geometry text than this in short pieces keep none: a shape takes fewer bytes as an index in a
+/// file that it shares (docs/decisions/tiny-shapes.md).
+constexpr std::size_t maxShortTextBytes = 512 << 10;
+
 /// Whether a field is expressed by the scene graph and not kept as text.
 bool isNameField(std::string_view field) {
   return field == "DEF" || field == "USE";
@@ -53,6 +57,8 @@ public:
     addTextureMappings();
     if (smallGeometryTextBytes(source_, inlineBytes_) > maxInlineTextBytes)
       inlineBytes_ = std::min(inlineBytes_, shortTextBytes);
+    if (smallGeometryTextBytes(source_, inlineBytes_) > maxShortTextBytes)
+      inlineBytes_ = 0;
   }
 
   Imported read() {

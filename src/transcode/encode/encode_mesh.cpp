@@ -82,12 +82,8 @@ void encodePatches(EncodedMesh& mesh, std::vector<Patch> patches, const EncodeOp
   mesh.geometry.patches = std::move(descriptions);
 }
 
-} // namespace
-
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
-  const Box3d box = boxOf(mesh);
-  const Lattice lattice =
-      latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
+EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const ConvertOptions& options,
+                     ContentFiles& files, const ElementsDone& done) {
   EncodedMesh result;
   std::vector<Vec3u> points = quantise(mesh.positions, lattice);
   result.collapsed.of(mesh.topology) = countCollapsedElements(mesh, points, lattice.bits);
@@ -97,7 +93,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   result.geometry = describe(patched, encoding);
   addAttributes(result, patched.patches, options);
   const EncodingRow& row = rowOf(encoding.encoding);
-  if (row.capabilities.base && options.primitives == Primitives::triangles)
+  if (mayHaveBase && row.capabilities.base && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
       result.base = row.sharing->prepareBase(*base, result.geometry, encoding);
   if (row.sharing != nullptr && patched.patches.size() == 1 &&
@@ -108,6 +104,20 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   }
   encodePatches(result, std::move(patched.patches), encoding, files, done);
   return result;
+}
+
+} // namespace
+
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
+  const Box3d box = boxOf(mesh);
+  const Lattice lattice =
+      latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
+  return encodeOn(lattice, std::move(mesh), true, options, files, done);
+}
+
+EncodedMesh encodeMesh(Mesh mesh, const Lattice& lattice, const ConvertOptions& options, ContentFiles& files,
+                       const ElementsDone& done) {
+  return encodeOn(lattice, std::move(mesh), false, options, files, done);
 }
 
 } // namespace imgeo

@@ -32,4 +32,8 @@ using ElementsDone = std::function<void(std::size_t count)>;
 /// file. The memory of a patch is freed as soon as its files are written. Deterministic.
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done);
 
+/// The same on a given lattice, which contains the mesh, and without a base mesh.
+EncodedMesh encodeMesh(Mesh mesh, const Lattice& lattice, const ConvertOptions& options, ContentFiles& files,
+                       const ElementsDone& done);
+
 } // namespace imgeo

@@ -6,6 +6,7 @@
 #include "transcode/encode/load_groups.h"
 #include "transcode/encode/patch_files.h"
 #include "transcode/encode/spatial_order.h"
+#include "transcode/encode/tiny_meshes.h"
 
 #include <algorithm>
 #include <map>
@@ -51,13 +52,22 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
   const FileSharing* sharing = rowOf(*options.encoding).sharing;
   BaseFiles baseFiles(files, sharing);
   PatchFiles patchFiles(files, sharing, options.effort);
+  TinyMeshes tinyMeshes(document, options, files, patchFiles, report, done);
+  const std::vector<std::size_t> frames = meshOf.size() >= minTinyMeshScene && sharing != nullptr
+                                              ? transformsAbove(document.graph)
+                                              : std::vector<std::size_t>{};
   std::vector<bool> isEncoded(meshOf.size());
   for (const std::size_t node : spatialOrder(document.graph, boxesOf(scene.meshes, meshOf))) {
     const std::size_t geometry = shapeOf(document.graph, node).mesh;
     if (isEncoded[geometry])
       continue;
     isEncoded[geometry] = true;
-    EncodedMesh encoded = encodeMesh(std::move(scene.meshes[meshOf[geometry]]), options, files, done);
+    Mesh& mesh = scene.meshes[meshOf[geometry]];
+    if (!frames.empty() && isTiny(mesh, options)) {
+      tinyMeshes.add(std::move(mesh), geometry, groups[node], frames[node]);
+      continue;
+    }
+    EncodedMesh encoded = encodeMesh(std::move(mesh), options, files, done);
     addToReport(report, encoded);
     if (encoded.base)
       baseFiles.add(std::move(encoded.base), geometry);
@@ -65,6 +75,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
       patchFiles.add(std::move(encoded.small), geometry, groups[node]);
     document.geometries[geometry] = std::move(encoded.geometry);
   }
+  tinyMeshes.finish();
   const double normalError = patchFiles.finish(document.geometries);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, normalError * (180 / std::numbers::pi));
   baseFiles.finish(document.geometries);

@@ -27,6 +27,16 @@ void PatchFiles::add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryI
   file.geometryIndices.push_back(geometryIndex);
 }
 
+void PatchFiles::close(std::size_t group) {
+  const auto file = open_.find(group);
+  if (file == open_.end())
+    return;
+  closed_.push_back(std::move(file->second));
+  open_.erase(file);
+  if (closed_.size() == maxClosedFiles)
+    encodeClosed();
+}
+
 double PatchFiles::finish(std::vector<GeometryDescription>& geometries) {
   for (auto& [group, file] : open_)
     closed_.push_back(std::move(file));

@@ -22,6 +22,9 @@ public:
   /// Takes the only patch of a geometry. `group`: see loadGroups.
   void add(std::unique_ptr<PreparedPatch> patch, std::size_t geometryIndex, std::size_t group);
 
+  /// Ends the file of a group that gets no more patches.
+  void close(std::size_t group);
+
   /// Writes the remaining files, sets the references to all patches in their geometries, and returns the maximum error
   /// of their normals, in radians. Call it once, at the end.
   double finish(std::vector<GeometryDescription>& geometries);

@@ -198,6 +198,8 @@ export const nodeFields = {
     ...boundedObject,
     ...visibleObject,
     isPickable: SFBool(true),
+    /** `DEF#N`: the geometry is patch N of the file of the geometry node DEF. */
+    patch: SFString(""),
     /** The name of the vertex attribute whose values color the shape. */
     colorBy: SFString(""),
     colorMap: ColorMap("viridis"),

@@ -42,7 +42,10 @@ export function readShape(
   const values = readFields(node, nodeFields.Shape, warnings);
   const children = childrenOf(node);
   const ownBox = boxOf(values);
-  const [geometry, priorityOfGeometry] = readGeometryOf(children, context, ownBox, values.colorBy);
+  const [geometry, priorityOfGeometry] =
+    values.patch !== "" && !children.some(isGeometry)
+      ? readSharedPatch(node, values.patch, context)
+      : readGeometryOf(children, context, ownBox, values.colorBy);
   const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
   const isVisible = values.visible && values.render;
   const appearanceDescription = withCubeMapDirection(
@@ -63,7 +66,7 @@ export function readShape(
     element,
     geometry,
     host,
-    hasUnreadableGeometry: geometry === undefined && children.some(isGeometry),
+    hasUnreadableGeometry: geometry === undefined && (values.patch !== "" || children.some(isGeometry)),
     visible: isVisible,
     contributesToBounds: isVisible,
     priority: values.priority * priorityOfGeometry,
@@ -120,6 +123,33 @@ function readGeometryOf(
       ? found.geometry
       : geometries.variant(found.geometry, JSON.stringify(box), (plain) => withBox(plain, box));
   return [colorBy === "" ? boxed : geometries.variant(boxed, colorBy, (plain) => withValues(plain, colorBy)), priority];
+}
+
+/** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
+function readSharedPatch(
+  element: SceneElement,
+  patch: string,
+  context: ShapeReadingContext,
+): readonly [geometry: GeometryDescription | undefined, priority: number] {
+  const { geometries, lookup, warnings } = context;
+  const [name, index] = patch.split("#");
+  const node = name === undefined ? undefined : lookup(name);
+  const isIndex = index !== undefined && /^\d{1,9}$/.test(index);
+  const shared =
+    node && isIndex
+      ? geometries.geometryOf(node, lookup, warnings, (...args) => readGeometry(context, ...args))
+      : undefined;
+  if (node === undefined || shared?.encoding !== "compact" || shared.patches.length !== 1) {
+    warnings.push({ element, message: `patch="${patch}" names no patch of a geometry of this scene` });
+    return [undefined, 1];
+  }
+  const { priority } = readFields(node, { priority: nodeFields.ImageGeometry.priority }, []);
+  return [geometries.variant(shared, `#${index}`, (geometry) => withPatchIndex(geometry, Number(index))), priority];
+}
+
+function withPatchIndex(geometry: GeometryDescription, patchIndex: number): GeometryDescription | undefined {
+  const [patch] = geometry.patches;
+  return patch?.data && { ...geometry, patches: [{ ...patch, data: { url: patch.data.url, patchIndex } }] };
 }
 
 const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {

@@ -213,10 +213,14 @@ export class Preview {
   }
 }
 
+/** Documents with more Shape elements are not read for a preview, which would not draw so many. */
+const maxShapeElements = 4096;
+
 /** The scene that the document describes now; undefined if only the runtime can display it. */
 function previewContentOf(x3d: Element): PreviewContent | undefined {
   const settings = readSettings(x3d, () => undefined);
   if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;
+  if (x3d.getElementsByTagName("shape").length > maxShapeElements) return undefined;
   const scene = previewSceneOf(new SceneReader(x3d).read(), cameraSettingOf(settings));
   return scene && { scene, exposure: settings.exposure };
 }

@@ -1,0 +1,67 @@
+#pragma once
+// Encodes meshes of a few triangles into files whose patches share one geometry node: docs/decisions/tiny-shapes.md.
+
+#include "documents/documents.h"
+#include "transcode/encode/encode_mesh.h"
+#include "transcode/encode/patch_files.h"
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace imgeo {
+
+/// Scenes of fewer meshes state a box for each.
+inline constexpr std::size_t minTinyMeshScene = 2000;
+
+/// Whether a mesh may share its geometry node with others.
+bool isTiny(const Mesh& mesh, const ConvertOptions& options);
+
+/// For each node the nearest Transform above it, plus 1; 0: none. Shapes below the same one share coordinates. Of a
+/// USEd node the first instance counts.
+std::vector<std::size_t> transformsAbove(const SceneGraph& graph);
+
+/// Distributes meshes over files in the order of add(). All patches of a file are on one lattice, whose step is at most
+/// that of each mesh alone, and have the file's box. Meshes share a file where that box says about as much about the
+/// position of each as its own box would.
+class TinyMeshes {
+public:
+  /// Everything must outlive this. Geometries are added to `document`.
+  TinyMeshes(SceneDocument& document, const ConvertOptions& options, ContentFiles& files, PatchFiles& patchFiles,
+             ConvertReport& report, const ElementsDone& done)
+      : document_(document), options_(options), files_(files), patchFiles_(patchFiles), report_(report), done_(done) {}
+
+  /// Takes the mesh of a geometry. `group`: see loadGroups. `transform`: see transformsAbove.
+  void add(Mesh mesh, std::size_t geometryIndex, std::size_t group, std::size_t transform);
+
+  /// Encodes the remaining meshes. To be called once, at the end.
+  void finish();
+
+private:
+  struct Member {
+    Mesh mesh;
+    std::size_t geometryIndex = 0;
+  };
+  /// What the meshes of a file have in common: group, transform, exponent of their extent, vertices, corners.
+  using Key = std::tuple<std::size_t, std::size_t, int, std::size_t, std::size_t>;
+  struct File {
+    std::vector<Member> members;
+    Box3d box;
+    double step = 0; ///< the minimum of those of the members' own lattices
+    std::size_t vertices = 0;
+    std::size_t group = 0; ///< see loadGroups
+  };
+
+  void encode(File file);
+
+  SceneDocument& document_;
+  const ConvertOptions& options_;
+  ContentFiles& files_;
+  PatchFiles& patchFiles_;
+  ConvertReport& report_;
+  const ElementsDone& done_;
+  std::map<Key, File> open_;
+  std::size_t nextFile_ = 0;
+};
+
+} // namespace imgeo

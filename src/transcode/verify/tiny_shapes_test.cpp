@@ -1,0 +1,90 @@
+#include "base/file.h"
+#include "base/testing.h"
+#include "imgeo/imgeo.h"
+#include "transcode/site/testing.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+constexpr std::size_t shapeCount = 2'100;
+
+/// An OBJ file of quadrilaterals of 20 sizes on a grid, no two alike.
+std::string quadrilaterals() {
+  std::string text;
+  for (std::size_t n = 0; n < shapeCount; ++n) {
+    const double x = 3.0 * static_cast<double>(n % 50), z = 3.0 * static_cast<double>(n / 50),
+                 size = 0.1 * static_cast<double>(1 + n % 20), y = 0.0007 * static_cast<double>(n % 977);
+    text += fmt::format("o part{}\nv {:.4f} {:.4f} {:.4f}\nv {:.4f} 0 {:.4f}\nv {:.4f} 0.5 {:.4f}\nv {:.4f} 0 {:.4f}\n"
+                        "f {} {} {} {}\n",
+                        n, x, y, z, x + size, z, x + size, z + size, x, z + size + y, 4 * n + 1, 4 * n + 4, 4 * n + 3,
+                        4 * n + 2);
+  }
+  return text;
+}
+
+class TinyShapes : public ::testing::Test {
+protected:
+  TinyShapes() {
+    writeFile(directory / "in.obj", asBytes(quadrilaterals()));
+    ConvertOptions options;
+    options.pictures = false;
+    convert(directory / "in.obj", directory / "site", options);
+  }
+
+  std::string page() const {
+    const Bytes bytes = readFile(directory / "site" / "index.html");
+    return {bytes.begin(), bytes.end()};
+  }
+
+  TemporaryDirectory directory;
+};
+
+TEST_F(TinyShapes, TakeAPageSmallerThanTheirSourceAndAreElementsOfTheirOwn) {
+  const std::string html = page();
+  std::size_t bytes = 0, shapes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(directory / "site" / "geometry"))
+    bytes += file.file_size();
+  EXPECT_LT(bytes, 40 * shapeCount);
+  EXPECT_LT(html.size(), std::filesystem::file_size(directory / "in.obj"));
+  for (std::size_t at = html.find("<Shape DEF=\"part"); at != std::string::npos;
+       at = html.find("<Shape DEF=\"part", at + 1))
+    ++shapes;
+  EXPECT_EQ(shapes, shapeCount);
+  EXPECT_LT(std::ranges::count(html, '#'), static_cast<std::ptrdiff_t>(shapeCount + 100));
+}
+
+TEST_F(TinyShapes, EqualTheirSourceAndAreExported) {
+  const VerifyReport verified = verify(directory / "site", directory / "in.obj");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  EXPECT_EQ(verified.site.triangles, 2 * shapeCount);
+  EXPECT_EQ(inspect(directory / "site").patches, shapeCount);
+  exportSite(directory / "site", directory / "out.glb");
+  const VerifyReport exported = verify(directory / "site", directory / "out.glb"); // whose materials are glTF's
+  EXPECT_EQ(exported.input.triangles, 2 * shapeCount);
+  EXPECT_EQ(exported.missing.triangles + exported.extra.triangles, 0u);
+}
+
+TEST_F(TinyShapes, AreRefusedWhereTheirFileIsShorterOrTheirNodeIsUnknown) {
+  std::string html = page();
+  const std::size_t patch = html.find("patch=\"g");
+  ASSERT_NE(patch, std::string::npos);
+  for (const char* name : {"patch=\"h", "patch=\"#"}) {
+    std::string edited = html;
+    edited.replace(patch, std::string_view(name).size(), name);
+    writeFile(directory / "site" / "index.html", asBytes(edited));
+    EXPECT_THROW(inspect(directory / "site" / "index.html"), Error) << name;
+  }
+  writeFile(directory / "site" / "index.html", asBytes(html));
+  const auto file = std::filesystem::directory_iterator(directory / "site" / "geometry")->path();
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_THROW(exportSite(directory / "site", directory / "out.glb"), Error);
+}
+
+} // namespace
+} // namespace imgeo
