@@ -173,7 +173,7 @@ x3d {
 }
 
 /* Otherwise the browser lays out all elements of the scene while the runtime loads, which takes seconds. */
-x3d:not(.x3dom) > scene {
+x3d > scene {
   display: none;
 }
 
