@@ -172,8 +172,8 @@ x3d {
   overflow: hidden;
 }
 
-/* Otherwise the browser lays out all elements of the scene while the runtime loads, which takes seconds. */
-x3d > scene {
+/* Otherwise the browser lays out all elements of the scene while the runtime, a module, loads: seconds for large scenes. */
+head:has(script[type="module"]) + body x3d > scene {
   display: none;
 }
 
