@@ -172,7 +172,7 @@ x3d {
   overflow: hidden;
 }
 
-/* Otherwise the browser lays out all elements of the scene while the runtime, a module, loads: seconds for large scenes. */
+/* Otherwise the browser lays out all elements of the scene while the runtime loads, which takes seconds. */
 head:has(script[type="module"]) + body x3d > scene {
   display: none;
 }
