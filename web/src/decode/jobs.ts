@@ -7,6 +7,7 @@ import {
   classicNormals,
   classicTexCoords,
   classicValues,
+  classicWords,
 } from "./classic/classicArrays.ts";
 import { classicGrid } from "./classic/classicGrid.ts";
 import { compactBases, compactPatches } from "./compact/jobs.ts";
@@ -18,6 +19,7 @@ export const jobs = {
   classicColors,
   classicTexCoords,
   classicValues,
+  classicWords,
   classicGrid,
   compactPatches,
   compactBases,

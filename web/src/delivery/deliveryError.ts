@@ -1,14 +1,14 @@
 import { DecodeError } from "../decode/decodeError.ts";
 import { RequestError } from "../scheduler/download.ts";
 
-/** A file that could not be loaded or decoded. The message is shown to users. */
+/** A file that could not be loaded or decoded, or a node (without a URL) that is not read. Users see the message. */
 export class DeliveryError extends Error {
   override readonly name = "DeliveryError";
   readonly kind: RequestError["kind"] | DecodeError["kind"];
   readonly url: string;
 
   constructor(kind: DeliveryError["kind"], url: string, reason: string) {
-    super(`${url}: ${reason}`);
+    super(url === "" ? reason : `${url}: ${reason}`);
     this.kind = kind;
     this.url = url;
   }

@@ -126,7 +126,7 @@ function isForTextures({ role }: PatchFile): boolean {
  * exempt: their shading comes from the slope between vertices, which shows far smaller steps.
  */
 function isTooFine(file: PatchFile, patch: PatchDescription, coarseStep: number, view: ViewMetrics): boolean {
-  if (file.chunk.type !== "refinement") return false;
+  if (file.chunk.type !== "refinement" || file.role !== "coord") return false;
   const isShadedBySlope =
     patch.normal === undefined &&
     patch.draws.some(({ primitive }) => primitive === "triangles" || primitive === "triangleStrip");

@@ -2,6 +2,7 @@
 
 import type { PatchDescription, Reference } from "../document/description.ts";
 import type { Chunk } from "../scheduler/priority.ts";
+import type { VertexRole } from "../stage/attributeRows.ts";
 import { vertexRoles } from "../stage/attributeRows.ts";
 import type { ContentTarget } from "./resourcePool.ts";
 
@@ -15,7 +16,7 @@ export type FileRole = (typeof fileRoles)[number];
 
 export interface PatchFile {
   readonly role: FileRole;
-  /** Index of the byte plane, for the images of `coord` and `value`; otherwise 0. */
+  /** Index of the byte plane, most significant first; 0 where the role has one file. */
   readonly plane: number;
   readonly reference: Reference;
   /** The form that the downloaded bytes are decoded to. */
@@ -61,5 +62,7 @@ export function attributeFilesOf(
             ...sizesOf(role, reference, role === "index" ? cornerCount : patch.vertexCount),
           },
     );
-  return attributeRoles.flatMap((role) => filesOf(role, [patch[role]].flat()));
+  return attributeRoles.flatMap((role) =>
+    filesOf(role, [patch[role], role in patch.lowBytes ? patch.lowBytes[role as VertexRole] : []].flat()),
+  );
 }

@@ -4,7 +4,7 @@
 import type { ByVertexRole } from "../stage/attributeRows.ts";
 import { attributeRows, vertexRoles } from "../stage/attributeRows.ts";
 import type { RunJob } from "../decode/jobs.ts";
-import type { DrawRange, Stage, StageName } from "../stage/stage.ts";
+import type { Stage, StageName, StatedDrawRange } from "../stage/stage.ts";
 import type { PatchDescription } from "../document/description.ts";
 import type { StoreBytes } from "./arrayUploads.ts";
 import type { PatchFile } from "./patchFiles.ts";
@@ -37,7 +37,7 @@ export interface BuilderTools {
 }
 
 /** The patch's draws, each with its first index. */
-export function drawRangesOf(patch: PatchDescription): DrawRange[] {
+export function drawRangesOf(patch: PatchDescription): StatedDrawRange[] {
   let first = 0;
   return patch.draws.map(({ primitive, count }) => {
     const range = { primitive, first, count };

@@ -96,6 +96,22 @@ export function readAppearance(
   };
 }
 
+/**
+ * The appearance of a geometry with `lit="false"` (X3DOM): its texture, else the colors of its vertices, else the
+ * material's emissiveColor, whatever the lights.
+ */
+export function withoutLighting(appearance: AppearanceDescription, hasVertexColors: boolean): AppearanceDescription {
+  const { material } = appearance;
+  const textures = appearance.textures.filter(({ role }) => role === "color");
+  const isColored = textures.length > 0 || hasVertexColors || appearance.colorMap !== undefined;
+  const emissiveColor = isColored ? ([1, 1, 1] as const) : material.emissiveColor;
+  return {
+    ...appearance,
+    textures,
+    material: { kind: "unlit", emissiveColor, transparency: material.transparency },
+  };
+}
+
 /** The extensions of a PhysicalMaterial. */
 function extensionsOf(material: SceneElement | undefined, childrenOf: ChildrenOf): SceneElement[] {
   if (material === undefined || lowerNameOf(material) !== "physicalmaterial") return [];

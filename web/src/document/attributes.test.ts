@@ -3,7 +3,7 @@ import { describe, test } from "node:test";
 import { shapesOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { readScene } from "./readScene.ts";
-import { readInlineGeometry } from "./inlineGeometry.ts";
+import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 const geometry = `<ImageGeometry>
@@ -74,7 +74,7 @@ describe("a shape's colorBy", () => {
     const scene =
       elementsOf(`<X3D><Shape colorBy="heat">${geometry.replace("<ImageGeometry", `<ImageGeometry DEF="g"`)}</Shape>
       <Shape colorBy="heat" colorMap="gray"><ImageGeometry USE="g"/></Shape><Shape colorBy="flow"><ImageGeometry USE="g"/></Shape></X3D>`);
-    const reader = new SceneReader(scene, { inlineGeometry: readInlineGeometry });
+    const reader = new SceneReader(scene, { inlineGeometry: inlineGeometryReader });
     const [first, second, third] = shapesOf(reader.read().root);
     assert.equal(first?.geometry, second?.geometry);
     assert.notEqual(first?.geometry, third?.geometry);

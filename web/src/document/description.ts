@@ -50,8 +50,11 @@ export interface ShapeDescription {
   readonly appearance: AppearanceDescription;
   /** Undefined where there is no geometry that can be drawn; the same object for shapes that USE one geometry. */
   readonly geometry: GeometryDescription | undefined;
-  /** The shape has a geometry element that could not be read: malformed, or of a kind without reader. */
-  readonly hasUnreadableGeometry: boolean;
+  /**
+   * Why the shape's geometry element is not drawn: the sentence for an `error` event where no reader knows it, else "".
+   * Undefined where there is a geometry, or no element for one.
+   */
+  readonly unreadableGeometry: string | undefined;
 }
 
 export interface GroupDescription {

@@ -4,7 +4,7 @@
 import type { SceneElement } from "./element.ts";
 import { elementsOf, type TestElement } from "./elements.testing.ts";
 import type { SceneReaderOptions } from "./readScene.ts";
-import { readInlineGeometry } from "./inlineGeometry.ts";
+import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 /** Numbers that look random and are the same in every run (Marsaglia 2003, xorshift). */
@@ -88,7 +88,7 @@ const inlinable = {
 /** A document, a reader that follows its edits, and the options of both this reader and a new one. */
 export class EditedDocument implements SceneReaderOptions {
   readonly x3d = elementsOf(`<X3D><Scene>${snippets.join("")}</Scene></X3D>`);
-  readonly inlineGeometry = readInlineGeometry;
+  readonly inlineGeometry = inlineGeometryReader;
   readonly reader = new SceneReader(this.x3d, this);
   readonly #random: RandomNumbers;
   readonly #documents = Object.entries(inlinable).map(([url, text]) => ({ url, x3d: elementsOf(text) }));

@@ -5,7 +5,7 @@ import type { GeometryDescription } from "./description.ts";
 import { shapesOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { referenceOf } from "./geometry.ts";
-import { readInlineGeometry } from "./inlineGeometry.ts";
+import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 import { onlyShape, sceneOf, twoPatches } from "./scenes.testing.ts";
 
@@ -159,7 +159,7 @@ describe("a second reading", () => {
   const x3d = elementsOf(`<X3D><Shape>${twoPatches}</Shape></X3D>`);
   const element = x3d.children[0]?.children[0];
   assert.ok(element);
-  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+  const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
   const read = () => shapesOf(reader.read().root)[0]?.geometry;
   const first = read();
 
@@ -190,7 +190,7 @@ test("geometries with the same files and fields are one object, for as long as t
     "<Box/>",
   ];
   const x3d = elementsOf(`<X3D>${shapes.map((geometry) => `<Shape>${geometry}</Shape>`).join("")}</X3D>`);
-  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+  const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
   const read = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
   const before = read();
   assert.deepEqual(

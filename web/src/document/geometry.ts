@@ -1,5 +1,5 @@
 // Reads ImageGeometry and BinaryGeometry. A node with GeometryPatch children takes draws and references from them only.
-// A node without them is its own single patch, and its ImageTexture children (X3DOM's form) may give the references.
+// A node without them is its own single patch, and images that are its children (X3DOM's form) may give the references.
 
 import type {
   Box3,
@@ -18,26 +18,32 @@ import type { ElementType } from "../stage/elementType.ts";
 import { elementTypes } from "../stage/elementType.ts";
 import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
-import { byVertexRole, byVertexRoleWith, texCoordRoles, vertexRoles } from "../stage/attributeRows.ts";
+import { byVertexRole, byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
+import { containerImagesOf } from "./containerImages.ts";
 import { encodingFormats } from "./encodings.ts";
-import type { SceneElement } from "./element.ts";
+import type { Resolve, SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { reasonAgainst, warnOfRefusedFields } from "./refused.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
-export function readImageGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
+export function readImageGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription {
+  warnOfRefusedFields(element, warnings);
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
   // Only compact has `data`; documents of many small shapes leave the profile out.
   const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
   const encoding = choiceOf(element, "profile", profile, imageProfiles, "classic", warnings);
   const { hasBase, hasGrids } = encodingFormats[encoding];
-  const mode = hasGrids
-    ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
-    : "sig";
+  // The paper's default (section 6): what the texels are without further word.
+  const isAutomatic = values.implicitMeshMode.trim().toLowerCase() === "auto";
+  const mode =
+    hasGrids && !isAutomatic
+      ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
+      : "sig";
   return {
     ...commonFieldsOf(element, values, warnings),
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
@@ -49,7 +55,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     // Images store bytes; an index consists of two or three of them.
     coordType: "Uint8",
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
-    patches: readPatches(element, encoding, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
+    patches: readPatches(element, encoding, resolve, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
 }
 
@@ -66,7 +72,13 @@ function quantizationCubeOf(element: SceneElement): { position: Vec3; size: Vec3
   return { position: [along(0), along(1), along(2)], size: [edge, edge, edge] };
 }
 
-export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
+export function readBinaryGeometry(
+  element: SceneElement,
+  resolve: Resolve,
+  warnings: Warning[],
+): GeometryDescription | undefined {
+  if (reasonAgainst(element) !== undefined) return undefined;
+  warnOfRefusedFields(element, warnings);
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
   const typeOf = (field: "coordType" | `${VertexRole}Type`): ElementType =>
     choiceOf(
@@ -85,9 +97,12 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     decode: "auto",
     coordType: typeOf("coordType"),
     ...byVertexRoleWith("Type", (role) => typeOf(`${role}Type`)),
-    patches: readPatches(element, "bg", warnings),
+    patches: readPatches(element, "bg", resolve, warnings).map((patch) =>
+      values.normalPerVertex ? patch : { ...patch, normal: undefined },
+    ),
     base: undefined,
   };
+  if (!values.normalPerVertex) return geometry;
   if (!values.normalAsSphericalCoordinates) return geometry;
   if (geometry.coordType.endsWith("16")) return withNormalsInCoords(geometry);
   warnings.push({ element, message: `spherical normals in coordinates of type ${geometry.coordType} are not read` });
@@ -135,14 +150,14 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 }
 
 /** Fields of ImageGeometry only. */
-type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode";
+type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode" | "implicitMeshCount";
 
 function commonFieldsOf(
   element: SceneElement,
   values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
   warnings: Warning[],
 ) {
-  const { position, size, positionBits, solid } = values;
+  const { position, size, positionBits, solid, ccw } = values;
   const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
   const normalEncoding = choiceOf(element, "normalEncoding", values.normalEncoding, normalEncodings, "rgb", warnings);
   return {
@@ -150,6 +165,7 @@ function commonFieldsOf(
     size,
     positionBits,
     solid,
+    ccw,
     texCoordBoxes: texCoordRoles.map((role) => ({ min: values[`${role}Min`], size: values[`${role}Size`] })),
     texCoordMappings: values.texCoordMapping,
     indexType,
@@ -185,42 +201,25 @@ export function boxAround(center: Vec3, size: Vec3): Box3 {
   };
 }
 
-function readPatches(element: SceneElement, encoding: Encoding, warnings: Warning[]): PatchDescription[] {
+function readPatches(
+  element: SceneElement,
+  encoding: Encoding,
+  resolve: Resolve,
+  warnings: Warning[],
+): PatchDescription[] {
   const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
   if (patchElements.length === 0) {
-    return [
-      patchOf(
-        element,
-        { ...readFields(element, nodeFields.GeometryPatch, warnings), ...texturesOf(element, warnings) },
-        encoding,
-        warnings,
-      ),
-    ];
+    const { references, lowBytes } = containerImagesOf(element, resolve, warnings);
+    const values = { ...readFields(element, nodeFields.GeometryPatch, warnings), ...references };
+    const patch = patchOf(element, withImplicitMeshCount(element, values, warnings), encoding, warnings);
+    const lowReferences = Object.fromEntries(
+      Object.entries(lowBytes).map(([role, url]) => [role, referenceOf(url, encoding)]),
+    );
+    return [{ ...patch, lowBytes: lowReferences }];
   }
   return patchElements.map((child) =>
     patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), encoding, warnings),
   );
-}
-
-/** References given by ImageTexture children; `coord` children count in document order. */
-function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchValues> {
-  const coord: string[] = [];
-  const single: Partial<Record<"index" | VertexRole, string>> = {};
-  for (const child of childrenOf(element)) {
-    if (lowerNameOf(child) !== "imagetexture") continue;
-    const { containerField, url } = readFields(child, nodeFields.ImageTexture, warnings);
-    const first = url[0];
-    if (first === undefined) continue;
-    // X3DOM matches these values by their exact case.
-    if (containerField === "coord") coord.push(first);
-    else if (isOneOf(["index", ...vertexRoles] as const, containerField)) single[containerField] = first;
-    else warnings.push({ element: child, message: `containerField="${containerField}" names no part of a geometry` });
-  }
-  return coord.length > 0 ? { ...single, coord } : single;
-}
-
-function isOneOf<Choice extends string>(choices: readonly Choice[], text: string): text is Choice {
-  return (choices as readonly string[]).includes(text);
 }
 
 function patchOf(
@@ -247,7 +246,19 @@ function patchOf(
     data: reference(values.data),
     attributes: values.attrib.map((url) => referenceOf(url, encoding)),
     value: [],
+    lowBytes: {},
   };
+}
+
+/** The paper's name for `implicitMeshSize`, which has the last word where both are stated. */
+function withImplicitMeshCount(element: SceneElement, values: PatchValues, warnings: Warning[]): PatchValues {
+  if (attributeOf(element, "implicitMeshSize") !== undefined) return values;
+  const { implicitMeshCount } = readFields(
+    element,
+    { implicitMeshCount: nodeFields.ImageGeometry.implicitMeshCount },
+    warnings,
+  );
+  return implicitMeshCount === undefined ? values : { ...values, implicitMeshSize: implicitMeshCount };
 }
 
 /** A grid's vertices and triangles follow from its size. */
@@ -277,8 +288,10 @@ const primitives: Readonly<Record<string, Primitive>> = {
   POINTS: "points",
   LINES: "lines",
   LINESTRIP: "lineStrip",
+  LINELOOP: "lineLoop",
   TRIANGLES: "triangles",
   TRIANGLESTRIP: "triangleStrip",
+  TRIANGLEFAN: "triangleFan",
 };
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
@@ -286,7 +299,10 @@ function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]
     const name = values.primType[index] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
     if (primitive === undefined)
-      warnings.push({ element, message: `primType "${name}" is not drawn as such but as TRIANGLES` });
+      warnings.push({
+        element,
+        message: `primType "${name}" is none of ${Object.keys(primitives).join(", ")}; TRIANGLES are drawn`,
+      });
     if (count < 0) warnings.push({ element, message: `vertexCount ${count} is negative; nothing is drawn` });
     return { primitive: primitive ?? "triangles", count: Math.max(0, count) };
   });

@@ -9,7 +9,7 @@ export interface Box3 {
   readonly max: Vec3;
 }
 
-export type Primitive = "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
+export type Primitive = "points" | "lines" | "lineStrip" | "lineLoop" | "triangles" | "triangleStrip" | "triangleFan";
 
 /**
  * `count` indices (vertices, where there is no index) drawn as one kind of primitive, following the previous draw's.
@@ -65,6 +65,11 @@ export interface PatchDescription extends Readonly<Record<VertexRole, Reference 
   readonly index: Reference | undefined;
   /** Images: byte planes, most significant first. Typed arrays: one. */
   readonly coord: readonly Reference[];
+  /**
+   * Classic only: the image with the low byte of each number of an attribute whose own image has the high byte. For
+   * normals as vectors and for colors.
+   */
+  readonly lowBytes: Readonly<Partial<Record<VertexRole, Reference>>>;
   /** Compact only: all of the patch. */
   readonly data: Reference | undefined;
   /** The files of all further attributes, one after the other, `fileCount` each. */
@@ -124,6 +129,8 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly positionBits: number;
   /** False: both sides are drawn. */
   readonly solid: boolean;
+  /** False: the front of a triangle is the side from which its corners run clockwise. */
+  readonly ccw: boolean;
   /** By set of texture coordinates. */
   readonly texCoordBoxes: readonly TexCoordBox[];
   /** The names of the sets, which textures state as their mapping. */

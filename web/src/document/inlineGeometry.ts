@@ -122,25 +122,30 @@ const primitives: Readonly<Record<string, VertexArrays["primitive"]>> = {
   pointset: "points",
 };
 
-/** Reads a geometry node; undefined for other nodes and for empty geometry. */
-export type InlineGeometryReader = (
+export interface InlineGeometryReader {
+  /** Whether it reads nodes of this lower-case name. */
+  readonly reads: (name: string) => boolean;
+  /** Reads a geometry node; undefined for other nodes and for empty geometry. */
+  readonly read: (element: SceneElement, resolve: Resolve, warnings: Warning[]) => GeometryDescription | undefined;
+}
+
+export const inlineGeometryReader: InlineGeometryReader = {
+  reads: (name) => [solids, planeReaders, runReaders, surfaces].some((readers) => name in readers),
+  read: readInlineGeometry,
+};
+
+function readInlineGeometry(
   element: SceneElement,
   resolve: Resolve,
   warnings: Warning[],
-) => GeometryDescription | undefined;
-
-export const readInlineGeometry: InlineGeometryReader = (element, resolve, warnings) => {
+): GeometryDescription | undefined {
   const name = lowerNameOf(element);
   const readSolid = solids[name],
     readPlane = planeReaders[name],
     readRuns = runReaders[name],
     readSurface = surfaces[name];
   if (readPlane) return planeGeometryOf(readPlane, element, warnings);
-  if (!readSolid && !readRuns && !readSurface) {
-    if (name.startsWith("nurbs"))
-      warnings.push({ element, message: "NURBS are not drawn in pages; imgeo convert makes triangles of them" });
-    return undefined;
-  }
+  if (!readSolid && !readRuns && !readSurface) return undefined;
   const solidMesh = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings);
   if (solidMesh)
@@ -155,7 +160,7 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   const arrays = arraysOfRuns(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
   return geometryOfArrays(arrays && withGeneratedTexCoords(arrays, texCoordMode), fields.solid, data.texCoordMappings);
-};
+}
 
 function planeGeometryOf(
   readPlane: PlaneReader,

@@ -61,6 +61,9 @@ const geometryFields = {
   ...prioritized,
   ...patchFields,
   solid: SFBool(true),
+  /** False: the front of triangles is clockwise. */
+  ccw: SFBool(true),
+  lit: SFBool(true),
   position: SFVec3f([0, 0, 0]),
   size: SFVec3f([1, 1, 1]),
   /** The number of bits of a stored coordinate that are used; 0: all bits of its bytes. */
@@ -295,11 +298,16 @@ export const nodeFields = {
     decode: SFString("auto"),
     profile: SFString("classic"),
     base: SFString(""),
-    implicitMeshMode: SFString("SIG"),
+    implicitMeshMode: SFString("auto"),
+    /** The paper's name for implicitMeshSize. */
+    implicitMeshCount: optional(SFVec2f([256, 256])),
   },
   BinaryGeometry: {
     ...geometryFields,
     rgbaColors: SFBool(false),
+    /** False: faces are shaded by their slope, and normals are not read. */
+    normalPerVertex: SFBool(true),
+    compressed: SFBool(false),
     normalAsSphericalCoordinates: SFBool(false),
     coordType: SFString("Float32"),
     normalType: SFString("Float32"),

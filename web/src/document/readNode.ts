@@ -11,6 +11,7 @@ import { asViewpoint } from "./orthoViewpoint.ts";
 import { readBackground } from "./readBackground.ts";
 import { readEnvironmentLight } from "./readCubeMap.ts";
 import { readFog, readLocalFog } from "./readFog.ts";
+import { reasonAgainst, warnOfRefusedFields } from "./refused.ts";
 import type { ShapeReadingContext } from "./readShape.ts";
 import { nodesIn, readShape } from "./readShape.ts";
 import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
@@ -100,6 +101,7 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
         declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }),
       );
     case "clipplane":
+      warnOfRefusedFields(node, warnings);
       return constantReader(
         [{ kind: "clipPlane", ...readFields(node, nodeFields.ClipPlane, warnings) }],
         warningsOnly(warnings),
@@ -114,6 +116,12 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
         readBackground(element, node, context.inlineDepth, (parent) => nodesIn(parent, context), warnings),
         warnings,
       );
+    case "externalshape":
+    case "bvhrefiner":
+    case "multipart":
+    case "dynamiclod":
+      warnings.push({ element: node, message: reasonAgainst(node) ?? "" });
+      return constantReader([], warningsOnly(warnings));
     default:
       return (inherited, readChildren) => readChildren(context.childrenOf(node), inherited);
   }

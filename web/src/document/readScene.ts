@@ -1,6 +1,6 @@
 import type { SceneDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
-import { readInlineGeometry } from "./inlineGeometry.ts";
+import { inlineGeometryReader } from "./inlineGeometry.ts";
 import type { SceneReaderOptions } from "./sceneReader.ts";
 import { SceneReader } from "./sceneReader.ts";
 
@@ -9,5 +9,5 @@ export type { SceneReaderOptions } from "./sceneReader.ts";
 
 /** Reads an <X3D> element once, its inline geometry included. For a document that changes, keep a SceneReader. */
 export function readScene(x3d: SceneElement, options: SceneReaderOptions = {}): SceneDescription {
-  return new SceneReader(x3d, { inlineGeometry: readInlineGeometry, ...options }).read();
+  return new SceneReader(x3d, { inlineGeometry: inlineGeometryReader, ...options }).read();
 }

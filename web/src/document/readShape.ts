@@ -1,7 +1,7 @@
 // Reads a Shape without the state that it inherits from groups.
 
 import { colorMapOf, withValues } from "./attributes.ts";
-import { readAppearance, withTexCoordSets } from "./appearance.ts";
+import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
 import type { Box3, GeometryDescription, ShapeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
@@ -11,6 +11,7 @@ import type { GeometryCache, Lookup } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import { withCubeMapDirection } from "./readCubeMap.ts";
 import { texCoordNodesOf } from "./texCoordNodes.ts";
+import { reasonAgainst } from "./refused.ts";
 import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -42,22 +43,21 @@ export function readShape(
   const values = readFields(node, nodeFields.Shape, warnings);
   const children = childrenOf(node);
   const ownBox = boxOf(values);
-  const [geometry, priorityOfGeometry] =
+  const { geometry, priority, lit } =
     values.patch !== "" && !children.some(isGeometry)
       ? readSharedPatch(node, values.patch, context)
       : readGeometryOf(children, context, ownBox, values.colorBy);
   const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
   const isVisible = values.visible && values.render;
+  const ownAppearance = readAppearance(
+    appearance,
+    colorMapOf(node, values, geometry, warnings),
+    (parent) => nodesIn(parent, context),
+    warnings,
+  );
+  const hasColors = geometry?.patches.some(({ color }) => color !== undefined) ?? false;
   const appearanceDescription = withCubeMapDirection(
-    withTexCoordSets(
-      readAppearance(
-        appearance,
-        colorMapOf(node, values, geometry, warnings),
-        (parent) => nodesIn(parent, context),
-        warnings,
-      ),
-      geometry?.texCoordMappings,
-    ),
+    withTexCoordSets(lit ? ownAppearance : withoutLighting(ownAppearance, hasColors), geometry?.texCoordMappings),
     texCoordGeneratorIn(node, { ...context, warnings: [] }), // USEs have been resolved with warnings
     warnings,
   );
@@ -66,10 +66,11 @@ export function readShape(
     element,
     geometry,
     host,
-    hasUnreadableGeometry: geometry === undefined && (values.patch !== "" || children.some(isGeometry)),
+    unreadableGeometry:
+      geometry !== undefined ? undefined : (problemOf(children, context) ?? (values.patch !== "" ? "" : undefined)),
     visible: isVisible,
     contributesToBounds: isVisible,
-    priority: values.priority * priorityOfGeometry,
+    priority: values.priority * priority,
     isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
     appearance:
@@ -100,37 +101,42 @@ export function nodesIn(parent: SceneElement, context: ShapeReadingContext): Sce
   });
 }
 
-/**
- * The geometry among a shape's children, and its priority, which is separate because it does not change the geometry's
- * identity.
- */
+interface ShapeGeometry {
+  readonly geometry: GeometryDescription | undefined;
+  /** Separate from the geometry, as `lit` is, because it does not change the geometry's identity. */
+  readonly priority: number;
+  readonly lit: boolean;
+}
+
+/** The geometry among a shape's children. */
 function readGeometryOf(
   children: readonly SceneElement[],
   context: ShapeReadingContext,
   box: Box3 | undefined,
   colorBy: string,
-): readonly [geometry: GeometryDescription | undefined, priority: number] {
+): ShapeGeometry {
   const { geometries, lookup, warnings } = context;
   const found = firstOf(children, context, (child) => {
     if (lowerNameOf(child) === "text") context.listen(child);
     const geometry = geometries.geometryOf(child, lookup, warnings, (...args) => readGeometry(context, ...args));
     return geometry && { child, geometry };
   });
-  if (found === undefined) return [undefined, 1];
-  const { priority } = readFields(found.child, { priority: nodeFields.ImageGeometry.priority }, []);
+  if (found === undefined) return { geometry: undefined, priority: 1, lit: true };
+  const { priority, lit } = readFields(
+    found.child,
+    { priority: nodeFields.ImageGeometry.priority, lit: nodeFields.ImageGeometry.lit },
+    [],
+  );
   const boxed =
     box === undefined
       ? found.geometry
       : geometries.variant(found.geometry, JSON.stringify(box), (plain) => withBox(plain, box));
-  return [colorBy === "" ? boxed : geometries.variant(boxed, colorBy, (plain) => withValues(plain, colorBy)), priority];
+  const geometry = colorBy === "" ? boxed : geometries.variant(boxed, colorBy, (plain) => withValues(plain, colorBy));
+  return { geometry, priority, lit };
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
-function readSharedPatch(
-  element: SceneElement,
-  patch: string,
-  context: ShapeReadingContext,
-): readonly [geometry: GeometryDescription | undefined, priority: number] {
+function readSharedPatch(element: SceneElement, patch: string, context: ShapeReadingContext): ShapeGeometry {
   const { geometries, lookup, warnings } = context;
   const [name, index] = patch.split("#");
   const node = name === undefined ? undefined : lookup(name);
@@ -141,10 +147,15 @@ function readSharedPatch(
       : undefined;
   if (node === undefined || shared?.encoding !== "compact" || shared.patches.length !== 1) {
     warnings.push({ element, message: `patch="${patch}" names no patch of a geometry of this scene` });
-    return [undefined, 1];
+    return { geometry: undefined, priority: 1, lit: true };
   }
-  const { priority } = readFields(node, { priority: nodeFields.ImageGeometry.priority }, []);
-  return [geometries.variant(shared, `#${index}`, (geometry) => withPatchIndex(geometry, Number(index))), priority];
+  const { priority, lit } = readFields(
+    node,
+    { priority: nodeFields.ImageGeometry.priority, lit: nodeFields.ImageGeometry.lit },
+    [],
+  );
+  const geometry = geometries.variant(shared, `#${index}`, (plain) => withPatchIndex(plain, Number(index)));
+  return { geometry, priority, lit };
 }
 
 function withPatchIndex(geometry: GeometryDescription, patchIndex: number): GeometryDescription | undefined {
@@ -152,7 +163,7 @@ function withPatchIndex(geometry: GeometryDescription, patchIndex: number): Geom
   return patch?.data && { ...geometry, patches: [{ ...patch, data: { url: patch.data.url, patchIndex } }] };
 }
 
-const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
+const geometryReaders: Readonly<Record<string, typeof readBinaryGeometry>> = {
   imagegeometry: readImageGeometry,
   binarygeometry: readBinaryGeometry,
 };
@@ -170,8 +181,29 @@ function readGeometry(
   };
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
-  const fileGeometry = geometryReaders[name]?.(element, warnings);
-  return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.(element, resolve, warnings);
+  const fileGeometry = geometryReaders[name]?.(element, resolve, warnings);
+  return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.read(element, resolve, warnings);
+}
+
+/**
+ * Why none of a shape's children is drawn: the sentence about a geometry node that no reader knows, which becomes a
+ * warning too; "" where a reader found nothing to draw; undefined without a geometry node.
+ */
+function problemOf(children: readonly SceneElement[], context: ShapeReadingContext): string | undefined {
+  const nodes = children.filter(isGeometry).flatMap((child) => resolveUse(child, { ...context, warnings: [] }) ?? []);
+  if (nodes.length === 0) return undefined;
+  // Without a reader of geometry in the document, as before the runtime has loaded, nothing is known of other nodes.
+  const { inlineGeometry, warnings } = context;
+  if (inlineGeometry === undefined) return "";
+  const unknown = nodes.find((node) => {
+    const name = lowerNameOf(node);
+    if (reasonAgainst(node) !== undefined) return true;
+    return !(name in geometryReaders) && name !== "text" && !inlineGeometry.reads(name);
+  });
+  if (unknown === undefined) return "";
+  const reason = reasonAgainst(unknown) ?? "it is no geometry node that pages draw; nothing is drawn";
+  warnings.push({ element: unknown, message: reason });
+  return `<${unknown.localName}> ${reason}`;
 }
 
 /** Whether a child of a Shape is a geometry, judged by its name: all but Appearance and metadata are. */

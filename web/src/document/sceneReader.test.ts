@@ -6,7 +6,7 @@ import { RandomNumbers, EditedDocument, elementsIn } from "./edits.testing.ts";
 import type { SceneElement } from "./element.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { readScene } from "./readScene.ts";
-import { readInlineGeometry } from "./inlineGeometry.ts";
+import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 /** A description as text, with numbers for elements and geometries: equal texts mean the same objects. */
@@ -52,14 +52,14 @@ describe("a document that changes", () => {
   };
   /** For each group, whether `change` makes its description another object. */
   const changedBy = (change: (reader: SceneReader) => void) => {
-    const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+    const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
     const before = reader.read().root.children;
     change(reader);
     return reader.read().root.children.map((node, index) => node !== before[index]);
   };
 
   test("keeps the objects of everything unchanged", () => {
-    const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+    const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
     assert.equal(reader.read(), reader.read());
     assert.deepEqual(
       changedBy((other) => {
@@ -83,7 +83,7 @@ describe("a document that changes", () => {
   });
 
   test("keeps the geometry object of a shape that is moved or colored", () => {
-    const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+    const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
     const geometryOf = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
     const before = geometryOf();
     for (const id of ["t", "m", "b", "user"]) reader.touch(named(id));
@@ -102,7 +102,7 @@ test("groups that USE one another exponentially are cut off at the limit of inst
   const x3d = elementsOf(
     `<X3D><Scene><Group DEF="g0"><Shape><Box/></Shape></Group>${nestedGroups.join("")}<Shape><Sphere/></Shape></Scene></X3D>`,
   );
-  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry }, 1000);
+  const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader }, 1000);
   const truncated = reader.read();
   assert.deepEqual(
     truncated.warnings.map(({ message }) => message),

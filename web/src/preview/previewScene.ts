@@ -65,7 +65,7 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
     return undefined;
   if (lods.length > 0 || billboards.length > 0 || instances.lights.length > maxLights) return undefined;
   const visibleInstances = instances.shapes.filter(
-    ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.hasUnreadableGeometry),
+    ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.unreadableGeometry !== undefined),
   );
   const shapes = visibleInstances.slice(0, maxShapes + 1).flatMap((instance) => previewShapeOf(instance) ?? []);
   if (shapes.length === 0 || shapes.length < visibleInstances.length || shapes.length > maxShapes) return undefined;
@@ -90,7 +90,7 @@ function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | u
     patches: [patch],
     base,
   } = geometry ?? { patches: [], base: undefined };
-  if (geometry === undefined || base === undefined || !("patchIndex" in base)) return undefined;
+  if (geometry?.ccw !== true || base === undefined || !("patchIndex" in base)) return undefined;
   if (patch === undefined || appearance.colorMap !== undefined) return undefined;
   if (
     appearance.textures.length > 0 ||

@@ -24,6 +24,11 @@ export interface DrawRange {
 export type StageName = "points" | "base" | "surface" | "shaded" | "full";
 export const stageNames: readonly StageName[] = ["points", "base", "surface", "shaded", "full"];
 
+/** A draw as a document states it: it may be of a primitive that is converted before it is drawn. */
+export interface StatedDrawRange extends Omit<DrawRange, "primitive"> {
+  readonly primitive: DrawRange["primitive"] | "lineLoop" | "triangleFan";
+}
+
 interface StageHead {
   readonly name: StageName;
   readonly draws: readonly DrawRange[];

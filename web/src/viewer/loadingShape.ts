@@ -1,7 +1,7 @@
 // One shape of a scene while it loads: the deliveries of its geometry and of its
 // textures. A derived class for each host displays them.
 
-import type { DeliveryError } from "../delivery/deliveryError.ts";
+import { DeliveryError } from "../delivery/deliveryError.ts";
 import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
@@ -31,11 +31,14 @@ export abstract class LoadingShape {
   #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
 
+  #problem: string;
+
   /** Joins no delivery before `join`. */
-  constructor(deliveries: SceneDeliveries, { element, geometry, visible }: ShapeDescription) {
+  constructor(deliveries: SceneDeliveries, { element, geometry, visible, unreadableGeometry = "" }: ShapeDescription) {
     this.element = element;
     this.geometry = geometry;
     this.#isVisible = visible;
+    this.#problem = unreadableGeometry;
     this.#deliveries = deliveries;
     this.#textures = new RoleTextures(deliveries.textures, {
       onTextureImage: (role, image) => {
@@ -103,6 +106,11 @@ export abstract class LoadingShape {
   /** Joins the deliveries of the geometry and of the textures described last. */
   join(): void {
     const { geometry } = this;
+    if (this.#problem !== "") {
+      const problem = this.#problem;
+      this.#problem = ""; // reported once
+      this.onError(new DeliveryError("unsupported", "", problem));
+    }
     if (geometry !== undefined)
       this.#delivery ??= this.#deliveries.geometries.join(geometry, {
         onStage: (patch, stage) => {

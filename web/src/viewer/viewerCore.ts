@@ -12,7 +12,7 @@ import type { ResourcePool } from "../delivery/resourcePool.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { readInlineGeometry } from "../document/inlineGeometry.ts";
+import { inlineGeometryReader } from "../document/inlineGeometry.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
@@ -110,7 +110,7 @@ export class ViewerCore<Shape extends LoadingShape> {
     this.reader = new SceneReader(x3d, {
       ...reader,
       inlined: (inline) => this.inlines.documentOf(inline),
-      inlineGeometry: readInlineGeometry,
+      inlineGeometry: inlineGeometryReader,
       text: textReader(measureRun, fontEditionOf),
     });
     this.control = new DeliveryControl({

@@ -161,6 +161,7 @@ describe("jobs", () => {
         draws: [{ primitive: "points", first: 0, count: 2 }],
         rowLength: 4,
         isWide: true,
+        ccw: true,
         coordWidth: 1,
         coordHeight: 1,
         recordCount: 1,

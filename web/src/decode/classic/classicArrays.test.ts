@@ -90,7 +90,7 @@ describe("an index on the CPU", () => {
       const record = records[n] ?? 0;
       return [(record % 64) * 4, Math.floor(record / 64) * 8, 0][channel] ?? 0;
     });
-  const job = { rowLength: 8, isWide: false, coordWidth: 64, coordHeight: 32, recordCount: 2048 };
+  const job = { rowLength: 8, isWide: false, coordWidth: 64, coordHeight: 32, recordCount: 2048, ccw: true };
   const triangles = [{ primitive: "triangles", first: 0, count: 6 }] as const;
 
   test("names records by column and row in 256ths of the image", async () => {

@@ -7,9 +7,9 @@ import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
 import type { Pixels } from "../pngPixels.ts";
 import { decodePixels } from "../pngPixels.ts";
-import type { DrawRange, NormalFormat } from "../../stage/stage.ts";
+import type { DrawRange, NormalFormat, StatedDrawRange } from "../../stage/stage.ts";
 import { isPairFormat } from "../../stage/stage.ts";
-import { withoutStrips } from "../strips.ts";
+import { drawnPrimitives } from "../drawnPrimitives.ts";
 
 /** A file, and the texel at which its data begin. */
 export interface ImageFile {
@@ -99,7 +99,9 @@ export interface IndexJob {
   readonly file: ImageFile;
   /** Element n is texel (n mod rowLength, n div rowLength), counted from the first texel of the data. */
   readonly rowLength: number;
-  readonly draws: readonly DrawRange[];
+  readonly draws: readonly StatedDrawRange[];
+  /** Whether the front of triangles is counterclockwise. */
+  readonly ccw: boolean;
   /** Texels hold the index of the record; otherwise its column and row in 256ths of the coordinate image. */
   readonly isWide: boolean;
   readonly coordWidth: number;
@@ -107,9 +109,9 @@ export interface IndexJob {
   readonly recordCount: number;
 }
 
-/** Decodes the index, with strips converted to triangles, and returns the draws that match it. */
+/** Decodes the index, with its primitives converted to those that are drawn, and returns the draws that match it. */
 export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; draws: readonly DrawRange[] }> {
-  const { file, rowLength, draws, isWide, coordWidth, coordHeight, recordCount } = job;
+  const { file, rowLength, draws, ccw, isWide, coordWidth, coordHeight, recordCount } = job;
   const count = draws.reduce((sum, draw) => sum + draw.count, 0);
   const image = await imageOf(file, 3);
   const texelOf = texelsOf(image, { count, rowLength });
@@ -125,7 +127,7 @@ export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; 
       throw new DecodeError("malformed", `holds index ${record} where there are ${recordCount} vertices`);
     index[n] = record;
   }
-  return withoutStrips(index, draws);
+  return drawnPrimitives(index, draws, ccw);
 }
 
 export interface NormalJob extends RecordLayout {
@@ -177,6 +179,27 @@ export interface ColorJob extends RecordLayout {
 /** Decodes colours to bytes, four for each record. */
 export async function classicColors({ file, components, ...layout }: ColorJob): Promise<VertexArray> {
   return bytesOf(await imageOf(file, components), layout, components);
+}
+
+export interface WordJob extends PlanesJob {
+  readonly components: 3 | 4;
+  /** Words stand for -1 … 1, otherwise for 0 … 1. */
+  readonly isSigned: boolean;
+}
+
+/** Decodes an attribute of two byte planes to 16-bit words; without the lower one a byte b stands for 257 b. */
+export async function classicWords({ components, isSigned, ...job }: WordJob): Promise<VertexArray> {
+  const sums = await sumsOf(job, components, components);
+  const wordOf = (sum: number) => (job.planes.length === 1 ? 257 * sum : sum);
+  const stride = 4; // WebGL reads records of whole multiples of four bytes faster
+  const array = isSigned ? new Int16Array(job.count * stride) : new Uint16Array(job.count * stride);
+  for (let record = 0; record < job.count; ++record) {
+    for (let n = 0; n < components; ++n) {
+      const word = wordOf(sums[components * record + n] ?? 0);
+      array[stride * record + n] = isSigned ? Math.round(((2 * word) / 65535 - 1) * 32767) : word;
+    }
+  }
+  return { array, components, stride, offset: 0 };
 }
 
 /** Pixels, and the texel at which the data begin. */

@@ -9,6 +9,8 @@ import type { Grid } from "../../stage/stage.ts";
 
 export interface GridJob extends CoordJob {
   readonly grid: Grid;
+  /** Whether the front, to which normals point, is counterclockwise. */
+  readonly ccw: boolean;
   /** The stored integer of the far side of the bounding box. */
   readonly maxStored: number;
   /** Lattice step along each axis. */
@@ -25,7 +27,7 @@ export interface GridArrays {
 type Vector = [number, number, number];
 
 /** Decodes the coordinates of a grid, and computes its index and normals. */
-export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
+export async function classicGrid({ grid, ccw, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
   const { columns, rows } = grid;
   const isHeightMap = grid.kind === "heightMap";
   const sums = await sumsOf(job, isHeightMap ? 1 : 3, 3);
@@ -45,7 +47,7 @@ export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): P
   return {
     index: gridIndex(grid),
     coord: { array, components: 3, stride: 3, offset: 0 },
-    normal: { array: slopeNormals(array, grid, step), components: 3, stride: 3, offset: 0 },
+    normal: { array: slopeNormals(array, grid, step, ccw ? 1 : -1), components: 3, stride: 3, offset: 0 },
   };
 }
 
@@ -71,6 +73,7 @@ function slopeNormals(
   points: Float32Array,
   { kind, columns, rows }: Grid,
   step: readonly number[],
+  side: 1 | -1,
 ): Float32Array<ArrayBuffer> {
   const isClosed = kind === "sculpt";
   const normals = new Float32Array(points.length);
@@ -81,7 +84,7 @@ function slopeNormals(
     const [above, below] = [Math.max(row - 1, 0), Math.min(row + 1, rows - 1)];
     const across = [0, 1, 2].map((axis) => at(row, right, axis) - at(row, left, axis)) as Vector;
     const down = [0, 1, 2].map((axis) => at(below, column, axis) - at(above, column, axis)) as Vector;
-    return cross(down, across).map((component, axis) => component / (step[axis] ?? 1)) as Vector;
+    return cross(down, across).map((component, axis) => (side * component) / (step[axis] ?? 1)) as Vector;
   };
   for (let row = 0; row < rows; ++row) {
     for (let column = 0; column < columns; ++column) {

@@ -7,7 +7,7 @@ import { RandomNumbers, EditedDocument } from "../../document/edits.testing.ts";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { nodeFields } from "../../document/nodes.ts";
 import { readScene } from "../../document/readScene.ts";
-import { readInlineGeometry } from "../../document/inlineGeometry.ts";
+import { inlineGeometryReader } from "../../document/inlineGeometry.ts";
 import { SceneReader } from "../../document/sceneReader.ts";
 import { matrixOf } from "../../scene/transforms.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
@@ -86,7 +86,7 @@ test("shapes that have not changed are not reported again", () => {
   const x3d = elementsOf(
     "<X3D><Transform><Shape/></Transform><Transform><Shape/></Transform><Group><Shape/></Group></X3D>",
   );
-  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+  const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
   const reported: string[] = [];
   const report = (shape: ShapeDescription) => {
     reported.push(shape.element === x3d.children[1]?.children[0] ? "second" : "another");

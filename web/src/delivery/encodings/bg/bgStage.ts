@@ -7,8 +7,15 @@ import { DecodeError } from "../../../decode/decodeError.ts";
 import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
 import { boundsOf, countThatFits, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
-import type { BufferStage, DrawRange, NormalFormat, GpuIndex, GpuVertices } from "../../../stage/stage.ts";
-import { withoutStrips } from "../../../decode/strips.ts";
+import type {
+  BufferStage,
+  DrawRange,
+  NormalFormat,
+  GpuIndex,
+  GpuVertices,
+  StatedDrawRange,
+} from "../../../stage/stage.ts";
+import { drawnPrimitives } from "../../../decode/drawnPrimitives.ts";
 import type { ElementType } from "../../../stage/elementType.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
 import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geometry.ts";
@@ -34,7 +41,7 @@ export function bgStageBuilder(
   const uploads = new ArrayUploads(storeBytes);
   let available: AvailableArrays = { attributes: {} };
   const normalFormat = normalFormatOf(geometry);
-  const drawsWithoutIndex = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
+  const drawsWithoutIndex = (count: number) => drawnPrimitives(undefined, drawRangesFor(patch, count), geometry.ccw);
 
   return {
     isDivisible: false,
@@ -47,7 +54,7 @@ export function bgStageBuilder(
       if (file.role === "index") {
         // If the document states no vertexCount, only WebGL checks that indices are in range.
         const indices = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
-        const { index, draws } = withoutStrips(indices, drawRangesFor(patch, indices.length));
+        const { index, draws } = drawnPrimitives(indices, drawRangesFor(patch, indices.length), geometry.ccw);
         arrays.index = { stored: await uploads.storeIndex(index, signal), draws };
         return;
       }
@@ -60,7 +67,7 @@ export function bgStageBuilder(
       if (isUnbounded(geometry, patch)) arrays.bounds = boundsOf(vertices);
       if (hasNormalsInCoords(geometry, patch)) arrays.attributes.normal = fourthElementOf(stored);
       if (patch.index !== undefined) return;
-      // Strips without an index get one: buffers are drawn as separate triangles.
+      // Converted primitives without an index get one.
       const { index, draws } = drawsWithoutIndex(patch.vertexCount || countThatFits(content.bytes.byteLength, range));
       arrays.index = { stored: index && (await uploads.storeIndex(index, signal)), draws };
     },
@@ -113,7 +120,7 @@ function countOf({ bytes, type, stride }: GpuVertices): number {
 }
 
 /** As in X3DOM, a vertexCount of 0 means all available vertices. */
-function drawRangesFor(patch: PatchDescription, available: number): readonly DrawRange[] {
+function drawRangesFor(patch: PatchDescription, available: number): readonly StatedDrawRange[] {
   const draws = drawRangesOf(patch);
   const single = draws.length === 1 ? draws[0] : undefined;
   if (single?.count === 0) return [{ ...single, count: available }];

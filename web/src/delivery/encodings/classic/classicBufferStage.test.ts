@@ -121,6 +121,48 @@ describe("images that are decoded on the CPU", () => {
     assert.deepEqual(await arraysAfter([1, 0]), await arraysAfter([0, 1]));
   });
 
+  test("have 16-bit normals of two images, and the upper bytes of both until the second image arrives", async () => {
+    const images = ["normal", "low"].map((url) => `<ImageTexture containerField="normal" url="${url}.png"/>`).join("");
+    const texels = (first: number) => pngWithTexels(16, 1, 3, (n, channel) => first + n + 20 * channel);
+    const { promise, release } = deferredFile(texels(7));
+    const site = siteOf({ "c.png": texels(0), "normal.png": texels(150), "low.png": promise });
+    const { stages, errors, settled } = record(
+      geometryOf(
+        `<ImageGeometry primType="POINTS" vertexCount="16" implicitMeshSize="16 1" coord="c.png">${images}</ImageGeometry>`,
+      ),
+      site.pool,
+    );
+    while (stages.at(-1)?.stage.name !== "shaded") await shortDelay();
+    const normalOf = () => {
+      const stage = stages.at(-1)?.stage;
+      assert.ok(stage?.kind === "buffers");
+      assert.equal(stage.normalFormat.kind, "vector");
+      return [stage.name, site.arrayOf(stage.attributes.normal)[5]];
+    };
+    const wordOf = (high: number, low: number) => Math.round(((2 * (256 * high + low)) / 65535) * 32767 - 32767);
+    // Element 5 is y of the second record.
+    assert.deepEqual(normalOf(), ["shaded", wordOf(171, 171)]);
+    release();
+    await settled;
+    assert.deepEqual([errors, normalOf()], [[], ["full", wordOf(171, 28)]]);
+  });
+
+  test("draw fans, loops and clockwise triangles, which shaders do not draw from images", async () => {
+    const site = siteOf({ "c.png": pngWithTexels(16, 1, 3, (n, channel) => n + channel) });
+    for (const [attributes, indices] of [
+      ['primType="TRIANGLEFAN" vertexCount="4"', [0, 1, 2, 0, 2, 3]],
+      ['primType="LINELOOP" vertexCount="3"', [0, 1, 2, 0]],
+      ['ccw="false" vertexCount="3"', [0, 2, 1]],
+    ] as const) {
+      const geometry = geometryOf(`<ImageGeometry ${attributes} implicitMeshSize="16 1" coord="c.png"/>`);
+      const { stages, errors, settled } = record(geometry, site.pool);
+      await settled;
+      const full = stages.at(-1)?.stage;
+      assert.ok(full?.kind === "buffers");
+      assert.deepEqual([errors, Array.from(site.arrayOf(full.index))], [[], indices], attributes);
+    }
+  });
+
   test("report the damaged file, whichever file triggered its decoding", async () => {
     const site = siteOf({ ...files(), "i0.png": pngWithTexels(256, 4, 3, () => 255) });
     const { stages, errors, settled } = record(

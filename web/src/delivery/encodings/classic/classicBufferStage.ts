@@ -2,7 +2,7 @@
 // buffers.
 
 import type { VertexRole } from "../../../stage/attributeRows.ts";
-import { withTexCoordRoles } from "../../../stage/attributeRows.ts";
+import { vertexRoles, withTexCoordRoles } from "../../../stage/attributeRows.ts";
 import type { IndexArray, VertexArray } from "../../../stage/vertexArray.ts";
 import type { ImageFile, RecordLayout } from "../../../decode/classic/classicArrays.ts";
 import type { GridArrays } from "../../../decode/classic/classicGrid.ts";
@@ -11,7 +11,7 @@ import { byteSizeOf } from "../../../stage/elementType.ts";
 import type { PngHeader } from "../../../decode/png.ts";
 import { checkPng } from "../../../decode/png.ts";
 import type { BufferStage, DrawRange, GpuIndex, GpuVertices } from "../../../stage/stage.ts";
-import { withoutStrips } from "../../../decode/strips.ts";
+import { drawnPrimitives } from "../../../decode/drawnPrimitives.ts";
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
 import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../../../document/dequantization.ts";
 import { asDeliveryError } from "../../deliveryError.ts";
@@ -60,6 +60,10 @@ class AvailableArrays {
   attributes: Partial<Record<VertexRole, GpuVertices>> = {};
   /** Normals computed from the slope of a grid without stored normals. */
   slopeNormals: GpuVertices | undefined;
+  /** Undecoded images of attributes of two byte planes, until both are available. */
+  attributePlanes: Partial<Record<VertexRole, (ImageFile | undefined)[]>> = {};
+  /** Byte planes of those attributes that have been decoded. */
+  attributePlaneCounts: Partial<Record<VertexRole, number>> = {};
   /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
   value: GpuVertices | undefined;
@@ -111,6 +115,10 @@ class BufferStageBuilder implements StageBuilder {
       case "base":
         return;
       default: {
+        if (this.#patch.lowBytes[file.role] !== undefined) {
+          await this.#decodeWords(available, file.role, file.plane, image, header, signal);
+          return;
+        }
         const input = { file: image, ...this.#layout(header) };
         const vertices = await attributeDecoders[file.role](this.#run, input, this.#geometry, signal);
         available.attributes[file.role] = await this.#uploads.storeVertices(vertices, signal);
@@ -140,13 +148,19 @@ class BufferStageBuilder implements StageBuilder {
     const available = this.#available;
     const { coord, attributes, value } = available;
     if (coord === undefined) return undefined;
-    const normalFormat = attributes.normal ? normalFormatOf(this.#geometry) : ({ kind: "vector" } as const);
-    const name = attainedStageName(this.#patch, {
+    const normalFormat =
+      attributes.normal && this.#patch.lowBytes.normal === undefined
+        ? normalFormatOf(this.#geometry)
+        : ({ kind: "vector" } as const);
+    const attained = attainedStageName(this.#patch, {
       index: available.indexedDraws,
       attributes,
       coord: Array.from({ length: available.coordPlaneCount }),
       value: value ? this.#patch.value : [],
     });
+    const lowRoles = vertexRoles.filter((role) => this.#patch.lowBytes[role] !== undefined);
+    const isWhole = lowRoles.every((role) => available.attributePlaneCounts[role] === 2);
+    const name = attained === "full" && !isWhole ? "shaded" : attained;
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
     const { index, draws } = (name === "points" ? undefined : available.indexedDraws) ?? points;
@@ -184,6 +198,7 @@ class BufferStageBuilder implements StageBuilder {
             {
               ...job,
               grid,
+              ccw: this.#geometry.ccw,
               maxStored: maxStoredValueOf(this.#geometry, this.#patch),
               step: dequantizationOf(this.#geometry, this.#patch).step,
             },
@@ -205,6 +220,39 @@ class BufferStageBuilder implements StageBuilder {
     available.slopeNormals = slopeNormals;
     available.coordPlaneCount = planes.length;
     if (planes.length === planeCount) available.coordPlanes = [];
+  }
+
+  /** Decodes an attribute of two byte planes: from the upper one as soon as it is available, then from both. */
+  async #decodeWords(
+    available: AvailableArrays,
+    role: VertexRole,
+    plane: number,
+    image: ImageFile,
+    header: PngHeader,
+    signal: AbortSignal,
+  ): Promise<void> {
+    const stored = (available.attributePlanes[role] ??= []);
+    stored[plane] = image;
+    const planes = leadingPlanes(stored);
+    const isDecoded = () => planes.length <= (available.attributePlaneCounts[role] ?? 0);
+    if (isDecoded()) return;
+    const isSigned = role === "normal";
+    const components = isSigned ? 3 : this.#geometry.colorComponents;
+    const vertices = await this.#run(
+      "classicWords",
+      { planes, components, isSigned, ...this.#layout(header, planes[0]) },
+      signal,
+    );
+    const words = await this.#uploads.storeVertices(vertices, signal);
+    // The job of one plane may end after that of both.
+    if (isDecoded()) {
+      this.#uploads.retire(words);
+      return;
+    }
+    this.#uploads.retire(available.attributes[role]);
+    available.attributes[role] = words;
+    available.attributePlaneCounts[role] = planes.length;
+    if (planes.length > 1) available.attributePlanes[role] = [];
   }
 
   /** Decodes the values once all their planes are available. */
@@ -232,9 +280,7 @@ class BufferStageBuilder implements StageBuilder {
     signal: AbortSignal,
   ): Promise<IndexedDraws | undefined> {
     if (available.indexedDraws !== undefined || this.#patch.index !== undefined) return undefined;
-    const { index, draws } = gridIndex
-      ? { index: gridIndex, draws: drawRangesOf(this.#patch) }
-      : withoutStrips(undefined, drawRangesOf(this.#patch));
+    const { index, draws } = drawnPrimitives(gridIndex, drawRangesOf(this.#patch), this.#geometry.ccw);
     return { index: index && (await this.#uploads.storeIndex(index, signal)), draws };
   }
 
@@ -252,6 +298,7 @@ class BufferStageBuilder implements StageBuilder {
           file,
           rowLength: this.#patch.implicitWidth,
           draws: drawRangesOf(this.#patch),
+          ccw: this.#geometry.ccw,
           isWide: this.#geometry.indexType === "Uint32",
           coordWidth: header.width,
           coordHeight: header.height,

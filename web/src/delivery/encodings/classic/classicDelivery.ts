@@ -6,6 +6,7 @@ import type { AttributeRole } from "../../patchFiles.ts";
 import { attributeFilesOf, bytesPerTexel, cornerCountOf } from "../../patchFiles.ts";
 import type { ContentTarget } from "../../resourcePool.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
+import { isDrawnFromImages } from "./classicFormat.ts";
 import { classicStageBuilder } from "./classicStage.ts";
 
 export const classicDelivery: EncodingDelivery = {
@@ -15,7 +16,8 @@ export const classicDelivery: EncodingDelivery = {
       storedBytes: bytesPerTexel * texelCountOf(patch, role, elementCount),
     })),
   stageBuilder: (geometry, patch, _, tools) => classicStageBuilder(geometry, patch, tools),
-  needsWorkers: ({ decode }) => decode === "cpu",
+  needsWorkers: (geometry) =>
+    geometry.decode === "cpu" || !geometry.patches.every((patch) => isDrawnFromImages(geometry, patch)),
 };
 
 /**
@@ -36,8 +38,9 @@ function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, 
 }
 
 /** Images become textures if the GPU decodes vertices, and stay files if workers do. */
-function targetOf({ decode }: GeometryDescription, patch: PatchDescription, maxTextureSize: number): ContentTarget {
-  if (decode === "cpu") return { kind: "bytes" };
+function targetOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): ContentTarget {
+  const { decode } = geometry;
+  if (decode === "cpu" || !isDrawnFromImages(geometry, patch)) return { kind: "bytes" };
   if (decode === "gpu") return { kind: "texture" };
   const texelCount = patch.grid ? patch.vertexCount : cornerCountOf(patch);
   const edge = Math.max(patch.implicitWidth, Math.ceil(texelCount / patch.implicitWidth));

@@ -11,7 +11,7 @@ import type { GeometryDescription, PatchDescription } from "../../../document/de
 import { missingBytesMidpoint } from "../../../document/dequantization.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
-import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
+import { firstTexelOf, hasShaderPrimitive, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
@@ -134,7 +134,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       return {
         kind: "textures",
         name,
-        draws: name === "points" ? [points] : drawRangesOf(patch),
+        draws: name === "points" ? [points] : drawRangesOf(patch).filter(hasShaderPrimitive),
         grid: patch.grid,
         index,
         isIndexWide: geometry.indexType === "Uint32",

@@ -2,8 +2,9 @@
 // holds base meshes, whose segments stand in for the patches until these have loaded.
 
 import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
+import { drawnPrimitives } from "../../../decode/drawnPrimitives.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
-import type { BufferStage, DrawRange, StageName } from "../../../stage/stage.ts";
+import type { BufferStage, StageName, StatedDrawRange } from "../../../stage/stage.ts";
 import type {
   AttributeDescription,
   GeometryDescription,
@@ -27,10 +28,11 @@ export function compactStageBuilder(
   const store = async (
     name: StageName,
     buffers: PatchBuffers,
-    draws: readonly DrawRange[],
+    statedDraws: readonly StatedDrawRange[],
     signal: AbortSignal,
   ): Promise<BufferStage> => {
-    const { index, coord, attributes } = buffers;
+    const { coord, attributes } = buffers;
+    const { index, draws } = drawnPrimitives(buffers.index, statedDraws, geometry.ccw);
     const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
     const [storedIndex, storedCoord, storedAttributes, storedValue] = await Promise.all([
       index && uploads.storeIndex(index, signal),
@@ -72,7 +74,7 @@ export function compactStageBuilder(
         }
         const buffers = segments[patchIndex];
         if (buffers) checkBits(buffers, geometry);
-        const draws: DrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
+        const draws: StatedDrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
         baseStage = buffers && (await store("base", buffers, draws, signal));
       } else if (content.kind === "patches") {
         const buffers = patchAt(content.patches, reference);

@@ -1,0 +1,90 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { PatchDescription } from "./description.ts";
+import { shapesOf } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { elementsOf } from "./elements.testing.ts";
+import { readScene } from "./readScene.ts";
+
+function read(x3d: SceneElement): { patch: PatchDescription | undefined; warnings: string[] } {
+  const scene = readScene(x3d);
+  return {
+    patch: shapesOf(scene.root)[0]?.geometry?.patches[0],
+    warnings: scene.warnings.map(({ message }) => message),
+  };
+}
+
+function readImages(children: string): ReturnType<typeof read> {
+  return read(
+    elementsOf(`<X3D><Scene><Shape><ImageGeometry vertexCount="3">${children}</ImageGeometry></Shape></Scene></X3D>`),
+  );
+}
+
+const texel = (url: string) => ({ url, firstTexel: 0 });
+
+describe("images that are children of an ImageGeometry", () => {
+  test("may be an ImageTexture, a Texture, an img in one of them, or an img alone", () => {
+    const { patch, warnings } = readImages(`
+      <ImageTexture containerField="index" url="i.png"/>
+      <Texture containerField="coord" url="a.png"/>
+      <Texture containerField="coord"><img src="b.png"/></Texture>
+      <img containerField="normal" src="n.png"/>`);
+    assert.deepEqual(warnings, []);
+    assert.deepEqual(
+      [patch?.index, patch?.coord, patch?.normal],
+      [texel("i.png"), [texel("a.png"), texel("b.png")], texel("n.png")],
+    );
+  });
+
+  test("may be USEd, in another role", () => {
+    const { patch, warnings } = readImages(`
+      <ImageTexture DEF="A" containerField="coord" url="a.png"/>
+      <ImageTexture USE="A" containerField="normal"/>
+      <ImageTexture USE="A" containerField="coord"/>
+      <ImageTexture USE="NONE" containerField="color"/>`);
+    assert.deepEqual([patch?.coord.length, patch?.normal], [2, texel("a.png")]);
+    assert.deepEqual(warnings, ['USE="NONE" names no DEF of this scene']);
+  });
+
+  test("may be several of a field: low bytes of normals and colors, and sets of texture coordinates", () => {
+    const images = (field: string, count: number) =>
+      Array.from({ length: count }, (_, n) => `<ImageTexture containerField="${field}" url="${field}${n}"/>`).join("");
+    const { patch, warnings } = readImages(images("normal", 2) + images("color", 3) + images("texCoord", 5));
+    assert.deepEqual(patch?.lowBytes, { normal: texel("normal1"), color: texel("color1") });
+    assert.deepEqual([patch.texCoord1, patch.texCoord3], [texel("texCoord1"), texel("texCoord3")]);
+    assert.deepEqual(warnings, [
+      "only the first 2 of 3 color images are used",
+      "only the first 4 of 5 texCoord images are used",
+    ]);
+  });
+
+  test("are left out with a warning where they are movies, empty, or without a field", () => {
+    const { patch, warnings } = readImages(`
+      <MovieTexture containerField="coord" url="a.mp4"/>
+      <Texture containerField="coord"><video src="a.mp4"/></Texture>
+      <PixelTexture containerField="coord"/>
+      <Texture containerField="coord"/>
+      <img containerField="coord"/>
+      <canvas containerField="coord"/>
+      <ImageTexture url="a.png"/>`);
+    assert.deepEqual(patch?.coord, []);
+    assert.equal(warnings.filter((message) => message.startsWith("movies are not yet read")).length, 2);
+    assert.equal(warnings.length, 7);
+  });
+
+  test("may be a canvas, whose pixels are read; one with another site's image is left out with a warning", () => {
+    const x3d = elementsOf(`<X3D><Scene><Shape><ImageGeometry vertexCount="3">
+      <Texture containerField="coord"><canvas/></Texture></ImageGeometry></Shape></Scene></X3D>`);
+    const canvas = x3d.children[0]?.children[0]?.children[0]?.children[0]?.children[0];
+    assert.ok(canvas);
+    const withPixels = (toDataURL: () => string) => {
+      Object.assign(canvas, { toDataURL });
+      return read(x3d);
+    };
+    assert.deepEqual(withPixels(() => "data:image/png,1").patch?.coord, [texel("data:image/png,1")]);
+    const { patch, warnings } = withPixels(() => {
+      throw new Error("SecurityError");
+    });
+    assert.deepEqual([patch?.coord, warnings.length], [[], 1]);
+  });
+});
