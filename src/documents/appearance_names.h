@@ -1,7 +1,7 @@
 #pragma once
 // X3D's names for the enumerations of an appearance, and for the fields of its textures, for the writer and the reader.
 
-#include "documents/find_x3d.h"
+#include "markup/find_x3d.h"
 #include "scene/appearance.h"
 
 #include <array>

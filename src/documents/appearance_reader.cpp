@@ -1,8 +1,8 @@
 #include "documents/appearance_reader.h"
 
 #include "documents/appearance_names.h"
-#include "documents/find_x3d.h"
 #include "documents/node_fields_reader.h"
+#include "markup/find_x3d.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "documents/field_reader.h"
 
-#include "documents/find_x3d.h"
 #include "documents/xml_text.h"
+#include "markup/find_x3d.h"
 
 #include <charconv>
 #include <cmath>
@@ -36,15 +36,10 @@ template <typename T> std::optional<T> parseNumber(std::string_view word) {
   return value;
 }
 
-/// Byte offset of an element in its document.
-std::size_t offsetOf(const DocumentText& source, const pugi::xml_node& node) {
-  return source.begin + static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
-}
-
 } // namespace
 
 void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind, const std::string& message) {
-  throw Error(kind, locationOf(source.text, source.name, offsetOf(source, node)), message);
+  throw Error(kind, locationOf(source.text, source.name, source.offsets.of(node)), message);
 }
 
 void FieldReader::warnOrFail(const std::string& message, const char* consequence) const {
@@ -52,7 +47,7 @@ void FieldReader::warnOrFail(const std::string& message, const char* consequence
     fail(ErrorKind::malformed, message);
   // Without the folder, which may be a temporary one.
   const std::string file = std::filesystem::path(source_.name).filename();
-  warnings_->push_back(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, offsetOf(source_, node_)),
+  warnings_->push_back(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, source_.offsets.of(node_)),
                                    validText(node_.name()), message, consequence));
 }
 

@@ -3,6 +3,7 @@
 // document's name and the line.
 
 #include "base/error.h"
+#include "markup/x3d_element.h"
 #include "scene/transform.h"
 
 #include <optional>
@@ -13,11 +14,11 @@
 
 namespace imgeo {
 
-/// The text from which an <X3D> element was parsed, for the locations of Errors.
+/// The text from which elements were parsed, for the locations of Errors.
 struct DocumentText {
   std::string_view text;
   const std::string& name;
-  std::size_t begin = 0; ///< byte offset of the element
+  const ElementOffsets& offsets;
 };
 
 /// Faults of elements that are shown nevertheless: one sentence each, with the line.

@@ -2,9 +2,9 @@
 
 #include "containers/encodings.h"
 #include "containers/stored_coords.h"
-#include "documents/find_x3d.h"
 #include "documents/geometry_element.h"
 #include "documents/vertex_attribute_reader.h"
+#include "markup/find_x3d.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,9 +3,10 @@
 #include "containers/encodings.h"
 #include "documents/appearance_reader.h"
 #include "documents/field_reader.h"
-#include "documents/find_x3d.h"
 #include "documents/geometry_reader.h"
 #include "documents/node_fields_reader.h"
+#include "markup/find_x3d.h"
+#include "markup/x3d_element.h"
 #include "scene/mf_string.h"
 
 #include <algorithm>
@@ -344,27 +345,6 @@ private:
   std::map<std::string, SharedGeometry> sharedGeometries_; ///< by DEF
 };
 
-/// Refuses unknown character references outside of comments, which pugixml would keep as text.
-void checkReferences(std::string_view text, const std::string& name, TextSpan span) {
-  std::size_t comment = text.find("<!--", span.begin);
-  for (std::size_t at = text.find('&', span.begin); at < span.end; at = text.find('&', at + 1)) {
-    while (comment < at) {
-      const std::size_t end = std::min(text.find("-->", comment), text.size());
-      at = std::max(at, std::min(text.find('&', end), text.size()));
-      comment = text.find("<!--", end);
-    }
-    if (at >= span.end)
-      return;
-    const std::string_view rest = text.substr(at + 1, 12);
-    const std::string_view entity = rest.substr(0, rest.find(';'));
-    const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" || entity == "apos" ||
-                       (entity.size() > 1 && entity[0] == '#');
-    if (!known || entity.size() == rest.size())
-      throw Error(ErrorKind::malformed, locationOf(text, name, at),
-                  "an ampersand begins no character reference that we know");
-  }
-}
-
 } // namespace
 
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
@@ -377,16 +357,11 @@ std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
 SceneDocument readScene(std::string_view text, const std::string& name) {
   if (text.size() > maxDocumentBytes)
     throw Error(ErrorKind::limit, name, "the document is larger than 64 MiB");
-  const TextSpan span = findX3d(text, name);
-  checkReferences(text, name, span);
-  pugi::xml_document parsed;
-  const pugi::xml_parse_result result =
-      parsed.load_buffer(text.data() + span.begin, span.end - span.begin, pugi::parse_default, pugi::encoding_utf8);
-  if (!result)
-    throw Error(ErrorKind::malformed, locationOf(text, name, span.begin + static_cast<std::size_t>(result.offset)),
-                std::string("not well-formed: ") + result.description());
-  const DocumentText source{text, name, span.begin};
-  return SceneReader(source).read(parsed.document_element());
+  const X3dElement x3d = parseX3d(text, name);
+  const DocumentText source{text, name, x3d.offsets};
+  SceneDocument document = SceneReader(source).read(x3d.root());
+  document.warnings.insert(document.warnings.begin(), x3d.warnings.begin(), x3d.warnings.end());
+  return document;
 }
 
 } // namespace imgeo

@@ -2,10 +2,10 @@
 
 #include "containers/encodings.h"
 #include "documents/appearance_element.h"
-#include "documents/find_x3d.h"
 #include "documents/geometry_element.h"
 #include "documents/node_fields_writer.h"
 #include "documents/page_sanitizer.h"
+#include "markup/find_x3d.h"
 
 #include <algorithm>
 #include <set>

@@ -2,7 +2,7 @@
 
 #include "containers/encodings.h"
 #include "containers/named_attributes.h"
-#include "documents/find_x3d.h"
+#include "markup/find_x3d.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,10 +17,12 @@ template <std::size_t N> bool isIn(const Range (&ranges)[N], char32_t c) {
   return std::ranges::any_of(ranges, [c](Range range) { return c >= range.first && c <= range.last; });
 }
 
-/// XML 1.0 (fifth edition), production [2] Char.
-bool isXmlCharacter(char32_t c) {
-  static constexpr Range ranges[] = {{0x9, 0xa}, {0xd, 0xd}, {0x20, 0xd7ff}, {0xe000, 0xfffd}, {0x10000, 0x10ffff}};
-  return isIn(ranges, c);
+/// XML 1.0 (fifth edition), production [2] Char, without the control characters and noncharacters that its note
+/// discourages, which HTML parsers replace, and U+0085.
+bool isDocumentCharacter(char32_t c) {
+  static constexpr Range ranges[] = {{0x9, 0xa},       {0xd, 0xd},       {0x20, 0x7e},       {0xa0, 0xd7ff},
+                                     {0xe000, 0xfdcf}, {0xfdf0, 0xfffd}, {0x10000, 0x10ffff}};
+  return isIn(ranges, c) && (c & 0xfffe) != 0xfffe;
 }
 
 /// Productions [4] NameStartChar and [4a] NameChar, without the colon of namespaces.
@@ -56,7 +58,7 @@ char32_t decodeUtf8(std::string_view text, std::size_t& at) {
     c = c << 6 | (byte(at + i) & 0x3f);
   }
   const char32_t minimum[] = {0, 0x80, 0x800, 0x10000};
-  if (c < minimum[continuationBytes] || !isXmlCharacter(c))
+  if (c < minimum[continuationBytes] || !isDocumentCharacter(c))
     return replacement;
   at += continuationBytes;
   return c;
@@ -116,7 +118,7 @@ std::string validText(std::string_view text) {
   std::string valid;
   for (std::size_t at = 0; at < text.size();) {
     const char32_t c = decodeUtf8(text, at);
-    appendUtf8(valid, isXmlCharacter(c) ? c : replacement);
+    appendUtf8(valid, isDocumentCharacter(c) ? c : replacement);
   }
   return valid;
 }

@@ -7,7 +7,8 @@
 
 namespace imgeo {
 
-/// Valid UTF-8: bytes that are not UTF-8 and characters that XML 1.0 forbids are replaced by U+FFFD.
+/// Valid UTF-8: bytes that are not UTF-8, and characters that XML 1.0 forbids or discourages (control characters), are
+/// replaced by U+FFFD.
 std::string validText(std::string_view text);
 
 /// Escapes text between tags.

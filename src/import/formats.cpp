@@ -8,6 +8,7 @@
 #include "import/source_name.h"
 #include "import/stl/stl.h"
 #include "import/vrml/vrml.h"
+#include "import/x3d/page.h"
 #include "import/x3d/x3d.h"
 #include "import/x3d_json/x3d_json.h"
 
@@ -23,6 +24,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
+constexpr std::array pageExtensions{".html"sv, ".htm"sv, ".xhtml"sv, ".xht"sv};
 constexpr std::array x3dExtensions{".x3d"sv, ".x3dz"sv};
 constexpr std::array vrmlExtensions{".wrl"sv, ".wrz"sv, ".vrml"sv, ".x3dv"sv, ".x3dvz"sv};
 constexpr std::array x3dJsonExtensions{".x3dj"sv, ".x3djz"sv, ".json"sv};
@@ -31,7 +33,13 @@ constexpr std::array plyExtensions{".ply"sv};
 constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 
-constexpr std::array<Format, 9> rows{{
+constexpr std::array<Format, 10> rows{{
+    {.name = "HTML",
+     .help = "HTML",
+     .extensions = pageExtensions,
+     .sniff = isPage,
+     .isYUpInMetres = true,
+     .read = readPage},
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "VRML",
      .help = "VRML",

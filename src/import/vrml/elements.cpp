@@ -12,7 +12,7 @@ namespace imgeo::x3d {
 pugi::xml_node VrmlElements::add(pugi::xml_node parent, std::string_view element, const Token& where) {
   requireName(where, element);
   pugi::xml_node added = parent.append_child(std::string(element).c_str());
-  elements_.offsets[added.internal_object()] = where.offset;
+  elements_.offsets.add(added, where.offset);
   return added;
 }
 

@@ -2,23 +2,21 @@
 // An X3D document as a tree of XML elements, for both encodings: XML (ISO/IEC 19776-1) and classic VRML (ISO/IEC
 // 19776-2, of which VRML97 is the predecessor).
 
-#include <pugixml.hpp>
+#include "markup/x3d_element.h"
+
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace imgeo::x3d {
 
 struct Elements {
   pugi::xml_document document; ///< its document element is <X3D>
-  std::string format;          ///< "X3D", "X3D Classic", "VRML97" or "VRML 1.0": for reports
-  /// Byte offsets in the text of elements that pugixml did not parse.
-  std::unordered_map<pugi::xml_node_struct*, std::size_t> offsets;
+  std::string format;          ///< "X3D", "HTML", "X3D Classic", "VRML97" or "VRML 1.0": for reports
+  ElementOffsets offsets;
   std::vector<std::string> warnings; ///< of the parser
 
   pugi::xml_node root() const { return document.document_element(); }
-  std::size_t offsetOf(pugi::xml_node element) const;
 };
 
 /// Safe for untrusted text: document types with entities are refused. Throws Error{malformed, unsupported} naming

@@ -96,7 +96,7 @@ private:
       if (values.substr(begin, at - begin) == "false") {
         pugi::xml_node hidden = layer.insert_child_before("Group", child);
         hidden.append_attribute("visible") = "false";
-        elements_.offsets[hidden.internal_object()] = elements_.offsetOf(child);
+        elements_.offsets.add(hidden, elements_.offsets.of(child));
         hidden.append_move(child);
       }
     }

@@ -189,7 +189,7 @@ private:
     ++report_.instances;
     report_.prototypes += expanded_.insert(prototype).second;
     std::map<std::string, std::string> names;
-    const std::size_t offset = elements_.offsetOf(instance);
+    const std::size_t offset = elements_.offsets.of(instance);
     rename(copy, names, offset);
     connect(copy, instance, prototype->declaration.child("ProtoInterface"), offset);
     for (const char* field : {"DEF", "containerField"})
@@ -215,7 +215,7 @@ private:
     if (++expandedElements_ > maxExpandedElements)
       throw Error(ErrorKind::limit, name_,
                   fmt::format("prototypes expand to more than {} elements", maxExpandedElements));
-    elements_.offsets[element.internal_object()] = offset;
+    elements_.offsets.add(element, offset);
     if (pugi::xml_attribute def = element.attribute("DEF")) {
       std::string uniqueName = def.value();
       for (std::size_t& number = numbers_[uniqueName]; !names_.insert(uniqueName).second;)
@@ -261,7 +261,7 @@ private:
         throw Error(ErrorKind::limit, name_,
                     fmt::format("prototypes expand to more than {} elements", maxExpandedElements));
       pugi::xml_node copy = target.append_copy(node);
-      elements_.offsets[copy.internal_object()] = offset;
+      elements_.offsets.add(copy, offset);
       const bool needsContainerField = target == element && field != defaultContainerField(copy.name());
       if (needsContainerField && !copy.attribute("containerField"))
         copy.append_attribute("containerField") = field;

@@ -39,7 +39,7 @@ pugi::xml_node Source::defined(std::string_view name) const {
 }
 
 std::string Source::locationOf(pugi::xml_node element) const {
-  return x3d::locationOf(text_, name_, elements_.offsetOf(element));
+  return x3d::locationOf(text_, name_, elements_.offsets.of(element));
 }
 
 void Source::fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const {

@@ -2,6 +2,7 @@
 // The elements of an X3D file with its DEFs, and typed access to fields.
 
 #include "base/error.h"
+#include "documents/field_reader.h"
 #include "import/x3d/elements.h"
 #include "import/x3d/field_values.h"
 
@@ -23,6 +24,9 @@ public:
 
   /// The first element that has this DEF; a null node where there is none.
   pugi::xml_node defined(std::string_view name) const;
+
+  /// For the readers of src/documents.
+  DocumentText documentText() const { return {text_, name_, elements_.offsets}; }
 
   /// "hall.wrl:12:3": the file, line and column of an element.
   std::string locationOf(pugi::xml_node element) const;

@@ -2,6 +2,7 @@
 
 #include "import/references.h"
 #include "import/warnings.h"
+#include "import/x3d/container_geometry.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/geometry_text.h"
 #include "import/x3d/inlines.h"
@@ -52,7 +53,8 @@ class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
       : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
-        mappings_(options.attributes), images_(references, imported_.scene.graph.images),
+        keptAttributes_(options.attributes), mappings_(options.attributes),
+        images_(references, imported_.scene.graph.images), containers_(source, references),
         inlines_(references, options, imported_.scene, imported_.warnings) {
     addTextureMappings();
     if (smallGeometryTextBytes(source_, inlineBytes_) > maxInlineTextBytes)
@@ -78,6 +80,7 @@ public:
       else if (child.type() == pugi::node_comment)
         addTo(graph.roots, child);
     addTitle();
+    imported_.attributes.assign(attributes_.begin(), attributes_.end());
     summary_.addTo(imported_.warnings);
     return std::move(imported_);
   }
@@ -104,8 +107,8 @@ private:
   std::optional<std::size_t> readElement(pugi::xml_node element) {
     if (element.type() == pugi::node_comment)
       return addNode(imported_.scene.graph, {"", GenericNode{commentElement, element.value(), {}}, {}, ""});
-    if (element.type() != pugi::node_element || isRouteOfLeftOut(element))
-      return {};
+    if (element.type() != pugi::node_element || isRouteOfLeftOut(element) || isContainerGeometry(element.name()))
+      return {}; // a geometry of files is left out where it does not become a mesh
     if (const pugi::xml_attribute use = element.attribute("USE"))
       return resolveUse(element, use.value());
     if (isLeftOut(element.name())) {
@@ -180,7 +183,8 @@ private:
       node.fields = fieldsOf(element);
     } else {
       node.content = genericNodeOf(element);
-      node.fields = fieldsOf(element);
+      // `preview` names a file of the site that is converted.
+      node.fields = imageFieldsOf(name).empty() ? fieldsOf(element) : fieldsOf(element, {"preview"});
       summary_.remoteImages += keepRemoteImageUrls(std::get<GenericNode>(node.content), node.fields);
     }
     if (name == "Inline")
@@ -349,6 +353,8 @@ private:
     const auto [found, isNew] = converted_.try_emplace(node.internal_object());
     if (!isNew || !node)
       return found->second;
+    if (isContainerGeometry(node.name()))
+      return found->second = shapeOfFiles(node);
     std::optional<Geometry> geometry =
         attempt("A geometry is left as it is", [&] { return readGeometry(source_, node, mappings_); });
     if (!geometry)
@@ -366,10 +372,32 @@ private:
       return {};
     noteDataOf(node);
     summary_.fans += geometry->fans;
+    return found->second = addShape(std::move(geometry->mesh), geometry->solid);
+  }
+
+  Shape addShape(Mesh mesh, bool isSolid) {
     std::vector<Mesh>& meshes = imported_.scene.meshes;
-    meshes.push_back(std::move(geometry->mesh));
-    found->second = Shape{meshes.size() - 1, {}, geometry->solid};
-    return found->second;
+    meshes.push_back(std::move(mesh));
+    return {meshes.size() - 1, {}, isSolid};
+  }
+
+  /// A shape with the mesh that a node's files hold. Empty where they cannot be read: pages could not either.
+  std::optional<Shape> shapeOfFiles(pugi::xml_node node) {
+    std::optional<Mesh> mesh;
+    try {
+      mesh = containers_.read(node, keptAttributes_, attributes_);
+    } catch (const Error& error) {
+      if (isStrict_)
+        throw;
+      imported_.warnings.push_back(
+          fmt::format("{}: {} left out: {}.", source_.locationOf(node), node.name(), error.what()));
+      return {};
+    }
+    if (mesh->corners.empty()) {
+      ++summary_.empty[node.name()];
+      return {};
+    }
+    return addShape(std::move(*mesh), source_.boolean(node, "solid", true));
   }
 
   /// Notes the children of a geometry node that its mesh does not hold.
@@ -395,9 +423,12 @@ private:
   const References& references_;
   bool isStrict_;
   std::size_t inlineBytes_;
+  const AttributeChoice& keptAttributes_;
   AttributeChoice mappings_; ///< names of the sets of texture coordinates that textures use
   Imported imported_;
   NodeImages images_;
+  ContainerGeometries containers_;
+  std::set<std::string> attributes_; ///< names of the vertex attributes of geometries of files
   Inlines inlines_;
   std::map<std::string, std::size_t> defined_;                       ///< nodes by DEF name
   std::set<pugi::xml_node_struct*> reading_;                         ///< elements whose reading has begun but not ended

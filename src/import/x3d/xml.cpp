@@ -21,12 +21,6 @@ void refuseEntities(std::string_view text, const std::string& name) {
 
 } // namespace
 
-std::size_t Elements::offsetOf(pugi::xml_node element) const {
-  if (const auto found = offsets.find(element.internal_object()); found != offsets.end())
-    return found->second;
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(element.offset_debug(), 0));
-}
-
 std::string locationOf(std::string_view text, const std::string& name, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
   const std::size_t lineBegin = before.rfind('\n') + 1; // npos + 1 is 0

@@ -237,7 +237,7 @@ private:
   pugi::xml_node add(pugi::xml_node parent, const std::string& element, std::string_view field) {
     requireName(element);
     pugi::xml_node added = parent.append_child(element.c_str());
-    elements_.offsets[added.internal_object()] = keyOffset_;
+    elements_.offsets.add(added, keyOffset_);
     const NodeRow* parentRow = nodeRow(parent.name());
     const bool isOfStatement = field == "children" && parentRow && parentRow->component == "statement";
     if (!isOfStatement)

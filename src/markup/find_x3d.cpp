@@ -1,4 +1,4 @@
-#include "documents/find_x3d.h"
+#include "markup/find_x3d.h"
 
 #include "base/error.h"
 

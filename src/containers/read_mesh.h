@@ -1,0 +1,17 @@
+#pragma once
+// Decodes the files of a geometry into one mesh.
+
+#include "containers/container_reader.h"
+#include "scene/mesh.h"
+
+#include <string>
+
+namespace imgeo {
+
+/// Decodes the patches of a geometry, several at a time, into one mesh: equal lattice points become one position, also
+/// across patch borders, and equal vertices one wedge. Degenerate triangles, which join strips, are dropped. Safe for
+/// untrusted bytes. Throws Error with the file's url; with `location`, Error{unsupported} for a geometry with several
+/// kinds of elements, Error{limit} for one of more than 2^32 - 1 vertices.
+Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& location);
+
+} // namespace imgeo
