@@ -96,6 +96,8 @@ private:
         return found->second;
     } else if (hasElements(fields.node())) {
       return add(fields, Group{}, readChildren(fields.node(), depth + 1)); // an unknown element may contain shapes
+    } else if (fields.node().type() == pugi::node_element) {
+      ++document_.otherElements[fields.node().name()];
     }
     return {};
   }
@@ -254,6 +256,8 @@ private:
         if (shape)
           fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
         shape = readGeometryOf(fields, FieldReader(source_, child));
+      } else if (!std::string_view(child.name()).starts_with("Metadata") && !FieldReader(source_, child).has("USE")) {
+        ++document_.otherElements[child.name()];
       }
     }
     if (const std::string patch = fields.text("patch"); !shape && !patch.empty())
@@ -350,6 +354,8 @@ private:
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
   std::vector<std::size_t> roots = append(document.graph, std::move(more.graph), document.geometries.size());
   std::ranges::move(more.geometries, std::back_inserter(document.geometries));
+  for (const auto& [name, count] : more.otherElements)
+    document.otherElements[name] += count;
   std::ranges::move(more.warnings, std::back_inserter(document.warnings));
   return roots;
 }

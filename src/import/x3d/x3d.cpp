@@ -387,8 +387,9 @@ private:
     try {
       mesh = containers_.read(node, keptAttributes_, attributes_);
     } catch (const Error& error) {
-      if (isStrict_)
-        throw;
+      if (isStrict_) // a missing file is a fault of the document, not of the disk
+        throw Error(error.kind() == ErrorKind::io ? ErrorKind::malformed : error.kind(), error.location(),
+                    error.message());
       imported_.warnings.push_back(
           fmt::format("{}: {} left out: {}.", source_.locationOf(node), node.name(), error.what()));
       return {};

@@ -10,6 +10,7 @@
 #include "transcode/source/preparation.h"
 #include "transcode/verify/check_files.h"
 #include "transcode/verify/compare_appearances.h"
+#include "transcode/verify/compare_geometry_nodes.h"
 #include "transcode/verify/compare_mesh.h"
 
 #include <algorithm>
@@ -125,6 +126,7 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
     if (!imported.scene.graph.isComplete) // an X3D input may itself cause the warnings
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);
+    compareGeometryNodes(document.scene, imported.scene.graph, findings);
     if (checkFiles(document, report.isForeign, imported.scene.graph, findings))
       compareScenes(document, imported.scene, manifest, report, findings);
   } catch (const Error& error) {

@@ -1,0 +1,144 @@
+// Converts sites into sites: pages and documents that already hold ImageGeometry and BinaryGeometry.
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/testing.h"
+#include "scene/testing.h"
+#include "transcode/site/testing.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+ConvertOptions optionsFor(Encoding encoding, Target target = Target::web) {
+  ConvertOptions options;
+  options.target = target;
+  options.encoding = encoding;
+  options.effort = 0;
+  options.pictures = false;
+  return options;
+}
+
+/// A mesh with all attributes that every encoding holds, of several patches.
+Mesh sourceMesh() {
+  Mesh mesh = testing::torus(40, 30);
+  for (Vec2f& texCoord : mesh.texCoords)
+    texCoord = {std::clamp(texCoord.x, 0.0f, 1.0f), std::clamp(texCoord.y, 0.0f, 1.0f)};
+  return mesh;
+}
+
+TEST(SiteAsSource, IsEncodedAgainInEachEncoding) {
+  for (const Encoding from : {Encoding::classic, Encoding::compact, Encoding::bg})
+    for (const Encoding to : {Encoding::classic, Encoding::compact, Encoding::bg}) {
+      SCOPED_TRACE(std::to_string(int(from)) + " to " + std::to_string(int(to)));
+      const TemporaryDirectory directory;
+      testing::writeMesh(directory / "in.ply", sourceMesh());
+      ConvertOptions options = optionsFor(from);
+      options.patchVertices = 300;
+      options.title = "Torus & more";
+      const ConvertReport first = convert(directory / "in.ply", directory / "old", options);
+      const ConvertReport second = convert(directory / "old/index.html", directory / "new", optionsFor(to));
+      EXPECT_EQ(second.format, "HTML");
+      EXPECT_EQ(second.elements.triangles, first.elements.triangles);
+      EXPECT_EQ(second.encoding, to);
+      EXPECT_TRUE(second.warnings.empty()) << second.warnings[0];
+      const VerifyReport verified = verify(directory / "new", directory / "old/index.html");
+      EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+      EXPECT_EQ(verified.site.triangles, first.elements.triangles);
+      const SceneDocument scene = openDocument(directory / "new").scene;
+      EXPECT_EQ(scene.graph.title, "Torus & more");
+      EXPECT_EQ(scene.geometries.size(), 1u);
+    }
+}
+
+class SourcePage : public ::testing::Test {
+protected:
+  /// A page whose second shape is `node`. The first one is inline.
+  void writePage(const std::string& node) {
+    writeFile(directory_ / "in/index.html", asBytes(R"(<!DOCTYPE html><title>Old page</title><p>Unclosed
+<x3d width=600px><scene><viewpoint fieldofview=0.5 position='0 0 9' description=Front></viewpoint>
+<transform def=moved translation='1 2 3'>
+<shape><appearance><material diffusecolor='1 0 0'></appearance><indexedfaceset coordindex='0 1 2 -1'>
+<coordinate point='0 0 0 1 0 0 0 1 0'></coordinate></indexedfaceset></shape>
+<shape def=second><appearance><material diffusecolor='0 1 0'></appearance>
+)" + node + "</shape></transform></scene></x3d>"));
+  }
+  ConvertReport convertPage(bool strict = false) {
+    ConvertOptions options = optionsFor(Encoding::compact);
+    options.strict = strict;
+    return convert(directory_ / "in/index.html", directory_ / "site", options);
+  }
+  std::string page() const { return std::string(asText(readFile(directory_ / "site/index.html"))); }
+  void expectRefused(const std::string& node, const std::string& reason) {
+    writePage(node);
+    const ConvertReport report = convertPage();
+    ASSERT_EQ(report.warnings.size(), 1u) << ::testing::PrintToString(report.warnings);
+    EXPECT_NE(report.warnings[0].find("index.html:7:"), std::string::npos) << report.warnings[0];
+    EXPECT_NE(report.warnings[0].find(reason), std::string::npos) << report.warnings[0];
+    EXPECT_EQ(page().find("Geometry "), std::string::npos);
+    EXPECT_NE(page().find("IndexedFaceSet"), std::string::npos) << "the rest of the scene stays";
+    std::filesystem::remove_all(directory_ / "site");
+    try {
+      convertPage(true);
+      ADD_FAILURE() << "was converted";
+    } catch (const Error& error) {
+      EXPECT_EQ(exitCode(error.kind()), 3) << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "site"));
+  }
+
+  TemporaryDirectory directory_;
+
+  void SetUp() override {
+    std::filesystem::create_directory(directory_ / "in");
+    Bytes coords;
+    for (const float value : {0.f, 0.f, 0.f, 2.f, 0.f, 0.f, 0.f, 2.f, 0.f})
+      appendLittle(coords, value);
+    writeFile(directory_ / "in/c.bin", coords);
+    writeFile(directory_ / "outside.bin", coords);
+  }
+};
+
+TEST_F(SourcePage, KeepsItsMaterialsTransformsAndViewpoints) {
+  writePage("<binarygeometry vertexcount=3 size='2 2 0' position='1 1 0' coord=c.bin solid=false></binarygeometry>");
+  const ConvertReport report = convertPage(true);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+  EXPECT_EQ(report.elements.triangles, 1u);
+  const std::string text = page();
+  for (const char* kept :
+       {"<Viewpoint fieldOfView=\"0.5\" position=\"0 0 9\" description=\"Front\"",
+        "<Transform DEF=\"moved\" translation=\"1 2 3\">", "<Shape DEF=\"second\"", "<Material diffuseColor=\"0 1 0\"",
+        "<IndexedFaceSet coordIndex=\"0 1 2 -1\"", "<ImageGeometry", "solid=\"false\"", "<title>Old page</title>"})
+    EXPECT_NE(text.find(kept), std::string::npos) << kept << " in " << text;
+  EXPECT_EQ(text.find("600px"), std::string::npos) << "the old page's layout";
+  const VerifyReport verified = verify(directory_ / "site", directory_ / "in/index.html");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+}
+
+TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {
+  const std::string begin = "<binarygeometry vertexcount=3 size='2 2 0' coord=";
+  expectRefused(begin + "missing.bin></binarygeometry>", "missing.bin");
+  expectRefused(begin + "../outside.bin></binarygeometry>", "outside of the folder");
+  expectRefused(begin + "https://example.org/c.bin></binarygeometry>", "https://example.org/c.bin");
+  expectRefused(begin + "c.bin coordtype=Uint32></binarygeometry>", "");
+  expectRefused(begin + "c.bin index=c.bin></binarygeometry>", "");
+  expectRefused(begin + "c.bin primtype='QUADS'></binarygeometry>", "primType");
+  expectRefused(
+      "<imagegeometry vertexcount=3><imagetexture containerfield=coord url=c.bin></imagetexture></imagegeometry>",
+      "c.bin");
+}
+
+TEST(SourceDocument, IsReadWithTheFilesOfItsGeometry) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "in.ply", sourceMesh());
+  convert(directory / "in.ply", directory / "old", optionsFor(Encoding::classic));
+  const ConvertReport report = convert(directory / "old/scene.x3d", directory / "new", optionsFor(Encoding::compact));
+  EXPECT_EQ(report.elements.triangles, sourceMesh().elementCount());
+  EXPECT_TRUE(verify(directory / "new", directory / "old/scene.x3d").equal);
+}
+
+} // namespace
+} // namespace imgeo
