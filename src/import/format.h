@@ -39,7 +39,7 @@ std::span<const Format> formats();
 /// one that has the extension. Throws Error{unsupported} naming `name` where there is none.
 const Format& formatOf(ByteSpan bytes, const std::string& name);
 
-/// "X3D, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.
+/// "X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.
 std::string formatHelp();
 
 } // namespace imgeo

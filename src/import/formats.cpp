@@ -34,13 +34,13 @@ constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 
 constexpr std::array<Format, 10> rows{{
+    {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "HTML",
      .help = "HTML",
      .extensions = pageExtensions,
      .sniff = isPage,
      .isYUpInMetres = true,
      .read = readPage},
-    {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "VRML",
      .help = "VRML",
      .extensions = vrmlExtensions,

@@ -9,10 +9,45 @@ bool isContainerGeometry(std::string_view element) {
   return element == "ImageGeometry" || element == "BinaryGeometry";
 }
 
-Mesh ContainerGeometries::read(pugi::xml_node node, const AttributeChoice& kept,
-                               std::set<std::string>& attributes) const {
-  const GeometryDescription geometry = readGeometry(source_.documentText(), node);
-  Mesh mesh = readMesh(reader_, geometry, source_.locationOf(node));
+std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_node group) {
+  std::vector<pugi::xml_node> geometries;
+  if (std::string_view(group.name()) != "Group" || !group.attribute("bboxSize"))
+    return {};
+  pugi::xml_node appearance;
+  for (const pugi::xml_node& shape : group.children()) {
+    if (shape.type() == pugi::node_comment)
+      continue;
+    pugi::xml_node geometry, ownAppearance;
+    for (const pugi::xml_node& child : shape.children()) {
+      const bool isAppearance = std::string_view(child.name()) == "Appearance";
+      pugi::xml_node& part = isAppearance ? ownAppearance : geometry;
+      if (part || !(isAppearance || isContainerGeometry(child.name())))
+        return {};
+      part = isAppearance ? source.resolved(child) : child;
+    }
+    const bool isShape =
+        std::string_view(shape.name()) == "Shape" && !shape.attribute("DEF") && !shape.attribute("USE");
+    if (!isShape || !ownAppearance || (appearance && appearance != ownAppearance) || !geometry ||
+        geometry.attribute("DEF") || geometry.attribute("USE") || geometry.child("GeometryPatch"))
+      return {};
+    appearance = ownAppearance;
+    geometries.push_back(geometry);
+  }
+  return geometries;
+}
+
+std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
+                                              std::set<std::string>& attributes) const {
+  GeometryDescription geometry = readGeometry(source_.documentText(), nodes[0]);
+  for (const pugi::xml_node& node : nodes.subspan(1)) {
+    GeometryDescription more = readGeometry(source_.documentText(), node);
+    const PatchDescription patch = more.patches[0];
+    more.patches = geometry.patches;
+    if (!(more == geometry))
+      return {};
+    geometry.patches.push_back(patch);
+  }
+  Mesh mesh = readMesh(reader_, geometry, source_.locationOf(nodes[0]));
   for (const NamedAttribute& attribute : mesh.namedAttributes)
     attributes.insert(attribute.name);
   std::erase_if(mesh.namedAttributes, [&](const NamedAttribute& attribute) { return !kept.has(attribute.name); });

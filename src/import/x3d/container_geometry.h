@@ -7,12 +7,21 @@
 #include "import/x3d/source.h"
 #include "scene/mesh.h"
 
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace imgeo::x3d {
 
 /// Whether elements of this name are such geometry.
 bool isContainerGeometry(std::string_view element);
+
+/// The geometry nodes of a Group that convert has written for X3DOM in place of a Shape (docs/formats/x3dom.md): the
+/// Group has a box, and a Shape for each patch, all with one Appearance. Empty for other elements.
+std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_node group);
 
 /// Reads the files that the geometry nodes of one document name.
 class ContainerGeometries {
@@ -20,9 +29,11 @@ public:
   ContainerGeometries(const Source& source, const References& references)
       : source_(source), reader_([&references](const std::string& url) { return references.fetch(url); }) {}
 
-  /// The mesh of a node. Of the named attributes it has those in `kept`; the names of all are added to `attributes`.
+  /// The mesh of nodes whose patches belong together, or of one node; empty where nodes differ in more than their
+  /// patches. Of the named attributes it has those in `kept`; the names of all are added to `attributes`.
   /// Throws Error with the file and line of the node or with the url of a file.
-  Mesh read(pugi::xml_node node, const AttributeChoice& kept, std::set<std::string>& attributes) const;
+  std::optional<Mesh> read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
+                           std::set<std::string>& attributes) const;
 
 private:
   const Source& source_;

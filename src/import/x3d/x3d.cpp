@@ -8,6 +8,7 @@
 #include "import/x3d/inlines.h"
 #include "import/x3d/node_conversions.h"
 #include "import/x3d/node_images.h"
+#include "import/x3d/page.h"
 #include "import/x3d/prototypes.h"
 #include "import/x3d/shared_appearances.h"
 #include "import/x3d/summary.h"
@@ -173,6 +174,9 @@ private:
     const std::string_view name = element.name();
     if (name == "Shape")
       if (const std::optional<std::size_t> shape = readShape(element))
+        return *shape;
+    if (const std::vector<pugi::xml_node> patches = geometriesOfPatches(source_, element); !patches.empty())
+      if (const std::optional<std::size_t> shape = readShapeOfPatches(element, patches))
         return *shape;
     Node node;
     if (name == "Transform") {
@@ -381,11 +385,28 @@ private:
     return {meshes.size() - 1, {}, isSolid};
   }
 
+  /// Reads a Group of one Shape for each patch as one Shape. Empty where that fails: then each is a Shape of its own.
+  std::optional<std::size_t> readShapeOfPatches(pugi::xml_node group, const std::vector<pugi::xml_node>& geometries) {
+    std::optional<Mesh> mesh;
+    try {
+      mesh = containers_.read(geometries, keptAttributes_, attributes_);
+    } catch (const Error&) {
+      return {}; // the Shape of the geometry that cannot be read has a warning
+    }
+    if (!mesh || mesh->corners.empty())
+      return {};
+    Node node;
+    node.content = addShape(std::move(*mesh), source_.boolean(geometries[0], "solid", true));
+    node.fields = fieldsOf(group, {"bboxCenter", "bboxSize"});
+    addTo(node.children, geometries[0].parent().child("Appearance"));
+    return addNode(imported_.scene.graph, std::move(node));
+  }
+
   /// A shape with the mesh that a node's files hold. Empty where they cannot be read: pages could not either.
   std::optional<Shape> shapeOfFiles(pugi::xml_node node) {
     std::optional<Mesh> mesh;
     try {
-      mesh = containers_.read(node, keptAttributes_, attributes_);
+      mesh = containers_.read(std::array{node}, keptAttributes_, attributes_);
     } catch (const Error& error) {
       if (isStrict_) // a missing file is a fault of the document, not of the disk
         throw Error(error.kind() == ErrorKind::io ? ErrorKind::malformed : error.kind(), error.location(),
@@ -477,8 +498,7 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
 
 bool isX3d(ByteSpan bytes) {
   const std::string_view beginning = asText(bytes).substr(0, 4096);
-  return beginning.starts_with("<") && beginning.find("<X3D") != beginning.npos &&
-         beginning.find("<html") == beginning.npos;
+  return beginning.starts_with("<") && beginning.find("<X3D") != beginning.npos && !isPage(bytes);
 }
 
 Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options) {

@@ -8,7 +8,7 @@
 
 namespace imgeo {
 
-/// True where the first 4 KiB are markup with an <X3D> element and without an <html> element.
+/// True where the first 4 KiB are markup with an <X3D> element, and no page (x3d/page.h).
 bool isX3d(ByteSpan bytes);
 Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 

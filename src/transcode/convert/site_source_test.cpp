@@ -54,6 +54,21 @@ TEST(SiteAsSource, IsEncodedAgainInEachEncoding) {
     }
 }
 
+TEST(SiteAsSource, HasOneShapeAgainWhereX3domHasOneForEachPatch) {
+  for (const Encoding from : {Encoding::classic, Encoding::bg}) {
+    const TemporaryDirectory directory;
+    testing::writeMesh(directory / "in.ply", sourceMesh());
+    ConvertOptions options = optionsFor(from, Target::x3dom);
+    options.patchVertices = 300;
+    const ConvertReport first = convert(directory / "in.ply", directory / "old", options);
+    const ConvertReport second =
+        convert(directory / "old/index.html", directory / "new", optionsFor(Encoding::compact));
+    EXPECT_EQ(second.elements.triangles, first.elements.triangles);
+    EXPECT_EQ(shapeNodes(openDocument(directory / "new").scene.graph).size(), 1u);
+    EXPECT_TRUE(verify(directory / "new", directory / "old/index.html").equal);
+  }
+}
+
 class SourcePage : public ::testing::Test {
 protected:
   /// A page whose second shape is `node`. The first one is inline.
@@ -123,8 +138,8 @@ TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {
   expectRefused(begin + "missing.bin></binarygeometry>", "missing.bin");
   expectRefused(begin + "../outside.bin></binarygeometry>", "outside of the folder");
   expectRefused(begin + "https://example.org/c.bin></binarygeometry>", "https://example.org/c.bin");
-  expectRefused(begin + "c.bin coordtype=Uint32></binarygeometry>", "");
-  expectRefused(begin + "c.bin index=c.bin></binarygeometry>", "");
+  expectRefused(begin + "c.bin coordtype=Float64></binarygeometry>", "coordType");
+  expectRefused("<binarygeometry vertexcount=12 coord=c.bin></binarygeometry>", "c.bin");
   expectRefused(begin + "c.bin primtype='QUADS'></binarygeometry>", "primType");
   expectRefused(
       "<imagegeometry vertexcount=3><imagetexture containerfield=coord url=c.bin></imagetexture></imagegeometry>",

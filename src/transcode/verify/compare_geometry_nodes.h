@@ -6,8 +6,9 @@
 
 namespace imgeo {
 
-/// Adds a finding for each kind of geometry node of which the site has more or fewer than the input: geometry that stays
-/// in documents (Box, IndexedFaceSet), and nodes with which other programs draw geometry (PopGeometry, ExternalShape).
+/// Adds a finding for each kind of geometry node of which the site has more or fewer than the input: geometry that
+/// stays in documents (Box, IndexedFaceSet), and nodes with which other programs draw geometry (PopGeometry,
+/// ExternalShape).
 void compareGeometryNodes(const SceneDocument& site, const SceneGraph& input, Findings& findings);
 
 } // namespace imgeo
