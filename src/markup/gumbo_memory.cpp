@@ -19,8 +19,11 @@ GumboMemory::GumboMemory(std::size_t maxBytes, double maxSeconds)
     : bytesLeft_(maxBytes), endSeconds_(threadSeconds() + maxSeconds) {}
 
 GumboMemory::~GumboMemory() {
-  while (first_)
-    release(this, first_ + 1);
+  for (Header* header = first_; header;) {
+    Header* const next = header->next;
+    std::free(header);
+    header = next;
+  }
 }
 
 void* GumboMemory::allocate(void* memory, std::size_t bytes) {

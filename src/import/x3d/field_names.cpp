@@ -10,7 +10,7 @@ namespace {
 
 /// All names with capital letters: the fields of X3D 4.0 (ISO/IEC 19775-1) and its XML encoding (ISO/IEC 19776-1), and
 /// those that X3DOM, X_ITE and imgeo add.
-constexpr std::string_view names =
+constexpr std::string_view capitalisedNames =
     "accessType acousticProperties actionKeyPress actionKeyRelease activeLayer activeLayerNode "
     "activeNavigationInfo activeViewpoint addChildren addedEntities addGeometry addTrimmingContour "
     "alphaClipThreshold alphaCutoff alphaEquation alphaFactor alphaFunc alphaFuncValue alphaMode "
@@ -156,9 +156,9 @@ std::string lowerCased(std::string_view text) {
 std::string_view fieldNameOf(std::string_view attribute) {
   static const std::unordered_map<std::string, std::string_view> byLowerCase = [] {
     std::unordered_map<std::string, std::string_view> map;
-    for (std::size_t at = 0; at < names.size();) {
-      const std::size_t end = names.find(' ', at);
-      const std::string_view name = names.substr(at, end - at);
+    for (std::size_t at = 0; at < capitalisedNames.size();) {
+      const std::size_t end = capitalisedNames.find(' ', at);
+      const std::string_view name = capitalisedNames.substr(at, end - at);
       map.emplace(lowerCased(name), name);
       at = end + 1;
     }

@@ -13,7 +13,7 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-ConvertOptions optionsFor(Encoding encoding, Target target = Target::web) {
+ConvertOptions siteOptions(Encoding encoding, Target target = Target::web) {
   ConvertOptions options;
   options.target = target;
   options.encoding = encoding;
@@ -23,7 +23,7 @@ ConvertOptions optionsFor(Encoding encoding, Target target = Target::web) {
 }
 
 /// A mesh with all attributes that every encoding holds, of several patches.
-Mesh sourceMesh() {
+Mesh torusWithAttributes() {
   Mesh mesh = testing::torus(40, 30);
   for (Vec2f& texCoord : mesh.texCoords)
     texCoord = {std::clamp(texCoord.x, 0.0f, 1.0f), std::clamp(texCoord.y, 0.0f, 1.0f)};
@@ -35,12 +35,12 @@ TEST(SiteAsSource, IsEncodedAgainInEachEncoding) {
     for (const Encoding to : {Encoding::classic, Encoding::compact, Encoding::bg}) {
       SCOPED_TRACE(std::to_string(int(from)) + " to " + std::to_string(int(to)));
       const TemporaryDirectory directory;
-      testing::writeMesh(directory / "in.ply", sourceMesh());
-      ConvertOptions options = optionsFor(from);
+      testing::writeMesh(directory / "in.ply", torusWithAttributes());
+      ConvertOptions options = siteOptions(from);
       options.patchVertices = 300;
       options.title = "Torus & more";
       const ConvertReport first = convert(directory / "in.ply", directory / "old", options);
-      const ConvertReport second = convert(directory / "old/index.html", directory / "new", optionsFor(to));
+      const ConvertReport second = convert(directory / "old/index.html", directory / "new", siteOptions(to));
       EXPECT_EQ(second.format, "HTML");
       EXPECT_EQ(second.elements.triangles, first.elements.triangles);
       EXPECT_EQ(second.encoding, to);
@@ -57,12 +57,12 @@ TEST(SiteAsSource, IsEncodedAgainInEachEncoding) {
 TEST(SiteAsSource, HasOneShapeAgainWhereX3domHasOneForEachPatch) {
   for (const Encoding from : {Encoding::classic, Encoding::bg}) {
     const TemporaryDirectory directory;
-    testing::writeMesh(directory / "in.ply", sourceMesh());
-    ConvertOptions options = optionsFor(from, Target::x3dom);
+    testing::writeMesh(directory / "in.ply", torusWithAttributes());
+    ConvertOptions options = siteOptions(from, Target::x3dom);
     options.patchVertices = 300;
     const ConvertReport first = convert(directory / "in.ply", directory / "old", options);
     const ConvertReport second =
-        convert(directory / "old/index.html", directory / "new", optionsFor(Encoding::compact));
+        convert(directory / "old/index.html", directory / "new", siteOptions(Encoding::compact));
     EXPECT_EQ(second.elements.triangles, first.elements.triangles);
     EXPECT_EQ(shapeNodes(openDocument(directory / "new").scene.graph).size(), 1u);
     EXPECT_TRUE(verify(directory / "new", directory / "old/index.html").equal);
@@ -82,7 +82,7 @@ protected:
 )" + node + "</shape></transform></scene></x3d>"));
   }
   ConvertReport convertPage(bool strict = false) {
-    ConvertOptions options = optionsFor(Encoding::compact);
+    ConvertOptions options = siteOptions(Encoding::compact);
     options.strict = strict;
     return convert(directory_ / "in/index.html", directory_ / "site", options);
   }
@@ -148,10 +148,10 @@ TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {
 
 TEST(SourceDocument, IsReadWithTheFilesOfItsGeometry) {
   const TemporaryDirectory directory;
-  testing::writeMesh(directory / "in.ply", sourceMesh());
-  convert(directory / "in.ply", directory / "old", optionsFor(Encoding::classic));
-  const ConvertReport report = convert(directory / "old/scene.x3d", directory / "new", optionsFor(Encoding::compact));
-  EXPECT_EQ(report.elements.triangles, sourceMesh().elementCount());
+  testing::writeMesh(directory / "in.ply", torusWithAttributes());
+  convert(directory / "in.ply", directory / "old", siteOptions(Encoding::classic));
+  const ConvertReport report = convert(directory / "old/scene.x3d", directory / "new", siteOptions(Encoding::compact));
+  EXPECT_EQ(report.elements.triangles, torusWithAttributes().elementCount());
   EXPECT_TRUE(verify(directory / "new", directory / "old/scene.x3d").equal);
 }
 

@@ -20,8 +20,8 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
-      '--input[X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
