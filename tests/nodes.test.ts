@@ -174,8 +174,8 @@ const typesOfMethod: Readonly<Record<string, RegExp>> = {
   strings: /^MFString$/,
 };
 
-/** Attributes that every node has, and fields of X3DOM that the converter refuses unless they have their default. */
-const notDocumented = ["DEF", "USE", "compressed"];
+/** Attributes that every node has or that are HTML's, and fields that the converter refuses unless they have their default. */
+const notDocumented = ["DEF", "USE", "compressed", "src"];
 
 /** Calls such as `fields.real("alphaCutoff", 0.5f)` or `boolean(node_, "ccw", true)`: method, field, default. */
 function fieldsReadBy(folder: string): { where: string; method: string; name: string; fallback: string }[] {

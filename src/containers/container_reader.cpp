@@ -37,7 +37,9 @@ PatchReader& ContainerReader::readerOf(const GeometryDescription& geometry) cons
 }
 
 IndexedPatch ContainerReader::decode(const PatchDescription& patch, const GeometryDescription& geometry) const {
-  return readerOf(geometry).decode(patch, geometry);
+  IndexedPatch decoded = readerOf(geometry).decode(patch, geometry);
+  decoded.ccw = geometry.ccw;
+  return decoded;
 }
 
 BaseMesh ContainerReader::decodeBase(const GeometryDescription& geometry) const {

@@ -35,7 +35,8 @@ std::optional<VertexRole> vertexRoleOf(Role role) {
 }
 
 const char* nameOf(Primitive primitive) {
-  constexpr const char* names[] = {"POINTS", "LINES", "LINESTRIP", "TRIANGLES", "TRIANGLESTRIP"};
+  constexpr const char* names[] = {"POINTS",    "LINES",         "LINESTRIP",  "LINELOOP",
+                                   "TRIANGLES", "TRIANGLESTRIP", "TRIANGLEFAN"};
   return names[static_cast<std::size_t>(primitive)];
 }
 

@@ -109,6 +109,7 @@ struct GeometryDescription {
   ByVertexRole<ElementType> attributeTypes{{ElementType::int8, ElementType::uint16, ElementType::uint16,
                                             ElementType::uint16, ElementType::uint16, ElementType::uint8}}; ///< bg only
   NormalEncoding normalEncoding = NormalEncoding::rgb;
+  bool ccw = true; ///< false: the front of triangles is clockwise
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded

@@ -185,6 +185,7 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
       (!hasElementTypes || geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   addUnless(box, "solid", solid, true, "false");
+  addUnless(box, "ccw", geometry.ccw, true, "false");
   Attributes fields;
   if (!row.node.isDefaultProfile && !ownBox)
     fields = {{"profile", row.node.profile}};

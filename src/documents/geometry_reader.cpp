@@ -85,8 +85,8 @@ Reference referenceOf(const FieldReader& fields, const std::string& url, Encodin
 }
 
 Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
-  for (const Primitive primitive :
-       {Primitive::points, Primitive::lines, Primitive::lineStrip, Primitive::triangles, Primitive::triangleStrip})
+  for (const Primitive primitive : {Primitive::points, Primitive::lines, Primitive::lineStrip, Primitive::lineLoop,
+                                    Primitive::triangles, Primitive::triangleStrip, Primitive::triangleFan})
     if (equalIgnoringCase(name, nameOf(primitive)))
       return primitive;
   fields.fail(ErrorKind::unsupported, "primType is none of those we read");
@@ -105,24 +105,80 @@ std::vector<Draw> drawsOf(const FieldReader& fields) {
   return draws;
 }
 
-/// Reads an ImageTexture child, which refers to an image of the patch as in X3DOM.
+/// Whether an element holds an image of an ImageGeometry, or would if it were of a kind that we read.
+bool isContainer(const char* name) {
+  return std::ranges::any_of(std::initializer_list<const char*>{"ImageTexture", "Texture", "PixelTexture",
+                                                                "MovieTexture", "img", "canvas", "video"},
+                             [&](const char* known) { return equalIgnoringCase(name, known); });
+}
+
+/// The element that a USE names; the element itself without one.
+pugi::xml_node usedNode(const FieldReader& fields) {
+  const std::string name = fields.text("USE");
+  if (name.empty())
+    return fields.node();
+  const pugi::xml_node found = fields.node().root().find_node([&](const pugi::xml_node& node) {
+    return std::ranges::any_of(node.attributes(), [&](const pugi::xml_attribute& attribute) {
+      return equalIgnoringCase(attribute.name(), "DEF") && attribute.value() == name;
+    });
+  });
+  if (!found)
+    fields.fail(ErrorKind::malformed, "USE names no node");
+  return found;
+}
+
+/// The address of the image that an element holds: its `url` or `src`, or that of an <img> in it.
+std::string imageUrl(const DocumentText& source, const pugi::xml_node& node) {
+  const FieldReader fields(source, node);
+  const std::string_view name = node.name();
+  if (equalIgnoringCase(node.name(), "img"))
+    if (std::string address = fields.text("src"); !address.empty())
+      return address;
+  if (equalIgnoringCase(node.name(), "ImageTexture") || equalIgnoringCase(node.name(), "Texture")) {
+    if (const std::vector<std::string> urls = fields.strings("url"); !urls.empty())
+      return urls[0];
+    for (const pugi::xml_node& child : node.children())
+      if (isContainer(child.name()))
+        return imageUrl(source, child);
+    fields.fail(ErrorKind::malformed, "a texture of an ImageGeometry has no url");
+  }
+  fields.fail(ErrorKind::unsupported, "<" + std::string(name) + "> holds no geometry that can be read from a file");
+}
+
+/// Reads a child that refers to an image of the patch as in X3DOM. Several images of texture coordinates are its sets.
 void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
   const FieldReader fields(source, node);
-  const std::vector<std::string> urls = fields.strings("url");
-  if (urls.empty())
-    fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
-  const Reference reference = referenceOf(fields, urls[0], encoding);
-  const std::string role = fields.text("containerField");
-  const auto* vertexRole = std::ranges::find_if(
-      vertexRoles, [&](VertexRole candidate) { return equalIgnoringCase(role, nameOf(candidate)); });
-  if (vertexRole != vertexRoles.end())
-    patch.vertexAttributes[*vertexRole] = reference;
-  else if (equalIgnoringCase(role, "coord"))
+  const pugi::xml_node used = usedNode(fields);
+  const Reference reference = referenceOf(fields, imageUrl(source, used), encoding);
+  std::string role = fields.text("containerField");
+  if (role.empty())
+    role = FieldReader(source, used).text("containerField");
+  if (equalIgnoringCase(role, "coord")) {
     patch.coord.push_back(reference);
-  else if (equalIgnoringCase(role, "index"))
+    return;
+  }
+  if (equalIgnoringCase(role, "index")) {
+    if (patch.index)
+      fields.fail(ErrorKind::unsupported, "an ImageGeometry has two images of indices");
     patch.index = reference;
-  else
-    fields.fail(ErrorKind::malformed, "an ImageTexture in an ImageGeometry has no containerField that we know");
+    return;
+  }
+  const auto* known = std::ranges::find_if(
+      vertexRoles, [&](VertexRole candidate) { return equalIgnoringCase(role, nameOf(candidate)); });
+  if (known == vertexRoles.end())
+    fields.fail(ErrorKind::malformed, "an image of an ImageGeometry has no containerField that we know");
+  if (*known == VertexRole::texCoord) {
+    for (const VertexRole set : texCoordRoles)
+      if (!patch.vertexAttributes[set]) {
+        patch.vertexAttributes[set] = reference;
+        return;
+      }
+    fields.fail(ErrorKind::unsupported, "an ImageGeometry has more than four images of texture coordinates");
+  }
+  if (patch.vertexAttributes[*known])
+    fields.fail(ErrorKind::unsupported,
+                "a second image of " + role + " has the low bytes of 16-bit numbers, which only pages read");
+  patch.vertexAttributes[*known] = reference;
 }
 
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
@@ -152,7 +208,7 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
     patch.coord.push_back(referenceOf(fields, url, encoding));
   if (storage == PatchStorage::bytePlanes)
     for (const pugi::xml_node& child : node.children())
-      if (equalIgnoringCase(child.name(), "ImageTexture"))
+      if (isContainer(child.name()))
         readTexture(source, child, encoding, patch);
   if (patch.coord.empty())
     fields.fail(ErrorKind::malformed, "there are no coordinates");
@@ -166,7 +222,9 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
 }
 
 Vec2<std::uint32_t> implicitMeshSizeOf(const FieldReader& fields, Vec2<std::uint32_t> fallback) {
-  const std::vector<double> size = fields.reals("implicitMeshSize", 2);
+  std::vector<double> size = fields.reals("implicitMeshSize", 2);
+  if (size.empty())
+    size = fields.reals("implicitMeshCount", 2); // the paper's name for it
   if (size.empty())
     return fallback;
   const auto whole = [&](double value) {
@@ -266,6 +324,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   geometry.texCoordMappings.resize(std::min(geometry.texCoordMappings.size(), maxTexCoordSets));
   geometry.normalEncoding = normalEncodingOf(fields);
   geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
+  geometry.ccw = fields.boolean("ccw", true);
   if (row.storage == PatchStorage::arrays) {
     geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
     for (const VertexRole role : vertexRoles)
@@ -273,8 +332,6 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
     if (fields.boolean("compressed", false))
       fields.fail(ErrorKind::unsupported, "compressed containers are not read");
-    if (!fields.boolean("normalPerVertex", true))
-      fields.fail(ErrorKind::unsupported, "normals for faces are not read");
   } else {
     geometry.colorComponents = fields.integer("numColorComponents", 3);
     if (geometry.colorComponents != 3 && geometry.colorComponents != 4)
@@ -290,7 +347,12 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
           readPatch(source, child, geometry, implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize)));
   if (geometry.patches.empty())
     geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
-  if (row.storage == PatchStorage::arrays && fields.boolean("normalAsSphericalCoordinates", false))
+  // Faces are shaded by their slope.
+  const bool isFlat = row.storage == PatchStorage::arrays && !fields.boolean("normalPerVertex", true);
+  if (isFlat)
+    for (PatchDescription& patch : geometry.patches)
+      patch.vertexAttributes[VertexRole::normal].reset();
+  if (!isFlat && row.storage == PatchStorage::arrays && fields.boolean("normalAsSphericalCoordinates", false))
     takeNormalsFromCoords(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;

@@ -192,8 +192,42 @@ TEST(ReadScene, RefusesGeometryWithoutALattice) {
   EXPECT_EQ(errorKindOf(geometry("positionBits='16'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("positionBits='7'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);
-  EXPECT_EQ(errorKindOf(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(geometry("primType='QUADS' vertexCount='3'", "a")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(geometry("", "")), ErrorKind::malformed);
+}
+
+TEST(ReadScene, ReadsImagesGivenByUseTexturesAndImgElements) {
+  const SceneDocument document = readScene("<X3D><Scene><Shape><ImageGeometry ccw='false' implicitMeshCount='64 32' "
+                                           "primType='TRIANGLEFAN' vertexCount='3'>"
+                                           "<ImageTexture DEF='A' containerField='coord' url='a.png'/>"
+                                           "<Texture containerField='coord'><img src='b.png'/></Texture>"
+                                           "<img containerField='normal' src='n.png'/>"
+                                           "<ImageTexture USE='A' containerField='color'/>"
+                                           "<Texture containerField='texCoord' url='t.png'/>"
+                                           "<Texture containerField='texCoord' url='u.png'/>"
+                                           "</ImageGeometry></Shape></Scene></X3D>",
+                                           "s.x3d");
+  const GeometryDescription& geometry = document.geometries.at(0);
+  const PatchDescription& patch = geometry.patches.at(0);
+  EXPECT_FALSE(geometry.ccw);
+  EXPECT_EQ(patch.draws, (std::vector<Draw>{{Primitive::triangleFan, 3}}));
+  EXPECT_EQ(patch.implicitMeshSize, (Vec2<std::uint32_t>{64, 32}));
+  ASSERT_EQ(patch.coord.size(), 2u);
+  EXPECT_EQ(patch.coord[1].url, "b.png");
+  EXPECT_EQ(patch.vertexAttributes[VertexRole::normal]->url, "n.png");
+  EXPECT_EQ(patch.vertexAttributes[VertexRole::color]->url, "a.png");
+  EXPECT_EQ(patch.vertexAttributes[VertexRole::texCoord1]->url, "u.png");
+}
+
+TEST(ReadScene, RefusesImagesThatItCannotRead) {
+  const auto images = [](const std::string& children) {
+    return "<X3D><Scene><Shape><ImageGeometry coord='a'>" + children + "</ImageGeometry></Shape></Scene></X3D>";
+  };
+  const std::string normal = "<ImageTexture containerField='normal' url='n.png'/>";
+  EXPECT_EQ(errorKindOf(images(normal + normal)), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(images("<Texture containerField='coord'><canvas/></Texture>")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(images("<MovieTexture containerField='coord' url='a.mp4'/>")), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(images("<ImageTexture containerField='coord' USE='none'/>")), ErrorKind::malformed);
 }
 
 TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {

@@ -86,9 +86,7 @@ private:
 
   /// Without normals X3DOM would use the content of other textures for lighting.
   static bool isLit(const PatchDescription& patch) {
-    const auto isTriangles = [](const Draw& draw) {
-      return draw.primitive == Primitive::triangles || draw.primitive == Primitive::triangleStrip;
-    };
+    const auto isTriangles = [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; };
     return patch.vertexAttributes[VertexRole::normal] && std::ranges::all_of(patch.draws, isTriangles);
   }
 

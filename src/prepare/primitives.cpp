@@ -116,9 +116,11 @@ Topology topologyOf(Primitive primitive) {
     return Topology::points;
   case Primitive::lines:
   case Primitive::lineStrip:
+  case Primitive::lineLoop:
     return Topology::lines;
   case Primitive::triangles:
   case Primitive::triangleStrip:
+  case Primitive::triangleFan:
     break;
   }
   return Topology::triangles;
@@ -197,9 +199,12 @@ ElementCounts elementsOf(const Draw& draw) {
     return {.lines = draw.count / 2};
   case Primitive::lineStrip:
     return {.lines = indicesAfter(1)};
+  case Primitive::lineLoop:
+    return {.lines = draw.count < 2 ? 0 : draw.count};
   case Primitive::triangles:
     return {.triangles = draw.count / 3};
   case Primitive::triangleStrip:
+  case Primitive::triangleFan:
     return {.triangles = indicesAfter(2)};
   }
   return {};
@@ -208,7 +213,7 @@ ElementCounts elementsOf(const Draw& draw) {
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch) {
   std::vector<Vec3u> triangles;
   const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
-    const Vec3u t{vertexAt(patch, i), vertexAt(patch, j), vertexAt(patch, k)};
+    const Vec3u t{vertexAt(patch, i), vertexAt(patch, patch.ccw ? j : k), vertexAt(patch, patch.ccw ? k : j)};
     if (differ(patch, t.x, t.y) && differ(patch, t.y, t.z) && differ(patch, t.z, t.x))
       triangles.push_back(t);
   };
@@ -221,20 +226,27 @@ std::vector<Vec3u> trianglesOf(const IndexedPatch& patch) {
         const std::size_t odd = (i - first) % 2; // every second triangle of a strip is reversed
         add(i + odd, i + 1 - odd, i + 2);
       }
+    if (primitive == Primitive::triangleFan)
+      for (std::size_t i = first; i + 3 <= end; ++i)
+        add(first, i + 1, i + 2);
   });
   return triangles;
 }
 
 std::vector<Vec2<std::uint32_t>> linesOf(const IndexedPatch& patch) {
   std::vector<Vec2<std::uint32_t>> lines;
+  const auto add = [&](std::size_t i, std::size_t j) {
+    const Vec2<std::uint32_t> line{vertexAt(patch, i), vertexAt(patch, j)};
+    if (differ(patch, line.x, line.y))
+      lines.push_back(line);
+  };
   visitDraws(patch, [&](Primitive primitive, std::size_t first, std::size_t end) {
-    if (primitive != Primitive::lines && primitive != Primitive::lineStrip)
+    if (topologyOf(primitive) != Topology::lines)
       return;
-    for (std::size_t i = first; i + 2 <= end; i += primitive == Primitive::lines ? 2 : 1) {
-      const Vec2<std::uint32_t> line{vertexAt(patch, i), vertexAt(patch, i + 1)};
-      if (differ(patch, line.x, line.y))
-        lines.push_back(line);
-    }
+    for (std::size_t i = first; i + 2 <= end; i += primitive == Primitive::lines ? 2 : 1)
+      add(i, i + 1);
+    if (primitive == Primitive::lineLoop && end - first >= 2)
+      add(end - 1, first);
   });
   return lines;
 }

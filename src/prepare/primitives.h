@@ -9,7 +9,8 @@
 
 namespace imgeo {
 
-enum class Primitive : std::uint8_t { points, lines, lineStrip, triangles, triangleStrip };
+/// Writers of this project use all but loops and fans.
+enum class Primitive : std::uint8_t { points, lines, lineStrip, lineLoop, triangles, triangleStrip, triangleFan };
 
 /// The kind of element that a primitive draws.
 Topology topologyOf(Primitive primitive);
@@ -26,6 +27,7 @@ struct IndexedPatch : VertexAttributes {
   std::vector<Vec3u> positions;       ///< by vertex, on the lattice
   std::vector<std::uint32_t> indices; ///< empty: vertices are drawn in order
   std::vector<Draw> draws;            ///< counts sum to indices.size(), or to positions.size() if there are none
+  bool ccw = true;                    ///< false: the front of a drawn triangle is clockwise
 
   std::size_t vertexCount() const { return positions.size(); }
 };
@@ -62,8 +64,8 @@ IndexedPatch withoutIndices(const IndexedPatch& patch);
 /// Number of elements of a draw; in a triangle strip degenerate triangles are included.
 ElementCounts elementsOf(const Draw& draw);
 
-/// The triangles that the draws of a patch produce, as triples of vertex indices in their drawn orientation. Degenerate
-/// triangles (two equal indices or, without indices, two equal positions) are left out.
+/// The triangles that the draws of a patch produce, as triples of vertex indices, counterclockwise seen from the front.
+/// Degenerate triangles (two equal indices or, without indices, two equal positions) are left out.
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch);
 
 /// The lines that the draws of a patch produce, as pairs of vertex indices. Degenerate lines are left out.

@@ -336,6 +336,23 @@ TEST(Points, ComeInMortonOrder) {
     EXPECT_LE(code(result.positions[i - 1]), code(result.positions[i]));
 }
 
+TEST(TrianglesOf, AreThoseOfFansAndHaveTheirFrontWhereTheDrawsHaveIt) {
+  IndexedPatch patch;
+  patch.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  patch.draws = {{Primitive::triangleFan, 4}};
+  EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {0, 2, 3}}));
+  patch.ccw = false;
+  EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 2, 1}, {0, 3, 2}}));
+}
+
+TEST(LinesOf, CloseALoop) {
+  IndexedPatch patch;
+  patch.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  patch.draws = {{Primitive::lineLoop, 3}};
+  EXPECT_EQ(linesOf(patch), (std::vector<Vec2<std::uint32_t>>{{0, 1}, {1, 2}, {2, 0}}));
+  EXPECT_EQ(elementsOf(patch.draws[0]).lines, 3u);
+}
+
 TEST(TrianglesOf, ReversesEverySecondTriangleOfAStripAndRestartsWithEachDraw) {
   IndexedPatch patch;
   patch.positions.resize(6);

@@ -15,8 +15,7 @@ namespace {
 constexpr Material stone{.diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.13f, 0.13f, 0.12f}, .shininess = 0.25f};
 
 bool drawsSurface(const GeometryDescription& geometry) {
-  const Primitive primitive = geometry.patches.front().draws.front().primitive;
-  return primitive == Primitive::triangles || primitive == Primitive::triangleStrip;
+  return topologyOf(geometry.patches.front().draws.front().primitive) == Topology::triangles;
 }
 
 /// Makes the appearances that shapes lack, each once.
