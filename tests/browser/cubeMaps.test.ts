@@ -2,17 +2,19 @@
 // computed here from the view's rays alone.
 
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import { allTextures } from "../../web/src/document/physicalMaterials.testing.ts";
 import { withPage } from "./harness.ts";
 import { encodePng, type Picture } from "./png.ts";
 import { sceneOf } from "./scenes.ts";
+import { startServer, type TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 type Vec3 = readonly [number, number, number];
 
-const size = { width: 600, height: 150 };
+const size = { width: 840, height: 150 };
 /** The eye's distance from the spheres, and half of the visible height there. */
 const eye = 20,
   halfHeight = 1.25;
@@ -119,25 +121,26 @@ const spheres: Readonly<Record<string, Sphere>> = {
     markup: ball(`${white}<ComposedCubeMapTexture DEF="CUBE">${composed}</ComposedCubeMapTexture>`),
     read: (ray, normal) => turned(reflected(ray, normal)),
   },
-  "a cross of another URL than the first": {
+  "a cross of another URL than the first, which is lost, and the second, which its host refuses": {
     x: -2,
     markup: ball(
-      `${white}<ImageCubeMapTexture url='"lost.png" "cross.png"'></ImageCubeMapTexture>`,
+      `${white}<ImageCubeMapTexture url='"lost.png" "ORIGIN/refused.png" "cross.png"'></ImageCubeMapTexture>`,
       generator("CAMERASPACENORMAL"),
     ),
     read: (_, normal) => normal,
   },
-  "a row, in the camera's axes": {
+  "a row of another host, in the camera's axes": {
     x: 0,
     markup: ball(
-      `${white}<ImageCubeMapTexture url="row.png"></ImageCubeMapTexture>`,
+      `${white}<ImageCubeMapTexture url="ORIGIN/row.png"></ImageCubeMapTexture>`,
       generator("CAMERASPACEREFLECTIONVECTOR"),
     ),
     read: reflected,
   },
   "an EnvironmentLight": {
     x: 2,
-    markup: `${ball(mirror)}<EnvironmentLight id="light" rotation="0 1 0 ${turn}"><ComposedCubeMapTexture USE="CUBE" containerField="specularTexture"></ComposedCubeMapTexture></EnvironmentLight>`,
+    markup: `${ball(mirror)}<EnvironmentLight id="light" rotation="0 1 0 ${turn}"><ComposedCubeMapTexture USE="CUBE" containerField="specularTexture"></ComposedCubeMapTexture><ComposedCubeMapTexture USE="CUBE" containerField="diffuseTexture"></ComposedCubeMapTexture></EnvironmentLight>
+      <Transform translation="4 0 0">${ball(allTextures)}</Transform><EnvironmentLight></EnvironmentLight>`,
     read: (ray, normal) => {
       const [x, y, z] = reflected(ray, normal); // both rotations cancel out
       return [-x, y, z];
@@ -186,14 +189,50 @@ function assertSphere({ data, width, height, channels }: Picture, name: string, 
   assert.ok(wrong <= count / 50, `${name}: ${wrong} of ${count} pixels differ: ${example}`);
 }
 
+/** Runs in the page: notes the largest number of textures that the fragment shader of a program reads. */
+function countSamplers(): void {
+  const { prototype } = WebGL2RenderingContext;
+  // eslint-disable-next-line @typescript-eslint/unbound-method -- called with `this`
+  const { useProgram } = prototype;
+  const counted = window as unknown as { maxSamplers: number };
+  counted.maxSamplers = 0;
+  prototype.useProgram = function (this: WebGL2RenderingContext, program: WebGLProgram | null) {
+    useProgram.call(this, program);
+    if (program === null) return;
+    const count = this.getProgramParameter(program, this.ACTIVE_UNIFORMS) as number;
+    const types = Array.from({ length: count }, (_, i) => this.getActiveUniform(program, i)?.type);
+    const samplers = types.filter((type) => type === this.SAMPLER_2D || type === this.SAMPLER_CUBE);
+    counted.maxSamplers = Math.max(counted.maxSamplers, samplers.length);
+  };
+}
+
 test("cube maps and environment lights show the texels of OpenGL's cube maps", async () => {
   const site = sceneOf("cube-maps", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   for (const side of sides) writeFileSync(join(site, `${side}.png`), pictureOf(1, 1, { [side]: [0, 0] }));
   const cross = { top: [1, 0], left: [0, 1], front: [1, 1], right: [2, 1], back: [3, 1], bottom: [1, 2] } as const;
   const row = { right: [0, 0], left: [1, 0], top: [2, 0], bottom: [3, 0], front: [4, 0], back: [5, 0] } as const;
   writeFileSync(join(site, "cross.png"), pictureOf(4, 3, cross));
-  writeFileSync(join(site, "row.png"), pictureOf(6, 1, row));
-  await withPage(site, { size, expectedErrors: /404|no cube map/ }, async (view) => {
+  for (const name of ["row.png", "refused.png"]) writeFileSync(join(site, name), pictureOf(6, 1, row));
+  writeFileSync(
+    join(site, "texel.png"),
+    encodePng({ width: 1, height: 1, channels: 3, data: Buffer.from([99, 99, 99]) }),
+  );
+  const other = await startServer(site);
+  other.when(/row/, { headers: { "Access-Control-Allow-Origin": "*" } });
+  const page = join(site, "index.html");
+  writeFileSync(page, readFileSync(page, "utf8").replaceAll("ORIGIN/", other.origin));
+  const options = {
+    size,
+    before: countSamplers,
+    isCrossOrigin: true,
+    server: (server: TestServer): void => void (server.contentPolicy = "default-src 'self'; connect-src *"),
+    expectedErrors: /404|no cube map|Access-Control-Allow-Origin|ERR_FAILED/,
+  };
+  const warnings: string[] = [];
+  await withPage(site, options, async (view) => {
+    view.page.on("console", (message) => {
+      if (message.type() === "warning" && message.text().startsWith("imgeo")) warnings.push(message.text());
+    });
     await view.page.waitForFunction(
       () => (document.querySelector("x3d") as { complete?: unknown }).complete !== undefined,
     );
@@ -213,5 +252,14 @@ test("cube maps and environment lights show the texels of OpenGL's cube maps", a
     const unit = size.height / 2 / halfHeight;
     const center = (75 * width + Math.round(size.width / 2 + 4 * unit)) * channels;
     for (const channel of data.subarray(center, center + 3)) assert.ok(Math.abs(channel - 149) <= 2, `${channel}`);
+    // All textures of a PhysicalMaterial and the light's are more than the 16 that every GPU can read.
+    const samplers = await view.page.evaluate(() => (window as unknown as { maxSamplers: number }).maxSamplers);
+    assert.equal(samplers, 16);
+    const crowded = (75 * width + Math.round(size.width / 2 + 6 * unit)) * channels;
+    assert.ok(Math.max(...data.subarray(crowded, crowded + 3)) > 10, "the shape with too many textures is drawn");
   });
+  await other.close();
+  for (const expected of [/has several EnvironmentLights/, /left out: specularStrength, .*thickness$/])
+    assert.equal(warnings.filter((warning) => expected.test(warning)).length, 1, warnings.join("\n"));
+  assert.equal(warnings.length, 2, warnings.join("\n"));
 });

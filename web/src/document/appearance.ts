@@ -16,6 +16,7 @@ import type { SceneElement } from "./element.ts";
 import { attributeOf, emptyElement, lowerNameOf } from "./element.ts";
 import { readLines } from "./lineProperties.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { withinPictureLimit } from "./pictureLimit.ts";
 import { isCubeMap, readCubeMap } from "./readCubeMap.ts";
 import type { ChildrenOf } from "./readImage.ts";
 import { fieldOf, isTexture, readImageOf } from "./readImage.ts";
@@ -80,7 +81,7 @@ export function readAppearance(
   const material = children.find((child) => lowerNameOf(child) in textureFields);
   const points = childNamed("pointproperties");
   const lines = childNamed("lineproperties");
-  return {
+  const appearance: AppearanceDescription = {
     material: readMaterial(material, childrenOf, warnings),
     alpha: element ? readAlpha(element, warnings) : automaticAlpha,
     textures: [
@@ -94,6 +95,7 @@ export function readAppearance(
     lines: lines && readLines(lines, warnings),
     colorMap,
   };
+  return withinPictureLimit(appearance, element, warnings);
 }
 
 /**

@@ -129,6 +129,9 @@ export class SceneRenderer {
     this.#cameraController = cameraController;
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+    // three.js counts the textures of vertex and fragment shaders together; fragment shaders alone have fewer units
+    // (document/pictureLimit.ts).
+    this.#renderer.capabilities.maxTextures = context.getParameter(context.MAX_COMBINED_TEXTURE_IMAGE_UNITS) as number;
     this.#buffers = new BufferStore(context);
     const geometries = new GeometryPool(this.#buffers);
     this.#shapes = new SceneShapes(this.#scene, {
