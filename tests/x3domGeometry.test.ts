@@ -1,0 +1,120 @@
+// Holds docs/formats/x3dom-geometry.md to the fields that X3DOM's releases declare, and to the runtime: each row is fed
+// to the reader of documents.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { shapesOf } from "../web/src/document/description.ts";
+import { elementsOf } from "../web/src/document/elements.testing.ts";
+import { nodeFields } from "../web/src/document/nodes.ts";
+import { readScene } from "../web/src/document/readScene.ts";
+
+const root = join(import.meta.dirname, "..");
+
+interface Row {
+  readonly node: string;
+  readonly field: string;
+  readonly releases: string;
+  readonly treatment: string;
+}
+
+const page = readFileSync(join(root, "docs/formats/x3dom-geometry.md"), "utf8");
+const sections = page.split("\n## ").slice(1);
+const rows: readonly Row[] = sections.flatMap((section) => {
+  const [node = ""] = section.split("\n");
+  return [...section.matchAll(/^\| `(\w+)` \| ([\d., ]+) \| ([\w ]+) \|/gm)].map(
+    ([, field = "", releases = "", treatment = ""]) => ({ node, field, releases, treatment }),
+  );
+});
+
+/** The fields that each node declares itself in a release, by its sources. */
+function declaredFields(release: string): Map<string, string[]> {
+  const source = readFileSync(join(root, `node_modules/x3dom-${release}/x3dom.js`), "utf8");
+  const declarations = source.split("registerNodeType(").slice(1);
+  return new Map(
+    declarations.flatMap((declaration) => {
+      const name = /^\s*["'](\w+)["']/.exec(declaration)?.[1];
+      const [, body = declaration] = declaration.split("defineClass");
+      const fields = body.matchAll(/addField_[SM]F\w+\(\s*(?:\w+\s*,\s*)?["'](\w+)["']/g);
+      return name === undefined ? [] : [[name, Array.from(fields, ([, field = ""]) => field)] as const];
+    }),
+  );
+}
+
+test("the page has every field that X3DOM's releases declare, with the releases, and no other", () => {
+  const documented = rows.flatMap(({ node, field, releases }) =>
+    releases.split(", ").map((release) => `${release} ${node}.${field}`),
+  );
+  const nodes = new Set(rows.map(({ node }) => node));
+  const declared = ["1.7", "1.8"].flatMap((release) =>
+    Array.from(declaredFields(release)).flatMap(([node, fields]) =>
+      nodes.has(node) ? fields.map((field) => `${release} ${node}.${field}`) : [],
+    ),
+  );
+  assert.ok(declared.length > 150, "the declarations were not found");
+  assert.deepEqual(documented.toSorted(), declared.toSorted());
+});
+
+function warningsOf(markup: string): string[] {
+  return readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).warnings.map(({ message }) => message);
+}
+
+/** Nodes that pages read, and how a document contains them. */
+const readNodes: Readonly<Record<string, (attribute: string) => string>> = {
+  ImageGeometry: (attribute) => `<Shape><ImageGeometry coord="a.png" ${attribute}/></Shape>`,
+  BinaryGeometry: (attribute) => `<Shape><BinaryGeometry coord="a.bin" ${attribute}/></Shape>`,
+  ClipPlane: (attribute) => `<ClipPlane ${attribute}/>`,
+};
+const nodesWith: Readonly<Record<string, readonly string[]>> = {
+  X3DGeometryNode: ["ImageGeometry", "BinaryGeometry"],
+  X3DBinaryContainerGeometryNode: ["ImageGeometry", "BinaryGeometry"],
+};
+
+/** A value other than the default of every refused field. */
+const strangeValues: Readonly<Record<string, string>> = {
+  numTexCoordComponents: "3",
+  idsPerVertex: "true",
+  compressed: "true",
+  cappingStrength: "2",
+  cappingColor: "1 0 0",
+  on: "false",
+  useGeoCache: "false",
+  tangent: "t.bin",
+  binormal: "b.bin",
+  tangentType: "Int8",
+  binormalType: "Int8",
+};
+
+test("the runtime reads what the page says it reads, and warns of what it refuses, field by field", () => {
+  for (const { node, field, treatment } of rows) {
+    for (const name of nodesWith[node] ?? [node]) {
+      const markup = readNodes[name];
+      if (markup === undefined) continue; // a refused node
+      const fields: Readonly<Record<string, unknown>> = nodeFields[name as keyof typeof nodeFields];
+      if (treatment === "read") {
+        assert.ok(field in fields, `${name}.${field}`);
+        continue;
+      }
+      const value = strangeValues[field] ?? assert.fail(`no value for ${name}.${field}`);
+      const warnings = warningsOf(markup(`${field}="${value}"`));
+      assert.equal(warnings.length, treatment === "refused" ? 1 : 0, `${name}.${field}: ${warnings.join("; ")}`);
+    }
+  }
+});
+
+test("every refused node is left out with one warning, and as the geometry of a Shape it is an error", () => {
+  const refused = sections.filter((section) => section.split("\n")[1] === "Refused." || section.startsWith("BVH"));
+  const names = refused.map((section) => section.split("\n")[0] ?? "");
+  assert.ok(names.length >= 9);
+  for (const name of [...names, "SurprisingGeometry"]) {
+    const scene = readScene(elementsOf(`<X3D><Scene><Shape><${name}/></Shape></Scene></X3D>`));
+    const [shape] = shapesOf(scene.root);
+    assert.equal(scene.warnings.length, 1, name);
+    assert.equal(shape?.geometry, undefined);
+    assert.match(shape?.unreadableGeometry ?? "", new RegExp(`^<${name}> `));
+  }
+  for (const name of ["ExternalShape", "BVHRefiner", "MultiPart", "DynamicLOD"]) {
+    const scene = readScene(elementsOf(`<X3D><Scene><${name}><Shape><Box/></Shape></${name}></Scene></X3D>`));
+    assert.deepEqual([scene.warnings.length, shapesOf(scene.root).length], [1, 0], name);
+  }
+});
