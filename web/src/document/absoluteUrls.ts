@@ -15,6 +15,7 @@ const ownUrlFields: Readonly<Record<string, readonly string[]>> = {
   binarygeometry: referenceFields,
   geometrypatch: referenceFields,
   imagetexture: ["preview"],
+  img: ["src"],
   imagecubemaptexture: ["preview"],
 };
 

@@ -93,7 +93,7 @@ describe("Inline", () => {
       elementsOf(`<X3D><ImageTexture url='"a.png" "../b.png" "https://c.org/d.png"'/><ImageGeometry base="g/b.png#12">
       <GeometryPatch index="g/i.png#7" coord='"g/x.png#1" "g/y.png"' bboxCenter="1 2 3"/></ImageGeometry>
       <IndexedTriangleSet index="0 1 2"/><Inline url="deep.x3d"/><Background frontUrl='"sky.png"'/>
-      <Anchor url='"#Tower" "more.html"'/></X3D>`);
+      <Anchor url='"#Tower" "more.html"'/><Texture><img src="p.png"/></Texture></X3D>`);
     absoluteUrls(asWritable(x3d), "https://h.org/w/a.x3d");
     const attributes: string[] = [];
     const collect = (element: TestElement) => {
@@ -111,6 +111,7 @@ describe("Inline", () => {
       "https://h.org/w/deep.x3d",
       '"https://h.org/w/sky.png"',
       '"#Tower" "https://h.org/w/more.html"',
+      "https://h.org/w/p.png",
     ]);
   });
 });
