@@ -1,7 +1,7 @@
 // Parses the target and header fields of a request, one a line: target, Range, Accept-Encoding, If-None-Match. Results
 // must stay within their bounds for all inputs.
 #include "base/bytes.h"
-#include "serve/content_coding.h"
+#include "content/content_coding.h"
 #include "serve/range_header.h"
 #include "serve/request_path.h"
 #include "serve/respond.h"

@@ -87,6 +87,7 @@ struct ConvertOptions {
   SourceAxesOptions axes{};              ///< axes and unit of the source
   StartView view = StartView::automatic; ///< side from which the scene is shown first
   bool pictures = true;                  ///< draw the page's icon and the picture that previews of links show
+  bool precompress = false;              ///< write FILE.br and FILE.gz for static hosts that compress nothing
   int effort = 5;                        ///< 0 fastest .. 9 smallest
   std::string title{};                   ///< title of the page; empty: the source's title or file name
   bool outside = false;                  ///< the source may refer to files outside of its folder
@@ -120,6 +121,14 @@ struct TextureReport {
   std::uint64_t previewBytes = 0; ///< size of the previews
 };
 
+/// Files that were compressed in advance, and the bytes that clients load instead.
+struct PrecompressReport {
+  std::size_t files = 0;         ///< files that a content coding makes smaller: text and BG's typed arrays
+  std::uint64_t bytes = 0;       ///< their size
+  std::uint64_t brotliBytes = 0; ///< the same for a client that accepts brotli
+  std::uint64_t gzipBytes = 0;   ///< the same for a client that accepts gzip
+};
+
 /// What a conversion chose, wrote and measured.
 struct ConvertReport {
   std::string format;                                  ///< format of the source: "PLY" ...
@@ -150,10 +159,12 @@ struct ConvertReport {
   std::string x3domUrl;                                ///< target x3dom: URL of its script
   std::vector<RoleBytes> roles;                        ///< sizes by role of the files
   double bytesPerTriangle = 0;                         ///< geometry files and nodes; 0 if there are no triangles
+  PrecompressReport precompressed;                     ///< files compressed in advance, with option precompress
   std::vector<std::string> warnings;                   ///< one sentence each
   double importSeconds = 0;                            ///< time to read the source
   double prepareSeconds = 0;                           ///< time to weld and to compute normals
   double encodeSeconds = 0;                            ///< time to encode and write
+  double precompressSeconds = 0;                       ///< time to compress files in advance
   double totalSeconds = 0;                             ///< time of the whole conversion
   std::uint64_t peakMemoryBytes = 0;                   ///< maximum of the process's resident memory; 0: unknown
 };

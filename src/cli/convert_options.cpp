@@ -144,6 +144,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
   options.outside = arguments.has("outside");
+  options.precompress = arguments.has("precompress");
   options.strict = arguments.has("strict");
   options.force = arguments.has("force");
   return options;

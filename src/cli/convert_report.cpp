@@ -160,6 +160,13 @@ void printBytes(const ConvertReport& report) {
                report.bytesPerTriangle);
 }
 
+void printPrecompressed(const PrecompressReport& report) {
+  if (report.files > 0)
+    fmt::print("Compressed in advance: {} {} of {}, to load as {} with brotli, {} with gzip.\n", report.files,
+               report.files == 1 ? "file" : "files", byteSize(report.bytes), byteSize(report.brotliBytes),
+               byteSize(report.gzipBytes));
+}
+
 /// ", 83 bytes a triangle"; empty if there are no triangles.
 std::string bytesPerTriangleOf(const ConvertReport& report) {
   return report.elements.triangles == 0
@@ -240,6 +247,12 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   for (const RoleBytes& role : report.roles)
     json["roles"].push_back({{"role", role.role}, {"files", role.files}, {"bytes", role.bytes}});
   json["bytesPerTriangle"] = report.bytesPerTriangle;
+  if (report.precompressed.files > 0)
+    json["precompressed"] = {{"files", report.precompressed.files},
+                             {"bytes", report.precompressed.bytes},
+                             {"brotliBytes", report.precompressed.brotliBytes},
+                             {"gzipBytes", report.precompressed.gzipBytes},
+                             {"seconds", report.precompressSeconds}};
   json["warnings"] = report.warnings;
   json["seconds"] = {{"import", report.importSeconds},
                      {"prepare", report.prepareSeconds},
@@ -252,6 +265,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
 void printReport(const Arguments& arguments, const ConvertReport& report) {
   printChoices(arguments, report);
   printBytes(report);
+  printPrecompressed(report.precompressed);
 }
 
 void printCosts(const ConvertReport& report) {

@@ -168,6 +168,8 @@ Command convertCommand() {
                         "how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one"),
                 integer("threads", {}, 0, 1024, "0",
                         "how many threads to use; 0: all. The site is the same with any number"),
+                {.name = "precompress",
+                 .help = "write FILE.br and FILE.gz beside text and BG's arrays, for hosts that do not compress"},
                 outsideFlag(),
                 {.name = "strict", .help = "refuse a source of which a part is damaged, instead of leaving that out"},
                 {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},

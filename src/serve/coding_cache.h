@@ -1,7 +1,7 @@
 #pragma once
 // A cache of compressed files in memory.
 
-#include "serve/content_coding.h"
+#include "content/content_coding.h"
 
 #include <functional>
 #include <list>

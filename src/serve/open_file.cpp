@@ -22,8 +22,8 @@ bool isBelow(const fs::path& root, const fs::path& path) {
 
 } // namespace
 
-OpenFile::OpenFile(int descriptor, std::uint64_t size, std::string version)
-    : descriptor_(descriptor), size_(size), version_(std::move(version)) {}
+OpenFile::OpenFile(int descriptor, std::uint64_t size, std::int64_t modifiedNanoseconds, std::string version)
+    : descriptor_(descriptor), size_(size), modifiedNanoseconds_(modifiedNanoseconds), version_(std::move(version)) {}
 
 OpenFile::~OpenFile() {
   ::close(descriptor_);
@@ -70,6 +70,7 @@ std::variant<std::shared_ptr<const OpenFile>, Absence> openBelow(const fs::path&
     return isKnown && S_ISDIR(status.st_mode) && !path.isDirectory ? Absence::directory : Absence::notFound;
   }
   return std::make_shared<const OpenFile>(descriptor, static_cast<std::uint64_t>(status.st_size),
+                                          status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec,
                                           fmt::format("{:x}-{:x}-{:x}{:08x}", status.st_ino, status.st_size,
                                                       status.st_mtim.tv_sec, status.st_mtim.tv_nsec));
 }

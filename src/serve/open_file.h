@@ -15,12 +15,14 @@ namespace imgeo {
 /// Owns a file descriptor, so that the bytes stay readable while a newer site replaces the file.
 class OpenFile {
 public:
-  OpenFile(int descriptor, std::uint64_t size, std::string version);
+  OpenFile(int descriptor, std::uint64_t size, std::int64_t modifiedNanoseconds, std::string version);
   ~OpenFile();
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
   std::uint64_t size() const { return size_; }
+  /// Time of the last change to the bytes, in nanoseconds since 1970.
+  std::int64_t modifiedNanoseconds() const { return modifiedNanoseconds_; }
   /// Inode, size and modification time in nanoseconds, so that it changes when the bytes change. Consists of letters,
   /// digits and dashes.
   const std::string& version() const { return version_; }
@@ -31,6 +33,7 @@ public:
 private:
   int descriptor_;
   std::uint64_t size_;
+  std::int64_t modifiedNanoseconds_;
   std::string version_;
 };
 

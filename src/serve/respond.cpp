@@ -1,7 +1,7 @@
 #include "serve/respond.h"
 
 #include "base/file.h"
-#include "serve/media_type.h"
+#include "content/media_type.h"
 #include "serve/range_header.h"
 
 #include <algorithm>
@@ -11,9 +11,10 @@ namespace imgeo {
 
 namespace {
 
-// Smaller files hardly shrink; compressing larger ones would block a thread for too long.
-constexpr std::uint64_t minEncodedBytes = 256, maxEncodedBytes = 16u << 20;
+// Compressing larger files for a request would block a thread for too long.
+constexpr std::uint64_t maxEncodedBytes = 16u << 20;
 
+constexpr std::string_view indexName = "index.html";
 constexpr std::string_view contentPolicy = "default-src 'self'";
 
 /// The fields that 200 and 304 share (RFC 9110, section 15.4.5).
@@ -66,20 +67,46 @@ void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const M
   response.file = std::move(file);
 }
 
-Response respondWithFile(const Site& site, const RequestHead& request, std::string_view fileName,
+/// The file beside the requested one that holds its content in this coding (convert --precompress); nullptr if there is
+/// none or it is older than the content, which somebody has then edited.
+std::shared_ptr<const OpenFile> openPrecompressed(const Site& site, RequestPath path, const OpenFile& file,
+                                                  ContentCoding coding) {
+  if (path.isDirectory)
+    path.names.emplace_back(indexName);
+  path.isDirectory = false;
+  path.names.back() += codingExtension(coding);
+  auto found = openBelow(site.root, path);
+  const auto* encoded = std::get_if<std::shared_ptr<const OpenFile>>(&found);
+  return encoded && (*encoded)->modifiedNanoseconds() >= file.modifiedNanoseconds() ? *encoded : nullptr;
+}
+
+Response respondWithFile(const Site& site, const RequestHead& request, const RequestPath& path,
                          std::shared_ptr<const OpenFile> file) {
+  const std::string_view fileName = path.isDirectory ? indexName : std::string_view(path.names.back());
   const MediaType type = mediaTypeOf(fileName);
-  const bool varies = type.isCompressible && file->size() >= minEncodedBytes && file->size() <= maxEncodedBytes;
+  const bool varies = type.isCompressible && file->size() >= minEncodedBytes;
   // Ranges count uncompressed bytes, so a range request gets no coding.
-  const ContentCoding coding =
+  ContentCoding coding =
       varies && request.range.empty() ? chooseCoding(request.acceptEncoding) : ContentCoding::identity;
+  std::shared_ptr<const OpenFile> precompressed;
+  if (coding != ContentCoding::identity)
+    precompressed = openPrecompressed(site, path, *file, coding);
+  if (!precompressed && file->size() > maxEncodedBytes)
+    coding = ContentCoding::identity;
   const std::string suffix = coding == ContentCoding::identity ? "" : fmt::format("-{}", codingName(coding));
-  const std::string tag = fmt::format("\"{}{}\"", file->version(), suffix);
+  const std::string tag = fmt::format("\"{}{}\"", (precompressed ? precompressed : file)->version(), suffix);
 
   Response response;
   addCacheFields(response, fileName, tag, varies);
   if (matchesAnyTag(request.ifNoneMatch, tag)) {
     response.status = 304;
+    return response;
+  }
+  if (precompressed) {
+    addContentFields(response, type, precompressed->size());
+    response.fields.emplace_back("Content-Encoding", codingName(coding));
+    response.fileCount = precompressed->size();
+    response.file = std::move(precompressed);
     return response;
   }
   if (coding != ContentCoding::identity) {
@@ -110,8 +137,7 @@ Response respondToGet(const Site& site, const RequestHead& request) {
     // Made from the decoded names: a target such as "//host" must not become a link to another host.
     return redirectTo(formatRequestPath({path->names, true}));
   }
-  const std::string_view fileName = path->isDirectory ? "index.html" : std::string_view(path->names.back());
-  return respondWithFile(site, request, fileName, std::get<std::shared_ptr<const OpenFile>>(std::move(found)));
+  return respondWithFile(site, request, *path, std::get<std::shared_ptr<const OpenFile>>(std::move(found)));
 }
 
 } // namespace

@@ -184,6 +184,32 @@ TEST_F(Respond, TextIsCompressedWhereTheClientAcceptsIt) {
   EXPECT_EQ(get("/", head).status, 200u);
 }
 
+TEST_F(Respond, AFileCompressedInAdvanceIsSentInsteadOfCompressingAgain) {
+  put("index.html.br", "made in advance");
+  RequestHead head;
+  head.acceptEncoding = "br, gzip;q=0.5";
+  const Response packed = get("/", head);
+  EXPECT_EQ(bodyOf(packed), "made in advance");
+  EXPECT_EQ(packed.field("Content-Encoding"), "br");
+  EXPECT_EQ(packed.field("Content-Length"), "15");
+  EXPECT_EQ(packed.field("Content-Type"), "text/html; charset=utf-8");
+  EXPECT_EQ(packed.field("Vary"), "Accept-Encoding");
+  EXPECT_NE(packed.field("ETag"), get("/").field("ETag"));
+  EXPECT_EQ(bodyOf(get("/")), page);
+  head.acceptEncoding = "gzip";
+  EXPECT_NE(bodyOf(get("/", head)), "made in advance");
+}
+
+TEST_F(Respond, AFileCompressedInAdvanceIsIgnoredWhereItIsOlderThanItsSource) {
+  put("index.html.br", "made in advance");
+  const auto written = std::filesystem::last_write_time(root() / "index.html");
+  std::filesystem::last_write_time(root() / "index.html.br", written - std::chrono::seconds(1));
+  RequestHead head;
+  head.acceptEncoding = "br";
+  EXPECT_NE(bodyOf(get("/", head)), "made in advance");
+  EXPECT_EQ(get("/", head).field("Content-Encoding"), "br");
+}
+
 TEST_F(Respond, ImagesAndRangesOfTextAreNotCompressed) {
   put("large.png", std::string(5000, 'x'));
   RequestHead head;

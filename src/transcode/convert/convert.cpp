@@ -9,6 +9,7 @@
 #include "import/warnings.h"
 #include "scene/source_axes.h"
 #include "transcode/convert/peak_memory.h"
+#include "transcode/convert/precompress.h"
 #include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/default_nodes.h"
 #include "transcode/encode/encode_scene.h"
@@ -220,6 +221,14 @@ public:
     report_.encodeSeconds = step_.lapSeconds();
   }
 
+  void precompress() {
+    if (!options_.precompress)
+      return;
+    reportProgress(0.995, "compressing");
+    report_.precompressed = precompressSite(site_.path());
+    report_.precompressSeconds = step_.lapSeconds();
+  }
+
   void publish() {
     reportProgress(1, "publishing");
     site_.publish();
@@ -310,6 +319,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   conversion.completeScene();
   conversion.writeDocuments();
   conversion.inspectSite();
+  conversion.precompress();
   conversion.publish();
   return conversion.takeReport();
 }

@@ -9,7 +9,13 @@ namespace imgeo {
 
 namespace fs = std::filesystem;
 
+bool isPrecompressed(const fs::path& file) {
+  return file.extension() == ".br" || file.extension() == ".gz";
+}
+
 bool isSiteFile(const fs::path& file) {
+  if (isPrecompressed(file))
+    return isSiteFile(fs::path(file).replace_extension());
   const fs::path folder = file.parent_path();
   if (isContentNamed(file.filename().native()))
     return folder == geometryFolder || folder == textureFolder || folder == runtimeFolder ||

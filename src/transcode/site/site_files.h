@@ -25,6 +25,10 @@ inline constexpr const char* runtimeModuleName = "imgeo.js";
 /// Begins the name of an unfinished site that is built inside the site that it will replace.
 inline constexpr const char* stagingPrefix = ".imgeo-";
 
+/// Whether a file holds the content of the one beside it, whose name lacks the extension ".br" or ".gz", in a content
+/// coding.
+bool isPrecompressed(const std::filesystem::path& file);
+
 /// Whether convert writes files of this name; `file` is relative to the site's root.
 bool isSiteFile(const std::filesystem::path& file);
 

@@ -116,7 +116,9 @@ std::string randomSuffix() {
 /// Every file of a staged site, relative to its root, each after the files that it refers to: the page comes last.
 std::vector<fs::path> filesInDependencyOrder(const fs::path& staging) {
   std::vector<fs::path> files = filesIn(staging);
-  const auto rank = [](const fs::path& file) {
+  const auto rank = [](fs::path file) {
+    if (isPrecompressed(file))
+      file.replace_extension();
     return file == pageName ? 3 : file == manifestName ? 2 : file.has_parent_path() ? 0 : 1;
   };
   std::ranges::sort(

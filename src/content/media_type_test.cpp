@@ -1,4 +1,4 @@
-#include "serve/media_type.h"
+#include "content/media_type.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +17,11 @@ TEST(MediaType, UnknownExtensionsAreOctetStreams) {
     EXPECT_EQ(mediaTypeOf(name).name, "application/octet-stream") << name;
 }
 
-TEST(MediaType, TextIsCompressibleAndVertexDataIsNot) {
+TEST(MediaType, TextAndTypedArraysAreCompressibleAndImagesAreNot) {
   EXPECT_TRUE(mediaTypeOf("a.html").isCompressible);
   EXPECT_TRUE(mediaTypeOf("a.x3d").isCompressible);
+  EXPECT_TRUE(mediaTypeOf("a.bin").isCompressible);
   EXPECT_FALSE(mediaTypeOf("a.png").isCompressible);
-  EXPECT_FALSE(mediaTypeOf("a.bin").isCompressible);
 }
 
 } // namespace

@@ -1,6 +1,4 @@
-#include "serve/content_coding.h"
-
-#include "serve/coding_cache.h"
+#include "content/content_coding.h"
 
 #include <brotli/decode.h>
 #include <gtest/gtest.h>
@@ -60,35 +58,23 @@ TEST(ContentCoding, GzipDecodesToTheInput) {
   EXPECT_LT(packed.size(), text.size() / 10);
 }
 
-TEST(CodingCache, EachContentIsEncodedOnce) {
-  CodingCache cache(100);
-  int calls = 0;
-  const auto encode = [&] { return ++calls, Bytes(10, 1); };
-  EXPECT_EQ(cache.get("a", encode)->size(), 10u);
-  EXPECT_EQ(cache.get("a", encode)->size(), 10u);
-  EXPECT_EQ(calls, 1);
-}
-
-TEST(CodingCache, TheEntryUnusedForLongestIsEvictedFirst) {
-  CodingCache cache(100);
-  int calls = 0;
-  const auto encode = [&] { return ++calls, Bytes(40, 1); };
-  cache.get("a", encode);
-  cache.get("b", encode);
-  cache.get("a", encode);
-  cache.get("c", encode); // evicts b
-  EXPECT_EQ(cache.heldBytes(), 80u);
-  EXPECT_EQ(calls, 3);
-  cache.get("a", encode);
-  EXPECT_EQ(calls, 3);
-  cache.get("b", encode);
-  EXPECT_EQ(calls, 4);
-}
-
-TEST(CodingCache, ContentLargerThanTheLimitIsReturnedButNotKept) {
-  CodingCache cache(100);
-  EXPECT_EQ(cache.get("a", [] { return Bytes(101, 1); })->size(), 101u);
-  EXPECT_EQ(cache.heldBytes(), 0u);
+TEST(ContentCoding, TheSmallestEffortIsSmallerThanTheFastOneAndDecodesToTheSame) {
+  // Indices of a strip of quads, the typed array that gains most.
+  Bytes indices;
+  for (std::uint32_t quad = 0; quad < 20'000; ++quad)
+    for (const std::uint32_t offset : {0u, 1u, 300u, 300u, 1u, 301u}) {
+      const std::uint32_t index = quad + offset;
+      indices.push_back(static_cast<std::uint8_t>(index & 0xff));
+      indices.push_back(static_cast<std::uint8_t>(index >> 8));
+    }
+  for (const ContentCoding coding : {ContentCoding::brotli, ContentCoding::gzip})
+    EXPECT_LE(encodeContent(coding, indices, CodingEffort::smallest).size(), encodeContent(coding, indices).size());
+  const Bytes packed = encodeContent(ContentCoding::brotli, indices, CodingEffort::smallest);
+  Bytes unpacked(indices.size());
+  std::size_t size = unpacked.size();
+  ASSERT_EQ(BrotliDecoderDecompress(packed.size(), packed.data(), &size, unpacked.data()),
+            BROTLI_DECODER_RESULT_SUCCESS);
+  EXPECT_EQ(unpacked, indices);
 }
 
 } // namespace

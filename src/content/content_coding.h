@@ -10,6 +10,11 @@ namespace imgeo {
 
 enum class ContentCoding { identity, gzip, brotli };
 
+enum class CodingEffort {
+  fast,    ///< for the first request of a file: brotli 5, gzip 6
+  smallest ///< for files that are coded once and sent often: brotli 11, gzip 12; a hundred times as slow with brotli
+};
+
 /// The name in Content-Encoding: "br", "gzip"; "identity" is not sent.
 std::string_view codingName(ContentCoding coding);
 
@@ -18,7 +23,11 @@ std::string_view codingName(ContentCoding coding);
 /// untrusted bytes.
 ContentCoding chooseCoding(std::string_view acceptEncoding);
 
+/// The extension of the file beside `name` that holds its content in this coding, as nginx (gzip_static,
+/// brotli_static), Caddy and Apache expect it: ".br", ".gz"; empty for identity.
+std::string_view codingExtension(ContentCoding coding);
+
 /// Encodes `bytes`; identity copies them. The same bytes give the same result.
-Bytes encodeContent(ContentCoding coding, ByteSpan bytes);
+Bytes encodeContent(ContentCoding coding, ByteSpan bytes, CodingEffort effort = CodingEffort::fast);
 
 } // namespace imgeo

@@ -1,4 +1,4 @@
-#include "serve/media_type.h"
+#include "content/media_type.h"
 
 #include <algorithm>
 #include <cctype>
@@ -29,18 +29,18 @@ constexpr Row rows[] = {
     {"x3d", {"model/x3d+xml", true}},
     {"svg", {"image/svg+xml", true}},
     {"gltf", {"model/gltf+json", true}},
-    {"glb", {"model/gltf-binary", false}},
+    {"glb", {"model/gltf-binary", true}},
     {"obj", {"model/obj", true}},
     {"mtl", {"model/mtl", true}},
-    {"stl", {"model/stl", false}},
-    {"bin", {"application/octet-stream", false}},
+    {"stl", {"model/stl", true}},
+    {"bin", {"application/octet-stream", true}}, // typed arrays of BG
     {"png", {"image/png", false}},
     {"jpg", {"image/jpeg", false}},
     {"jpeg", {"image/jpeg", false}},
     {"webp", {"image/webp", false}},
     {"avif", {"image/avif", false}},
     {"gif", {"image/gif", false}},
-    {"ico", {"image/x-icon", false}},
+    {"ico", {"image/x-icon", true}},
     {"ktx2", {"image/ktx2", false}},
     {"wasm", {"application/wasm", true}},
     {"woff2", {"font/woff2", false}},
