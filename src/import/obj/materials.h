@@ -1,6 +1,6 @@
 #pragma once
-// MTL files (Wavefront Technologies, Advanced Visualizer manual, appendix B4; the extensions for physically based
-// materials of Neil Trevett and others, 2017).
+// MTL files (Wavefront Technologies, Advanced Visualizer manual, appendix B4; Ben Houston, "Extending Wavefront MTL for
+// Physically-Based Rendering", 2015).
 
 #include "import/references.h"
 #include "import/source_images.h"

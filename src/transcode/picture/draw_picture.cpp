@@ -1,5 +1,7 @@
 #include "transcode/picture/draw_picture.h"
 
+#include "transcode/picture/generic_fields.h"
+
 #include "scene/mesh.h"
 #include "scene/viewpoint.h"
 
@@ -23,7 +25,7 @@ constexpr double maxCoarseShare = 0.1;
 /// Finds the first viewpoint and its pose in the world.
 std::optional<PictureCamera> firstCamera(const SceneGraph& graph, std::size_t index, const Affine3d& worldFromParent) {
   const Node& node = graph.nodes[index];
-  if (const Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content)) {
+  if (const std::optional<Viewpoint> viewpoint = viewpointOf(node)) {
     Affine3d pose = affineOf(viewpoint->orientation);
     pose.translation = viewpoint->position;
     return PictureCamera{worldFromParent * pose, viewpoint->fieldOfView};

@@ -7,6 +7,7 @@
 #include "scene/color.h"
 #include "scene/surface_samples.h"
 #include "scene/transform.h"
+#include "transcode/picture/generic_fields.h"
 
 #include <algorithm>
 #include <charconv>
@@ -22,11 +23,6 @@ namespace {
 /// Scenes of more instances than a picture has samples get no picture.
 constexpr std::size_t maxInstances = 200'000;
 constexpr std::uint32_t textureEdge = 512;
-
-const std::string* fieldOf(const Node& node, const char* name) {
-  const auto field = std::ranges::find(node.fields, name, &FieldText::name);
-  return field == node.fields.end() ? nullptr : &field->value;
-}
 
 bool isHidden(const Node& node) {
   return std::ranges::any_of(std::array{"visible", "render"}, [&](const char* name) {
@@ -66,9 +62,13 @@ private:
     const Transform* transform = std::get_if<Transform>(&node.content);
     const Affine3d worldFromNode = transform ? worldFromParent * affineOf(*transform) : worldFromParent;
     const std::optional<std::size_t> choice = generic ? choiceOf(node, *generic) : std::nullopt;
-    for (std::size_t child = 0; child < node.children.size() && instances.size() <= maxInstances && isWhole; ++child)
-      if (!choice || *choice == child)
-        visit(node.children[child], worldFromNode);
+    std::size_t count = 0;
+    for (const std::size_t child : node.children) {
+      if (instances.size() > maxInstances || !isWhole)
+        return;
+      if (isChildNode(graph_.nodes[child]) && (!choice || *choice == count++))
+        visit(child, worldFromNode);
+    }
   }
 
   /// The only visible child of an LOD or Switch; beyond the children: none.

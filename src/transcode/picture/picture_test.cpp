@@ -1,5 +1,6 @@
 #include "scene/testing.h"
 #include "transcode/picture/draw_picture.h"
+#include "transcode/picture/generic_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,41 @@ TEST(Picture, LeavesOutWhatAPageHides) {
   EXPECT_TRUE(hidden.samples.empty()) << "a Switch without whichChoice shows nothing";
   EXPECT_TRUE(hidden.isWhole);
   EXPECT_FALSE(pictureSamplesOf(sphereScene(genericNode("LOD"))).samples.empty());
+}
+
+TEST(Picture, CountsNeitherCommentsNorMetadataAsLevelsOrChoices) {
+  Scene scene = sphereScene(genericNode("LOD"));
+  Node& levels = scene.graph.nodes[scene.graph.roots[0]];
+  const std::size_t shape = levels.children[0];
+  for (const char* element : {commentElement, "MetadataString"})
+    scene.graph.nodes.push_back({.name = "", .content = genericNode(element), .children = {}, .extras = ""});
+  const std::size_t metadata = scene.graph.nodes.size() - 1, comment = metadata - 1;
+  scene.graph.nodes[scene.graph.roots[0]].children = {comment, metadata, shape};
+  EXPECT_FALSE(pictureSamplesOf(scene).samples.empty());
+}
+
+TEST(Picture, IsTakenFromTheViewpointAndInFrontOfTheSkyOfAnX3dSource) {
+  SceneGraph graph;
+  Node viewpoint{.name = "", .content = genericNode("Viewpoint"), .children = {}, .extras = ""};
+  viewpoint.fields = {{"position", "1 2,3"}, {"fieldOfView", "0.5"}, {"orientation", "0 1 0 1.5"}};
+  addRoot(graph, viewpoint);
+  const PictureCamera camera = pictureCameraOf(graph, {});
+  EXPECT_EQ(camera.worldFromCamera.translation, (Vec3d{1, 2, 3}));
+  EXPECT_DOUBLE_EQ(camera.fieldOfView, 0.5);
+  EXPECT_NEAR(camera.worldFromCamera.z.x, std::sin(1.5), 1e-12);
+  EXPECT_EQ(skyColorOf(graph), std::nullopt);
+  Node background{.name = "", .content = genericNode("Background"), .children = {}, .extras = ""};
+  background.fields = {{"skyColor", "0.5 0.25 1, 1 1 1"}, {"skyAngle", "1.5"}};
+  addRoot(graph, background);
+  EXPECT_EQ(skyColorOf(graph), (Vec3f{0.5f, 0.25f, 1}));
+}
+
+TEST(Picture, OfAnOrthoViewpointShowsItsRectangle) {
+  SceneGraph graph;
+  Node viewpoint{.name = "", .content = genericNode("OrthoViewpoint"), .children = {}, .extras = ""};
+  viewpoint.fields = {{"position", "0 0 20"}, {"fieldOfView", "-4 -2 4 2"}};
+  addRoot(graph, viewpoint);
+  EXPECT_NEAR(pictureCameraOf(graph, {}).fieldOfView, 2 * std::atan(2.0 / 20), 1e-12);
 }
 
 TEST(Picture, IsNotDrawnWhereShapesOfTheDocumentWouldBeMissing) {

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "transcode/picture/draw_picture.h"
+#include "transcode/picture/generic_fields.h"
 #include "transcode/site/site_files.h"
 
 namespace imgeo {
@@ -22,7 +23,7 @@ PagePictures writePictures(const SceneGraph& graph, const PictureSamples& sample
   if (samples.isWhole && !samples.samples.empty()) {
     const PictureCamera camera = pictureCameraOf(graph, samples.samples);
     icon = drawIcon(samples.samples, camera);
-    const Vec3f background = graph.background ? graph.background->skyColor : defaultBackground;
+    const Vec3f background = skyColorOf(graph).value_or(defaultBackground);
     if (const std::optional<Image> picture = drawPicture(samples.samples, camera, background)) {
       writeFile(site / pictureName, encodePng(*picture, pictureEffort));
       pictures.pictureUrl = pictureName;

@@ -73,7 +73,8 @@ export class Hotspots {
     this.#hotspots = Array.from(this.#host.children).flatMap((child) => {
       const position = pointOf(child.getAttribute("data-position"));
       if (!(child instanceof HTMLElement) || !child.slot.startsWith("hotspot") || position === undefined) return [];
-      const container = known.get(child)?.container ?? document.createElement("div");
+      const before = known.get(child);
+      const container = before?.container ?? document.createElement("div");
       container.role = "listitem";
       const slot = container.querySelector("slot") ?? container.appendChild(document.createElement("slot"));
       slot.name = child.slot;
@@ -86,11 +87,11 @@ export class Hotspots {
           shapeName: child.getAttribute("data-shape")?.trim() ?? "",
           priority: Number(child.getAttribute("data-priority")) || 0,
           pixel: undefined,
-          isFacing: true,
-          isCovered: false,
-          isShapeVisible: true,
-          isDisplaced: known.get(child)?.isDisplaced ?? false,
-          isVisible: undefined,
+          isFacing: before?.isFacing ?? true,
+          isCovered: before?.isCovered ?? false,
+          isShapeVisible: before?.isShapeVisible ?? true,
+          isDisplaced: before?.isDisplaced ?? false,
+          isVisible: before?.isVisible,
         },
       ];
     });
