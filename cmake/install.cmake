@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 # libimgeo.a holds the objects of all folders but the tool's own.
 set(library_objects)
-foreach(folder base markup images scene import prepare containers documents export transcode)
+foreach(folder base content markup images scene import prepare containers documents export transcode)
   list(APPEND library_objects $<TARGET_OBJECTS:imgeo_${folder}>)
 endforeach()
 add_library(imgeo_library STATIC ${library_objects})
@@ -17,11 +17,13 @@ target_include_directories(imgeo_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_I
 # The same packages as in cmake/imgeoConfig.cmake.in.
 find_package(meshoptimizer REQUIRED)
 find_package(pugixml REQUIRED)
+pkg_check_modules(BROTLI REQUIRED IMPORTED_TARGET libbrotlienc)
 pkg_check_modules(GUMBO REQUIRED IMPORTED_TARGET gumbo)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_library(DRACO_ARCHIVE libdraco.a REQUIRED)
 target_link_libraries(imgeo_library PRIVATE fmt::fmt TBB::tbb meshoptimizer::meshoptimizer pugixml::pugixml
-  PkgConfig::DEFLATE PkgConfig::GUMBO PkgConfig::WEBP PkgConfig::XXHASH ${DRACO_ARCHIVE} Threads::Threads ${CMAKE_DL_LIBS})
+  PkgConfig::BROTLI PkgConfig::DEFLATE PkgConfig::GUMBO PkgConfig::WEBP PkgConfig::XXHASH ${DRACO_ARCHIVE}
+  Threads::Threads ${CMAKE_DL_LIBS})
 
 install(TARGETS imgeo)
 install(TARGETS imgeo_library EXPORT imgeoTargets)

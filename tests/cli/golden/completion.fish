@@ -41,6 +41,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l title -x -d 'the p
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l no-pictures -d 'leave out icon.png and picture.png, the pictures of tabs and of previews of links'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l effort -x -d 'how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l threads -x -d 'how many threads to use; 0: all. The site is the same with any number'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l precompress -d 'write FILE.br and FILE.gz beside text and BG\'s arrays, for hosts that do not compress'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l outside -d 'let the source refer to files outside of its folder'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l strict -d 'refuse a source of which a part is damaged, instead of leaving that out'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l force -d 'replace DIR with everything in it, even if it is not a site of ours'

@@ -64,6 +64,7 @@ _imgeo() {
       '--no-pictures[leave out icon.png and picture.png, the pictures of tabs and of previews of links]' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest; in compact 1 to 6 are one]:effort: ' \
       '--threads[how many threads to use; 0\: all. The site is the same with any number]:threads: ' \
+      '--precompress[write FILE.br and FILE.gz beside text and BG'\''s arrays, for hosts that do not compress]' \
       '--outside[let the source refer to files outside of its folder]' \
       '--strict[refuse a source of which a part is damaged, instead of leaving that out]' \
       '--force[replace DIR with everything in it, even if it is not a site of ours]' \
