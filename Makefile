@@ -10,7 +10,7 @@ export MODEL PORT
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -32,6 +32,9 @@ app: build ## convert a mesh and serve a three.js app that displays it [MODEL=st
 
 museum: build ## serve the museum example: the Stanford dragon with rotation, notes and its points [PORT=8080]
 	@scripts/demo --museum
+
+hall: build ## serve a hall of 4 million triangles to walk through [PORT=8080]
+	@scripts/demo --hall
 
 test: dependencies ## run every test: C++, TypeScript and the browser
 	@scripts/test

@@ -6,6 +6,7 @@ import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
+import { walkPage } from "../../examples/hall/page.ts";
 import { focusView } from "./gestures.ts";
 import { until, withPage, type View } from "./harness.ts";
 import { converter, outputDirectory } from "./paths.ts";
@@ -37,10 +38,9 @@ function hall(): string {
     stdio: ["ignore", "ignore", "inherit"],
   });
   return variantOf(siteOf(file), "walk", (page) =>
-    page
+    walkPage(page, "A hall", "Walk.")
       .replaceAll(/(DEF="(?:row\d+|trusses|columns)")/g, '$1 visible="false"')
-      .replace(/<\/Scene>/i, (end) => `<Viewpoint description="Before the steps" position="7 2 4"></Viewpoint>${end}`)
-      .replace(/<NavigationInfo[^>]*>/i, '<NavigationInfo type="WALK" avatarSize="0.25 1.6 0.4" speed="5">'),
+      .replace('speed="3"', 'speed="5"'),
   );
 }
 
