@@ -16,8 +16,9 @@ namespace imgeo {
 struct SceneDocument {
   SceneGraph graph;                            ///< Shape::mesh indexes `geometries`
   std::vector<GeometryDescription> geometries; ///< by mesh
-  /// From readScene: number of elements, by their name in the text, that are no node of the graph: the children of Shapes
-  /// but appearances, metadata and the nodes of `geometries`, and elements without children elsewhere. USEs do not count.
+  /// From readScene: number of elements, by their name in the text, that are no node of the graph: the children of
+  /// Shapes but appearances, metadata and the nodes of `geometries`, and elements without children elsewhere. USEs do
+  /// not count.
   std::map<std::string, std::size_t> otherElements;
   /// From readScene: one sentence for each malformed value that is treated as absent.
   std::vector<std::string> warnings;

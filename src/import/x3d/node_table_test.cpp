@@ -36,8 +36,7 @@ std::string rowsOf(Origin origin) {
 std::string rowsOfUnreadFields() {
   std::string text;
   for (const UnreadField& row : unreadFields())
-    text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.node, row.field, row.defaultText,
-                        row.reason);
+    text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.node, row.field, row.defaultText, row.reason);
   return text;
 }
 

@@ -11,8 +11,8 @@ namespace imgeo::x3d {
 inline constexpr std::size_t maxShapesWithOwnAppearance = 10'000;
 
 /// Replaces each Appearance that equals an earlier one by a USE of it, where the scene has more Shapes than
-/// `maxShapesWithOwnAppearance`. Appearances with a DEF, or with a DEF inside, stay: scripts may use these names. Returns the
-/// number of replaced nodes.
+/// `maxShapesWithOwnAppearance`. Appearances with a DEF, or with a DEF inside, stay: scripts may use these names.
+/// Returns the number of replaced nodes.
 std::size_t shareAppearances(Elements& elements);
 
 } // namespace imgeo::x3d
