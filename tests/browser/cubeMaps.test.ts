@@ -6,7 +6,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { allTextures } from "../../web/src/document/physicalMaterials.testing.ts";
-import { withPage } from "./harness.ts";
+import { withPage, type View } from "./harness.ts";
 import { encodePng, type Picture } from "./png.ts";
 import { sceneOf } from "./scenes.ts";
 import { startServer, type TestServer } from "./server.ts";
@@ -14,7 +14,7 @@ import { siteOfGenerated } from "./sites.ts";
 
 type Vec3 = readonly [number, number, number];
 
-const size = { width: 840, height: 150 };
+const size = { width: 1080, height: 150 };
 /** The eye's distance from the spheres, and half of the visible height there. */
 const eye = 20,
   halfHeight = 1.25;
@@ -115,10 +115,45 @@ const ball = (appearance: string, generator = ""): string =>
 const generator = (mode: string): string => `<TextureCoordinateGenerator mode="${mode}"></TextureCoordinateGenerator>`;
 const white = `<UnlitMaterial></UnlitMaterial>`;
 
+/** A room of walls in the texels' colors, which are seen from within: 1.3 from its center, in the scene's axes. */
+function room(): string {
+  const points: number[] = [],
+    colors: number[] = [];
+  for (const side of sides) {
+    const [face, right, down] = axes[side];
+    for (const [s, t] of [
+      [-1, -1],
+      [0, -1],
+      [-1, 0],
+      [0, 0],
+    ] as const) {
+      for (const [i, j] of [
+        [s, t],
+        [s + 1, t],
+        [s + 1, t + 1],
+        [s, t + 1],
+      ] as const)
+        points.push(...[0, 1, 2].map((k) => 1.3 * (face[k]! + i * right[k]! + j * down[k]!)));
+      colors.push(...texelOf(side, (s + 1) / 2, (t + 1) / 2).map((value) => value / 255));
+    }
+  }
+  const indices = Array.from(
+    { length: colors.length / 3 },
+    (_, i) => `${4 * i} ${4 * i + 1} ${4 * i + 2} ${4 * i + 3} -1`,
+  );
+  return `<Transform id="room" rotation="0 1 0 ${-turn}"><Shape><Appearance>${white}</Appearance>
+    <IndexedFaceSet colorPerVertex="false" coordIndex="${indices.join(" ")}"><Coordinate point="${points.join(" ")}"></Coordinate><Color color="${colors.join(" ")}"></Color></IndexedFaceSet></Shape></Transform>`;
+}
+
 const spheres: Readonly<Record<string, Sphere>> = {
   "composed, without a generator": {
     x: -4,
     markup: ball(`${white}<ComposedCubeMapTexture DEF="CUBE">${composed}</ComposedCubeMapTexture>`),
+    read: (ray, normal) => turned(reflected(ray, normal)),
+  },
+  "a generated cube map": {
+    x: -8,
+    markup: `${ball(`${white}<GeneratedCubeMapTexture id="generated" update="NEXT_FRAME_ONLY"></GeneratedCubeMapTexture>`)}${room()}`,
     read: (ray, normal) => turned(reflected(ray, normal)),
   },
   "a cross of another URL than the first, which is lost, and the second, which its host refuses": {
@@ -153,7 +188,7 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo>
   ${Object.values(spheres)
     .map(
       ({ x, markup }) =>
-        `<Transform translation="${x} 0 0"><Group>${markup.replace(/rotation="0 1 0 [\d.]+"/, "")}</Group></Transform>`,
+        `<Transform translation="${x} 0 0"><Group>${markup.replace(/(?<="light" )rotation="0 1 0 [\d.]+"/, "")}</Group></Transform>`,
     )
     .join("")}
   <Transform translation="4 0 0">${ball(`${mirror}<ImageCubeMapTexture id="none" url="front.png"></ImageCubeMapTexture>`)}</Transform></Transform>`;
@@ -206,6 +241,24 @@ function countSamplers(): void {
   };
 }
 
+/** A change of the room is seen in the generated cube map when its update is ALWAYS. */
+async function assertGeneratedAgain(view: View): Promise<void> {
+  const generated = { x: -8, markup: "" };
+  const before = (ray: Vec3, normal: Vec3) => turned(reflected(ray, normal));
+  await view.page.evaluate((turn) => {
+    document.querySelector("#room")!.setAttribute("rotation", `0 1 0 ${Math.PI / 2 - turn}`);
+  }, turn);
+  assertSphere(await view.picture(), "NEXT_FRAME_ONLY, the room turned", { ...generated, read: before });
+  await view.page.evaluate(() => {
+    document.querySelector("#generated")!.setAttribute("update", "ALWAYS");
+  });
+  const after = (ray: Vec3, normal: Vec3): Vec3 => {
+    const [x, y, z] = before(ray, normal); // turned back by a quarter
+    return [-z, y, x];
+  };
+  assertSphere(await view.picture(), "ALWAYS, the room turned", { ...generated, read: after });
+}
+
 test("cube maps and environment lights show the texels of OpenGL's cube maps", async () => {
   const site = sceneOf("cube-maps", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   for (const side of sides) writeFileSync(join(site, `${side}.png`), pictureOf(1, 1, { [side]: [0, 0] }));
@@ -247,6 +300,7 @@ test("cube maps and environment lights show the texels of OpenGL's cube maps", a
     assert.deepEqual(errors, [["unsupported", "front.png"]]);
     const picture = await view.picture();
     for (const [name, sphere] of Object.entries(spheres)) assertSphere(picture, name, sphere);
+    await assertGeneratedAgain(view);
     // Out of the light's scope, and with a picture that is no cube map: the grey surroundings.
     const { data, width, channels } = picture;
     const unit = size.height / 2 / halfHeight;

@@ -29,6 +29,7 @@ constexpr auto unreadFieldTable = std::to_array<UnreadField>({
     {"EnvironmentLight", "shadowIntensity", "1", nothing},
     {"EnvironmentLight", "shadows", "false", noShadows},
     {"FontStyle", "language", "", nothing},
+    {"GeneratedCubeMapTexture", "description", "", nothing},
     {"ImageCubeMapTexture", "description", "", nothing},
     {"ImageTexture", "colorSpaceConversion", "true", "images are always read as sRGB"},
     {"ImageTexture", "description", "", nothing},

@@ -396,6 +396,7 @@ export const nodeFields = {
     repeatT: SFBool(true),
   },
   ImageCubeMapTexture: { containerField: SFString(""), url: MFString([]), preview: SFString("") },
+  GeneratedCubeMapTexture: { containerField: SFString(""), size: SFInt32(128), update: SFString("NONE") },
   ComposedCubeMapTexture: { containerField: SFString("") },
   PixelTexture: { image: SFImage(noPixels), repeatS: SFBool(true), repeatT: SFBool(true) },
 } as const;

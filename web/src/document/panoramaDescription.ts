@@ -22,9 +22,18 @@ export interface CubeMapPicture extends ImageDescription {
   readonly role: CubeMapRole;
 }
 
-/** The pictures of a cube map: at most one of each role. */
+/** A cube map that shows the scene around its shape. */
+export interface GeneratedCubeMap {
+  /** Edge of a face in texels: a power of two. */
+  readonly size: number;
+  /** Whether it is drawn for each frame; else when something has been loaded. */
+  readonly isUpdatedAlways: boolean;
+}
+
+/** The pictures of a cube map: at most one of each role; none of one that is generated. */
 export interface CubeMapDescription {
   readonly pictures: readonly CubeMapPicture[];
+  readonly generated?: GeneratedCubeMap;
 }
 
 /**

@@ -71,3 +71,41 @@ test("an EnvironmentLight with too few coefficients has none, and one warning", 
   assert.deepEqual(light.diffuseCoefficients, []);
   assert.equal(warnings.length, 1);
 });
+
+describe("a GeneratedCubeMapTexture", () => {
+  const read = (fields: string) => {
+    const { root } = readScene(
+      elementsOf(
+        `<X3D><Scene><Shape><Appearance><GeneratedCubeMapTexture ${fields}/></Appearance></Shape></Scene></X3D>`,
+      ),
+    );
+    const [shape] = root.children;
+    return shape?.kind === "shape" ? shape.appearance.cubeMap?.generated : undefined;
+  };
+
+  test("is drawn when its update says so", () => {
+    assert.equal(read(""), undefined);
+    assert.deepEqual(read('update="NEXT_FRAME_ONLY"'), { size: 128, isUpdatedAlways: false });
+    assert.deepEqual(read('update="ALWAYS"'), { size: 128, isUpdatedAlways: true });
+  });
+
+  test("has faces of a power of two of at most 1024 texels", () => {
+    for (const [written, size] of [
+      [-5, 1],
+      [100, 128],
+      [1e9, 1024],
+    ] as const)
+      assert.equal(read(`update="ALWAYS" size="${written}"`)?.size, size);
+  });
+});
+
+test("an EnvironmentLight leaves out a GeneratedCubeMapTexture, with one warning", () => {
+  const { root, warnings } = readScene(
+    elementsOf(
+      '<X3D><Scene><EnvironmentLight><GeneratedCubeMapTexture containerField="specularTexture" update="ALWAYS"/></EnvironmentLight></Scene></X3D>',
+    ),
+  );
+  const [light] = root.children;
+  assert.ok(light?.kind === "environmentLight");
+  assert.deepEqual([light.specular, warnings.length], [undefined, 1]);
+});

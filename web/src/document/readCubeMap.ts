@@ -19,20 +19,33 @@ import { edgeToEdge, fieldOf, isTexture, readImageOf } from "./readImage.ts";
 const coefficientCount = 27;
 
 export function isCubeMap(child: SceneElement): boolean {
-  return ["imagecubemaptexture", "composedcubemaptexture"].includes(lowerNameOf(child));
+  return ["imagecubemaptexture", "composedcubemaptexture", "generatedcubemaptexture"].includes(lowerNameOf(child));
 }
 
-/** Undefined for a cube map without pictures. */
+/** Undefined for a cube map without pictures, unless it is generated. */
 export function readCubeMap(
   element: SceneElement,
   childrenOf: ChildrenOf,
   warnings: Warning[],
 ): CubeMapDescription | undefined {
+  if (lowerNameOf(element) === "generatedcubemaptexture") return readGenerated(element, warnings);
   const pictures =
     lowerNameOf(element) === "imagecubemaptexture"
       ? wholePicture(element, childrenOf, warnings)
       : sidesOf(element, childrenOf, warnings);
   return pictures.length > 0 ? { pictures } : undefined;
+}
+
+/** Faces are at most this wide, in texels. */
+const maxGeneratedSize = 1024;
+
+/** Undefined for one that is never to be drawn. */
+function readGenerated(element: SceneElement, warnings: Warning[]): CubeMapDescription | undefined {
+  const { size, update } = readFields(element, nodeFields.GeneratedCubeMapTexture, warnings);
+  const mode = update.trim().toUpperCase();
+  if (mode !== "ALWAYS" && mode !== "NEXT_FRAME_ONLY") return undefined;
+  const exponent = Math.round(Math.log2(Math.min(Math.max(size, 1), maxGeneratedSize)));
+  return { pictures: [], generated: { size: 2 ** exponent, isUpdatedAlways: mode === "ALWAYS" } };
 }
 
 function wholePicture(element: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): CubeMapPicture[] {
@@ -95,7 +108,11 @@ export function readEnvironmentLight(
   const fields = readFields(node, nodeFields.EnvironmentLight, warnings);
   const cubeMapIn = (field: string) => {
     const element = childrenOf(node).find((child) => isCubeMap(child) && fieldOf(child) === field);
-    return element && readCubeMap(element, childrenOf, warnings);
+    if (element === undefined) return undefined;
+    const cubeMap = readCubeMap(element, childrenOf, warnings);
+    if (cubeMap?.generated === undefined) return cubeMap;
+    warnings.push({ element, message: "shows its surroundings on shapes only, not in an EnvironmentLight" });
+    return undefined;
   };
   const { diffuseCoefficients } = fields;
   const hasCoefficients = diffuseCoefficients.length >= coefficientCount;

@@ -41,6 +41,7 @@ import { FramePacer } from "./frames/framePacing.ts";
 import type { Hit } from "./picking/picker.ts";
 import { makeClipPlaneUniforms } from "./environment/clipPlanes.ts";
 import { CubeMaps } from "./environment/cubeMaps.ts";
+import { GeneratedCubeMaps } from "./environment/generatedCubeMaps.ts";
 import { makeEnvironmentUniforms } from "./environment/environmentLight.ts";
 import type { EnvironmentPicture, EnvironmentRole } from "./environment/sceneEnvironment.ts";
 import { SceneEnvironment } from "./environment/sceneEnvironment.ts";
@@ -107,6 +108,7 @@ export class SceneRenderer {
   readonly #depthProbe: DepthProbe;
   readonly #framePacer: FramePacer;
   readonly #cubeMaps = new CubeMaps();
+  readonly #generatedCubeMaps = new GeneratedCubeMaps();
   readonly #environment = new SceneEnvironment(this.#cubeMaps, this.#shared);
   readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
@@ -140,6 +142,7 @@ export class SceneRenderer {
       buffers: this.#buffers,
       textures: this.#textures,
       cubeMaps: this.#cubeMaps,
+      generatedCubeMaps: this.#generatedCubeMaps,
       shared: this.#shared,
       batches: new Batches(x3dMaterials, geometries, this.#buffers),
       drawing: { asPoints: false },
@@ -366,6 +369,7 @@ export class SceneRenderer {
    * otherwise keep the GPU busy all the time.
    */
   requestPacedFrame(): void {
+    this.#generatedCubeMaps.invalidate();
     this.#framePacer.request(() => {
       this.requestFrame();
     });
@@ -378,6 +382,7 @@ export class SceneRenderer {
     this.#picker.dispose();
     this.#depthProbe.dispose();
     this.#cubeMaps.dispose();
+    this.#generatedCubeMaps.dispose();
     this.#background.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
@@ -425,8 +430,11 @@ export class SceneRenderer {
     );
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     const { pixelRatio } = this.#shared;
-    this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
     this.#cubeMaps.update(this.#renderer);
+    this.#generatedCubeMaps.update(this.#renderer, this.#scene, this.sphere, (camera, size) => {
+      this.#shapes.cull(camera, [size, size]);
+    });
+    this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawCalls = this.#renderer.info.render.calls;
     this.#framePacer.end(begunAt);

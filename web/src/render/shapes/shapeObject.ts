@@ -1,6 +1,7 @@
 // A displayed shape: the draws of each patch's newest stage, in one group per instance.
 
 import type { Texture } from "three";
+import { Vector3 } from "three";
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
 import { deepEqual } from "../../document/deepEqual.ts";
@@ -20,6 +21,7 @@ import { BatchedStage, drawModeOf } from "../batches/batchedStage.ts";
 import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
 import type { CubeMaps, JoinedCubeMap } from "../environment/cubeMaps.ts";
+import type { GeneratedCubeMaps } from "../environment/generatedCubeMaps.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SurfaceTexture, SurfaceTextureRole } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
@@ -35,6 +37,7 @@ export interface ShapeContext extends Pick<
 > {
   /** Undefined: cube maps are not drawn. */
   readonly cubeMaps?: CubeMaps;
+  readonly generatedCubeMaps?: GeneratedCubeMaps;
   /** Undefined: each shape is drawn alone. */
   readonly batches: Batches | undefined;
   /** Whether surfaces are drawn as points; call ShapeObject.redraw after a change. */
@@ -65,6 +68,8 @@ export class ShapeObject {
   /** The pictures that have been loaded of its cube map. */
   readonly #cubePictures = new Map<CubeMapRole, Texture>();
   #cubeMap: JoinedCubeMap | undefined;
+  #removeGenerated: (() => void) | undefined;
+  #box: ShapeDescription["box"];
   #isPickable: boolean;
 
   constructor(context: ShapeContext, shape: ShapeDescription) {
@@ -72,6 +77,7 @@ export class ShapeObject {
     this.#appearance = shape.appearance;
     this.#geometry = shape.geometry;
     this.#isPickable = shape.isPickable;
+    this.#box = shape.box;
   }
 
   /** Adds an instance. `host`: the page's element for it. */
@@ -124,15 +130,19 @@ export class ShapeObject {
   }
 
   /** Follows a changed description. Stages of another geometry are removed. */
-  setShape({ appearance, isPickable, geometry }: ShapeDescription): void {
+  setShape({ appearance, isPickable, geometry, box }: ShapeDescription): void {
     this.#isPickable = isPickable;
+    this.#box = box;
     if (geometry !== this.#geometry) this.clear();
     this.#geometry = geometry;
     const isSame = deepEqual(appearance, this.#appearance);
-    const isSameCubeMap = deepEqual(appearance.cubeMap?.pictures, this.#appearance.cubeMap?.pictures);
+    const isSameCubeMap =
+      deepEqual(appearance.cubeMap?.pictures, this.#appearance.cubeMap?.pictures) &&
+      deepEqual(appearance.cubeMap?.generated, this.#appearance.cubeMap?.generated);
     this.#appearance = appearance;
     if (!isSameCubeMap) this.#leaveCubeMap();
     if (!isSameCubeMap) for (const [role, picture] of this.#cubePictures) this.#setCubePicture(role, picture);
+    if (this.#patches.size > 0) this.#generateCubeMap();
     if (!isSame) this.#applyAppearance();
   }
 
@@ -167,7 +177,37 @@ export class ShapeObject {
     this.#cubeMap?.setPicture(role, picture);
   }
 
+  #generateCubeMap(): void {
+    const { cubeMap } = this.#appearance;
+    if (cubeMap?.generated === undefined) return;
+    this.#removeGenerated ??= this.#context.generatedCubeMaps?.add(cubeMap.generated, {
+      center: () => {
+        const [group] = this.#groups.keys();
+        const [min, max] = this.#box
+          ? [this.#box.min, this.#box.max]
+          : ([
+              [0, 0, 0],
+              [0, 0, 0],
+            ] as const);
+        return (
+          group &&
+          new Vector3(...min)
+            .add(new Vector3(...max))
+            .multiplyScalar(0.5)
+            .applyMatrix4(group.matrixWorld)
+        );
+      },
+      objects: () => Array.from(this.#groups.keys()).flatMap(({ children }) => children),
+      onTexture: (texture) => {
+        this.#surfaceTextures.set("cubeMap", { texture, hasAlpha: false });
+        this.#applyAppearance();
+      },
+    });
+  }
+
   #leaveCubeMap(): void {
+    this.#removeGenerated?.();
+    this.#removeGenerated = undefined;
     this.#cubeMap?.leave();
     this.#cubeMap = undefined;
     this.#surfaceTextures.delete("cubeMap");
@@ -213,6 +253,7 @@ export class ShapeObject {
   }
 
   #display(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): DisplayedPatch {
+    this.#generateCubeMap();
     const { batches, ...context } = this.#context;
     const { batching } = context.materialFactory;
     const drawMode = this.#drawModeOf(stage);
@@ -240,7 +281,8 @@ export class ShapeObject {
 
   #drawModeOf(stage: Stage): DrawMode {
     const { batching } = this.#context.materialFactory;
-    return batching !== undefined
+    const isHiddenFromItself = this.#appearance.cubeMap?.generated !== undefined;
+    return batching !== undefined && !isHiddenFromItself
       ? drawModeOf(stage, this.#drawModes, this.#appearance, this.#surfaceTextures, batching)
       : "alone";
   }
