@@ -8,14 +8,14 @@ import { SFBool, SFFloat, SFInt32, SFString } from "./fieldTypes.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
-const convertReads = "pages do not draw it; imgeo convert reads the document and writes patches of it";
+const notEvenConverted = "neither pages nor imgeo convert read it; convert the model from which it was made instead";
 
 /** Nodes that are left out, by their lower-case name. */
 const refusedNodes: Readonly<Record<string, string>> = {
-  popgeometry: convertReads,
+  popgeometry: notEvenConverted,
   popgeometrylevel: "a PopGeometryLevel is part of a PopGeometry, which pages do not draw",
-  externalgeometry: convertReads,
-  externalshape: convertReads,
+  externalgeometry: notEvenConverted,
+  externalshape: notEvenConverted,
   bitlodgeometry: "pages do not draw it; X3DOM itself has given it up for PopGeometry",
   buffergeometry: "pages do not draw it; imgeo convert reads the glTF file that its buffer belongs to",
   bvhrefiner: "pages do not draw it; imgeo convert makes patches and levels of detail of the whole model",
