@@ -358,4 +358,12 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   return geometry;
 }
 
+std::optional<PatchName> parsePatchName(const std::string& text) {
+  const std::size_t hash = text.rfind('#');
+  PatchName name{text.substr(0, hash)};
+  if (hash == std::string::npos || !parseInteger(std::string_view(text).substr(hash + 1), name.index))
+    return {};
+  return name;
+}
+
 } // namespace imgeo

@@ -4,6 +4,10 @@
 #include "containers/geometry_description.h"
 #include "documents/field_reader.h"
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 namespace imgeo {
 
 /// Whether a node of this name holds a geometry of one of our encodings.
@@ -13,5 +17,14 @@ bool isGeometryNode(const char* name);
 /// patch in url fields or ImageTexture children of the node itself. Throws Error for geometry that a Lattice cannot
 /// express.
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node);
+
+/// The field `patch` of a Shape, "DEF#N".
+struct PatchName {
+  std::string geometry; ///< the DEF of the geometry node
+  std::uint32_t index = 0;
+};
+
+/// Empty for text of another form.
+std::optional<PatchName> parsePatchName(const std::string& text);
 
 } // namespace imgeo

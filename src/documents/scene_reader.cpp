@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <set>
 
@@ -285,18 +284,15 @@ private:
 
   /// The geometry that the field `patch` of a Shape names: "DEF#N".
   Shape sharedPatch(const FieldReader& fields, const std::string& patch) {
-    const std::size_t hash = patch.rfind('#');
-    const auto found = sharedGeometries_.find(patch.substr(0, hash));
-    std::uint32_t index = 0;
-    const char *begin = patch.data() + hash + 1, *end = patch.data() + patch.size();
-    if (hash == std::string::npos || found == sharedGeometries_.end() ||
-        std::from_chars(begin, end, index) != std::from_chars_result{end, std::errc{}})
+    const std::optional<PatchName> name = parsePatchName(patch);
+    const auto found = name ? sharedGeometries_.find(name->geometry) : sharedGeometries_.end();
+    if (found == sharedGeometries_.end())
       fields.fail(ErrorKind::malformed, "patch names no patch of a geometry that stands before");
     SharedGeometry& shared = found->second;
-    const auto [mesh, isNew] = shared.meshes.try_emplace(index, document_.geometries.size());
+    const auto [mesh, isNew] = shared.meshes.try_emplace(name->index, document_.geometries.size());
     if (isNew) {
       document_.geometries.push_back(shared.geometry);
-      document_.geometries.back().patches[0].data->location = PatchLocation{index};
+      document_.geometries.back().patches[0].data->location = PatchLocation{name->index};
       isJoinable_.push_back(false);
     }
     Shape shape;

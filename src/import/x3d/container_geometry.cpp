@@ -1,7 +1,10 @@
 #include "import/x3d/container_geometry.h"
 
+#include "containers/encodings.h"
 #include "containers/read_mesh.h"
 #include "documents/geometry_reader.h"
+
+#include <fmt/format.h>
 
 namespace imgeo::x3d {
 
@@ -48,10 +51,36 @@ std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> no
     geometry.patches.push_back(patch);
   }
   Mesh mesh = readMesh(reader_, geometry, source_.locationOf(nodes[0]));
+  chooseAttributes(mesh, kept, attributes);
+  return mesh;
+}
+
+std::map<std::uint32_t, ContainerGeometries::SharedPatch>
+ContainerGeometries::readShared(pugi::xml_node node, const std::set<std::uint32_t>& indices,
+                                const AttributeChoice& kept, std::set<std::string>& attributes) const {
+  GeometryDescription geometry = readGeometry(source_.documentText(), node);
+  if (rowOf(geometry).storage != PatchStorage::packed || geometry.patches.size() != 1)
+    source_.fail(node, ErrorKind::unsupported, "is no patch of compact, whose file Shapes can share");
+  const std::string location = source_.locationOf(node);
+  std::map<std::uint32_t, SharedPatch> patches;
+  for (const std::uint32_t index : indices)
+    try {
+      geometry.patches[0].data->location = PatchLocation{index};
+      Mesh mesh = readMesh(reader_, geometry, location);
+      if (mesh.corners.empty())
+        throw Error(ErrorKind::malformed, geometry.patches[0].data->url, fmt::format("patch {} is empty", index));
+      chooseAttributes(mesh, kept, attributes);
+      patches.emplace(index, std::move(mesh));
+    } catch (const Error& error) {
+      patches.emplace(index, error);
+    }
+  return patches;
+}
+
+void ContainerGeometries::chooseAttributes(Mesh& mesh, const AttributeChoice& kept, std::set<std::string>& attributes) {
   for (const NamedAttribute& attribute : mesh.namedAttributes)
     attributes.insert(attribute.name);
   std::erase_if(mesh.namedAttributes, [&](const NamedAttribute& attribute) { return !kept.has(attribute.name); });
-  return mesh;
 }
 
 } // namespace imgeo::x3d

@@ -2,16 +2,20 @@
 // Geometry whose vertices are in files beside the document: ImageGeometry and BinaryGeometry, of sites that imgeo or
 // another program has written, such as aopt for X3DOM.
 
+#include "base/error.h"
 #include "containers/container_reader.h"
 #include "import/references.h"
 #include "import/x3d/source.h"
 #include "scene/mesh.h"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace imgeo::x3d {
@@ -35,7 +39,18 @@ public:
   std::optional<Mesh> read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
                            std::set<std::string>& attributes) const;
 
+  /// The mesh of a patch of a node that several Shapes share, or why it cannot be read.
+  using SharedPatch = std::variant<Mesh, Error>;
+
+  /// Patches of the file of such a node, by their index, which are decoded together. Throws Error for a node that is no
+  /// such one. Otherwise as read().
+  std::map<std::uint32_t, SharedPatch> readShared(pugi::xml_node node, const std::set<std::uint32_t>& indices,
+                                                  const AttributeChoice& kept, std::set<std::string>& attributes) const;
+
 private:
+  /// Keeps the named attributes of a mesh that are in `kept`; adds the names of all to `attributes`.
+  static void chooseAttributes(Mesh& mesh, const AttributeChoice& kept, std::set<std::string>& attributes);
+
   const Source& source_;
   ContainerReader reader_;
 };

@@ -11,6 +11,7 @@
 #include "import/x3d/page.h"
 #include "import/x3d/prototypes.h"
 #include "import/x3d/shared_appearances.h"
+#include "import/x3d/shared_patches.h"
 #include "import/x3d/summary.h"
 #include "import/x3d/texture_coordinates.h"
 #include "import/x3d/unread_fields.h"
@@ -56,6 +57,8 @@ public:
       : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
         keptAttributes_(options.attributes), mappings_(options.attributes),
         images_(references, imported_.scene.graph.images), containers_(source, references),
+        sharedPatches_(source, containers_, keptAttributes_, attributes_,
+                       [this](Mesh mesh, bool isSolid) { return addShape(std::move(mesh), isSolid); }),
         inlines_(references, options, imported_.scene, imported_.warnings) {
     addTextureMappings();
     if (smallGeometryTextBytes(source_, inlineBytes_) > maxInlineTextBytes)
@@ -82,6 +85,7 @@ public:
         addTo(graph.roots, child);
     addTitle();
     imported_.attributes.assign(attributes_.begin(), attributes_.end());
+    sharedPatches_.addTo(imported_.warnings);
     summary_.addTo(imported_.warnings);
     return std::move(imported_);
   }
@@ -187,8 +191,10 @@ private:
       node.fields = fieldsOf(element);
     } else {
       node.content = genericNodeOf(element);
-      // `preview` names a file of the site that is converted.
-      node.fields = imageFieldsOf(name).empty() ? fieldsOf(element) : fieldsOf(element, {"preview"});
+      // `preview` and `patch` name parts of the site that is converted.
+      node.fields = !imageFieldsOf(name).empty() ? fieldsOf(element, {"preview"})
+                    : name == "Shape"            ? fieldsOf(element, {"patch"})
+                                                 : fieldsOf(element);
       summary_.remoteImages += keepRemoteImageUrls(std::get<GenericNode>(node.content), node.fields);
     }
     if (name == "Inline")
@@ -292,6 +298,10 @@ private:
 
   /// Reads a Shape whose geometry becomes a mesh; returns empty for any other.
   std::optional<std::size_t> readShape(pugi::xml_node element) {
+    if (hasSharedPatch(source_, element)) {
+      const std::optional<Shape> shape = sharedPatches_.shapeOf(element, isStrict_);
+      return shape ? std::optional(addShapeNode(element, *shape, {}, {})) : std::nullopt;
+    }
     for (const pugi::xml_node& child : element.children()) {
       if (child.type() != pugi::node_element)
         continue;
@@ -300,15 +310,22 @@ private:
       const std::optional<Shape> shape = convertedShape(geometry, !generator.empty());
       if (!shape)
         continue;
-      Node node;
-      node.content = *shape;
-      node.fields = fieldsOf(element, {"bboxCenter", "bboxSize"});
-      addChildren(element, node, child);
-      if (generator)
-        addTo(node.children, generator);
-      return addNode(imported_.scene.graph, std::move(node));
+      return addShapeNode(element, *shape, child, generator);
     }
     return {};
+  }
+
+  /// Adds a Shape with the fields of `element` and its children other than `geometry`. `generator`: see
+  /// cameraGeneratorOf.
+  std::size_t addShapeNode(pugi::xml_node element, const Shape& shape, pugi::xml_node geometry,
+                           pugi::xml_node generator) {
+    Node node;
+    node.content = shape;
+    node.fields = fieldsOf(element, {"bboxCenter", "bboxSize", "patch"});
+    addChildren(element, node, geometry);
+    if (generator)
+      addTo(node.children, generator);
+    return addNode(imported_.scene.graph, std::move(node));
   }
 
   /// Whether the Appearance of a Shape has a cube map.
@@ -451,6 +468,7 @@ private:
   NodeImages images_;
   ContainerGeometries containers_;
   std::set<std::string> attributes_; ///< names of the vertex attributes of geometries of files
+  SharedPatches sharedPatches_;
   Inlines inlines_;
   std::map<std::string, std::size_t> defined_;                       ///< nodes by DEF name
   std::set<pugi::xml_node_struct*> reading_;                         ///< elements whose reading has begun but not ended

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/file.h"
 #include "base/testing.h"
 #include "imgeo/imgeo.h"
@@ -68,6 +69,55 @@ TEST_F(TinyShapes, EqualTheirSourceAndAreExported) {
   const VerifyReport exported = verify(directory / "site", directory / "out.glb"); // whose materials are glTF's
   EXPECT_EQ(exported.input.triangles, 2 * shapeCount);
   EXPECT_EQ(exported.missing.triangles + exported.extra.triangles, 0u);
+}
+
+TEST_F(TinyShapes, AreConvertedAgainFromTheirPage) {
+  ConvertOptions options;
+  options.pictures = false;
+  options.strict = true;
+  const ConvertReport report = convert(directory / "site/index.html", directory / "new", options);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+  EXPECT_EQ(report.elements.triangles, 2 * shapeCount);
+  EXPECT_EQ(inspect(directory / "new").patches, shapeCount);
+  const VerifyReport verified = verify(directory / "new", directory / "site/index.html");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  EXPECT_EQ(verified.site.triangles, 2 * shapeCount);
+}
+
+TEST_F(TinyShapes, AreConvertedWithoutTheGeometryThatTheirPageNamesInVain) {
+  std::string html = page();
+  const auto rename = [&](std::string_view name) { // the next patch="g..."
+    const std::size_t begin = html.find("patch=\"g") + 7;
+    html.replace(begin, html.find('"', begin) - begin, name);
+  };
+  const std::size_t begin = html.find("patch=\"g") + 7;
+  const std::string beyond = html.substr(begin, html.find('#', begin) - begin) + "#99999";
+  rename("no g#1");
+  rename("17");
+  rename("part0#0"); // is a Shape
+  writeFile(directory / "site/index.html", asBytes(html));
+  ConvertOptions options;
+  options.pictures = false;
+  ConvertReport report = convert(directory / "site/index.html", directory / "new", options);
+  ASSERT_EQ(report.warnings.size(), 1u) << ::testing::PrintToString(report.warnings);
+  EXPECT_TRUE(report.warnings[0].starts_with("3 Shapes left without their geometry, the first at "))
+      << report.warnings[0];
+  EXPECT_NE(report.warnings[0].find("patch=\"no g#1\" names no patch"), std::string::npos) << report.warnings[0];
+  EXPECT_EQ(report.elements.triangles, 2 * (shapeCount - 3));
+
+  rename(beyond);
+  writeFile(directory / "site/index.html", asBytes(html));
+  report = convert(directory / "site/index.html", directory / "new", options);
+  ASSERT_EQ(report.warnings.size(), 2u) << ::testing::PrintToString(report.warnings);
+  EXPECT_NE(report.warnings[1].find("has no patch 99999"), std::string::npos) << report.warnings[1];
+  options.strict = true;
+  try {
+    convert(directory / "site/index.html", directory / "strict", options);
+    ADD_FAILURE() << "was converted";
+  } catch (const Error& error) {
+    EXPECT_EQ(exitCode(error.kind()), 3) << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory / "strict"));
 }
 
 TEST_F(TinyShapes, AreRefusedWhereTheirFileIsShorterOrTheirNodeIsUnknown) {
