@@ -107,7 +107,7 @@ const nearest =
   '<TextureProperties magnificationFilter="NEAREST_PIXEL" minificationFilter="NEAREST_PIXEL"></TextureProperties>';
 const white = '<Material diffuseColor="1 1 1" ambientIntensity="0"></Material>';
 const image = (attributes = "", inside = nearest): string =>
-  `<ImageTexture url="picture.png" ${attributes}>${inside}</ImageTexture>`;
+  `<ImageTexture url="texels.png" ${attributes}>${inside}</ImageTexture>`;
 const wrapped = (value: number): number => value - Math.floor(value);
 const clamped = (value: number): number => Math.min(0.999, Math.max(0, value));
 const mirrored = (value: number): number => (Math.floor(value) % 2 === 0 ? wrapped(value) : 0.999999 - wrapped(value));
@@ -298,7 +298,7 @@ function texturedScene(): { directory: string; all: Case[] } {
     Object.fromEntries(all.map(({ site }, n) => [`q${n}`, site])),
     viewpoint(distance) + withSideLight + shapes.join("\n"),
   );
-  for (const [name, bytes] of Object.entries({ ...dataFiles, "picture.png": encodePng(picture) }))
+  for (const [name, bytes] of Object.entries({ ...dataFiles, "texels.png": encodePng(picture) }))
     writeFileSync(join(directory, name), bytes);
   return { directory, all };
 }
@@ -309,13 +309,13 @@ describe("a texture", () => {
     const { closed, open } = gate();
     await withPage(
       directory,
-      { server: (server) => server.when(/\/(picture|normal|plain|holes)\.png$/, { hold: closed }) },
+      { server: (server) => server.when(/\/(texels|normal|plain|holes)\.png$/, { hold: closed }) },
       async (view) => {
         await until(
           "everything but the texture is displayed",
           async () => (await view.events("first-image", "shape")).length === all.length,
         );
-        await until("the texture is requested", () => view.server.requestsOf(/picture\.png$/).length > 0);
+        await until("the texture is requested", () => view.server.requestsOf(/texels\.png$/).length > 0);
         const [textured, others] = [
           all.filter(({ appearance }) => appearance.includes("url=")).length,
           (await view.events("load", "shape")).length,
@@ -363,7 +363,7 @@ describe("a texture", () => {
             what,
           );
         }
-        assert.equal(view.server.requestsOf(/picture\.png$/).length, 3); // once for each wrap mode
+        assert.equal(view.server.requestsOf(/texels\.png$/).length, 3); // once for each wrap mode
       },
     );
   });
@@ -385,7 +385,7 @@ describe("a texture", () => {
       await view.promise("complete");
       assert.equal(view.server.requestsOf(/geometry/).length, without + 1);
       const [error] = await view.events("error", "shape");
-      assert.deepEqual([error?.detail.type, error?.detail.url], ["http", "picture.png"]);
+      assert.deepEqual([error?.detail.type, error?.detail.url], ["http", "texels.png"]);
       assert.deepEqual(colorAt(await view.picture(), pixelAt(0.3, 0.3)), [255, 255, 255]);
     });
   });

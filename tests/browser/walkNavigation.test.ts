@@ -2,14 +2,14 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync } from "node:fs";
+import { cpSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { walkPage } from "../../examples/hall/page.ts";
 import { focusView } from "./gestures.ts";
 import { until, withPage, type View } from "./harness.ts";
-import { converter, outputDirectory } from "./paths.ts";
+import { converter, outputDirectory, repository } from "./paths.ts";
 import { siteOf, variantOf } from "./sites.ts";
 
 interface Eye {
@@ -37,11 +37,13 @@ function hall(): string {
   execFileSync(converter, ["sample", "hall", "--seats", String(rows * 40), "-o", file], {
     stdio: ["ignore", "ignore", "inherit"],
   });
-  return variantOf(siteOf(file), "walk", (page) =>
+  const site = variantOf(siteOf(file), "walk", (page) =>
     walkPage(page, "A hall", "Walk.")
       .replaceAll(/(DEF="(?:row\d+|trusses|columns)")/g, '$1 visible="false"')
       .replace('speed="3"', 'speed="5"'),
   );
+  cpSync(join(repository, "examples/hall/hall.css"), join(site, "hall.css"));
+  return site;
 }
 
 /** Records every position of the camera in the page. */
