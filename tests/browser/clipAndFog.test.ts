@@ -1,5 +1,5 @@
-// Tests ClipPlane, Fog and LocalFog: walls that face the viewer have the colours that X3D's equations give, drawn one
-// by one and in a batch, and what is clipped is not picked.
+// Tests ClipPlane, Fog, LocalFog and FogCoordinate: walls that face the viewer have the colours that X3D's equations
+// give, drawn one by one and in a batch, and what is clipped is not picked.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -14,9 +14,14 @@ const eye = 10,
 const fieldOfView = 2 * Math.atan(halfHeight / eye);
 const range = 40;
 
-const wall = (id: string, center: number): string =>
+/** The share of fog at the lower and the upper edge of a wall with a FogCoordinate. */
+const depths = [0.2, 0.8] as const;
+const fogCoordinate = `<FogCoordinate depth="${depths[0]} ${depths[0]} ${depths[1]}"></FogCoordinate>`;
+
+/** `children`: further nodes of the geometry. */
+const wall = (id: string, center: number, children = ""): string =>
   `<Shape id="${id}"><Appearance><UnlitMaterial emissiveColor="1 0 0"></UnlitMaterial></Appearance><IndexedFaceSet solid="false" coordIndex="0 1 2 3">
-    <Coordinate point="${center - 0.9} -1 0 ${center + 0.9} -1 0 ${center + 0.9} 1 0 ${center - 0.9} 1 0"></Coordinate></IndexedFaceSet></Shape>`;
+    <Coordinate point="${center - 0.9} -1 0 ${center + 0.9} -1 0 ${center + 0.9} 1 0 ${center - 0.9} 1 0"></Coordinate>${children}</IndexedFaceSet></Shape>`;
 
 const scene = `<NavigationInfo headlight="false"></NavigationInfo><Background skyColor="0 0 1"></Background>
   <Viewpoint position="0 0 ${eye}" fieldOfView="${fieldOfView}"></Viewpoint>
@@ -24,7 +29,8 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo><Background sk
   ${wall("plain", -2)}
   <Transform rotation="0 0 1 1.5708" scale="2 1 1"><ClipPlane id="plane" plane="1 0 0 0"></ClipPlane><Transform rotation="0 0 1 -1.5708">${wall("clipped", 0)}</Transform></Transform>
   <Transform scale="0.5 0.5 0.5" translation="2 0 0"><LocalFog id="local" color="0 0 0" visibilityRange="${4 * range}"></LocalFog>
-    <Transform scale="2 2 2">${wall("local-wall", 0)}</Transform></Transform>`;
+    <Transform scale="2 2 2">${wall("local-wall", 0)}</Transform></Transform>
+  <Transform translation="0 -1.5 0" scale="1 0.4 1">${wall("deep", -2, fogCoordinate)}</Transform>`;
 
 /** The color, 0 … 1, of the point (x, y, 0). */
 async function colorAt(view: View, x: number, y: number): Promise<readonly number[]> {
@@ -48,6 +54,11 @@ async function assertPicture(view: View, what: string, shareAt: (distance: numbe
   assertNear(await colorAt(view, -2, y), [share(-2), 1 - share(-2), 0], `${what}: fog`);
   assertNear(await colorAt(view, 0, y), [share(0), 1 - share(0), 0], `${what}: in front of the plane`);
   assertNear(await colorAt(view, 0, -y), [0, 0, 1], `${what}: behind the plane`);
+  // In the middle of pixels, of the wall from -1.9 to -1.1.
+  for (const deepY of [-1.6125, -1.3875]) {
+    const shareOfFog = depths[0] + ((depths[1] - depths[0]) * (deepY + 1.9)) / 0.8;
+    assertNear(await colorAt(view, -2, deepY), [1 - shareOfFog, shareOfFog, 0], `${what}: by depth`);
+  }
   assertNear(await colorAt(view, 2, y), [linear(Math.hypot(2, y, eye), 2 * range), 0, 0], `${what}: local fog`);
 }
 

@@ -3,7 +3,8 @@
 import type { ByVertexRole } from "../stage/attributeRows.ts";
 import { byVertexRole, byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
 import { dataUrl } from "./dataUrl.ts";
-import type { Box3, GeometryDescription, Reference } from "./description.ts";
+import type { AttributeDescription, Box3, GeometryDescription, Reference } from "./description.ts";
+import { fogDepthName } from "./description.ts";
 import type { VertexArrays } from "../tessellate/faces.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 
@@ -14,7 +15,16 @@ export function geometryOfArrays(
   texCoordMappings: readonly string[] = [""],
 ): GeometryDescription | undefined {
   if (arrays === undefined || arrays.positions.length === 0) return undefined;
-  const { positions, normals, texCoords, furtherTexCoords = [], colors, colorComponents, primitive } = arrays;
+  const {
+    positions,
+    normals,
+    texCoords,
+    furtherTexCoords = [],
+    colors,
+    colorComponents,
+    primitive,
+    fogDepths,
+  } = arrays;
   const count = positions.length / 3;
   const [texCoord1, texCoord2, texCoord3] = furtherTexCoords;
   const array: ByVertexRole<Float32Array | Uint8Array> = {
@@ -38,7 +48,7 @@ export function geometryOfArrays(
     normalEncoding: "rgb",
     decode: "auto",
     base: undefined,
-    attributes: [],
+    attributes: fogDepths ? [fogDepthDescription] : [],
     value: undefined,
     indexType: "Uint32",
     coordType: "Float32",
@@ -54,7 +64,7 @@ export function geometryOfArrays(
         index: undefined,
         coord: [dataReference(positions)],
         ...byVertexRole((role) => array[role] && dataReference(array[role])),
-        attributes: [],
+        attributes: fogDepths ? [dataReference(fogDepths)] : [],
         value: [],
         lowBytes: {},
         data: undefined,
@@ -62,6 +72,15 @@ export function geometryOfArrays(
     ],
   };
 }
+
+const fogDepthDescription: AttributeDescription = {
+  name: fogDepthName,
+  components: 1,
+  fileCount: 1,
+  bits: undefined,
+  min: [],
+  size: [],
+};
 
 function boxAroundAll(positions: Float32Array): Box3 {
   const cornerOf = (choose: (...values: number[]) => number, start: number): Vec3 => {

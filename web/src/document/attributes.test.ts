@@ -62,6 +62,18 @@ describe("a shape's colorBy", () => {
     );
   });
 
+  test("is the depth in fog where it has its name, unless another attribute colors the shape", () => {
+    const bg = `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
+      <FloatVertexAttribute name="fogDepth" numComponents="1"/><GeometryPatch attrib="h.bin f.bin"/></BinaryGeometry>`;
+    const plain = read("", bg);
+    assert.deepEqual([plain.geometry.value?.name, plain.geometry.valueUse], ["fogDepth", "fogDepth"]);
+    assert.equal(plain.shape.appearance.colorMap, undefined);
+    assert.deepEqual(plain.messages, []);
+    const colored = read(`colorBy="heat"`, bg);
+    assert.deepEqual([colored.geometry.value?.name, colored.geometry.valueUse], ["heat", "color"]);
+    assert.deepEqual(colored.messages, [`colorBy="heat": its fog depends on the distance from the viewer`]);
+  });
+
   test("colors nothing where it is absent or names an unknown attribute", () => {
     assert.deepEqual(read("").geometry.patches[0]?.value, []);
     assert.deepEqual(read("").messages, []);

@@ -1,5 +1,5 @@
-// Custom vertex attributes (FloatVertexAttribute), and the attribute that colors a shape: `colorBy` names it, and a
-// color map maps its values to colors.
+// Custom vertex attributes (FloatVertexAttribute), and the attribute whose values shaders read: `colorBy` names the one
+// that colors a shape, whose values a color map maps to colors; otherwise it is the depth in fog.
 
 import type {
   AttributeDescription,
@@ -7,7 +7,9 @@ import type {
   Encoding,
   GeometryDescription,
   Reference,
+  ValueUse,
 } from "./description.ts";
+import { fogDepthName } from "./description.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
@@ -48,14 +50,18 @@ function filesOf(
 }
 
 /** The geometry with the values of a named attribute; undefined where it has no such attribute. */
-export function withValues(geometry: GeometryDescription, name: string): GeometryDescription | undefined {
+export function withValues(
+  geometry: GeometryDescription,
+  name: string,
+  use: ValueUse,
+): GeometryDescription | undefined {
   const value = geometry.attributes.find((attribute) => attribute.name === name);
   if (value === undefined) return undefined;
   const patches = geometry.patches.map((patch) => ({
     ...patch,
     value: filesOf(geometry.attributes, value, patch.attributes),
   }));
-  return { ...geometry, value, patches };
+  return { ...geometry, value, valueUse: use, patches };
 }
 
 /** The range of an attribute's values; for several components the range of their length. */
@@ -77,5 +83,7 @@ export function colorMapOf(
       warnings.push({ element, message: `colorBy="${values.colorBy}" is no attribute of the geometry` });
     return undefined;
   }
+  if (geometry.attributes.some(({ name }) => name === fogDepthName && name !== values.colorBy))
+    warnings.push({ element, message: `colorBy="${values.colorBy}": its fog depends on the distance from the viewer` });
   return { colors: values.colorMap, range: values.colorRange ?? rangeOf(geometry.value) };
 }

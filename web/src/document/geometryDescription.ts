@@ -74,7 +74,7 @@ export interface PatchDescription extends Readonly<Record<VertexRole, Reference 
   readonly data: Reference | undefined;
   /** The files of all further attributes, one after the other, `fileCount` each. */
   readonly attributes: readonly Reference[];
-  /** The files of the attribute that colors the geometry. */
+  /** The files of `GeometryDescription.value`. */
   readonly value: readonly Reference[];
 }
 
@@ -92,6 +92,12 @@ export interface AttributeDescription {
   readonly min: readonly number[];
   readonly size: readonly number[];
 }
+
+/** The use of the attribute whose values shaders read: they color the vertices, or are their depths in fog. */
+export type ValueUse = "color" | "fogDepth";
+
+/** The name of the attribute that holds depths in fog (FogCoordinate). */
+export const fogDepthName = "fogDepth";
 
 /** The meaning of an image geometry's texels: vertices and indices, or a surface over their grid. */
 export const meshModes = ["sig", "heightMap", "geometryImage", "sculpt"] as const;
@@ -144,8 +150,10 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   /** Typed arrays only, as are `normalType` and the types of the other attributes. */
   readonly coordType: ElementType;
   readonly attributes: readonly AttributeDescription[];
-  /** The attribute whose values color the vertices. */
+  /** The attribute whose values shaders read. */
   readonly value: AttributeDescription | undefined;
+  /** Default: color. */
+  readonly valueUse?: ValueUse;
   readonly patches: readonly PatchDescription[];
   /** The base mesh that stands in for the patches until they are loaded. */
   readonly base: Reference | undefined;

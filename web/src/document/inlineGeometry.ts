@@ -210,12 +210,14 @@ function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning
   const coordinate = childNamed(element, resolve, "coordinate", "coordinatedouble");
   const normal = childNamed(element, resolve, "normal");
   const color = childNamed(element, resolve, "color", "colorrgba");
+  const fogCoordinate = childNamed(element, resolve, "fogcoordinate");
   return {
     positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
     normals: normal ? readFields(normal, nodeFields.Normal, warnings).vector : [],
     ...texCoordSetsOf(element, resolve, warnings),
     colors: color ? readFields(color, nodeFields.Color, warnings).color : [],
     colorComponents: color && lowerNameOf(color) === "colorrgba" ? 4 : 3,
+    fogDepths: fogCoordinate ? readFields(fogCoordinate, nodeFields.FogCoordinate, warnings).depth : [],
   };
 }
 

@@ -387,6 +387,7 @@ export const nodeFields = {
   TextureCoordinate: { point: MFFloat([]), mapping: SFString("") },
   TextureCoordinateGenerator: { mode: SFString("SPHERE") },
   Color: { color: MFFloat([]) },
+  FogCoordinate: { depth: MFFloat([]) },
   GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
   ImageTexture: {
     containerField: SFString(""),

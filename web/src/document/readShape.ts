@@ -3,6 +3,7 @@
 import { colorMapOf, withValues } from "./attributes.ts";
 import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
 import type { Box3, GeometryDescription, ShapeDescription } from "./description.ts";
+import { fogDepthName } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -131,7 +132,11 @@ function readGeometryOf(
     box === undefined
       ? found.geometry
       : geometries.variant(found.geometry, JSON.stringify(box), (plain) => withBox(plain, box));
-  const geometry = colorBy === "" ? boxed : geometries.variant(boxed, colorBy, (plain) => withValues(plain, colorBy));
+  const [name, use] = colorBy === "" ? ([fogDepthName, "fogDepth"] as const) : ([colorBy, "color"] as const);
+  const hasValues = boxed.attributes.some((attribute) => attribute.name === name);
+  const geometry = hasValues
+    ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
+    : boxed;
   return { geometry, priority, lit };
 }
 

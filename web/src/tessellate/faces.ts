@@ -20,6 +20,8 @@ export interface VertexData {
   /** `colorComponents` numbers each, 0 … 1. */
   readonly colors: readonly number[];
   readonly colorComponents: 3 | 4;
+  /** The depth in fog of each position; the last one is that of all further positions too. */
+  readonly fogDepths?: readonly number[];
 }
 
 /** Indices into VertexData; -1 where the attribute is absent. */
@@ -46,6 +48,7 @@ export interface VertexArrays {
   readonly furtherTexCoords?: readonly Float32Array[];
   readonly colors: Uint8Array | undefined;
   readonly colorComponents: 3 | 4;
+  readonly fogDepths?: Float32Array | undefined;
 }
 
 /**
@@ -203,6 +206,7 @@ export function vertexArraysOf(
   if (positions === undefined || normals === undefined || texCoords === undefined || colors === undefined)
     return undefined;
   if (furtherTexCoords.includes(undefined)) return undefined;
+  const { fogDepths = [] } = data;
   return {
     primitive,
     colorComponents,
@@ -213,6 +217,10 @@ export function vertexArraysOf(
     colors:
       colors.length > 0
         ? Uint8Array.from(colors, (value) => Math.round(255 * Math.min(Math.max(value, 0), 1)))
+        : undefined,
+    fogDepths:
+      fogDepths.length > 0
+        ? Float32Array.from(corners, ({ position }) => fogDepths[position] ?? fogDepths.at(-1) ?? 0)
         : undefined,
   };
 }

@@ -1,10 +1,11 @@
-// Fog and LocalFog (ISO/IEC 19775-1, 24.2.3) in shaders. Programs of scenes without fog contain no such code.
+// Fog, LocalFog and FogCoordinate (ISO/IEC 19775-1, 24.2.3) in shaders. Programs of scenes without fog contain no such code.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { Vector2, Vector3 } from "three";
 import type { FogDescription } from "../../document/description.ts";
 import type { EffectScope } from "../../scene/effectScope.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
+import { fogDepthsDefine } from "../materials/valueColors.ts";
 import { scopeRangeOf } from "../shaders/drawScope.ts";
 
 /** A fog that applies to the shapes of a scope. */
@@ -41,16 +42,36 @@ export function setFogs({ fogColors, fogRanges, fogScopes }: FogUniforms, all: r
   fogScopes.value = fogs.map(({ scope }) => scopeRangeOf(scope));
 }
 
-/** Call in `onBeforeCompile`, before `viewPoint` and the draw's scope are added. */
-export function addFogs(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">, count: number): void {
-  const declarations = /* glsl */ `
+/** Call in `onBeforeCompile` after addValueColors, before `viewPoint` and the draw's scope are added. */
+export function addFogs(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+  count: number,
+): void {
+  const depthDeclaration = /* glsl */ `
+#ifdef ${fogDepthsDefine}
+  varying float vertexFogDepth;
+#endif
+`;
+  const depthReading = /* glsl */ `
+#include <fog_vertex>
+#ifdef ${fogDepthsDefine}
+  vertexFogDepth = readValue();
+#endif
+`;
+  shader.vertexShader =
+    depthDeclaration + replaceChunks(shader.vertexShader, [["#include <fog_vertex>", depthReading]]);
+  const declarations = /* glsl */ `${depthDeclaration}
 uniform vec3 fogColors[${count}];
 uniform vec2 fogRanges[${count}];
 uniform vec2 fogScopes[${count}];
 
-// The share of the surface's own color that is visible at this distance (24.2.3): 1 without fog.
+// The share of the surface's own color that is visible at this distance (24.2.3): 1 without fog. The depth of a
+// FogCoordinate, 0 ... 1, is the share of the fog's color (24.4.5: its range does not depend on visibilityRange).
 float visibleShareIn(vec2 range, float distance) {
   if (range.x <= 0.0) return 1.0;
+  #ifdef ${fogDepthsDefine}
+    return 1.0 - clamp(vertexFogDepth, 0.0, 1.0);
+  #endif
   if (distance >= range.x) return 0.0;
   return range.y > 0.0 ? exp(-distance / (range.x - distance)) : (range.x - distance) / range.x;
 }

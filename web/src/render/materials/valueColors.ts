@@ -1,12 +1,11 @@
-// Colours surfaces by the values of a vertex attribute. The vertex shader reads the value (from the byte
-// planes of an image, or from a buffer); each fragment looks the interpolated value up in the
-// colour map.
+// Reads the values of a vertex attribute, from the byte planes of an image or from a buffer. Where they colour the
+// surface, each fragment looks the interpolated value up in the colour map; environment/fogs.ts uses depths in fog.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { Stage, ValuePlanes } from "../../stage/stage.ts";
 import { maxMapColors } from "../../document/colorMaps.ts";
-import type { AttributeDescription, ColorMapDescription } from "../../document/description.ts";
+import type { AttributeDescription, ColorMapDescription, GeometryDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instanceFields, instancesDefine } from "../shaders/instanceRecord.ts";
 import { readVertexStatement } from "../shaders/vertexChunk.ts";
@@ -25,10 +24,16 @@ export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record
   };
 }
 
-/** The #defines of a material that colours a stage by its values. */
-export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | undefined): Record<string, string> {
-  if (attribute === undefined || stage.value === undefined) return {};
-  return { VALUE_COMPONENTS: `${attribute.components}` };
+/** Defined in materials whose vertices have a depth in fog, which `readValue()` returns in vertex shaders. */
+export const fogDepthsDefine = "FOG_DEPTHS";
+
+/** The #defines of a material that reads the values of a stage. */
+export function valueDefinesOf(
+  stage: Stage,
+  { value, valueUse = "color" }: Pick<GeometryDescription, "value" | "valueUse">,
+): Record<string, string> {
+  if (value === undefined || stage.value === undefined) return {};
+  return { VALUE_COMPONENTS: `${value.components}`, [valueUse === "color" ? "VALUE_COLORS" : fogDepthsDefine]: "" };
 }
 
 /** The uniforms from which the vertex shader reads values; none if the stage has no values. */
@@ -83,15 +88,11 @@ function imageUniformsOf(
 const vertexChunk = /* glsl */ `
 #ifdef VALUE_COMPONENTS
 
-// The position in the colour map, whose ends are 0 and 1.
-varying float vColorMapCoord;
 #ifdef ${instancesDefine}
   #define valueMin instanceTexel(${instanceFields.valueMin / 4})
   #define valueStep instanceTexel(${instanceFields.valueStep / 4})
-  #define mapRange instanceTexel(${instanceFields.mapRange / 4}).xy
 #else
   uniform vec4 valueMin, valueStep;
-  uniform vec2 mapRange;
 #endif
 
 #ifdef ${imageVerticesDefine}
@@ -150,6 +151,18 @@ float readValue() {
   #endif
 }
 
+#endif
+
+#ifdef VALUE_COLORS
+
+// The position in the colour map, whose ends are 0 and 1.
+varying float vColorMapCoord;
+#ifdef ${instancesDefine}
+  #define mapRange instanceTexel(${instanceFields.mapRange / 4}).xy
+#else
+  uniform vec2 mapRange;
+#endif
+
 float colorMapCoordOf(float value) {
   vec2 range = mapRange;
   float extent = range.y - range.x;
@@ -160,7 +173,7 @@ float colorMapCoordOf(float value) {
 `;
 
 const fragmentDeclarations = /* glsl */ `
-#ifdef VALUE_COMPONENTS
+#ifdef VALUE_COLORS
   varying float vColorMapCoord;
   uniform vec3 mapColors[${maxMapColors}];
   uniform int mapColorCount;
@@ -179,7 +192,7 @@ const fragmentDeclarations = /* glsl */ `
 
 const fragmentChunk = /* glsl */ `
 #include <color_fragment>
-#ifdef VALUE_COMPONENTS
+#ifdef VALUE_COLORS
   diffuseColor.rgb = mappedColor();
 #endif
 `;
@@ -192,7 +205,7 @@ export function addValueColors(
     ["void main() {", `${vertexChunk}\nvoid main() {`],
     [
       readVertexStatement,
-      `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vColorMapCoord = colorMapCoordOf(readValue());\n#endif`,
+      `${readVertexStatement}\n#ifdef VALUE_COLORS\n  vColorMapCoord = colorMapCoordOf(readValue());\n#endif`,
     ],
   ]);
   shader.fragmentShader =

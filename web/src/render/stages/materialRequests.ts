@@ -18,7 +18,7 @@ import { isSurface } from "../primitives/primitives.ts";
 export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   stage: Stage,
   range: DrawRange,
-  { solid, value }: GeometryDescription,
+  geometry: GeometryDescription,
   uniforms: Uniforms,
   shared: SceneUniforms,
   isInstanced = false,
@@ -29,8 +29,8 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
     primitive: range.primitive,
     shading: shadingOf(stage, range),
     colors: colorsOf(stage),
-    solid,
-    valueDefines: valueDefinesOf(stage, value),
+    solid: geometry.solid,
+    valueDefines: valueDefinesOf(stage, geometry),
     uniforms,
     shared,
   };
