@@ -92,19 +92,6 @@ Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
   fields.fail(ErrorKind::unsupported, "primType is none of those we read");
 }
 
-std::vector<Draw> drawsOf(const FieldReader& fields) {
-  const std::vector<std::string> types = fields.strings("primType");
-  std::vector<std::uint32_t> counts = fields.integers("vertexCount");
-  if (counts.empty())
-    counts = {0}; // X3DOM: all indices
-  if (!types.empty() && types.size() != counts.size())
-    fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
-  std::vector<Draw> draws;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    draws.push_back({types.empty() ? Primitive::triangles : primitiveNamed(fields, types[i]), counts[i]});
-  return draws;
-}
-
 /// Whether an element holds an image of an ImageGeometry, or would if it were of a kind that we read.
 bool isContainer(const char* name) {
   return std::ranges::any_of(std::initializer_list<const char*>{"ImageTexture", "Texture", "PixelTexture",
@@ -188,7 +175,7 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   PatchDescription patch;
   patch.box = fields.box();
   patch.vertexCount = fields.integer("recordCount", 0);
-  patch.draws = drawsOf(fields);
+  patch.draws = readDraws(fields);
   patch.implicitMeshSize = implicitMeshSize;
   const auto read = [&](const char* name, std::optional<Reference>& reference) {
     if (const std::string url = fields.text(name); !url.empty())
@@ -307,6 +294,19 @@ void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geome
 bool isGeometryNode(const char* name) {
   return std::ranges::any_of(allEncodings(),
                              [&](const EncodingRow* row) { return equalIgnoringCase(name, row->node.name); });
+}
+
+std::vector<Draw> readDraws(const FieldReader& fields) {
+  const std::vector<std::string> types = fields.strings("primType");
+  std::vector<std::uint32_t> counts = fields.integers("vertexCount");
+  if (counts.empty())
+    counts = {0}; // X3DOM: all indices
+  if (!types.empty() && types.size() != counts.size())
+    fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
+  std::vector<Draw> draws;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    draws.push_back({types.empty() ? Primitive::triangles : primitiveNamed(fields, types[i]), counts[i]});
+  return draws;
 }
 
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node) {

@@ -13,6 +13,9 @@ namespace imgeo {
 /// Whether a node of this name holds a geometry of one of our encodings.
 bool isGeometryNode(const char* name);
 
+/// The draws of a node's `primType` and `vertexCount`. One draw of 0 stands for all vertices or indices that there are.
+std::vector<Draw> readDraws(const FieldReader& fields);
+
 /// Reads a geometry node with its patches, in either form of docs/formats/nodes.md: GeometryPatch children, or one
 /// patch in url fields or ImageTexture children of the node itself. Throws Error for geometry that a Lattice cannot
 /// express.

@@ -146,7 +146,7 @@ test("X3DOM's forms are drawn as the same vertices in the document are, and a fo
       ),
     );
     assert.equal(errors.length, 1);
-    assert.match(errors[0] ?? "", /^unsupported: <popgeometry> neither pages nor imgeo convert read it/);
+    assert.match(errors[0] ?? "", /^unsupported: <popgeometry> pages do not draw it; imgeo convert reads/);
     await view.page.evaluate((texels) => {
       const canvas = document.querySelector("canvas[width='4']");
       if (!(canvas instanceof HTMLCanvasElement)) throw new Error("no canvas");

@@ -3,13 +3,22 @@
 #include "containers/encodings.h"
 #include "containers/read_mesh.h"
 #include "documents/geometry_reader.h"
+#include "import/x3d/pop_geometry.h"
 
 #include <fmt/format.h>
 
 namespace imgeo::x3d {
 
-bool isContainerGeometry(std::string_view element) {
+namespace {
+
+bool isPatchGeometry(std::string_view element) {
   return element == "ImageGeometry" || element == "BinaryGeometry";
+}
+
+} // namespace
+
+bool isContainerGeometry(std::string_view element) {
+  return isPatchGeometry(element) || element == "PopGeometry";
 }
 
 std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_node group) {
@@ -24,7 +33,7 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
     for (const pugi::xml_node& child : shape.children()) {
       const bool isAppearance = std::string_view(child.name()) == "Appearance";
       pugi::xml_node& part = isAppearance ? ownAppearance : geometry;
-      if (part || !(isAppearance || isContainerGeometry(child.name())))
+      if (part || !(isAppearance || isPatchGeometry(child.name())))
         return {};
       part = isAppearance ? source.resolved(child) : child;
     }
@@ -41,6 +50,8 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
 
 std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
                                               std::set<std::string>& attributes) const {
+  if (!isPatchGeometry(nodes[0].name()))
+    return readPopGeometry(source_, nodes[0], fetch_);
   GeometryDescription geometry = readGeometry(source_.documentText(), nodes[0]);
   for (const pugi::xml_node& node : nodes.subspan(1)) {
     GeometryDescription more = readGeometry(source_.documentText(), node);

@@ -1,6 +1,6 @@
 #pragma once
-// Geometry whose vertices are in files beside the document: ImageGeometry and BinaryGeometry, of sites that imgeo or
-// another program has written, such as aopt for X3DOM.
+// Geometry whose vertices are in files beside the document: ImageGeometry, BinaryGeometry and PopGeometry, of sites
+// that imgeo or another program has written, such as aopt for X3DOM.
 
 #include "base/error.h"
 #include "containers/container_reader.h"
@@ -31,7 +31,8 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
 class ContainerGeometries {
 public:
   ContainerGeometries(const Source& source, const References& references)
-      : source_(source), reader_([&references](const std::string& url) { return references.fetch(url); }) {}
+      : source_(source), fetch_([&references](const std::string& url) { return references.fetch(url); }),
+        reader_(fetch_) {}
 
   /// The mesh of nodes whose patches belong together, or of one node; empty where nodes differ in more than their
   /// patches. Of the named attributes it has those in `kept`; the names of all are added to `attributes`.
@@ -52,6 +53,7 @@ private:
   static void chooseAttributes(Mesh& mesh, const AttributeChoice& kept, std::set<std::string>& attributes);
 
   const Source& source_;
+  FetchFile fetch_;
   ContainerReader reader_;
 };
 

@@ -304,6 +304,8 @@ constexpr NodeRow nodesOfOthers[] = {
     {"IORMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"ImageGeometry", "imgeo", 0, "geometry", drawn, ""},
     {"IridescenceMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
+    {"PopGeometry", "X3DOM", 0, "geometry", drawn, byConvert},
+    {"PopGeometryLevel", "X3DOM", 0, "levels", drawn, "as a part of its PopGeometry"},
     {"ScreenEffect", "Castle Game Engine", 0, "children", dropped, noShaders},
     {"SheenMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"SpecularMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},

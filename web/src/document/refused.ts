@@ -12,7 +12,7 @@ const notEvenConverted = "neither pages nor imgeo convert read it; convert the m
 
 /** Nodes that are left out, by their lower-case name. */
 const refusedNodes: Readonly<Record<string, string>> = {
-  popgeometry: notEvenConverted,
+  popgeometry: "pages do not draw it; imgeo convert reads the document and writes patches of it",
   popgeometrylevel: "a PopGeometryLevel is part of a PopGeometry, which pages do not draw",
   externalgeometry: notEvenConverted,
   externalshape: notEvenConverted,
