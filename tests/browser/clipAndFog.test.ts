@@ -2,10 +2,13 @@
 // give, drawn one by one and in a batch, and what is clipped is not picked.
 
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { withPage, type View } from "./harness.ts";
+import { outputDirectory } from "./paths.ts";
 import { sceneOf } from "./scenes.ts";
-import { siteOfGenerated } from "./sites.ts";
+import { pageOf, shapeIn, siteOf } from "./sites.ts";
 
 const size = { width: 320, height: 160 };
 /** The eye's distance from the walls, and half of the visible height there. */
@@ -23,6 +26,24 @@ const wall = (id: string, center: number, children = ""): string =>
   `<Shape id="${id}"><Appearance><UnlitMaterial emissiveColor="1 0 0"></UnlitMaterial></Appearance><IndexedFaceSet solid="false" coordIndex="0 1 2 3">
     <Coordinate point="${center - 0.9} -1 0 ${center + 0.9} -1 0 ${center + 0.9} 1 0 ${center - 0.9} 1 0"></Coordinate>${children}</IndexedFaceSet></Shape>`;
 
+/** Sites of a wall with the FogCoordinate, by folder. Vertices of no face make it too large to stay in the page. */
+function sitesOfWall(): Record<string, string> {
+  const file = join(outputDirectory, "fog-coordinate.x3d");
+  const unused = Array.from({ length: 200 }, (_, i) => ` 9 9 ${i}`).join("");
+  const shape = wall("wall", 0, fogCoordinate).replace(/(point="[^"]*)"/, `$1${unused}"`);
+  writeFileSync(file, `<X3D><Scene>${shape}</Scene></X3D>`);
+  return {
+    classic: siteOf(file, "--profile", "classic"),
+    compact: siteOf(file, "--profile", "compact"),
+    bg: siteOf(file, "--container", "bg"),
+  };
+}
+
+const deepWall = (center: number, shape: string): string =>
+  `<Transform translation="${center} -1.5 0" scale="1 0.4 1">${shape}</Transform>`;
+/** Where the walls with a FogCoordinate stand. */
+const deepCenters = [-3, -1, 1, 3] as const;
+
 const scene = `<NavigationInfo headlight="false"></NavigationInfo><Background skyColor="0 0 1"></Background>
   <Viewpoint position="0 0 ${eye}" fieldOfView="${fieldOfView}"></Viewpoint>
   <Fog id="fog" color="0 1 0" visibilityRange="${range}"></Fog><Fog id="thick" fogType="EXPONENTIAL" color="0 1 0" visibilityRange="${range}"></Fog>
@@ -30,7 +51,7 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo><Background sk
   <Transform rotation="0 0 1 1.5708" scale="2 1 1"><ClipPlane id="plane" plane="1 0 0 0"></ClipPlane><Transform rotation="0 0 1 -1.5708">${wall("clipped", 0)}</Transform></Transform>
   <Transform scale="0.5 0.5 0.5" translation="2 0 0"><LocalFog id="local" color="0 0 0" visibilityRange="${4 * range}"></LocalFog>
     <Transform scale="2 2 2">${wall("local-wall", 0)}</Transform></Transform>
-  <Transform translation="0 -1.5 0" scale="1 0.4 1">${wall("deep", -2, fogCoordinate)}</Transform>`;
+  ${deepWall(deepCenters[0], wall("deep", 0, fogCoordinate))}`;
 
 /** The color, 0 … 1, of the point (x, y, 0). */
 async function colorAt(view: View, x: number, y: number): Promise<readonly number[]> {
@@ -54,10 +75,11 @@ async function assertPicture(view: View, what: string, shareAt: (distance: numbe
   assertNear(await colorAt(view, -2, y), [share(-2), 1 - share(-2), 0], `${what}: fog`);
   assertNear(await colorAt(view, 0, y), [share(0), 1 - share(0), 0], `${what}: in front of the plane`);
   assertNear(await colorAt(view, 0, -y), [0, 0, 1], `${what}: behind the plane`);
-  // In the middle of pixels, of the wall from -1.9 to -1.1.
+  // In the middle of pixels, of walls from -1.9 to -1.1.
   for (const deepY of [-1.6125, -1.3875]) {
     const shareOfFog = depths[0] + ((depths[1] - depths[0]) * (deepY + 1.9)) / 0.8;
-    assertNear(await colorAt(view, -2, deepY), [1 - shareOfFog, shareOfFog, 0], `${what}: by depth`);
+    for (const x of deepCenters)
+      assertNear(await colorAt(view, x, deepY), [1 - shareOfFog, shareOfFog, 0], `${what}: by depth at ${x}`);
   }
   assertNear(await colorAt(view, 2, y), [linear(Math.hypot(2, y, eye), 2 * range), 0, 0], `${what}: local fog`);
 }
@@ -74,7 +96,11 @@ const shapeAt = (view: View, x: number, y: number): Promise<string | undefined> 
   );
 
 test("clip planes and fogs have their effect on their groups, follow the document, and do so in batches", async () => {
-  const site = sceneOf("clip-and-fog", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
+  const sites = sitesOfWall();
+  const stored = Object.entries(sites).map(([folder, site], i) =>
+    deepWall(deepCenters[i + 1] ?? 0, shapeIn(pageOf(site)).replaceAll("geometry/", `${folder}/geometry/`)),
+  );
+  const site = sceneOf("clip-and-fog", sites, scene + stored.join(""));
   await withPage(site, { size }, async (view) => {
     await view.promise("complete");
     await assertPicture(view, "one by one", linear);

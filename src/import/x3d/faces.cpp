@@ -2,7 +2,9 @@
 
 #include "import/mesh/triangulate.h"
 #include "import/mesh/unit_normal.h"
+#include "scene/fog_depths.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <unordered_map>
@@ -23,7 +25,10 @@ struct CornerHash {
 class WedgeBuilder {
 public:
   WedgeBuilder(const VertexData& data, Mesh& mesh)
-      : data_(data), mesh_(mesh), localPosition_(data.positions.size(), none) {}
+      : data_(data), mesh_(mesh), localPosition_(data.positions.size(), none) {
+    if (!data.fogDepths.empty())
+      mesh.namedAttributes.push_back({fogDepthName, 1, {}});
+  }
 
   void addCorner(const Corner& corner) {
     const auto [wedge, isNew] = wedges_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.wedgePositions.size()));
@@ -48,6 +53,8 @@ private:
       texCoordsOf(mesh_, set).push_back(data_.furtherTexCoords[set - 1][corner.texCoord]);
     if (corner.color != none)
       mesh_.colors.push_back(data_.colors[corner.color]);
+    if (const std::vector<float>& depths = data_.fogDepths; !depths.empty())
+      mesh_.namedAttributes.back().values.push_back(depths[std::min<std::size_t>(corner.position, depths.size() - 1)]);
   }
 
   const VertexData& data_;

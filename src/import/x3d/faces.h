@@ -18,6 +18,7 @@ struct VertexData {
   std::vector<std::string> texCoordMappings;        ///< names of all sets; empty for a single one
   std::vector<Rgba8> colors;
   std::uint32_t colorComponents = 3;
+  std::vector<float> fogDepths; ///< by position; the last one is that of all further positions too
 };
 
 /// Indices into VertexData. Either all corners have an attribute or none has.

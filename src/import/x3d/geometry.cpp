@@ -6,6 +6,7 @@
 #include "import/x3d/faces.h"
 #include "import/x3d/nurbs.h"
 #include "import/x3d/texture_coordinates.h"
+#include "scene/fog_depths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,8 @@ constexpr std::size_t maxExtrusionVertices = std::size_t{1} << 22;
 /// Reads the vertex data of one geometry node and gives corners their attributes.
 class GeometryReader {
 public:
-  GeometryReader(const Source& source, pugi::xml_node node, const AttributeChoice& mappings)
-      : source_(source), node_(node), mappings_(mappings) {}
+  GeometryReader(const Source& source, pugi::xml_node node, const AttributeChoice& kept)
+      : source_(source), node_(node), kept_(kept) {}
 
   using Readers = std::map<std::string_view, void (GeometryReader::*)()>;
   static const Readers& readers() {
@@ -111,6 +112,9 @@ private:
                               components == 4 ? byte(colors[i + 3]) : std::uint8_t{255}});
     const bool isOpaque = std::ranges::all_of(data_.colors, [](Rgba8 c) { return c.a == 255; });
     data_.colorComponents = isOpaque ? 3 : 4;
+    if (kept_.has(fogDepthName))
+      for (const double depth : source_.reals(childNamed({"FogCoordinate"}), "depth"))
+        data_.fogDepths.push_back(static_cast<float>(depth));
   }
 
   /// Reads the first set of texture coordinates, and of the others those whose name a texture states as its mapping
@@ -127,8 +131,8 @@ private:
     std::vector<std::string> mappings{sets[0].attribute("mapping").value()};
     for (std::size_t i = 1; i < sets.size(); ++i) {
       const std::string mapping = sets[i].attribute("mapping").value();
-      const bool isUsed = !texCoordGeneratorOf(sets[i]) && mappings.size() < maxTexCoordSets &&
-                          mappings_.has(mapping) && std::ranges::find(mappings, mapping) == mappings.end();
+      const bool isUsed = !texCoordGeneratorOf(sets[i]) && mappings.size() < maxTexCoordSets && kept_.has(mapping) &&
+                          std::ranges::find(mappings, mapping) == mappings.end();
       if (!isUsed || data_.texCoords.empty())
         continue;
       data_.furtherTexCoords.push_back(texCoordsOf(sets[i]));
@@ -445,7 +449,7 @@ private:
 
   const Source& source_;
   pugi::xml_node node_;
-  const AttributeChoice& mappings_;
+  const AttributeChoice& kept_;
   VertexData data_;
   Faces faces_;
   std::size_t furtherTexCoords_ = 0;
@@ -461,8 +465,8 @@ bool becomesMesh(std::string_view element) {
   return GeometryReader::readers().contains(element);
 }
 
-std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& mappings) {
-  return GeometryReader(source, node, mappings).read();
+std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& kept) {
+  return GeometryReader(source, node, kept).read();
 }
 
 } // namespace imgeo::x3d

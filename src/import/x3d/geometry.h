@@ -25,8 +25,9 @@ struct Geometry {
 bool becomesMesh(std::string_view element);
 
 /// Empty for nodes of other names; an empty mesh for a node without faces, lines or points. Of a MultiTextureCoordinate
-/// it reads the first set, and those of the others whose name is in `mappings`. Throws Error{malformed, unsupported}
+/// it reads the first set, and those of the others whose name is in `kept`; the depths of a FogCoordinate become the
+/// attribute fogDepthName, if that is in `kept`. Throws Error{malformed, unsupported}
 /// for invalid fields and indices out of range.
-std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& mappings);
+std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& kept);
 
 } // namespace imgeo::x3d

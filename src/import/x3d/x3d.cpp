@@ -463,7 +463,7 @@ private:
   bool isStrict_;
   std::size_t inlineBytes_;
   const AttributeChoice& keptAttributes_;
-  AttributeChoice mappings_; ///< names of the sets of texture coordinates that textures use
+  AttributeChoice mappings_; ///< keptAttributes_ and the sets of texture coordinates that textures use
   Imported imported_;
   NodeImages images_;
   ContainerGeometries containers_;

@@ -1,6 +1,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "import/testing.h"
+#include "scene/fog_depths.h"
 #include "scene/shape_instances.h"
 #include "scene/testing.h"
 
@@ -81,6 +82,22 @@ TEST(X3d, ReadsLinesAndPoints) {
   EXPECT_EQ(points.topology, Topology::points);
   EXPECT_EQ(points.colors.at(1), (Rgba8{0, 255, 0, 128}));
   EXPECT_EQ(points.colorComponents, 4u);
+}
+
+TEST(X3d, ReadsDepthsInFogAsAnAttributeIfItIsKept) {
+  const std::string scene = "<Shape><IndexedFaceSet coordIndex='3 0 1 -1 1 2 3'>" + square +
+                            "<FogCoordinate depth='0.25 0.5'/></IndexedFaceSet></Shape>";
+  ImportOptions options;
+  EXPECT_TRUE(readScene(scene, options).scene.meshes.at(0).namedAttributes.empty());
+  options.attributes.names = {fogDepthName};
+  const Mesh mesh = readScene(scene, options).scene.meshes.at(0);
+  ASSERT_EQ(mesh.namedAttributes.size(), 1u);
+  const auto& [name, components, values] = mesh.namedAttributes[0];
+  EXPECT_EQ(name, fogDepthName);
+  EXPECT_EQ(components, 1u);
+  ASSERT_EQ(values.size(), mesh.wedgeCount());
+  for (std::size_t wedge = 0; wedge < values.size(); ++wedge)
+    EXPECT_EQ(values[wedge], mesh.positions[mesh.wedgePositions[wedge]] == a ? 0.25f : 0.5f);
 }
 
 TEST(X3d, ReversesClockwiseFaces) {

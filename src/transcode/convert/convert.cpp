@@ -7,6 +7,7 @@
 #include "imgeo/site.h"
 #include "imgeo/version.h"
 #include "import/warnings.h"
+#include "scene/fog_depths.h"
 #include "scene/source_axes.h"
 #include "transcode/convert/peak_memory.h"
 #include "transcode/convert/precompress.h"
@@ -123,7 +124,7 @@ public:
   void readSource() {
     reportProgress(0, "reading");
     Imported imported = importInput(input_,
-                                    {.attributes = options_.keepAttributes,
+                                    {.attributes = importedAttributes(),
                                      .folder = {},
                                      .outside = options_.outside,
                                      .inlineBytes = inlineBytes,
@@ -157,8 +158,10 @@ public:
     report_.weld = prepared.weld;
     report_.normalsComputed = prepared.normalsComputed;
     std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
-    if (options_.target == Target::x3dom)
+    if (options_.target == Target::x3dom) {
       leaveOutTexCoords();
+      leaveOutFogDepths();
+    }
     report_.prepareSeconds = step_.lapSeconds();
   }
 
@@ -252,6 +255,23 @@ private:
       report_.warnings.push_back(
           fmt::format("X3DOM reads one set of texture coordinates: the others of {} are left out, and with them {}",
                       counted(meshes, "mesh", "meshes"), counted(textures, "texture", "textures")));
+  }
+
+  void leaveOutFogDepths() {
+    std::size_t meshes = 0;
+    for (Mesh& mesh : scene_.meshes)
+      meshes += std::erase_if(mesh.namedAttributes,
+                              [](const NamedAttribute& attribute) { return attribute.name == fogDepthName; });
+    if (meshes > 0)
+      report_.warnings.push_back(
+          fmt::format("X3DOM reads no depths in fog: those of {} are left out", counted(meshes, "mesh", "meshes")));
+  }
+
+  /// Fog needs depths, whatever else is kept.
+  AttributeChoice importedAttributes() const {
+    AttributeChoice choice = options_.keepAttributes;
+    choice.names.insert(fogDepthName);
+    return choice;
   }
 
   /// The names of all sets of texture coordinates; glTF's for a set without a name.

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "containers/png/png.h"
+#include "scene/fog_depths.h"
 #include "transcode/site/staged_site.h"
 #include "transcode/site/testing.h"
 
@@ -137,6 +138,30 @@ TEST_F(X3dSite, EqualsItsSourceAndCanBeExported) {
   EXPECT_TRUE(verified.equal) << verified.findings.at(0);
   const ExportReport exported = exportSite(directory_ / "site", directory_ / "hall.ply");
   EXPECT_EQ(exported.elements.triangles, 6u); // three instances
+}
+
+TEST(X3dSiteWithFog, KeepsTheDepthsOfItsGeometry) {
+  const testing::TemporaryDirectory directory;
+  const std::filesystem::path input = directory / "fog.x3d", site = directory / "site";
+  writeFile(input,
+            asBytes("<X3D><Scene><Fog visibilityRange='9'/><Shape><IndexedFaceSet coordIndex='0 1 2 3'>"
+                    "<Coordinate point='0 0 0 1 0 0 1 1 0 0 1 0" +
+                    unusedPoints + "'/><FogCoordinate depth='0 0 0.75'/></IndexedFaceSet></Shape></Scene></X3D>"));
+  const ConvertReport report = convert(input, site, {});
+  EXPECT_EQ(report.warnings, std::vector<std::string>{});
+  ASSERT_EQ(report.attributes.size(), 1u);
+  EXPECT_EQ(report.attributes[0].name, fogDepthName);
+  EXPECT_TRUE(verify(site, input).findings.empty());
+  convert(site / "index.html", directory / "again", {});
+  EXPECT_TRUE(verify(directory / "again", input).findings.empty());
+
+  ConvertOptions options;
+  options.target = Target::x3dom;
+  const ConvertReport forX3dom = convert(input, directory / "x3dom", options);
+  EXPECT_TRUE(forX3dom.attributes.empty());
+  ASSERT_EQ(forX3dom.warnings.size(), 1u);
+  EXPECT_NE(forX3dom.warnings[0].find("depths in fog"), std::string::npos);
+  EXPECT_TRUE(verify(directory / "x3dom", input).findings.empty());
 }
 
 TEST(X3dSiteWithBackground, CopiesItsPicturesAndEqualsItsSource) {
