@@ -68,7 +68,7 @@ private:
   template <typename T> std::vector<T> parse(const char* name, std::size_t count) const;
   void warnOrFailField(const std::string& message) const { warnOrFail(message, "it counts as absent"); }
 
-  const DocumentText& source_;
+  DocumentText source_; ///< a copy, so that callers may pass a temporary
   pugi::xml_node node_;
   DocumentWarnings* warnings_;
 };
