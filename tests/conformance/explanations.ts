@@ -30,6 +30,7 @@ export const explanations: Readonly<Record<string, string>> = {
   Extrusion: "X3DOM's npm package lacks the node",
   "Extrusion-twist": "X3DOM's npm package lacks the node",
   "Fog-exponential": "X3DOM does not scale `visibilityRange` with the node",
+  FogCoordinate: "X3DOM lacks the node",
   "FontStyle-family": otherFonts,
   "FontStyle-justify": otherFonts,
   "FontStyle-vertical": `${otherFonts}; X3DOM does not support \`horizontal\``,
