@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace imgeo {
 namespace {
@@ -31,18 +32,24 @@ std::string quadrilaterals() {
 
 class TinyShapes : public ::testing::Test {
 protected:
-  TinyShapes() {
-    writeFile(directory / "in.obj", asBytes(quadrilaterals()));
+  /// Converts once: the tests change copies of the site.
+  static void SetUpTestSuite() {
+    original = std::make_unique<TemporaryDirectory>();
+    writeFile(*original / "in.obj", asBytes(quadrilaterals()));
     ConvertOptions options;
     options.pictures = false;
-    convert(directory / "in.obj", directory / "site", options);
+    convert(*original / "in.obj", *original / "site", options);
   }
+  static void TearDownTestSuite() { original.reset(); }
+
+  TinyShapes() { std::filesystem::copy(original->path(), directory.path(), std::filesystem::copy_options::recursive); }
 
   std::string page() const {
     const Bytes bytes = readFile(directory / "site" / "index.html");
     return {bytes.begin(), bytes.end()};
   }
 
+  static inline std::unique_ptr<TemporaryDirectory> original;
   TemporaryDirectory directory;
 };
 
