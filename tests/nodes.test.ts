@@ -282,7 +282,7 @@ const fieldsOfNoPicture = [
   ...["shadowColor", "shadowBias", "shadowMapSize", "visibilityStart"],
 ];
 
-/** Fields that are read where the tables of docs/formats/nodes.md do not list them for the node, by the place. */
+/** Fields that are read although docs/formats/nodes.md does not list them for the node; the keys say where. */
 const readElsewhere: Readonly<Record<string, readonly string[]>> = {
   "in the text of nodes.md": [
     ...["solid", "ccw", "convex", "creaseAngle"].map((field) => `ElevationGrid.${field}`),

@@ -62,8 +62,13 @@ async function shapesAt({ page }: View, points: readonly Point[]): Promise<(stri
   );
 }
 
-/** Asserts that shapes s0 to s2499 at positionOf() are picked, hidden, moved, removed and coloured one by one. */
+/**
+ * Asserts that shapes s0 to s2499 at positionOf() take few draw calls, and are picked, hidden, moved, removed and
+ * coloured one by one. `colorAfter`: the strongest channel of some shapes after that, where s1201 is blue.
+ */
 async function assertShapesFollowTheirElements(view: View, colorAfter: readonly [n: number, channel: number][]) {
+  await view.promise("complete");
+  assert.ok((await drawsOfFrame(view)) <= 20, `${await drawsOfFrame(view)} draws`);
   const numbers = [0, 1201, 1250, 1301, 2499];
   assert.deepEqual(
     await shapesAt(view, numbers.map(positionOf)),
@@ -107,16 +112,14 @@ test("2,500 shapes take few draw calls, and each follows its element", async () 
   const site = variantOf(siteOfGenerated("sphere-small", "--profile", "compact"), "crowd", (page) =>
     withShapes(page.replaceAll(/<Viewpoint[^>]*>/gi, viewpoint.replace("</Viewpoint>", "")), crowd),
   );
-  await withPage(site, {}, async (view) => {
-    await view.promise("complete");
-    assert.ok((await drawsOfFrame(view)) <= 20, `${await drawsOfFrame(view)} draws`);
-    await assertShapesFollowTheirElements(view, [
+  await withPage(site, {}, (view) =>
+    assertShapesFollowTheirElements(view, [
       [0, 0],
       [1201, 2],
       [1251, 0],
       [1252, 1],
-    ]);
-  });
+    ]),
+  );
 });
 
 /** An X3D file of 2,500 flat polygons of 16 corners, no two alike, in red and green: too much text for a page. */
@@ -151,16 +154,14 @@ test("2,500 shapes that share a file take few draw calls, and each follows its e
   const site = variantOf(shared, "named", (page) => page.replaceAll(/<Shape DEF="(s\d+)"/g, '<Shape id="$1" DEF="$1"'));
   assert.ok(/<Shape id="s1250"[^>]* patch="[^"]+#\d+"/.test(pageOf(site)), "the shapes have files of their own");
   assert.ok(readdirSync(join(site, "geometry")).length <= 3);
-  await withPage(site, {}, async (view) => {
-    await view.promise("complete");
-    assert.ok((await drawsOfFrame(view)) <= 20, `${await drawsOfFrame(view)} draws`);
-    await assertShapesFollowTheirElements(view, [
+  await withPage(site, {}, (view) =>
+    assertShapesFollowTheirElements(view, [
       [0, 0],
       [1201, 2],
       [1251, 1],
       [1252, 0],
-    ]);
-  });
+    ]),
+  );
 });
 
 /** Runs in the page. The context may be restored only after all listeners have handled its loss. */

@@ -23,7 +23,7 @@ namespace imgeo::x3d {
 /// Whether elements of this name are such geometry.
 bool isContainerGeometry(std::string_view element);
 
-/// The geometry nodes of a Group that convert has written for X3DOM in place of a Shape (docs/formats/x3dom.md): the
+/// The geometry nodes of a Group that convert has written for X3DOM instead of a Shape (docs/formats/x3dom.md): the
 /// Group has a box, and a Shape for each patch, all with one Appearance. Empty for other elements.
 std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_node group);
 
