@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "import/assimp/assimp.h"
 #include "import/gltf/gltf.h"
+#include "import/gltf/gltf1.h"
 #include "import/obj/obj.h"
 #include "import/ply/ply.h"
 #include "import/source_name.h"
@@ -58,7 +59,7 @@ constexpr std::array<Format, 10> rows{{
      .sniff = isGltf,
      .isYUpInMetres = true,
      .read = readGltf},
-    {.name = "glTF 1.0", .sniff = isGltf1, .isYUpInMetres = true, .read = readByAssimp},
+    {.name = "glTF 1.0", .sniff = isGltf1, .isYUpInMetres = true, .read = readGltf1},
     {.name = "PLY", .help = "PLY", .extensions = plyExtensions, .sniff = isPly, .read = readPly},
     {.name = "OBJ",
      .help = "OBJ",

@@ -45,6 +45,8 @@ Bytes dataOf(std::string_view url, const std::string& location) {
   return Bytes(text.begin(), text.end());
 }
 
+constexpr std::string_view base64Alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 } // namespace
 
 std::string percentDecoded(std::string_view text) {
@@ -62,9 +64,8 @@ Bytes base64Decoded(std::string_view text, const std::string& location) {
   static constexpr auto values = [] {
     std::array<std::int8_t, 256> table{};
     table.fill(-1);
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < alphabet.size(); ++i)
-      table[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
+    for (std::size_t i = 0; i < base64Alphabet.size(); ++i)
+      table[static_cast<unsigned char>(base64Alphabet[i])] = static_cast<std::int8_t>(i);
     table['-'] = 62, table['_'] = 63; // the url-safe alphabet
     return table;
   }();
@@ -85,6 +86,21 @@ Bytes base64Decoded(std::string_view text, const std::string& location) {
     }
   }
   return decoded;
+}
+
+std::string dataUrlOf(ByteSpan bytes, std::string_view mediaType) {
+  std::string url = fmt::format("data:{};base64,", mediaType);
+  url.reserve(url.size() + bytes.size() / 3 * 4 + 4);
+  std::uint32_t bits = 0, count = 0;
+  for (const std::uint8_t byte : bytes) {
+    bits = bits << 8 | byte;
+    for (count += 8; count >= 6; count -= 6)
+      url += base64Alphabet[bits >> (count - 6) & 63];
+  }
+  if (count > 0)
+    url += base64Alphabet[bits << (6 - count) & 63];
+  url.append((3 - bytes.size() % 3) % 3, '=');
+  return url;
 }
 
 fs::path References::fileOf(std::string_view url) const {

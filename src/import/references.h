@@ -37,4 +37,7 @@ std::string percentDecoded(std::string_view text);
 /// Decodes base64 (RFC 4648), ignoring white space and padding. Throws Error{malformed} naming `location`.
 Bytes base64Decoded(std::string_view text, const std::string& location);
 
+/// A data: URL of this media type in base64 (RFC 2397).
+std::string dataUrlOf(ByteSpan bytes, std::string_view mediaType);
+
 } // namespace imgeo

@@ -366,16 +366,19 @@ struct Release {
   void operator()(aiPropertyStore* properties) const { assimp().releasePropertyStore(properties); }
 };
 
-Imported readInThisProcess(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+/// `dottedExtension`, in lower case, is that of the bytes' format.
+Imported readInThisProcess(ByteSpan bytes, const std::string& name, const ImportOptions& options,
+                           const std::string& dottedExtension) {
   const References references(options, name);
-  SourceFiles files(bytes, name, references);
+  const std::string assimpName = std::filesystem::path(name).replace_extension(dottedExtension);
+  SourceFiles files(bytes, assimpName, references);
   const std::unique_ptr<aiPropertyStore, Release> properties(assimp().createPropertyStore());
   assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
                                     false); // otherwise Assimp splits each node into several
   const ReportedErrors errors;
   const std::unique_ptr<const aiScene, Release> scene(
-      assimp().importFile(name.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));
-  const std::string extension = lastExtensionOf(name).substr(1);
+      assimp().importFile(assimpName.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));
+  const std::string extension = dottedExtension.substr(1);
   std::string format = extension;
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
   if (!scene) {
@@ -401,8 +404,13 @@ bool isReadByAssimp(const std::string& name) {
 }
 
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return readByAssimp(bytes, name, options, lastExtensionOf(name));
+}
+
+Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options,
+                      const std::string& extension) {
   refuseZipBomb(bytes, name);
-  return readInChildProcess([&] { return readInThisProcess(bytes, name, options); }, name);
+  return readInChildProcess([&] { return readInThisProcess(bytes, name, options, extension); }, name);
 }
 
 } // namespace imgeo

@@ -3,6 +3,7 @@
 #include "import/gltf/gltf.h"
 
 #include "import/gltf/extensions.h"
+#include "import/gltf/gltf1.h"
 #include "import/gltf/nodes.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
@@ -18,16 +19,7 @@ namespace {
 
 using namespace gltf;
 
-constexpr std::uint32_t glbMagic = 0x46546c67, jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
-
-bool isGlb(ByteSpan bytes) {
-  return bytes.size() >= 12 && loadLittle<std::uint32_t>(bytes.data()) == glbMagic;
-}
-
-bool resemblesGltf(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != text.npos && text[first] == '{' && text.find("\"asset\"") != text.npos;
-}
+constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
 
 /// The contents of a GLB file; `binary` is empty if there is none.
 struct Chunks {
@@ -138,17 +130,6 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
 }
 
 } // namespace
-
-bool isGltf1(ByteSpan bytes) {
-  if (isGlb(bytes))
-    return loadLittle<std::uint32_t>(bytes.data() + 4) == 1;
-  const std::string_view text = asText(bytes), key = "\"accessors\"";
-  const auto notSpaceFrom = [&](std::size_t at) { return text.find_first_not_of(" \t\r\n", at); };
-  const std::size_t found = resemblesGltf(text) ? text.find(key) : text.npos,
-                    colon = found == text.npos ? found : notSpaceFrom(found + key.size()),
-                    value = colon == text.npos ? colon : notSpaceFrom(colon + 1);
-  return value != text.npos && text[colon] == ':' && text[value] == '{';
-}
 
 bool isGltf(ByteSpan bytes) {
   return !isGltf1(bytes) && (isGlb(bytes) || resemblesGltf(asText(bytes)));

@@ -7,10 +7,7 @@
 
 namespace imgeo {
 
-/// True for glTF 1.0, which Assimp reads (formats.cpp): the header of a GLB file says so; in JSON, the accessors are a
-/// dictionary and no array.
-bool isGltf1(ByteSpan bytes);
-/// True for other GLB headers, and for other JSON objects that mention "asset".
+/// True for GLB headers but those of glTF 1.0 (gltf1.h), and for JSON objects that mention "asset" but those of 1.0.
 bool isGltf(ByteSpan bytes);
 Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 

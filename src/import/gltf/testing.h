@@ -3,6 +3,7 @@
 
 #include "base/bytes.h"
 #include "import/import.h"
+#include "import/references.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -90,19 +91,7 @@ public:
     return bytes;
   }
 
-  static std::string dataUrl(const Bytes& bytes) {
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string url = "data:application/octet-stream;base64,";
-    std::uint32_t bits = 0, count = 0;
-    for (const std::uint8_t byte : bytes) {
-      bits = bits << 8 | byte;
-      for (count += 8; count >= 6; count -= 6)
-        url += alphabet[bits >> (count - 6) & 63];
-    }
-    if (count > 0)
-      url += alphabet[bits << (6 - count) & 63];
-    return url;
-  }
+  static std::string dataUrl(const Bytes& bytes) { return dataUrlOf(bytes, "application/octet-stream"); }
 };
 
 /// Imports a document.
