@@ -93,7 +93,7 @@ Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
 }
 
 /// Whether an element holds an image of an ImageGeometry, or would if it were of a kind that we read.
-bool isContainer(const char* name) {
+bool holdsImage(const char* name) {
   return std::ranges::any_of(std::initializer_list<const char*>{"ImageTexture", "Texture", "PixelTexture",
                                                                 "MovieTexture", "img", "canvas", "video"},
                              [&](const char* known) { return equalIgnoringCase(name, known); });
@@ -114,22 +114,23 @@ pugi::xml_node usedNode(const FieldReader& fields) {
   return found;
 }
 
-/// The address of the image that an element holds: its `url` or `src`, or that of an <img> in it.
-std::string imageUrl(const DocumentText& source, const pugi::xml_node& node) {
-  const FieldReader fields(source, node);
-  const std::string_view name = node.name();
-  if (equalIgnoringCase(node.name(), "img"))
-    if (std::string address = fields.text("src"); !address.empty())
-      return address;
-  if (equalIgnoringCase(node.name(), "ImageTexture") || equalIgnoringCase(node.name(), "Texture")) {
+/// The address of the image that an element holds: its `url` or `src`, or that of the element in it.
+std::string imageUrl(const DocumentText& source, pugi::xml_node node) {
+  for (;;) {
+    const FieldReader fields(source, node);
+    const auto is = [&](const char* name) { return equalIgnoringCase(node.name(), name); };
+    if (is("img"))
+      if (std::string address = fields.text("src"); !address.empty())
+        return address;
+    if (!is("ImageTexture") && !is("Texture"))
+      fields.fail(ErrorKind::unsupported,
+                  "<" + std::string(node.name()) + "> holds no geometry that can be read from a file");
     if (const std::vector<std::string> urls = fields.strings("url"); !urls.empty())
       return urls[0];
-    for (const pugi::xml_node& child : node.children())
-      if (isContainer(child.name()))
-        return imageUrl(source, child);
-    fields.fail(ErrorKind::malformed, "a texture of an ImageGeometry has no url");
+    node = node.find_child([](const pugi::xml_node& child) { return holdsImage(child.name()); });
+    if (!node)
+      fields.fail(ErrorKind::malformed, "a texture of an ImageGeometry has no url");
   }
-  fields.fail(ErrorKind::unsupported, "<" + std::string(name) + "> holds no geometry that can be read from a file");
 }
 
 /// Reads a child that refers to an image of the patch as in X3DOM. Several images of texture coordinates are its sets.
@@ -195,7 +196,7 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
     patch.coord.push_back(referenceOf(fields, url, encoding));
   if (storage == PatchStorage::bytePlanes)
     for (const pugi::xml_node& child : node.children())
-      if (isContainer(child.name()))
+      if (holdsImage(child.name()))
         readTexture(source, child, encoding, patch);
   if (patch.coord.empty())
     fields.fail(ErrorKind::malformed, "there are no coordinates");

@@ -44,6 +44,15 @@ TEST(ReadScene, ReadsImagesFromImageTextures) {
   EXPECT_EQ(shapeName(document.graph, 0), "S");
 }
 
+TEST(ReadScene, RefusesATextureWithoutAUrlHoweverDeeplyTexturesAreNested) {
+  std::string begin = "<X3D><Scene><Shape><ImageGeometry>", end;
+  for (int i = 0; i < 500000; ++i) {
+    begin += "<Texture>";
+    end += "</Texture>";
+  }
+  EXPECT_EQ(errorKindOf(begin + end + "</ImageGeometry></Shape></Scene></X3D>"), ErrorKind::malformed);
+}
+
 TEST(ReadScene, IgnoresTextThatResemblesTheX3dElement) {
   const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
                                            "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
