@@ -135,22 +135,22 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
 
 namespace {
 
-/// Tolerance of numbers that determine a lattice, in its steps; removes digits that are rounding errors.
-constexpr double exact = 1e-7;
+/// How far numbers that determine a lattice may be rounded, in its steps: this removes digits that are rounding errors.
+constexpr double latticeTolerance = 1e-7;
 
 } // namespace
 
 Attributes decodeAttributes(const GeometryDescription& geometry) {
   const DecodeFields decode = decodeFields(geometry);
-  return {{"position", shortNumbers(decode.position, geometry.lattice, exact)},
-          {"size", shortNumbers(decode.size, geometry.lattice, exact)}};
+  return {{"position", shortNumbers(decode.position, geometry.lattice, latticeTolerance)},
+          {"size", shortNumbers(decode.size, geometry.lattice, latticeTolerance)}};
 }
 
 Lattice latticeInDocuments(const GeometryDescription& geometry) {
   DecodeFields fields = decodeFields(geometry);
   for (int axis = 0; axis < 3; ++axis) {
-    fields.position[axis] = shortestWithin(fields.position[axis], exact * geometry.lattice.step);
-    fields.size[axis] = shortestWithin(fields.size[axis], exact * geometry.lattice.step);
+    fields.position[axis] = shortestWithin(fields.position[axis], latticeTolerance * geometry.lattice.step);
+    fields.size[axis] = shortestWithin(fields.size[axis], latticeTolerance * geometry.lattice.step);
   }
   return latticeOf(fields, geometry.encoding, geometry.coordType, geometry.lattice.bits);
 }
@@ -162,13 +162,14 @@ std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry) {
   const double longest = geometry.box.longestEdge();
   Vec3d size = geometry.box.size(), center;
   for (int axis = 0; axis < 3; ++axis) {
-    size[axis] = shortestWithin(size[axis], (size[axis] == longest ? exact : 0.25) * lattice.step);
-    center[axis] = shortestWithin(lattice.origin[axis] + size[axis] / 2, exact * lattice.step);
+    size[axis] = shortestWithin(size[axis], (size[axis] == longest ? latticeTolerance : 0.25) * lattice.step);
+    center[axis] = shortestWithin(lattice.origin[axis] + size[axis] / 2, latticeTolerance * lattice.step);
   }
   const std::optional<DecodeFields> derived = quantizationCube({center - size * 0.5, center + size * 0.5});
   const DecodeFields stated = decodeFields(geometry);
   const auto areEqual = [&](const Vec3d& a, const Vec3d& b) {
-    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}) <= 4 * exact * lattice.step;
+    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}) <=
+           4 * latticeTolerance * lattice.step;
   };
   if (!derived || !areEqual(derived->position, stated.position) || !areEqual(derived->size, stated.size))
     return {};

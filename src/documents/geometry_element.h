@@ -35,6 +35,7 @@ std::optional<Attributes> boxWithLattice(const GeometryDescription& geometry);
 /// `position`, `size` and `profile`.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names,
                         const std::optional<Attributes>& box = {});
+
 /// The lattice that readers of a document get, bit for bit; that of `geometry` but for rounding in the last digits.
 Lattice latticeInDocuments(const GeometryDescription& geometry);
 
