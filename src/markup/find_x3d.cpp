@@ -16,10 +16,6 @@ bool isSpace(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
 }
 
-bool startsWith(std::string_view text, std::string_view prefix) {
-  return text.size() >= prefix.size() && equalIgnoringCase(text.substr(0, prefix.size()), prefix);
-}
-
 class Scanner {
 public:
   Scanner(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -73,7 +69,7 @@ private:
       return at;
     const std::size_t end = endAfter(">", at, "a declaration has no end");
     std::string_view type = rest.substr(2, end - at - 3);
-    if (!startsWith(type, "doctype"))
+    if (!beginsIgnoringCase(type, "doctype"))
       fail(ErrorKind::malformed, at, "a declaration of unknown kind");
     type.remove_prefix(7);
     while (!type.empty() && isSpace(type.front()))
@@ -116,7 +112,7 @@ private:
         continue;
       const std::string end = "</" + std::string(raw);
       for (std::size_t i = text_.find("</", at); i != std::string_view::npos; i = text_.find("</", i + 2))
-        if (startsWith(text_.substr(i), end))
+        if (beginsIgnoringCase(text_.substr(i), end))
           return i;
       fail(ErrorKind::malformed, at, "a script, style or title has no end");
     }
@@ -140,6 +136,10 @@ std::string locationOf(std::string_view text, const std::string& name, std::size
 
 bool equalIgnoringCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+bool beginsIgnoringCase(std::string_view text, std::string_view prefix) {
+  return equalIgnoringCase(text.substr(0, prefix.size()), prefix);
 }
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the <X3D> element in the text of an HTML page or an X3D file.
+// Finds the <X3D> element in a text in XML, an X3D document or an XHTML page, and compares names as HTML does.
 
 #include <cstddef>
 #include <string>
@@ -21,5 +21,7 @@ std::string locationOf(std::string_view text, const std::string& name, std::size
 
 /// Whether two ASCII names are equal without regard to case.
 bool equalIgnoringCase(std::string_view a, std::string_view b);
+/// Whether a text begins with an ASCII prefix, without regard to case.
+bool beginsIgnoringCase(std::string_view text, std::string_view prefix);
 
 } // namespace imgeo

@@ -32,11 +32,14 @@ void checkReferences(std::string_view text, const std::string& name, TextSpan sp
   }
 }
 
-bool beginsWith(std::string_view text, std::string_view prefix) {
-  return text.size() >= prefix.size() && equalIgnoringCase(text.substr(0, prefix.size()), prefix);
+} // namespace
+
+std::size_t ElementOffsets::of(pugi::xml_node element) const {
+  if (const auto found = offsets_.find(element.internal_object()); found != offsets_.end())
+    return found->second;
+  return base_ + static_cast<std::size_t>(std::max<std::ptrdiff_t>(element.offset_debug(), 0));
 }
 
-/// The text without white space and comments at its beginning.
 std::string_view withoutComments(std::string_view text) {
   for (;;) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n\f"), text.size()));
@@ -47,14 +50,6 @@ std::string_view withoutComments(std::string_view text) {
   }
 }
 
-} // namespace
-
-std::size_t ElementOffsets::of(pugi::xml_node element) const {
-  if (const auto found = offsets_.find(element.internal_object()); found != offsets_.end())
-    return found->second;
-  return base_ + static_cast<std::size_t>(std::max<std::ptrdiff_t>(element.offset_debug(), 0));
-}
-
 bool isHtml(std::string_view text, const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension();
   const auto is = [&](const char* other) { return equalIgnoringCase(extension, other); };
@@ -63,7 +58,7 @@ bool isHtml(std::string_view text, const std::string& name) {
   if (std::ranges::any_of(std::array{".xhtml", ".xht", ".x3d", ".xml"}, is))
     return false;
   const std::string_view beginning = withoutComments(text);
-  return beginsWith(beginning, "<!doctype html") || beginsWith(beginning, "<html");
+  return beginsIgnoringCase(beginning, "<!doctype html") || beginsIgnoringCase(beginning, "<html");
 }
 
 X3dElement parseX3dXml(std::string_view xml, const std::string& name) {

@@ -37,6 +37,9 @@ struct X3dElement {
 inline constexpr std::size_t maxPageBytes = 64u << 20, maxPageTreeBytes = 1u << 30, maxPageDepth = 240;
 inline constexpr double maxPageSeconds = 60; ///< of processor time
 
+/// The text without white space and comments at its beginning.
+std::string_view withoutComments(std::string_view text);
+
 /// Whether a text is read by the rules of HTML5: as a server would say by its name (.html and .htm; not .xhtml, .xht,
 /// .x3d or .xml), for other names by its beginning, `<!doctype html>` or `<html>` without an XML declaration.
 bool isHtml(std::string_view text, const std::string& name);

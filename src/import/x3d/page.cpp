@@ -69,22 +69,14 @@ void restoreHead(pugi::xml_node x3d) {
 } // namespace
 
 bool isPage(ByteSpan bytes) {
-  std::string_view text = asText(bytes).substr(0, 4096);
-  while (!isHtml(text, "")) {
-    const std::size_t begin = text.find_first_not_of(" \t\r\n\f");
-    if (begin == text.npos)
-      return false;
-    text.remove_prefix(begin);
-    const bool isComment = text.starts_with("<!--");
-    if (!isComment && !text.starts_with("<?"))
-      return false;
-    const std::string_view terminator = isComment ? "-->" : ">";
-    const std::size_t end = text.find(terminator);
+  std::string_view text = withoutComments(asText(bytes).substr(0, 4096));
+  while (text.starts_with("<?")) {
+    const std::size_t end = text.find('>');
     if (end == text.npos)
       return false;
-    text.remove_prefix(end + terminator.size());
+    text = withoutComments(text.substr(end + 1));
   }
-  return true;
+  return isHtml(text, "");
 }
 
 Imported readPage(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
