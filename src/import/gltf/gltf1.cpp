@@ -4,6 +4,7 @@
 #include "import/gltf/value.h"
 #include "import/references.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -24,8 +25,12 @@ ByteSpan bytesOf(const Value& view, ByteSpan body) {
   return body.subspan(begin, length);
 }
 
+/// All images, and all shaders, may have as many bytes as the buffer, or this many: their buffer views may overlap.
+constexpr std::size_t maxInlinedBytes = std::size_t{1} << 28;
+
 /// Gives the images or shaders that name a buffer view by KHR_binary_glTF a data: URL instead.
 void inlineBufferViews(Json& json, const char* member, ByteSpan body, const std::string& name) {
+  std::size_t bytesLeft = std::max(body.size(), maxInlinedBytes);
   const Json source = json; // a Value refers to JSON that does not change
   const Value root(source, name, ", "), views = root["bufferViews"];
   if (!source.contains(member) || !source[member].is_object())
@@ -37,7 +42,11 @@ void inlineBufferViews(Json& json, const char* member, ByteSpan body, const std:
     const std::string view = binary["bufferView"].text();
     if (!views.has(view.c_str()))
       binary.fail(ErrorKind::malformed, "names no buffer view");
-    json[member][key]["uri"] = dataUrlOf(bytesOf(views[view.c_str()], body), binary["mimeType"].text("text/plain"));
+    const ByteSpan bytes = bytesOf(views[view.c_str()], body);
+    if (bytes.size() > bytesLeft)
+      binary.fail(ErrorKind::limit, fmt::format("the {} repeat the file's buffer too often", member));
+    bytesLeft -= bytes.size();
+    json[member][key]["uri"] = dataUrlOf(bytes, binary["mimeType"].text("text/plain"));
   }
 }
 

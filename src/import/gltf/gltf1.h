@@ -19,7 +19,7 @@ bool isGltf1(ByteSpan bytes);
 Imported readGltf1(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 /// The JSON of a GLB file of glTF 1.0, with its buffer, images and shaders as data: URLs. Safe for untrusted bytes.
-/// Throws Error{truncated, malformed}.
+/// Throws Error{truncated, malformed}, and Error{limit} where images or shaders repeat the buffer too often.
 std::string jsonOfGlb1(ByteSpan bytes, const std::string& name);
 
 } // namespace imgeo

@@ -42,7 +42,7 @@ Bytes triangleBody() {
   Bytes body;
   for (const float value : {0.f, 0.f, 0.f, 2.f, 0.f, 0.f, 0.f, 3.f, 0.f})
     appendLittle(body, value);
-  for (const std::uint16_t index : {0, 1, 2})
+  for (std::uint16_t index = 0; index < 3; ++index)
     appendLittle(body, index);
   body.push_back('P');
   body.push_back('!');
@@ -62,6 +62,22 @@ TEST(Gltf1, OfABinaryFileHasItsBufferAndImagesAsDataUrls) {
   const Bytes body = triangleBody();
   EXPECT_EQ(json["buffers"]["binary_glTF"]["uri"], dataUrlOf(body, "application/octet-stream"));
   EXPECT_EQ(json["images"]["m"]["uri"], "data:image/png;base64,UCE=");
+}
+
+TEST(Gltf1, OfABinaryFileWhoseImagesRepeatItsBufferTooOftenIsRefused) {
+  Json json = triangleJson();
+  const Json image = json["images"]["m"];
+  json["bufferViews"]["p"]["byteLength"] = 1 << 20;
+  for (int i = 0; i < 300; ++i)
+    json["images"]["m" + std::to_string(i)] = image;
+  Bytes body = triangleBody();
+  body.resize(42 + (1 << 20));
+  try {
+    jsonOfGlb1(glb1(json, body), "old.glb");
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+  }
 }
 
 TEST(Gltf1, OfADamagedBinaryFileIsRefused) {
