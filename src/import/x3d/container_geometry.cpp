@@ -5,7 +5,10 @@
 #include "documents/geometry_reader.h"
 #include "import/x3d/pop_geometry.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
+#include <utility>
 
 namespace imgeo::x3d {
 
@@ -53,14 +56,14 @@ std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> no
   if (!isPatchGeometry(nodes[0].name()))
     return readPopGeometry(source_, nodes[0], fetch_);
   GeometryDescription geometry = readGeometry(source_.documentText(), nodes[0]);
+  std::vector<PatchDescription> patches = std::exchange(geometry.patches, {});
   for (const pugi::xml_node& node : nodes.subspan(1)) {
     GeometryDescription more = readGeometry(source_.documentText(), node);
-    const PatchDescription patch = more.patches[0];
-    more.patches = geometry.patches;
+    std::ranges::move(std::exchange(more.patches, {}), std::back_inserter(patches));
     if (!(more == geometry))
       return {};
-    geometry.patches.push_back(patch);
   }
+  geometry.patches = std::move(patches);
   Mesh mesh = readMesh(reader_, geometry, source_.locationOf(nodes[0]));
   chooseAttributes(mesh, kept, attributes);
   return mesh;
