@@ -1,5 +1,5 @@
 #pragma once
-// Edits of a document's elements that conversions of nodes share.
+// Edits of a document's elements that the expansion of prototypes and the conversions of nodes share.
 
 #include "import/x3d/field_values.h"
 

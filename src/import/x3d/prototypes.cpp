@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "import/vrml/names.h"
+#include "import/x3d/element_edits.h"
 #include "scene/mf_string.h"
 
 #include <fmt/format.h>
@@ -32,14 +33,6 @@ pugi::xml_node firstNodeOf(pugi::xml_node declaration) {
     if (node.type() == pugi::node_element && !isDeclaration(node))
       return node;
   return {};
-}
-
-std::vector<pugi::xml_node> elementsIn(pugi::xml_node parent) {
-  std::vector<pugi::xml_node> elements;
-  for (const pugi::xml_node& child : parent.children())
-    if (child.type() == pugi::node_element)
-      elements.push_back(child);
-  return elements;
 }
 
 /// A declaration and the prototypes that its body declares; or the scope of a document.
@@ -83,7 +76,7 @@ private:
       failTooDeep();
     if (const pugi::xml_attribute def = element.attribute("DEF"); def && isInScene)
       names_.insert(def.value());
-    for (const pugi::xml_node& child : elementsIn(element))
+    for (const pugi::xml_node& child : elementsOf(element))
       noteNames(child, depth + 1, isInScene && !isElement(element, "ProtoDeclare"));
   }
 
@@ -93,7 +86,7 @@ private:
   void expandIn(pugi::xml_node parent, Prototype& scope, std::size_t depth) {
     if (depth > maxNesting)
       failTooDeep();
-    for (const pugi::xml_node& child : elementsIn(parent))
+    for (const pugi::xml_node& child : elementsOf(parent))
       if (isDeclaration(child))
         declare(child, scope, declarations_);
       else if (isElement(child, "ProtoInstance"))
@@ -114,7 +107,7 @@ private:
     prototype->declaration = declaration;
     prototype->enclosing = &scope;
     const pugi::xml_node first = firstNodeOf(declaration);
-    for (const pugi::xml_node& other : elementsIn(declaration.child("ProtoBody")))
+    for (const pugi::xml_node& other : elementsOf(declaration.child("ProtoBody")))
       if (isDeclaration(other))
         declare(other, *prototype, removed);
       else if (other != first)
@@ -162,7 +155,7 @@ private:
     if (!scope) {
       scope = addScope();
       pugi::xml_node removed = file.elements.document.append_child("declarations");
-      for (const pugi::xml_node& child : elementsIn(file.elements.root().child("Scene")))
+      for (const pugi::xml_node& child : elementsOf(file.elements.root().child("Scene")))
         if (isDeclaration(child))
           declare(child, *scope, removed);
     }
@@ -194,7 +187,7 @@ private:
     connect(copy, instance, prototype->declaration.child("ProtoInterface"), offset);
     for (const char* field : {"DEF", "containerField"})
       if (const pugi::xml_attribute given = instance.attribute(field))
-        set(copy, field, given.value());
+        setField(copy, field, given.value());
     instance.parent().remove_child(instance);
     prototype->isExpanding = true;
     if (isElement(copy, "ProtoInstance"))
@@ -202,12 +195,6 @@ private:
     else
       expandIn(copy, *prototype, depth + 1);
     prototype->isExpanding = false;
-  }
-
-  static void set(pugi::xml_node element, const char* attribute, const char* value) {
-    if (!element.attribute(attribute))
-      element.append_attribute(attribute);
-    element.attribute(attribute).set_value(value);
   }
 
   /// Gives the DEF names of a copied body suffixes where the scene already has them.
@@ -226,13 +213,13 @@ private:
     if (pugi::xml_attribute use = element.attribute("USE"))
       if (const auto found = names.find(use.value()); found != names.end())
         use.set_value(found->second.c_str());
-    for (const pugi::xml_node& child : elementsIn(element))
+    for (const pugi::xml_node& child : elementsOf(element))
       rename(child, names, offset);
   }
 
   /// Sets the fields that nodes of the body connect to fields of the prototype.
   void connect(pugi::xml_node element, pugi::xml_node instance, pugi::xml_node interface, std::size_t offset) {
-    for (const pugi::xml_node& child : elementsIn(element))
+    for (const pugi::xml_node& child : elementsOf(element))
       if (!isElement(child, "IS"))
         connect(child, instance, interface, offset);
     const pugi::xml_node is = element.child("IS");
@@ -255,8 +242,8 @@ private:
       field = "value";
     }
     if (const pugi::xml_attribute given = value.attribute("value"))
-      set(target, field, given.value());
-    for (const pugi::xml_node& node : elementsIn(value)) {
+      setField(target, field, given.value());
+    for (const pugi::xml_node& node : elementsOf(value)) {
       if (++expandedElements_ > maxExpandedElements)
         throw Error(ErrorKind::limit, name_,
                     fmt::format("prototypes expand to more than {} elements", maxExpandedElements));
