@@ -3,6 +3,7 @@
 #include "import/x3d/element_edits.h"
 #include "scene/color.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace {
 using namespace std::string_view_literals;
 using Color = std::vector<double>; // red, green, blue
 
-/// A name of the material's fields, which a field of the shader becomes.
+/// A texture field of the shader, and the fields of Material and PhysicalMaterial that it becomes.
 struct TextureField {
   std::string_view shader, material, physical; ///< "": the material has no such texture
 };
@@ -112,7 +113,8 @@ bool isFieldOfMaterial(std::string_view field) {
   return isOneOf(fields, field) || field.ends_with("Mapping");
 }
 
-/// Whether a field selects what is read anyway: the first set of texture coordinates, all channels.
+/// Whether a field can be removed without a report: it identifies an element, selects the channels or the first set of
+/// texture coordinates of a texture, or has its default value.
 bool isWithoutEffect(std::string_view field, std::string_view value) {
   if (field == "id" || field == "class" || field.ends_with("TextureId") || field.ends_with("ChannelMask"))
     return true;

@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace imgeo::x3d {
 
