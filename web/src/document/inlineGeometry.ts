@@ -17,7 +17,7 @@ import {
   withDefaultTexCoords,
 } from "../tessellate/faces.ts";
 import { withGeneratedTexCoords } from "../tessellate/texCoordModes.ts";
-import { texCoordModeOf, texCoordSetsOf } from "./texCoordNodes.ts";
+import { texCoordModeOf, texCoordSetsOf } from "./readTexCoords.ts";
 import type { PlaneGeometry } from "../tessellate/geometry2d.ts";
 import { arc, circle, closedArc, disk, polyline, polypoint, rectangle, triangles2d } from "../tessellate/geometry2d.ts";
 import type { Values } from "./nodes.ts";
