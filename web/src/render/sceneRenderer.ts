@@ -50,7 +50,7 @@ import { makeLightUniforms } from "./lights/sceneLights.ts";
 import type { BuiltScene } from "./shapes/sceneShapes.ts";
 import { SceneShapes } from "./shapes/sceneShapes.ts";
 import { ScreenPicker } from "./picking/screenPicker.ts";
-import { DepthProbe } from "./picking/depthProbe.ts";
+import { ControllerQueries } from "./picking/controllerQueries.ts";
 import { GeometryPool } from "./stages/geometryPool.ts";
 import { defaultPointSize } from "./stages/stageUniforms.ts";
 import { warmUpObjects } from "./shapes/programWarmUp.ts";
@@ -105,7 +105,7 @@ export class SceneRenderer {
   readonly #cameraController: CameraController;
   readonly #onFrame: () => void;
   readonly #picker: ScreenPicker;
-  readonly #depthProbe: DepthProbe;
+  readonly #queries: ControllerQueries;
   readonly #framePacer: FramePacer;
   readonly #cubeMaps = new CubeMaps();
   readonly #generatedCubeMaps = new GeneratedCubeMaps();
@@ -113,8 +113,6 @@ export class SceneRenderer {
   readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
   #frames = 0;
-  /** Whether a pick for the camera controller is under way. */
-  #isSearching = false;
   #drawCalls = 0;
   #frameRequest = 0;
   #readsTextures: Promise<boolean> | undefined;
@@ -149,7 +147,16 @@ export class SceneRenderer {
     });
     this.#framePacer = new FramePacer(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
-    this.#depthProbe = new DepthProbe(this.#renderer);
+    this.#queries = new ControllerQueries(this.#renderer, cameraController, {
+      camera: this.#drawnCamera,
+      size: () => this.#size,
+      sphere: () => this.sphere,
+      pick: (x, y) => this.pickAsync(x, y),
+      candidates: () => this.#shapes.candidatesIgnoringCulling(),
+      requestFrame: () => {
+        this.requestFrame();
+      },
+    });
     // Colours are not converted: see materials/x3dMaterials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
@@ -380,7 +387,7 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#shapes.dispose();
     this.#picker.dispose();
-    this.#depthProbe.dispose();
+    this.#queries.dispose();
     this.#cubeMaps.dispose();
     this.#generatedCubeMaps.dispose();
     this.#background.dispose();
@@ -441,40 +448,7 @@ export class SceneRenderer {
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
-    void this.#sampleGround();
-    void this.#searchSurface();
+    this.#queries.onFrame();
     if (this.#cameraController.isMoving) this.requestFrame();
-  }
-
-  /** Picks the surface at the camera's center, if the camera controller needs to know its distance. */
-  async #searchSurface(): Promise<void> {
-    const pose = this.#isSearching ? undefined : this.#cameraController.surfaceSearch;
-    if (pose === undefined) return;
-    const center = pose.center.clone().project(this.#drawnCamera);
-    const isVisible = Math.abs(center.x) < 1 && Math.abs(center.y) < 1 && Math.abs(center.z) < 1;
-    const { width, height } = this.#size;
-    this.#isSearching = true;
-    try {
-      const hit = isVisible
-        ? await this.pickAsync(Math.floor(((1 + center.x) / 2) * width), Math.floor(((1 - center.y) / 2) * height))
-        : undefined;
-      this.#cameraController.addSurfaceAhead(pose, hit?.position.distanceTo(pose.position) ?? Infinity);
-    } finally {
-      this.#isSearching = false;
-    }
-  }
-
-  /**
-   * Draws a depth image of the ground around a walking avatar, if the camera controller needs one, and gives it the
-   * samples.
-   */
-  async #sampleGround(): Promise<void> {
-    const depthCamera = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
-    if (depthCamera === undefined) return;
-    const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(depthCamera.eye);
-    const samples = await this.#depthProbe.probe(depthCamera, depth, this.#shapes.candidatesIgnoringCulling());
-    if (samples === undefined) return;
-    this.#cameraController.addGroundSamples(depthCamera, samples);
-    this.requestFrame();
   }
 }
