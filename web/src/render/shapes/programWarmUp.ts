@@ -5,8 +5,9 @@
 import type { Object3D } from "three";
 import { BufferAttribute, BufferGeometry, Texture } from "three";
 import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
-import type { BufferStage, DrawRange, Stage, GpuVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
+import type { BufferStage, Stage, GpuVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
+import { hasShaderPrimitive, isDrawnFromImages } from "../../document/drawnFromImages.ts";
 import { formatOf } from "../../document/encodings.ts";
 import { isPair } from "../../document/geometry.ts";
 import { drawModeOf } from "../batches/batchedStage.ts";
@@ -80,13 +81,13 @@ function expectedStages(geometry: GeometryDescription, isTextured: boolean): Sta
     patch === undefined ||
     patch.coord.length === 0 ||
     formatOf(geometry).storage !== "bytePlanes" ||
-    geometry.decode === "cpu"
+    !isDrawnFromImages(geometry, patch)
   )
     return [];
   const surface: TextureStage = {
     ...bareStage(geometry, patch),
     name: "surface",
-    draws: patch.draws.map(expectedDraw),
+    draws: patch.draws.filter(hasShaderPrimitive).map(({ primitive }) => ({ primitive, first: 0, count: 1 })),
     index: patch.index && placeholderTexels,
   };
   const stages: Stage[] = [surface];
@@ -121,12 +122,6 @@ const expectedBase: BufferStage = {
   normalFormat: { kind: "vector" },
   value: undefined,
 };
-
-/** Loops and fans become line strips and triangles. */
-function expectedDraw({ primitive }: PatchDescription["draws"][number]): DrawRange {
-  const drawn = primitive === "lineLoop" ? "lineStrip" : primitive === "triangleFan" ? "triangles" : primitive;
-  return { primitive: drawn, first: 0, count: 1 };
-}
 
 function bareStage(
   { normalEncoding, indexType, colorComponents }: GeometryDescription,

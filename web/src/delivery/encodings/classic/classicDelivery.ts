@@ -1,12 +1,12 @@
 // Delivery of classic: an image for each attribute of a patch; of the coordinates, an image for each byte.
 
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
+import { isDrawnFromImages } from "../../../document/drawnFromImages.ts";
 import { attributeRows, byVertexRole } from "../../../stage/attributeRows.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
 import { attributeFilesOf, bytesPerTexel, cornerCountOf } from "../../patchFiles.ts";
 import type { ContentTarget } from "../../resourcePool.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
-import { isDrawnFromImages } from "./classicFormat.ts";
 import { classicStageBuilder } from "./classicStage.ts";
 
 export const classicDelivery: EncodingDelivery = {
@@ -16,8 +16,7 @@ export const classicDelivery: EncodingDelivery = {
       storedBytes: bytesPerTexel * texelCountOf(patch, role, elementCount),
     })),
   stageBuilder: (geometry, patch, _, tools) => classicStageBuilder(geometry, patch, tools),
-  needsWorkers: (geometry) =>
-    geometry.decode === "cpu" || !geometry.patches.every((patch) => isDrawnFromImages(geometry, patch)),
+  needsWorkers: (geometry) => !geometry.patches.every((patch) => isDrawnFromImages(geometry, patch)),
 };
 
 /**
@@ -39,9 +38,8 @@ function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, 
 
 /** Images become textures if the GPU decodes vertices, and stay files if workers do. */
 function targetOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): ContentTarget {
-  const { decode } = geometry;
-  if (decode === "cpu" || !isDrawnFromImages(geometry, patch)) return { kind: "bytes" };
-  if (decode === "gpu") return { kind: "texture" };
+  if (!isDrawnFromImages(geometry, patch)) return { kind: "bytes" };
+  if (geometry.decode === "gpu") return { kind: "texture" };
   const texelCount = patch.grid ? patch.vertexCount : cornerCountOf(patch);
   const edge = Math.max(patch.implicitWidth, Math.ceil(texelCount / patch.implicitWidth));
   return { kind: edge > maxTextureSize ? "bytes" : "either" };

@@ -1,27 +1,12 @@
 // What both stage builders of classic read: fields of descriptions, and the available byte planes.
 
 import { DecodeError } from "../../../decode/decodeError.ts";
-import type { GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
+import type { GeometryDescription, Reference } from "../../../document/description.ts";
 import { isPair } from "../../../document/geometry.ts";
-import type { DrawRange, NormalFormat, StatedDrawRange } from "../../../stage/stage.ts";
+import type { NormalFormat } from "../../../stage/stage.ts";
 
 export function normalFormatOf({ normalEncoding }: GeometryDescription): NormalFormat {
   return isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" };
-}
-
-/** Whether the vertex shader can draw a patch from its images; otherwise workers convert it to buffers. */
-export function isDrawnFromImages(
-  { ccw }: Pick<GeometryDescription, "ccw">,
-  { draws, lowBytes }: Pick<PatchDescription, "draws" | "lowBytes">,
-): boolean {
-  return ccw && Object.keys(lowBytes).length === 0 && draws.every(hasShaderPrimitive);
-}
-
-/** Whether the vertex shader draws this primitive. */
-export function hasShaderPrimitive<Draw extends Pick<StatedDrawRange, "primitive">>(
-  draw: Draw,
-): draw is Draw & Pick<DrawRange, "primitive"> {
-  return draw.primitive !== "lineLoop" && draw.primitive !== "triangleFan";
 }
 
 export function firstTexelOf(reference: Reference): number {
