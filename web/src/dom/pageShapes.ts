@@ -45,7 +45,6 @@ export class PageShape extends LoadingShape {
   /** The stage that each patch displays. */
   readonly stages: (StageName | "none")[];
   readonly #listener: PageShapeListener;
-  #cubeMapUrl = "";
 
   /** `isPreviewed`: the preview has displayed the shape's base. */
   constructor(
@@ -69,13 +68,12 @@ export class PageShape extends LoadingShape {
     textures,
     cubeMap,
   }: AppearanceDescription): readonly (TextureDescription | CubeMapPicture)[] {
-    this.#cubeMapUrl = cubeMap?.pictures.find(({ role }) => role === "whole")?.urls[0] ?? "";
     return [...textures, ...(cubeMap?.pictures ?? [])];
   }
 
   protected override onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void {
     const problem = image && cubeMapProblemOf(role, image.image);
-    if (problem !== undefined) this.onError(new DeliveryError("unsupported", this.#cubeMapUrl, problem));
+    if (problem !== undefined) this.onError(new DeliveryError("unsupported", this.urlOf(role), problem));
     this.#listener.onTextureImage(this, role, image);
   }
 

@@ -30,7 +30,7 @@ export abstract class LoadingShape {
   #delivery: JoinedDelivery | undefined;
   #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
-
+  /** Why the geometry is not drawn, until this has been reported; empty: nothing to report. */
   #problem: string;
 
   /** Joins no delivery before `join`. */
@@ -69,6 +69,11 @@ export abstract class LoadingShape {
   /** The pictures of an appearance that the host displays. */
   protected picturesOf({ textures }: AppearanceDescription): readonly LoadedPicture[] {
     return textures;
+  }
+
+  /** The first URL of the picture described last in a role; empty: there is none. */
+  protected urlOf(role: TextureRole | CubeMapRole): string {
+    return this.#describedTextures.find((picture) => picture.role === role)?.urls[0] ?? "";
   }
 
   /** Whether any instance of the shape is visible. */
