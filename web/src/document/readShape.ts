@@ -123,11 +123,6 @@ function readGeometryOf(
     return geometry && { child, geometry };
   });
   if (found === undefined) return { geometry: undefined, priority: 1, lit: true };
-  const { priority, lit } = readFields(
-    found.child,
-    { priority: nodeFields.ImageGeometry.priority, lit: nodeFields.ImageGeometry.lit },
-    [],
-  );
   const boxed =
     box === undefined
       ? found.geometry
@@ -137,7 +132,7 @@ function readGeometryOf(
   const geometry = hasValues
     ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
     : boxed;
-  return { geometry, priority, lit };
+  return { geometry, ...drawingFieldsOf(found.child) };
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
@@ -154,13 +149,14 @@ function readSharedPatch(element: SceneElement, patch: string, context: ShapeRea
     warnings.push({ element, message: `patch="${patch}" names no patch of a geometry of this scene` });
     return { geometry: undefined, priority: 1, lit: true };
   }
-  const { priority, lit } = readFields(
-    node,
-    { priority: nodeFields.ImageGeometry.priority, lit: nodeFields.ImageGeometry.lit },
-    [],
-  );
   const geometry = geometries.variant(shared, `#${index}`, (plain) => withPatchIndex(plain, Number(index)));
-  return { geometry, priority, lit };
+  return { geometry, ...drawingFieldsOf(node) };
+}
+
+/** The fields of a geometry node that are not part of its description. The reader of the node has warned of them. */
+function drawingFieldsOf(node: SceneElement): Pick<ShapeGeometry, "priority" | "lit"> {
+  const { priority, lit } = nodeFields.ImageGeometry;
+  return readFields(node, { priority, lit }, []);
 }
 
 function withPatchIndex(geometry: GeometryDescription, patchIndex: number): GeometryDescription | undefined {
