@@ -65,7 +65,7 @@ export class ShapeObject {
   #geometry: GeometryDescription | undefined;
   #drawModes = alone;
   readonly #surfaceTextures = new Map<SurfaceTextureRole, SurfaceTexture>();
-  /** The pictures that have been loaded of its cube map. */
+  /** The loaded pictures of its cube map. */
   readonly #cubePictures = new Map<CubeMapRole, Texture>();
   #cubeMap: JoinedCubeMap | undefined;
   #removeGenerated: (() => void) | undefined;
@@ -140,8 +140,10 @@ export class ShapeObject {
       deepEqual(appearance.cubeMap?.pictures, this.#appearance.cubeMap?.pictures) &&
       deepEqual(appearance.cubeMap?.generated, this.#appearance.cubeMap?.generated);
     this.#appearance = appearance;
-    if (!isSameCubeMap) this.#leaveCubeMap();
-    if (!isSameCubeMap) for (const [role, picture] of this.#cubePictures) this.#setCubePicture(role, picture);
+    if (!isSameCubeMap) {
+      this.#leaveCubeMap();
+      for (const [role, picture] of this.#cubePictures) this.#setCubePicture(role, picture);
+    }
     if (this.#patches.size > 0) this.#generateCubeMap();
     if (!isSame) this.#applyAppearance();
   }
@@ -164,6 +166,7 @@ export class ShapeObject {
     this.#applyAppearance();
   }
 
+  /** Gives its cube map a picture, and joins the cube map before the first; undefined: removes the picture. */
   #setCubePicture(role: CubeMapRole, picture: Texture | undefined): void {
     if (picture) this.#cubePictures.set(role, picture);
     else this.#cubePictures.delete(role);
@@ -177,25 +180,20 @@ export class ShapeObject {
     this.#cubeMap?.setPicture(role, picture);
   }
 
+  /** Begins to draw the surroundings into its cube map, if that is a generated one and none is drawn yet. */
   #generateCubeMap(): void {
     const { cubeMap } = this.#appearance;
     if (cubeMap?.generated === undefined) return;
     this.#removeGenerated ??= this.#context.generatedCubeMaps?.add(cubeMap.generated, {
       center: () => {
         const [group] = this.#groups.keys();
-        const [min, max] = this.#box
-          ? [this.#box.min, this.#box.max]
-          : ([
-              [0, 0, 0],
-              [0, 0, 0],
-            ] as const);
-        return (
-          group &&
-          new Vector3(...min)
-            .add(new Vector3(...max))
-            .multiplyScalar(0.5)
-            .applyMatrix4(group.matrixWorld)
-        );
+        const center = new Vector3();
+        if (this.#box)
+          center
+            .fromArray(this.#box.min)
+            .add(new Vector3(...this.#box.max))
+            .multiplyScalar(0.5);
+        return group && center.applyMatrix4(group.matrixWorld);
       },
       objects: () => Array.from(this.#groups.keys()).flatMap(({ children }) => children),
       onTexture: (texture) => {
