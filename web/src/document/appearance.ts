@@ -193,8 +193,9 @@ function texturesFor(child: SceneElement, childrenOf: ChildrenOf, warnings: Warn
   if (lowerNameOf(child) !== "multitexture") return [child];
   const children = childrenOf(child);
   const used = [...children.filter(isTexture).slice(0, 1), ...children.filter(isCubeMap).slice(0, 1)];
-  const message = `only ${used.length < 2 ? "the first texture" : "the first texture and the first cube map"} of a <MultiTexture> is shown`;
-  if (used.length < 2 || used.length < children.length) warnings.push({ element: child, message });
+  const shown = used.length < 2 ? "the first texture" : "the first texture and the first cube map";
+  if (used.length < 2 || used.length < children.length)
+    warnings.push({ element: child, message: `only ${shown} of a <MultiTexture> is shown` });
   return used;
 }
 
@@ -211,7 +212,7 @@ function readAppearanceCubeMap(
   const used = all.find(isUsed);
   for (const other of all)
     if (other !== used)
-      warnings.push({ element: other, message: `is drawn as texture of the main color only, one for each shape` });
+      warnings.push({ element: other, message: "is drawn as texture of the main color only, one for each shape" });
   const map = used && readCubeMap(used, childrenOf, warnings);
   return map && { ...map, direction: "reflection" };
 }

@@ -21,10 +21,7 @@ export function withinPictureLimit(
   const count = maxPictures - (cubeMap ? 1 : 0);
   if (textures.length <= count) return appearance;
   const others = textures.slice(count).map(({ role }) => role);
-  if (element)
-    warnings.push({
-      element,
-      message: `has more than ${maxPictures} textures, which GPUs need not be able to draw at once; left out: ${others.join(", ")}`,
-    });
+  const limit = `more than ${maxPictures} textures, which GPUs need not be able to draw at once`;
+  if (element) warnings.push({ element, message: `has ${limit}; left out: ${others.join(", ")}` });
   return { ...appearance, textures: textures.slice(0, count) };
 }

@@ -115,11 +115,12 @@ export function readEnvironmentLight(
     return undefined;
   };
   const { diffuseCoefficients } = fields;
-  const hasCoefficients = diffuseCoefficients.length >= coefficientCount;
-  if (!hasCoefficients && diffuseCoefficients.length > 0)
+  const { length } = diffuseCoefficients;
+  const hasCoefficients = length >= coefficientCount;
+  if (!hasCoefficients && length > 0)
     warnings.push({
       element: node,
-      message: `diffuseCoefficients has ${diffuseCoefficients.length} numbers of ${coefficientCount}; they are not used`,
+      message: `diffuseCoefficients has ${length} numbers of ${coefficientCount}; they are not used`,
     });
   const [specular, diffuse] = [cubeMapIn("speculartexture"), cubeMapIn("diffusetexture")];
   return {

@@ -1,5 +1,5 @@
-// The resource pool of a page's view: files from the network, images and arrays in the view's WebGL context, decoding in
-// the page's workers.
+// The resource pool of a page's view: files from the network, images and arrays in the view's WebGL context, decoding
+// in the page's workers.
 
 import { ResourcePool } from "../delivery/resourcePool.ts";
 import { takePrefetchedBases } from "../preview/previewRegistry.ts";

@@ -164,8 +164,9 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
   vec3 ambient = allAmbientLight(light), irradiance = ambient + surroundingIrradiance(normal);
   reflected.indirectDiffuse += under * irradiance * (1.0 - material.metallic) * (1.0 - surface.transmission) *
     material.diffuseColor;
-  reflected.indirectSpecular += under *
-    (ambient + surroundingRadiance(reflect(-viewDirection, normal), material.roughness, material.metallic)) * (f0 * ab.x + surface.f90 * ab.y);
+  vec3 radiance =
+    ambient + surroundingRadiance(reflect(-viewDirection, normal), material.roughness, material.metallic);
+  reflected.indirectSpecular += under * radiance * (f0 * ab.x + surface.f90 * ab.y);
   float coatNV = clamp(dot(surface.coatNormal, viewDirection), 0.0, 1.0);
   vec3 coatDirection = reflect(-viewDirection, surface.coatNormal);
   reflected.indirectSpecular +=

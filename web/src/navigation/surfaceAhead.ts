@@ -1,5 +1,5 @@
-// Keeps the camera in front of surfaces while it approaches its center. The renderer picks one pixel to find the distance
-// of the surface ahead, asynchronously and only while the camera approaches.
+// Keeps the camera in front of surfaces while it approaches its center. The renderer picks one pixel to find the
+// distance of the surface ahead, asynchronously and only while the camera approaches.
 
 import type { Sphere } from "three";
 import type { Pose } from "./cameraPose.ts";

@@ -27,7 +27,7 @@ export function lightKindsOf({ lights, headlight }: Pick<PreviewScene, "lights" 
   return [...lights.map(({ light }) => light.kind), ...(headlight ? ["directional" as const] : [])];
 }
 
-/** The lights for shapes in a effect scope. Lights that do not reach the scope are black. */
+/** The lights for shapes in an effect scope. Lights that do not reach the scope are black. */
 export function lightUniformsOf(
   { lights, headlight }: Pick<PreviewScene, "lights" | "headlight">,
   effectScope: EffectScope,

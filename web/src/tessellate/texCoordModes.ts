@@ -7,8 +7,8 @@ import type { VertexArrays } from "./faces.ts";
 export type TexCoordMode = "COORD" | "SPHERE-LOCAL";
 
 /**
- * The mode that is drawn, by the mode of the document: one that depends on the camera or on noise is replaced by the one
- * that uses the same vertex attribute.
+ * The mode that is drawn, by the mode of the document: one that depends on the camera or on noise is replaced by the
+ * one that uses the same vertex attribute.
  */
 export const nearestTexCoordMode: Readonly<Record<string, TexCoordMode>> = {
   COORD: "COORD",

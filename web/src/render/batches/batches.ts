@@ -155,7 +155,7 @@ export class Batches {
     this.#join(member);
   }
 
-  /** Writes the matrix, lattice step, visibility and effect scope into the record. Returns whether they have changed. */
+  /** Writes the matrix, lattice step, visibility and effect scope into the record. Returns whether one has changed. */
   #write(member: Member, rootFromScene: Matrix4): boolean {
     const {
       draw: { shapeFromStored, bounds, step },

@@ -49,8 +49,11 @@ export function cubeLayoutOf(width: number, height: number): CubeLayout | undefi
   return layouts.find(([columns, rows]) => width > 0 && width * rows === height * columns)?.[2];
 }
 
-/** Why a picture is no cube map, as the rest of a sentence; undefined for one that is, and for pictures of other roles. */
+/**
+ * Why a picture is no cube map, as the rest of a sentence; undefined for one that is, and for pictures of other roles.
+ */
 export function cubeMapProblemOf(role: string, { width, height }: DecodedImage): string | undefined {
   if (!role.endsWith("whole") || cubeLayoutOf(width, height)) return undefined;
-  return `is no cube map: ${width} x ${height} pixels are no cross of 4 x 3 or 3 x 4 squares, and no row or column of six`;
+  const pixels = `${width} x ${height} pixels`;
+  return `is no cube map: ${pixels} are no cross of 4 x 3 or 3 x 4 squares, and no row or column of six`;
 }

@@ -125,7 +125,8 @@ uniform vec3 environmentCoefficients[9];
 vec3 environmentIrradiance(vec3 normal) {
   vec3 n = inEnvironment(normal);
   vec3 sum = 0.282095 * environmentCoefficients[0] +
-    0.488603 * (n.y * environmentCoefficients[1] + n.z * environmentCoefficients[2] + n.x * environmentCoefficients[3]) +
+    0.488603 * (n.y * environmentCoefficients[1] + n.z * environmentCoefficients[2] +
+                n.x * environmentCoefficients[3]) +
     1.092548 * (n.x * n.y * environmentCoefficients[4] + n.y * n.z * environmentCoefficients[5] +
                 n.x * n.z * environmentCoefficients[7]) +
     0.315392 * (3.0 * n.z * n.z - 1.0) * environmentCoefficients[6] +

@@ -1,4 +1,5 @@
-// Fog, LocalFog and FogCoordinate (ISO/IEC 19775-1, 24.2.3) in shaders. Programs of scenes without fog contain no such code.
+// Fog, LocalFog and FogCoordinate (ISO/IEC 19775-1, 24.2.3) in shaders. Programs of scenes without fog contain no such
+// code.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { Vector2, Vector3 } from "three";

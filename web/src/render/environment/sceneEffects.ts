@@ -1,5 +1,5 @@
-// What lights, clip planes, fogs and the EnvironmentLight of a scene add to the programs of its materials. Programs contain code only for
-// what the scene has.
+// What lights, clip planes, fogs and the EnvironmentLight of a scene add to the programs of its materials. Programs
+// contain code only for what the scene has.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { addLightScopes, hasLightScopes } from "../lights/lightScopes.ts";

@@ -80,8 +80,8 @@ const shapeScaleChunk = /* glsl */ `
 `;
 
 /**
- * What replaces three.js' lighting chunks: `lighting`, or, in a material with extensions, the result of `extended` and the
- * chunks of its extensions. `extended` is called with the lighting functions of extensions.
+ * What replaces three.js' lighting chunks: `lighting`, or, in a material with extensions, the result of `extended` and
+ * the chunks of its extensions. `extended` is called with the lighting functions of extensions.
  */
 export function lightingChunks(
   defines: Readonly<Record<string, unknown>>,
