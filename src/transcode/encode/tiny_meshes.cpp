@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -41,6 +42,17 @@ bool isNearOrigin(const Box3d& box) {
   return std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)}) <= nearOrigin * box.longestEdge();
 }
 
+/// Minimum and maximum of each set of texture coordinates.
+std::vector<float> texCoordExtents(const Mesh& mesh) {
+  std::vector<float> extents;
+  for (std::size_t set = 0; set < texCoordSetCount(mesh); ++set) {
+    const auto [s0, s1] = std::ranges::minmax(texCoordsOf(mesh, set), {}, &Vec2f::x);
+    const auto [t0, t1] = std::ranges::minmax(texCoordsOf(mesh, set), {}, &Vec2f::y);
+    extents.insert(extents.end(), {s0.x, s1.x, t0.y, t1.y});
+  }
+  return extents;
+}
+
 Box3d unionOf(Box3d a, const Box3d& b) {
   a.add(b.min);
   a.add(b.max);
@@ -72,8 +84,12 @@ std::vector<std::size_t> transformsAbove(const SceneGraph& graph) {
 void TinyMeshes::add(Mesh mesh, std::size_t geometryIndex, std::size_t group, std::size_t transform) {
   const Box3d box = boxOf(mesh);
   const double step = stepOf(box, options_);
-  const Key key{group, isNearOrigin(box) ? std::numeric_limits<std::size_t>::max() : transform,
-                std::ilogb(box.longestEdge()), mesh.wedgeCount(), mesh.corners.size()};
+  const Key key{group,
+                isNearOrigin(box) ? std::numeric_limits<std::size_t>::max() : transform,
+                std::ilogb(box.longestEdge()),
+                mesh.wedgeCount(),
+                mesh.corners.size(),
+                texCoordExtents(mesh)};
   File& file = open_[key];
   if (!file.members.empty() &&
       (file.vertices + mesh.wedgeCount() > rowOf(*options_.encoding).sharing->maxFileVertices ||
@@ -82,27 +98,30 @@ void TinyMeshes::add(Mesh mesh, std::size_t geometryIndex, std::size_t group, st
   file.box = unionOf(file.box, box);
   file.step = file.members.empty() ? step : std::min(file.step, step);
   file.vertices += mesh.wedgeCount();
-  file.group = group;
-  file.members.push_back({std::move(mesh), geometryIndex});
+  file.members.push_back({std::move(mesh), geometryIndex, group, addedCount_++});
 }
 
 void TinyMeshes::finish() {
   for (auto& [key, file] : open_)
     encode(std::move(file));
   open_.clear();
+  std::ranges::sort(alone_, {}, &Member::order);
+  for (Member& member : alone_)
+    take(encodeMesh(std::move(member.mesh), options_, files_, done_), member.geometryIndex, member.group);
+  alone_.clear();
+}
+
+void TinyMeshes::take(EncodedMesh encoded, std::size_t geometryIndex, std::size_t group) {
+  addToReport(report_, encoded);
+  if (encoded.small)
+    patchFiles_.add(std::move(encoded.small), geometryIndex, group);
+  document_.geometries[geometryIndex] = std::move(encoded.geometry);
 }
 
 void TinyMeshes::encode(File file) {
-  const auto take = [&](EncodedMesh encoded, std::size_t geometryIndex, std::size_t group) {
-    addToReport(report_, encoded);
-    if (encoded.small)
-      patchFiles_.add(std::move(encoded.small), geometryIndex, group);
-    document_.geometries[geometryIndex] = std::move(encoded.geometry);
-  };
   const std::uint32_t bits = bitsFor(file.box, file.step);
   if (file.members.size() < minMembers || bits > maxBits) {
-    for (Member& member : file.members)
-      take(encodeMesh(std::move(member.mesh), options_, files_, done_), member.geometryIndex, file.group);
+    std::ranges::move(file.members, std::back_inserter(alone_));
     return;
   }
   GeometryDescription fields;

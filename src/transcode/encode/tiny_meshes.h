@@ -41,18 +41,21 @@ private:
   struct Member {
     Mesh mesh;
     std::size_t geometryIndex = 0;
+    std::size_t group = 0; ///< see loadGroups
+    std::size_t order = 0; ///< number of earlier calls of add()
   };
-  /// What the meshes of a file have in common: group, transform, exponent of their extent, vertices, corners.
-  using Key = std::tuple<std::size_t, std::size_t, int, std::size_t, std::size_t>;
+  /// What the meshes of a file have in common: group, transform, exponent of their extent, vertices, corners, boxes of
+  /// texture coordinates.
+  using Key = std::tuple<std::size_t, std::size_t, int, std::size_t, std::size_t, std::vector<float>>;
   struct File {
     std::vector<Member> members;
     Box3d box;
     double step = 0; ///< the minimum of those of the members' own lattices
     std::size_t vertices = 0;
-    std::size_t group = 0; ///< see loadGroups
   };
 
   void encode(File file);
+  void take(EncodedMesh encoded, std::size_t geometryIndex, std::size_t group);
 
   SceneDocument& document_;
   const ConvertOptions& options_;
@@ -61,6 +64,8 @@ private:
   ConvertReport& report_;
   const ElementsDone& done_;
   std::map<Key, File> open_;
+  std::vector<Member> alone_; ///< members of files that have too few
+  std::size_t addedCount_ = 0;
   std::size_t nextFile_ = 0;
 };
 

@@ -143,5 +143,25 @@ TEST_F(TinyShapes, AreRefusedWhereTheirFileIsShorterOrTheirNodeIsUnknown) {
   EXPECT_THROW(exportSite(directory / "site", directory / "out.glb"), Error);
 }
 
+TEST(TexturedTinyShapes, ShareFilesWhereEachHasABoxOfTextureCoordinatesOfItsOwn) {
+  const TemporaryDirectory directory;
+  std::string text;
+  for (std::size_t n = 0; n < shapeCount; ++n) {
+    const double s = static_cast<double>(n % 50) / 50, t = static_cast<double>(n / 50) / 50;
+    text +=
+        fmt::format("o part{}\nv {} {} 0\nv {} {} 0\nv {} {} 1\nvt {:.3f} {:.3f}\nvt {:.3f} {:.3f}\nvt {:.3f} {:.3f}\n"
+                    "f {}/{} {}/{} {}/{}\n",
+                    n, n, n % 7, n + 1, n % 5, n, n % 3, s, t, s + 0.01, t, s, t + 0.015, 3 * n + 1, 3 * n + 1,
+                    3 * n + 2, 3 * n + 2, 3 * n + 3, 3 * n + 3);
+  }
+  writeFile(directory / "in.obj", asBytes(text));
+  ConvertOptions options;
+  options.pictures = false;
+  convert(directory / "in.obj", directory / "site", options);
+  const std::filesystem::directory_iterator files(directory / "site" / "geometry");
+  EXPECT_LT(std::distance(begin(files), end(files)), 5);
+  EXPECT_TRUE(verify(directory / "site", directory / "in.obj").equal);
+}
+
 } // namespace
 } // namespace imgeo
