@@ -1,15 +1,15 @@
 #include "transcode/picture/generic_fields.h"
 
+#include "import/x3d/field_values.h"
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <vector>
 
 namespace imgeo {
 
 namespace {
-
-constexpr std::string_view separators = " \t\r\n,";
 
 std::string_view elementOf(const Node& node) {
   const GenericNode* generic = std::get_if<GenericNode>(&node.content);
@@ -42,15 +42,9 @@ const std::string* fieldOf(const Node& node, std::string_view name) {
 }
 
 void readNumbers(const Node& node, std::string_view name, std::span<double> values) {
-  const std::string* text = fieldOf(node, name);
-  std::string_view rest = text ? std::string_view(*text) : std::string_view();
-  for (double& value : values) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(separators), rest.size()));
-    const std::from_chars_result read = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-    if (read.ec != std::errc())
-      return;
-    rest.remove_prefix(static_cast<std::size_t>(read.ptr - rest.data()));
-  }
+  if (const std::string* text = fieldOf(node, name))
+    if (const std::optional<std::vector<double>> numbers = x3d::parseReals(*text))
+      std::copy_n(numbers->begin(), std::min(numbers->size(), values.size()), values.begin());
 }
 
 bool isChildNode(const Node& node) {

@@ -13,7 +13,7 @@ namespace imgeo {
 /// The text of an attribute; null if the element lacks it.
 const std::string* fieldOf(const Node& node, std::string_view name);
 
-/// Replaces `values` by the numbers that begin the attribute, as many as both have.
+/// Replaces `values` by the first numbers of the attribute, as many as both have; not where a word is no number.
 void readNumbers(const Node& node, std::string_view name, std::span<double> values);
 
 /// Whether a node counts as a child of a grouping node: comments and metadata do not.
