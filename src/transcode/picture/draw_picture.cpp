@@ -1,9 +1,8 @@
 #include "transcode/picture/draw_picture.h"
 
-#include "transcode/picture/generic_fields.h"
-
 #include "scene/mesh.h"
 #include "scene/viewpoint.h"
+#include "transcode/picture/generic_fields.h"
 
 #include <algorithm>
 #include <cmath>

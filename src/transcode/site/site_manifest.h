@@ -31,7 +31,7 @@ struct SiteManifest {
   std::vector<std::string> attributes;
   bool onlyFirstTexCoords = false;      ///< further sets of texture coordinates were left out, with their textures
   std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
-  /// Content names (containers/stored.h) of the page's icon and picture, by file name. Nothing: the site is of a
+  /// Content names (base/file.h) of the page's icon and picture, by file name. Nothing: the site is of a
   /// version that did not state them.
   std::optional<std::map<std::string, std::string>> pictures;
 };

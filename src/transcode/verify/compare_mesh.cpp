@@ -212,8 +212,7 @@ void addFindings(const ElementDifference& difference, const AttributeBounds& bou
 void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& mesh,
                  const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings) {
   std::vector<IndexedPatch> patches = decodePatches(reader, geometry);
-  if (!geometry
-           .isShared) // the box of a shared one is that of several patches; decoding has checked that it contains it
+  if (!geometry.isShared) // else the box is that of several patches; decoding has checked that it contains each
     checkBoxes(patches, geometry, findings);
   checkBase(reader, geometry, patches, findings);
   if (!manifest && mesh.normals.empty())
