@@ -1,0 +1,345 @@
+#include "import/x3d/scene_reader.h"
+
+#include "import/x3d/container_geometry.h"
+#include "import/x3d/faults.h"
+#include "import/x3d/inlines.h"
+#include "import/x3d/node_images.h"
+#include "import/x3d/shape_reader.h"
+#include "import/x3d/shared_patches.h"
+#include "import/x3d/summary.h"
+#include "import/x3d/texture_coordinates.h"
+#include "scene/mf_string.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace imgeo::x3d {
+
+namespace {
+
+constexpr std::size_t maxNodeDepth = 250;
+
+/// Whether a field is expressed by the scene graph and not kept as text.
+bool isNameField(std::string_view field) {
+  return field == "DEF" || field == "USE";
+}
+
+std::vector<FieldText> fieldsOf(pugi::xml_node element, std::initializer_list<std::string_view> without = {}) {
+  std::vector<FieldText> fields;
+  for (const pugi::xml_attribute& attribute : element.attributes())
+    if (const std::string_view name = attribute.name();
+        !isNameField(name) && std::ranges::find(without, name) == without.end())
+      fields.push_back({std::string(name), attribute.value()});
+  return fields;
+}
+
+class SceneReader {
+public:
+  SceneReader(const Source& source, const References& references, const ImportOptions& options)
+      : faults_(source, options.strict, imported_.warnings, summary_), source_(source),
+        images_(references, imported_.scene.graph.images),
+        shapes_(source, references, options, imported_, summary_, faults_),
+        inlines_(references, options, imported_.scene, imported_.warnings) {}
+
+  Imported read() {
+    SceneGraph& graph = imported_.scene.graph;
+    graph.isComplete = true;
+    graph.head.fields = fieldsOf(source_.root());
+    for (const pugi::xml_node& child : source_.root().parent().children())
+      if (child.type() == pugi::node_comment) // usually a copyright notice
+        addTo(graph.roots, child);
+    for (const pugi::xml_node& child : source_.root().children())
+      if (std::string_view(child.name()) == "head")
+        for (const pugi::xml_node& element : child.children())
+          addTo(graph.head.header, element);
+      else if (std::string_view(child.name()) == "Scene")
+        for (const pugi::xml_node& element : child.children())
+          addTo(graph.roots, element);
+      else if (child.type() == pugi::node_comment)
+        addTo(graph.roots, child);
+    addTitle();
+    shapes_.finish();
+    summary_.addTo(imported_.warnings);
+    return std::move(imported_);
+  }
+
+private:
+  void addTo(std::vector<std::size_t>& list, pugi::xml_node element) {
+    if (const std::optional<std::size_t> node = readElement(element))
+      list.push_back(*node);
+  }
+
+  std::optional<std::size_t> readElement(pugi::xml_node element) {
+    if (element.type() == pugi::node_comment)
+      return addNode(imported_.scene.graph, {"", GenericNode{commentElement, element.value(), {}}, {}, ""});
+    if (element.type() != pugi::node_element || isRouteOfLeftOut(element) || isContainerGeometry(element.name()))
+      return {}; // a geometry of files is left out where it does not become a mesh
+    if (const pugi::xml_attribute use = element.attribute("USE"))
+      return resolveUse(element, use.value());
+    if (isLeftOut(element.name())) {
+      faults_.leaveOut(element);
+      return {};
+    }
+    return define(element, readNode(element));
+  }
+
+  /// Whether a ROUTE connects a node that is left out, alone or within another.
+  bool isRouteOfLeftOut(pugi::xml_node element) const {
+    if (std::string_view(element.name()) != "ROUTE")
+      return false;
+    return std::ranges::any_of(std::array{"fromNode", "toNode"}, [&](const char* end) {
+      pugi::xml_node node = source_.defined(element.attribute(end).value());
+      while (node && node != source_.root() && !isLeftOut(node.name()))
+        node = node.parent();
+      return node && node != source_.root();
+    });
+  }
+
+  std::size_t define(pugi::xml_node element, std::size_t node) {
+    if (const pugi::xml_attribute def = element.attribute("DEF")) {
+      imported_.scene.graph.nodes[node].name = def.value();
+      defined_[def.value()] = node;
+    }
+    return node;
+  }
+
+  std::optional<std::size_t> resolveUse(pugi::xml_node element, const std::string& name) {
+    if (const auto found = defined_.find(name); found != defined_.end())
+      return found->second;
+    const pugi::xml_node target = source_.resolved(element);
+    if (target && isLeftOut(target.name()))
+      return {}; // the summary already names its DEF
+    const bool isEnclosing = reading_.contains(target.internal_object());
+    if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
+      return define(target, readNode(target));
+    return faults_.attempt("Left out", [&]() -> std::optional<std::size_t> {
+      source_.fail(element, ErrorKind::malformed,
+                   fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "a node that contains it" : "no DEF"));
+    });
+  }
+
+  std::size_t readNode(pugi::xml_node element) {
+    if (reading_.size() >= maxNodeDepth)
+      source_.fail(element, ErrorKind::limit, "nodes are nested too deeply");
+    reading_.insert(element.internal_object());
+    const std::size_t node = readNodeContent(element);
+    reading_.erase(element.internal_object());
+    return node;
+  }
+
+  std::size_t readNodeContent(pugi::xml_node element) {
+    const std::string_view name = element.name();
+    if (name == "Shape")
+      if (const std::optional<std::size_t> shape = readShape(element))
+        return *shape;
+    if (const std::vector<pugi::xml_node> patches = geometriesOfPatches(source_, element); !patches.empty())
+      if (const std::optional<std::size_t> shape = readShapeOfPatches(element, patches))
+        return *shape;
+    Node node;
+    if (name == "Transform") {
+      node.fields = fieldsOf(element);
+      node.content = readTransform(element, node.fields);
+    } else if (name == "Group") {
+      node.content = Group{};
+      node.fields = fieldsOf(element);
+    } else {
+      node.content = genericNodeOf(element);
+      // `preview` and `patch` name parts of the site that is converted.
+      node.fields = !imageFieldsOf(name).empty() ? fieldsOf(element, {"preview"})
+                    : name == "Shape"            ? fieldsOf(element, {"patch"})
+                                                 : fieldsOf(element);
+      summary_.remoteImages += keepRemoteImageUrls(std::get<GenericNode>(node.content), node.fields);
+    }
+    if (name == "Inline")
+      addInlined(element, node);
+    else
+      addChildren(element, node, {});
+    summary_.noteKept(name);
+    return addNode(imported_.scene.graph, std::move(node));
+  }
+
+  void addChildren(pugi::xml_node element, Node& node, pugi::xml_node without) {
+    for (const pugi::xml_node& child : element.children())
+      if (child != without && !wouldAppear(child, element))
+        addTo(node.children, child);
+  }
+
+  /// Whether a node that pages draw is a child of a node without effect, such as a sensor, which refers to it: pages
+  /// would draw it there too.
+  static bool wouldAppear(pugi::xml_node child, pugi::xml_node parent) {
+    const NodeRow *row = nodeRow(child.name()), *parentRow = nodeRow(parent.name());
+    const bool isOfScene = row && row->containerField == "children" && row->treatment == NodeTreatment::drawn;
+    return isOfScene && parentRow && parentRow->level > 0 && parentRow->treatment == NodeTreatment::kept;
+  }
+
+  GenericNode genericNodeOf(pugi::xml_node element) {
+    GenericNode node{element.name(), element.text().get(), {}};
+    const auto fields = imageFieldsOf(node.element);
+    for (const std::string_view field : fields)
+      if (const pugi::xml_attribute url = element.attribute(field.data())) {
+        const std::optional<std::size_t> found =
+            faults_.attempt("A texture is left as it is", [&] { return images_.read(parseStrings(url.value())); });
+        if (found)
+          node.images.push_back({std::string(field), *found});
+      }
+    if (fields.empty() && element.attribute("url") && node.element != "Inline")
+      ++summary_.notCopied[node.element];
+    return node;
+  }
+
+  /// The document of the first URL of an Inline that can be read; empty where a URL of another host precedes it.
+  std::optional<Inlines::Document> inlined(pugi::xml_node element) {
+    const std::vector<std::string> urls = parseStrings(element.attribute("url").value());
+    for (std::size_t i = 0; i < urls.size(); ++i) {
+      if (isRemote(urls[i])) {
+        ++summary_.remoteInlines;
+        return {};
+      }
+      try {
+        return inlines_.read(urls[i]);
+      } catch (const Error& error) {
+        if (error.kind() == ErrorKind::limit || (i + 1 == urls.size() && !error.location().empty()))
+          throw;
+        if (i + 1 == urls.size())
+          source_.fail(element, error.kind(), error.message());
+      }
+    }
+    return {};
+  }
+
+  /// Makes the nodes of an Inline's document its children.
+  void addInlined(pugi::xml_node element, Node& node) {
+    const std::optional<Inlines::Document> document =
+        faults_.attempt("An Inline is left as it is", [&] { return inlined(element); });
+    if (!document)
+      return;
+    std::get<GenericNode>(node.content).document = document->index;
+    node.children = document->roots;
+  }
+
+  /// Reads a Transform. Malformed fields count as absent and are removed from `fields`.
+  Transform readTransform(pugi::xml_node element, std::vector<FieldText>& fields) {
+    const auto numbers = [&](const char* field, std::size_t count) {
+      std::vector<double> values = faults_.attempt("A field is left out", [&] {
+        std::vector<double> read = source_.reals(element, field);
+        if (element.attribute(field) && read.size() < count)
+          source_.fail(element, ErrorKind::malformed,
+                       fmt::format("{} has {} numbers of {}", field, read.size(), count));
+        return read;
+      });
+      if (values.empty())
+        std::erase_if(fields, [&](const FieldText& of) { return of.name == field; });
+      return values;
+    };
+    const auto vector = [&](const char* field, Vec3d fallback) {
+      const std::vector<double> v = numbers(field, 3);
+      return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
+    };
+    const auto rotation = [&](const char* field) {
+      const std::vector<double> v = numbers(field, 4);
+      return v.empty() ? Rotation{} : Rotation{{v[0], v[1], v[2]}, v[3]};
+    };
+    Transform transform;
+    transform.translation = vector("translation", {});
+    transform.rotation = rotation("rotation");
+    transform.scale = vector("scale", {1, 1, 1});
+    summary_.noteScale(transform.scale);
+    transform.scaleOrientation = rotation("scaleOrientation");
+    transform.center = vector("center", {});
+    return transform;
+  }
+
+  /// Reads a Shape whose geometry becomes a mesh; returns empty for any other.
+  std::optional<std::size_t> readShape(pugi::xml_node element) {
+    if (hasSharedPatch(source_, element)) {
+      const std::optional<Shape> shape = shapes_.shapeOfSharedPatch(element);
+      return shape ? std::optional(addShapeNode(element, *shape, {}, {})) : std::nullopt;
+    }
+    for (const pugi::xml_node& child : element.children()) {
+      if (child.type() != pugi::node_element)
+        continue;
+      const pugi::xml_node geometry = source_.resolved(child);
+      const pugi::xml_node generator = hasCubeMap(element) ? cameraGeneratorOf(geometry) : pugi::xml_node();
+      const std::optional<Shape> shape = shapes_.shapeOf(geometry, !generator.empty());
+      if (!shape)
+        continue;
+      return addShapeNode(element, *shape, child, generator);
+    }
+    return {};
+  }
+
+  /// Adds a Shape with the fields of `element` and its children other than `geometry`. `generator`: see
+  /// cameraGeneratorOf.
+  std::size_t addShapeNode(pugi::xml_node element, const Shape& shape, pugi::xml_node geometry,
+                           pugi::xml_node generator) {
+    Node node;
+    node.content = shape;
+    node.fields = fieldsOf(element, {"bboxCenter", "bboxSize", "patch"});
+    addChildren(element, node, geometry);
+    if (generator)
+      addTo(node.children, generator);
+    return addNode(imported_.scene.graph, std::move(node));
+  }
+
+  /// Whether the Appearance of a Shape has a cube map.
+  bool hasCubeMap(pugi::xml_node shape) const {
+    const auto isCubeMap = [](const pugi::xml_node& node) {
+      return std::string_view(node.name()).ends_with("CubeMapTexture");
+    };
+    return std::ranges::any_of(shape.children("Appearance"), [&](const pugi::xml_node& child) {
+      return !source_.resolved(child).find_node(isCubeMap).empty();
+    });
+  }
+
+  /// The TextureCoordinateGenerator of a geometry whose mode depends on the camera: pages draw cube maps by it. It
+  /// becomes a child of the Shape, since a written geometry has no such node.
+  pugi::xml_node cameraGeneratorOf(pugi::xml_node geometry) const {
+    for (const pugi::xml_node& node : texCoordNodes(source_, geometry))
+      if (std::string_view(node.attribute("mode").value()).starts_with("CAMERASPACE"))
+        return node;
+    return {};
+  }
+
+  /// Reads a Group of one Shape for each patch as one Shape. Empty where that fails: then each is a Shape of its own.
+  std::optional<std::size_t> readShapeOfPatches(pugi::xml_node group, const std::vector<pugi::xml_node>& geometries) {
+    const std::optional<Shape> shape = shapes_.shapeOfPatches(geometries);
+    if (!shape)
+      return {};
+    Node node;
+    node.content = *shape;
+    node.fields = fieldsOf(group, {"bboxCenter", "bboxSize"});
+    addTo(node.children, geometries[0].parent().child("Appearance"));
+    return addNode(imported_.scene.graph, std::move(node));
+  }
+
+  void addTitle() {
+    SceneGraph& graph = imported_.scene.graph;
+    for (const std::size_t index : nodesOfDocument(graph, graph.roots))
+      if (const GenericNode* node = std::get_if<GenericNode>(&graph.nodes[index].content))
+        if (node->element == "WorldInfo" && graph.title.empty())
+          for (const FieldText& field : graph.nodes[index].fields)
+            if (field.name == "title")
+              graph.title = field.value;
+  }
+
+  Imported imported_;
+  Summary summary_;
+  Faults faults_;
+  const Source& source_;
+  NodeImages images_;
+  ShapeReader shapes_;
+  Inlines inlines_;
+  std::map<std::string, std::size_t> defined_; ///< nodes by DEF name
+  std::set<pugi::xml_node_struct*> reading_;   ///< elements whose reading has begun but not ended
+};
+
+} // namespace
+
+Imported readSceneGraph(const Source& source, const References& references, const ImportOptions& options) {
+  return SceneReader(source, references, options).read();
+}
+
+} // namespace imgeo::x3d

@@ -1,0 +1,60 @@
+#pragma once
+// The shapes of an X3D document whose geometry becomes a mesh.
+
+#include "import/import.h"
+#include "import/references.h"
+#include "import/x3d/container_geometry.h"
+#include "import/x3d/faults.h"
+#include "import/x3d/shared_patches.h"
+#include "import/x3d/source.h"
+#include "import/x3d/summary.h"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace imgeo::x3d {
+
+class ShapeReader {
+public:
+  /// Adds meshes, attributes and warnings to `imported`. Everything must outlive this.
+  ShapeReader(const Source& source, const References& references, const ImportOptions& options, Imported& imported,
+              Summary& summary, Faults& faults);
+
+  /// A shape with the mesh of a geometry node, one mesh for all its USEs. Empty for geometry that stays in the
+  /// document, which is read too, to report its errors. `isForCubeMap`: its generator is drawn as it is.
+  std::optional<Shape> shapeOf(pugi::xml_node geometry, bool isForCubeMap);
+
+  /// The shape of a Shape that hasSharedPatch(); see SharedPatches::shapeOf.
+  std::optional<Shape> shapeOfSharedPatch(pugi::xml_node element);
+
+  /// One shape of geometries that each have a patch of it (geometriesOfPatches). Empty where that fails: then each is a
+  /// Shape of its own.
+  std::optional<Shape> shapeOfPatches(const std::vector<pugi::xml_node>& geometries);
+
+  /// To be called after all shapes: adds the names of attributes, and warnings about shared patches.
+  void finish();
+
+private:
+  bool staysInline(pugi::xml_node node) const;
+  void addTextureMappings();
+  Shape addShape(Mesh mesh, bool isSolid);
+  std::optional<Shape> shapeOfFiles(pugi::xml_node node);
+  void noteDataOf(pugi::xml_node geometry);
+
+  const Source& source_;
+  Imported& imported_;
+  Summary& summary_;
+  Faults& faults_;
+  std::size_t inlineBytes_;
+  const AttributeChoice& keptAttributes_;
+  AttributeChoice mappings_; ///< keptAttributes_ and the sets of texture coordinates that textures use
+  ContainerGeometries containers_;
+  std::set<std::string> attributes_; ///< names of the vertex attributes of geometries of files
+  SharedPatches sharedPatches_;
+  std::map<pugi::xml_node_struct*, std::optional<Shape>> converted_; ///< by geometry node
+};
+
+} // namespace imgeo::x3d
