@@ -1,18 +1,18 @@
 #include "import/x3d/geometry.h"
 
-#include "import/mesh/unit_normal.h"
 #include "import/x3d/elevation_grid.h"
 #include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
 #include "import/x3d/nurbs.h"
 #include "import/x3d/texture_coordinates.h"
-#include "scene/fog_depths.h"
+#include "import/x3d/vertex_data_reader.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 namespace imgeo::x3d {
 
@@ -23,7 +23,7 @@ using Indices = std::vector<std::int32_t>;
 /// Maximum number of vertices of an extrusion, the product of the lengths of two fields.
 constexpr std::size_t maxExtrusionVertices = std::size_t{1} << 22;
 
-/// Reads the vertex data of one geometry node and gives corners their attributes.
+/// Reads the faces, lines or points of one geometry node and gives corners their attributes.
 class GeometryReader {
 public:
   GeometryReader(const Source& source, pugi::xml_node node, const AttributeChoice& kept)
@@ -60,7 +60,10 @@ public:
     const auto reader = readers().find(node_.name());
     if (reader == readers().end())
       return {};
-    readData();
+    NodeVertexData read = readVertexData(source_, node_, kept_);
+    data_ = std::move(read.data);
+    furtherTexCoords_ = read.furtherTexCoords;
+    texCoordGenerator_ = std::move(read.texCoordGenerator);
     (this->*reader->second)();
     return faces_.corners.empty() ? Geometry{} : finished();
   }
@@ -69,87 +72,6 @@ private:
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { source_.fail(node_, kind, message); }
 
   Indices integers(const char* field) const { return source_.integers(node_, field); }
-
-  /// The first child with one of these names, its USE resolved.
-  pugi::xml_node childNamed(std::initializer_list<const char*> names) const {
-    for (const pugi::xml_node& child : node_.children())
-      for (const char* name : names)
-        if (std::string_view(child.name()) == name)
-          return source_.resolved(child);
-    return {};
-  }
-
-  std::vector<double> tuples(pugi::xml_node from, const char* field, std::size_t size) const {
-    std::vector<double> values = source_.reals(from, field);
-    if (values.size() % size != 0)
-      source_.fail(from, ErrorKind::malformed,
-                   fmt::format("{} has {} numbers, which are not {} each", field, values.size(), size));
-    return values;
-  }
-
-  std::vector<Vec3f> vectors(pugi::xml_node from, const char* field) const {
-    const std::vector<double> values = tuples(from, field, 3);
-    std::vector<Vec3f> vectors;
-    for (std::size_t i = 0; i < values.size(); i += 3)
-      vectors.push_back(Vec3f(Vec3d{values[i], values[i + 1], values[i + 2]}));
-    return vectors;
-  }
-
-  void readData() {
-    data_.positions = vectors(childNamed({"Coordinate", "CoordinateDouble"}), "point");
-    data_.normals = vectors(childNamed({"Normal"}), "vector");
-    for (Vec3f& normal : data_.normals)
-      makeUnit(normal);
-    readTexCoords();
-    const pugi::xml_node color = childNamed({"Color", "ColorRGBA"});
-    const std::size_t components = std::string_view(color.name()) == "ColorRGBA" ? 4 : 3;
-    const std::vector<double> colors = tuples(color, "color", components);
-    const auto byte = [](double value) {
-      return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
-    };
-    for (std::size_t i = 0; i < colors.size(); i += components)
-      data_.colors.push_back({byte(colors[i]), byte(colors[i + 1]), byte(colors[i + 2]),
-                              components == 4 ? byte(colors[i + 3]) : std::uint8_t{255}});
-    const bool isOpaque = std::ranges::all_of(data_.colors, [](Rgba8 c) { return c.a == 255; });
-    data_.colorComponents = isOpaque ? 3 : 4;
-    if (kept_.has(fogDepthName))
-      for (const double depth : source_.reals(childNamed({"FogCoordinate"}), "depth"))
-        data_.fogDepths.push_back(static_cast<float>(depth));
-  }
-
-  /// Reads the first set of texture coordinates, and of the others those whose name a texture states as its mapping
-  /// (X3D 4, 18.4.1).
-  void readTexCoords() {
-    const std::vector<pugi::xml_node> sets = texCoordNodes(source_, node_);
-    if (sets.empty())
-      return;
-    furtherTexCoords_ = sets.size() - 1;
-    texCoordGenerator_ = texCoordGeneratorOf(sets[0]);
-    if (texCoordGenerator_)
-      return;
-    data_.texCoords = texCoordsOf(sets[0]);
-    std::vector<std::string> mappings{sets[0].attribute("mapping").value()};
-    for (std::size_t i = 1; i < sets.size(); ++i) {
-      const std::string mapping = sets[i].attribute("mapping").value();
-      const bool isUsed = !texCoordGeneratorOf(sets[i]) && mappings.size() < maxTexCoordSets && kept_.has(mapping) &&
-                          std::ranges::find(mappings, mapping) == mappings.end();
-      if (!isUsed || data_.texCoords.empty())
-        continue;
-      data_.furtherTexCoords.push_back(texCoordsOf(sets[i]));
-      mappings.push_back(mapping);
-      --furtherTexCoords_;
-    }
-    if (!data_.furtherTexCoords.empty())
-      data_.texCoordMappings = mappings;
-  }
-
-  std::vector<Vec2f> texCoordsOf(pugi::xml_node node) const {
-    std::vector<Vec2f> texCoords;
-    const std::vector<double> points = tuples(node, "point", 2);
-    for (std::size_t i = 0; i < points.size(); i += 2)
-      texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
-    return texCoords;
-  }
 
   /// Adds a face of vertices, which are indices into the Coordinate node.
   void addFace(std::initializer_list<std::uint32_t> vertices) {
@@ -298,7 +220,7 @@ private:
   /// Reads 2D points, which lie in the plane z = 0.
   void readPositions2D(const char* field) {
     data_ = {};
-    const std::vector<double> numbers = tuples(node_, field, 2);
+    const std::vector<double> numbers = tuplesOf(source_, node_, field, 2);
     for (std::size_t i = 0; i < numbers.size(); i += 2)
       data_.positions.push_back(Vec3f(Vec3d{numbers[i], numbers[i + 1], 0}));
   }
@@ -362,7 +284,7 @@ private:
   template <std::size_t size, typename Tuple> void readTuples(const char* field, std::vector<Tuple>& values) const {
     if (!node_.attribute(field))
       return;
-    const std::vector<double> numbers = tuples(node_, field, size);
+    const std::vector<double> numbers = tuplesOf(source_, node_, field, size);
     values.clear();
     for (std::size_t i = 0; i < numbers.size(); i += size)
       if constexpr (size == 2)
