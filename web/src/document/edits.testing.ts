@@ -5,6 +5,7 @@ import type { SceneElement } from "./element.ts";
 import { elementsOf, type TestElement } from "./elements.testing.ts";
 import type { SceneReaderOptions } from "./readScene.ts";
 import { inlineGeometryReader } from "./inlineGeometry.ts";
+import { refusals } from "./refused.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 /** Numbers that look random and are the same in every run (Marsaglia 2003, xorshift). */
@@ -89,6 +90,7 @@ const inlinable = {
 export class EditedDocument implements SceneReaderOptions {
   readonly x3d = elementsOf(`<X3D><Scene>${snippets.join("")}</Scene></X3D>`);
   readonly inlineGeometry = inlineGeometryReader;
+  readonly refusals = refusals;
   readonly reader = new SceneReader(this.x3d, this);
   readonly #random: RandomNumbers;
   readonly #documents = Object.entries(inlinable).map(([url, text]) => ({ url, x3d: elementsOf(text) }));

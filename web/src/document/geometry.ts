@@ -27,12 +27,10 @@ import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
-import { reasonAgainst, warnOfRefusedFields } from "./refused.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
 export function readImageGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription {
-  warnOfRefusedFields(element, warnings);
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
   // Only compact has `data`; documents of many small shapes leave the profile out.
   const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
@@ -72,13 +70,7 @@ function quantizationCubeOf(element: SceneElement): { position: Vec3; size: Vec3
   return { position: [along(0), along(1), along(2)], size: [edge, edge, edge] };
 }
 
-export function readBinaryGeometry(
-  element: SceneElement,
-  resolve: Resolve,
-  warnings: Warning[],
-): GeometryDescription | undefined {
-  if (reasonAgainst(element) !== undefined) return undefined;
-  warnOfRefusedFields(element, warnings);
+export function readBinaryGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
   const typeOf = (field: "coordType" | `${VertexRole}Type`): ElementType =>
     choiceOf(

@@ -11,7 +11,6 @@ import { asViewpoint } from "./orthoViewpoint.ts";
 import { readBackground } from "./readBackground.ts";
 import { readEnvironmentLight } from "./readCubeMap.ts";
 import { readFog, readLocalFog } from "./readFog.ts";
-import { reasonAgainst, warnOfRefusedFields } from "./refused.ts";
 import type { ShapeReadingContext } from "./readShape.ts";
 import { nodesIn, readShape } from "./readShape.ts";
 import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
@@ -101,7 +100,7 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
         declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }),
       );
     case "clipplane":
-      warnOfRefusedFields(node, warnings);
+      context.refusals?.warnOfFields(node, warnings);
       return constantReader(
         [{ kind: "clipPlane", ...readFields(node, nodeFields.ClipPlane, warnings) }],
         warningsOnly(warnings),
@@ -120,7 +119,7 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
     case "bvhrefiner":
     case "multipart":
     case "dynamiclod":
-      warnings.push({ element: node, message: reasonAgainst(node) ?? "" });
+      warnings.push({ element: node, message: context.refusals?.reasonAgainst(node) ?? "" });
       return constantReader([], warningsOnly(warnings));
     default:
       return (inherited, readChildren) => readChildren(context.childrenOf(node), inherited);

@@ -12,7 +12,7 @@ import type { GeometryCache, Lookup } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import { withCubeMapDirection } from "./readCubeMap.ts";
 import { texCoordNodesOf } from "./texCoordNodes.ts";
-import { reasonAgainst } from "./refused.ts";
+import type { Refusals } from "./refused.ts";
 import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -24,6 +24,8 @@ export interface ShapeReadingContext {
   readonly warnings: Warning[];
   /** Undefined: geometry whose numbers are in the document is not drawn. */
   readonly inlineGeometry: InlineGeometryReader | undefined;
+  /** Undefined: what is not read is ignored without a word. */
+  readonly refusals: Refusals | undefined;
   /** Undefined: Text is not drawn. */
   readonly text: TextReader | undefined;
   /** Registers an element, of any document, whose change makes the shape be read again. */
@@ -171,11 +173,13 @@ const geometryReaders: Readonly<Record<string, typeof readBinaryGeometry>> = {
 
 /** Undefined for an element that is no geometry. */
 function readGeometry(
-  { geometries, inlineGeometry, text }: ShapeReadingContext,
+  { geometries, inlineGeometry, refusals, text }: ShapeReadingContext,
   element: SceneElement,
   lookup: Lookup,
   warnings: Warning[],
 ): GeometryDescription | undefined {
+  if (refusals?.reasonAgainst(element) !== undefined) return undefined;
+  refusals?.warnOfFields(element, warnings);
   const resolve = (child: SceneElement) => {
     const name = attributeOf(child, "USE");
     return name === undefined ? child : lookup(name);
@@ -194,15 +198,15 @@ function problemOf(children: readonly SceneElement[], context: ShapeReadingConte
   const nodes = children.filter(isGeometry).flatMap((child) => resolveUse(child, { ...context, warnings: [] }) ?? []);
   if (nodes.length === 0) return undefined;
   // Without a reader of geometry in the document, as before the runtime has loaded, nothing is known of other nodes.
-  const { inlineGeometry, warnings } = context;
+  const { inlineGeometry, refusals, warnings } = context;
   if (inlineGeometry === undefined) return "";
   const unknown = nodes.find((node) => {
     const name = lowerNameOf(node);
-    if (reasonAgainst(node) !== undefined) return true;
+    if (refusals?.reasonAgainst(node) !== undefined) return true;
     return !(name in geometryReaders) && name !== "text" && !inlineGeometry.reads(name);
   });
   if (unknown === undefined) return "";
-  const reason = reasonAgainst(unknown) ?? "it is no geometry node that pages draw; nothing is drawn";
+  const reason = refusals?.reasonAgainst(unknown) ?? "it is no geometry node that pages draw; nothing is drawn";
   warnings.push({ element: unknown, message: reason });
   return `<${unknown.localName}> ${reason}`;
 }

@@ -24,8 +24,17 @@ const refusedNodes: Readonly<Record<string, string>> = {
   nurbs: "NURBS are not drawn in pages; imgeo convert makes triangles of them",
 };
 
-/** Why a node is left out; undefined for others. */
-export function reasonAgainst(element: SceneElement): string | undefined {
+/** Tells authors what is not shown. */
+export interface Refusals {
+  /** Why a node is left out; undefined for others. */
+  readonly reasonAgainst: (element: SceneElement) => string | undefined;
+  /** Warns of fields whose value the author set in vain. */
+  readonly warnOfFields: (element: SceneElement, warnings: Warning[]) => void;
+}
+
+export const refusals: Refusals = { reasonAgainst, warnOfFields };
+
+function reasonAgainst(element: SceneElement): string | undefined {
   const name = lowerNameOf(element);
   if (name === "binarygeometry" && readFields(element, nodeFields.BinaryGeometry, []).compressed)
     return "compressed arrays are not read; let the server compress the files (Content-Encoding) instead";
@@ -58,8 +67,7 @@ const refusedFields: Readonly<Record<string, Readonly<Record<string, RefusedFiel
   },
 };
 
-/** Warns of fields whose value the author set in vain. */
-export function warnOfRefusedFields(element: SceneElement, warnings: Warning[]): void {
+function warnOfFields(element: SceneElement, warnings: Warning[]): void {
   for (const [name, { field, reason }] of Object.entries(refusedFields[lowerNameOf(element)] ?? {})) {
     const text = attributeOf(element, name);
     if (text === undefined || isSame(field.type.parse(text), field.defaultValue)) continue;

@@ -10,6 +10,7 @@ import { attributeOf, emptyElement, lowerNameOf } from "./element.ts";
 import { ElementTree } from "./elementTree.ts";
 import { GeometryCache } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
+import type { Refusals } from "./refused.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { ElementInstance } from "./elementInstance.ts";
@@ -29,6 +30,8 @@ export interface SceneReaderOptions {
   readonly levelOf?: (lod: SceneElement) => number | undefined;
   /** Reads geometry whose numbers are in the document; without it such geometry is not drawn. */
   readonly inlineGeometry?: InlineGeometryReader;
+  /** Warns of nodes and fields that are not read; without it they are ignored without a word. */
+  readonly refusals?: Refusals;
   /** Reads Text nodes; without it they are not drawn. */
   readonly text?: TextReader;
 }
@@ -194,6 +197,7 @@ export class SceneReader {
       lookup,
       geometries: this.#geometries,
       inlineGeometry: this.#options.inlineGeometry,
+      refusals: this.#options.refusals,
       text: this.#options.text,
       host: host ?? element,
       inlineDepth: inlinedBy.length,
