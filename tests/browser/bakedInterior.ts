@@ -3,6 +3,7 @@
 
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { GlbWriter } from "./glb.ts";
 import { outputDirectory } from "./paths.ts";
 import { encodePng, type Picture } from "./png.ts";
 
@@ -93,82 +94,29 @@ const materials = [
  * set 1; albedo times occlusion.
  */
 export function writeBakedInterior(): string {
-  const chunks: Buffer[] = [];
-  const bufferViews: object[] = [];
-  const accessors: object[] = [];
-  const add = (bytes: Buffer) => {
-    const byteOffset = chunks.reduce((sum, chunk) => sum + chunk.length, 0);
-    chunks.push(bytes, Buffer.alloc(-bytes.length & 3));
-    return bufferViews.push({ buffer: 0, byteOffset, byteLength: bytes.length }) - 1;
-  };
-  const addNumbers = (numbers: number[], components: 2 | 3) => {
-    const rows = Array.from({ length: numbers.length / components }, (_, row) =>
-      numbers.slice(row * components, (row + 1) * components),
-    );
-    const extreme = (of: (...values: number[]) => number) =>
-      Array.from({ length: components }, (_, i) => of(...rows.map((row) => row[i]!)));
-    return (
-      accessors.push({
-        bufferView: add(Buffer.from(Float32Array.from(numbers).buffer)),
-        componentType: 5126,
-        count: rows.length,
-        type: `VEC${components}`,
-        min: extreme(Math.min),
-        max: extreme(Math.max),
-      }) - 1
-    );
-  };
+  const writer = new GlbWriter();
   const meshes = materials.map((_, material) => {
     const { positions, normals, sets, indices } = wallAt(material - 1.5);
-    return {
-      name: `wall${material}`,
-      primitives: [
-        {
-          attributes: {
-            POSITION: addNumbers(positions, 3),
-            NORMAL: addNumbers(normals, 3),
-            TEXCOORD_0: addNumbers(sets[0], 2),
-            TEXCOORD_1: addNumbers(sets[1], 2),
-          },
-          indices:
-            accessors.push({
-              bufferView: add(Buffer.from(Uint16Array.from(indices).buffer)),
-              componentType: 5123,
-              count: indices.length,
-              type: "SCALAR",
-            }) - 1,
-          material,
-        },
-      ],
+    const attributes = {
+      POSITION: writer.attribute(positions, 3),
+      NORMAL: writer.attribute(normals, 3),
+      TEXCOORD_0: writer.attribute(sets[0], 2),
+      TEXCOORD_1: writer.attribute(sets[1], 2),
     };
+    return { name: `wall${material}`, primitives: [{ attributes, indices: writer.indices(indices), material }] };
   });
-  const binary = Buffer.concat(chunks);
-  const json = Buffer.from(
-    JSON.stringify({
-      asset: { version: "2.0" },
-      extensionsUsed: ["KHR_materials_unlit", "KHR_texture_transform"],
-      scene: 0,
-      scenes: [{ nodes: meshes.map((_, node) => node) }],
-      nodes: meshes.map(({ name }, mesh) => ({ name, mesh })),
-      meshes,
-      materials,
-      samplers: [{ magFilter: 9729, minFilter: 9729 }],
-      textures: Object.keys(images).map((_, source) => ({ source, sampler: 0 })),
-      images: Object.keys(images).map((uri) => ({ uri })),
-      accessors,
-      bufferViews,
-      buffers: [{ byteLength: binary.length }],
-    }),
-  );
-  const padded = Buffer.concat([json, Buffer.alloc(-json.length & 3, " ")]);
-  const words = (...numbers: number[]) => Buffer.from(Uint32Array.from(numbers).buffer);
-  const glb = Buffer.concat([
-    words(0x46546c67, 2, 28 + padded.length + binary.length),
-    words(padded.length, 0x4e4f534a),
-    padded,
-    words(binary.length, 0x004e4942),
-    binary,
-  ]);
+  const glb = writer.file({
+    asset: { version: "2.0" },
+    extensionsUsed: ["KHR_materials_unlit", "KHR_texture_transform"],
+    scene: 0,
+    scenes: [{ nodes: meshes.map((_, node) => node) }],
+    nodes: meshes.map(({ name }, mesh) => ({ name, mesh })),
+    meshes,
+    materials,
+    samplers: [{ magFilter: 9729, minFilter: 9729 }],
+    textures: Object.keys(images).map((_, source) => ({ source, sampler: 0 })),
+    images: Object.keys(images).map((uri) => ({ uri })),
+  });
   mkdirSync(outputDirectory, { recursive: true });
   const path = join(outputDirectory, "baked-interior.glb");
   writeFileSync(path, glb);

@@ -2,6 +2,7 @@
 // for planks (TEXCOORD_0). Plaster and oak are unlit and show the baked light, planks have it as occlusion. No lights,
 // no camera, walls with one side, as an exporter leaves them.
 
+import { GlbWriter } from "../browser/glb.ts";
 import { encodePng } from "../browser/png.ts";
 
 type Vec = readonly [x: number, y: number, z: number];
@@ -181,33 +182,7 @@ const materials = [
 
 /** A GLB. */
 export function bakedInterior(): Buffer {
-  const chunks: Buffer[] = [];
-  const bufferViews: object[] = [];
-  const accessors: object[] = [];
-  let size = 0;
-  const view = (bytes: Buffer): number => {
-    const padding = Buffer.alloc(-bytes.length & 3);
-    chunks.push(bytes, padding);
-    size += bytes.length + padding.length;
-    return (
-      bufferViews.push({ buffer: 0, byteOffset: size - bytes.length - padding.length, byteLength: bytes.length }) - 1
-    );
-  };
-  const accessor = (rows: readonly (readonly number[])[], type: string): number => {
-    const extreme = (of: (...values: number[]) => number) =>
-      (rows[0] ?? []).map((_, i) => of(...rows.map((row) => row[i] ?? 0)));
-    const bufferView = view(Buffer.from(Float32Array.from(rows.flat()).buffer));
-    return (
-      accessors.push({
-        bufferView,
-        componentType: 5126,
-        count: rows.length,
-        type,
-        min: extreme(Math.min),
-        max: extreme(Math.max),
-      }) - 1
-    );
-  };
+  const writer = new GlbWriter();
   const meshes = names.map((name, material) => {
     const own = quads.map((quad, n) => ({ quad, n })).filter(({ quad }) => quad.material === name);
     const corners = own.flatMap(({ quad, n }) =>
@@ -222,57 +197,37 @@ export function bakedInterior(): Buffer {
         };
       }),
     );
-    const indices = own.flatMap((_, i) => [0, 1, 2, 0, 2, 3].map((corner) => [4 * i + corner]));
     const attributes = {
-      POSITION: accessor(
-        corners.map(({ position }) => position),
-        "VEC3",
+      POSITION: writer.attribute(
+        corners.flatMap(({ position }) => position),
+        3,
       ),
-      NORMAL: accessor(
-        corners.map(({ normal }) => normal),
-        "VEC3",
+      NORMAL: writer.attribute(
+        corners.flatMap(({ normal }) => normal),
+        3,
       ),
-      TEXCOORD_0: accessor(
-        corners.map(({ repeated }) => repeated),
-        "VEC2",
+      TEXCOORD_0: writer.attribute(
+        corners.flatMap(({ repeated }) => repeated),
+        2,
       ),
-      TEXCOORD_1: accessor(
-        corners.map(({ baked }) => baked),
-        "VEC2",
+      TEXCOORD_1: writer.attribute(
+        corners.flatMap(({ baked }) => baked),
+        2,
       ),
     };
-    const bufferView = view(Buffer.from(Uint16Array.from(indices.flat()).buffer));
-    accessors.push({ bufferView, componentType: 5123, count: indices.length, type: "SCALAR" });
-    return { name, primitives: [{ attributes, indices: accessors.length - 1, material }] };
+    const indices = writer.indices(own.flatMap((_, i) => [0, 1, 2, 0, 2, 3].map((corner) => 4 * i + corner)));
+    return { name, primitives: [{ attributes, indices, material }] };
   });
-  const images = [bakedAtlas(), planks()].map((png) => ({ bufferView: view(png), mimeType: "image/png" }));
-  const json = Buffer.from(
-    JSON.stringify({
-      asset: { version: "2.0", generator: "a baker of light maps" },
-      extensionsUsed: ["KHR_materials_unlit"],
-      scene: 0,
-      scenes: [{ name: "Room", nodes: meshes.map((_, i) => i) }],
-      nodes: meshes.map(({ name }, mesh) => ({ name, mesh })),
-      meshes,
-      materials,
-      textures: [{ source: 0 }, { source: 1 }],
-      images,
-      accessors,
-      bufferViews,
-      buffers: [{ byteLength: size }],
-    }),
-  );
-  const text = Buffer.concat([json, Buffer.alloc(-json.length & 3, " ")]);
-  const chunk = (type: string, bytes: Buffer): Buffer => {
-    const head = Buffer.alloc(8);
-    head.writeUInt32LE(bytes.length, 0);
-    head.write(type, 4, "latin1");
-    return Buffer.concat([head, bytes]);
-  };
-  const body = Buffer.concat([chunk("JSON", text), chunk("BIN\0", Buffer.concat(chunks))]);
-  const head = Buffer.alloc(12);
-  head.write("glTF", 0, "latin1");
-  head.writeUInt32LE(2, 4);
-  head.writeUInt32LE(12 + body.length, 8);
-  return Buffer.concat([head, body]);
+  const images = [bakedAtlas(), planks()].map((png) => ({ bufferView: writer.bufferView(png), mimeType: "image/png" }));
+  return writer.file({
+    asset: { version: "2.0", generator: "a baker of light maps" },
+    extensionsUsed: ["KHR_materials_unlit"],
+    scene: 0,
+    scenes: [{ name: "Room", nodes: meshes.map((_, i) => i) }],
+    nodes: meshes.map(({ name }, mesh) => ({ name, mesh })),
+    meshes,
+    materials,
+    textures: [{ source: 0 }, { source: 1 }],
+    images,
+  });
 }

@@ -23,14 +23,19 @@ const smooth = (profile: Profile, at: number): number => {
   return value;
 };
 
-/** Half widths from side to side (x) and from front to back (y), and how far the axis leans; in mm. */
-const width: Profile = [
+/** Half widths of the plinth. */
+const plinth: Profile = [
   [0, 300],
   [40, 300],
   [60, 270],
   [220, 270],
   [240, 295],
   [262, 295],
+];
+
+/** Half widths from side to side (x) and from front to back (y), and how far the axis leans; in mm. */
+const width: Profile = [
+  ...plinth,
   [268, 205],
   [620, 190],
   [900, 168],
@@ -45,12 +50,7 @@ const width: Profile = [
   [1620, 2],
 ];
 const depth: Profile = [
-  [0, 300],
-  [40, 300],
-  [60, 270],
-  [220, 270],
-  [240, 295],
-  [262, 295],
+  ...plinth,
   [268, 180],
   [620, 160],
   [900, 140],

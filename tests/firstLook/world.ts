@@ -1,6 +1,14 @@
 // A world as an author of X3D writes it: prototypes with fields, one of them from a library of another file, fog,
 // sky and ground, several viewpoints, USE.
 
+/** A shape at a position. */
+const part = (position: string, material: string, geometry: string): string =>
+  `<Transform translation="${position}"><Shape><Appearance>${material}</Appearance>${geometry}</Shape></Transform>`;
+
+/** A material with a field that a field of the prototype replaces. */
+const connected = (field: string, protoField: string, others = ""): string =>
+  `<Material${others}><IS><connect nodeField="${field}" protoField="${protoField}"/></IS></Material>`;
+
 /** A document of its own, whose prototype the world names by EXTERNPROTO. */
 export const worldLibrary = `<?xml version="1.0" encoding="UTF-8"?>
 <X3D profile="Immersive" version="4.0">
@@ -13,18 +21,8 @@ export const worldLibrary = `<?xml version="1.0" encoding="UTF-8"?>
       <ProtoBody>
         <Transform>
           <IS><connect nodeField="translation" protoField="position"/></IS>
-          <Transform translation="0 1.6 0">
-            <Shape>
-              <Appearance><Material diffuseColor="0.1 0.1 0.12"/></Appearance>
-              <Cylinder radius="0.06" height="3.2"/>
-            </Shape>
-          </Transform>
-          <Transform translation="0 3.35 0">
-            <Shape>
-              <Appearance><Material diffuseColor="0 0 0"><IS><connect nodeField="emissiveColor" protoField="glow"/></IS></Material></Appearance>
-              <Sphere radius="0.22"/>
-            </Shape>
-          </Transform>
+          ${part("0 1.6 0", '<Material diffuseColor="0.1 0.1 0.12"/>', '<Cylinder radius="0.06" height="3.2"/>')}
+          ${part("0 3.35 0", connected("emissiveColor", "glow", ' diffuseColor="0 0 0"'), '<Sphere radius="0.22"/>')}
         </Transform>
       </ProtoBody>
     </ProtoDeclare>
@@ -45,18 +43,8 @@ const prototypes = `
             <connect nodeField="translation" protoField="position"/>
             <connect nodeField="scale" protoField="size"/>
           </IS>
-          <Transform translation="0 1 0">
-            <Shape>
-              <Appearance><Material diffuseColor="0.35 0.24 0.15"/></Appearance>
-              <Cylinder radius="0.2" height="2"/>
-            </Shape>
-          </Transform>
-          <Transform translation="0 3.4 0">
-            <Shape>
-              <Appearance><Material><IS><connect nodeField="diffuseColor" protoField="leaves"/></IS></Material></Appearance>
-              <Cone bottomRadius="1.4" height="3.4"/>
-            </Shape>
-          </Transform>
+          ${part("0 1 0", '<Material diffuseColor="0.35 0.24 0.15"/>', '<Cylinder radius="0.2" height="2"/>')}
+          ${part("0 3.4 0", connected("diffuseColor", "leaves"), '<Cone bottomRadius="1.4" height="3.4"/>')}
         </Transform>
       </ProtoBody>
     </ProtoDeclare>
@@ -73,24 +61,14 @@ const prototypes = `
             <connect nodeField="translation" protoField="position"/>
             <connect nodeField="rotation" protoField="turn"/>
           </IS>
-          <Transform translation="0 1.5 0">
-            <Shape>
-              <Appearance><Material><IS><connect nodeField="diffuseColor" protoField="walls"/></IS></Material></Appearance>
-              <Box size="6 3 5"/>
-            </Shape>
-          </Transform>
+          ${part("0 1.5 0", connected("diffuseColor", "walls"), '<Box size="6 3 5"/>')}
           <Shape>
             <Appearance><Material diffuseColor="0.5 0.2 0.14"/></Appearance>
             <IndexedFaceSet creaseAngle="0" coordIndex="0 1 5 4 -1 1 2 5 -1 2 3 4 5 -1 3 0 4 -1">
               <Coordinate point="-3.4 2.9 2.9, 3.4 2.9 2.9, 3.4 2.9 -2.9, -3.4 2.9 -2.9, -3.4 5 0, 3.4 5 0"/>
             </IndexedFaceSet>
           </Shape>
-          <Transform translation="0 1 2.52">
-            <Shape>
-              <Appearance><Material diffuseColor="0.25 0.16 0.1"/></Appearance>
-              <Box size="1 2 0.06"/>
-            </Shape>
-          </Transform>
+          ${part("0 1 2.52", '<Material diffuseColor="0.25 0.16 0.1"/>', '<Box size="1 2 0.06"/>')}
           <Group><IS><connect nodeField="children" protoField="yard"/></IS></Group>
         </Transform>
       </ProtoBody>
@@ -105,7 +83,9 @@ const instance = (name: string, fields: Readonly<Record<string, string>>, nodes 
     .map(([field, value]) => `<fieldValue name="${field}" value="${value}"/>`)
     .join("")}${nodes}</ProtoInstance>`;
 
-const bench = `<fieldValue name="yard"><Transform DEF="Bench" translation="4.4 0.4 1.5"><Shape><Appearance><Material diffuseColor="0.6 0.42 0.25"/></Appearance><Box size="0.5 0.12 1.8"/></Shape></Transform></fieldValue>`;
+const bench = `<fieldValue name="yard"><Transform DEF="Bench" translation="4.4 0.4 1.5">
+      <Shape><Appearance><Material diffuseColor="0.6 0.42 0.25"/></Appearance><Box size="0.5 0.12 1.8"/></Shape>
+    </Transform></fieldValue>`;
 
 /** The world's document; it names library.x3d beside it. */
 export function prototypeWorld(): string {
