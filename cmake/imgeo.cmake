@@ -12,7 +12,8 @@ target_include_directories(imgeo_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${P
 # Encoded bytes must not depend on the machine: the compiler must not fuse multiply and add.
 target_compile_options(imgeo_options INTERFACE -ffp-contract=off)
 if(IMGEO_SANITIZE)
-  target_compile_options(imgeo_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(imgeo_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
   target_link_options(imgeo_options INTERFACE -fsanitize=address,undefined)
 endif()
 if(IMGEO_LIBFUZZER)

@@ -1,5 +1,5 @@
-# What `make install` installs: the tool with its manual page and shell completions, and the C++ library imgeo::imgeo with
-# its headers and a CMake package. Included by src/CMakeLists.txt after all folders.
+# What `make install` installs: the tool with its manual page and shell completions, and the C++ library imgeo::imgeo
+# with its headers and a CMake package. Included by src/CMakeLists.txt after all folders.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

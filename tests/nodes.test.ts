@@ -177,7 +177,10 @@ const typesOfMethod: Readonly<Record<string, RegExp>> = {
 /** Nodes that convert reads and never writes: docs/formats/x3dom-geometry.md has their fields. */
 const onlyRead = ["PopGeometry", "PopGeometryLevel"];
 
-/** Attributes that every node has or that are HTML's, and fields that the converter refuses unless they have their default. */
+/**
+ * Attributes that every node has or that are HTML's, and fields that the converter refuses unless they have their
+ * default.
+ */
 const notDocumented = ["DEF", "USE", "compressed", "src"];
 
 /** Calls such as `fields.real("alphaCutoff", 0.5f)` or `boolean(node_, "ccw", true)`: method, field, default. */
@@ -307,8 +310,8 @@ test("every field of the nodes that are drawn or converted is documented, or lis
   const known = new Set([...listed, ...Object.values(readElsewhere).flat()]);
   const ofMaterial = (field: string) => field.endsWith("TextureMapping");
   const definitions = fieldsOfX3d();
-  // Nodes of CAD, HAnim and simulation become groups, and their line in the summary says so: their other fields describe
-  // parts, skins and bodies.
+  // Nodes of CAD, HAnim and simulation become groups, and their line in the summary says so: their other fields
+  // describe parts, skins and bodies.
   const drawn = treatments().filter(
     ({ name, treatment }) =>
       treatment === "drawn" || (treatment === "converted" && !/^(CAD|HAnim|Collidable|Espdu)/.test(name)),

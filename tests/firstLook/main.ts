@@ -1,6 +1,6 @@
-// Writes six files that stand for what people bring, converts each, verifies and serves its site, and
-// draws the page on a desktop and on a phone: build/first-look/sheet.png. Fails where a site does not equal its file,
-// a page writes an error to the console, is wider than its screen, or shows too little or too much of the model.
+// Writes six files that stand for what people bring, converts each, verifies and serves its site, and draws the page on
+// a desktop and on a phone: build/first-look/sheet.png. Fails where a site does not equal its file, a page writes an
+// error to the console, is wider than its screen, or shows too little or too much of the model.
 //
 //   scripts/first-look [NAME…]
 
@@ -28,7 +28,7 @@ interface Example {
   readonly write: (folder: string) => void;
   /** What the summary of convert must say. */
   readonly summary: RegExp;
-  /** The scene has no surroundings of its own, so the model must be seen whole: nothing of it at the picture's edges. */
+  /** The scene has no surroundings of its own, so the model must be seen whole: nothing of it at top and bottom. */
   readonly isModel: boolean;
 }
 
@@ -104,7 +104,7 @@ const differs = (picture: Picture, a: number, b: number): boolean => {
   return [0, 1, 2].some((i) => Math.abs(channel(a, i) - channel(b, i)) > 6);
 };
 
-/** The share of pixels, 0 … 1, that differ from the left end of their row, and the same of the rows at both ends. */
+/** The share of pixels, 0 … 1, that differ from the left end of their row: of all, and of the top or bottom row. */
 function covered(picture: Picture): { all: number; ends: number } {
   const { width, height } = picture;
   const rowShare = (y: number): number => {

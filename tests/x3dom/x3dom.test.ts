@@ -1,5 +1,5 @@
-// Compares sites of `--target x3dom` in X3DOM with the same mesh written inline into the same page: a sample of the cases
-// in `make test`, all in `make soak`.
+// Compares sites of `--target x3dom` in X3DOM with the same mesh written inline into the same page: a sample of the
+// cases in `make test`, all in `make soak`.
 
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
