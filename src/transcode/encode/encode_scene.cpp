@@ -53,9 +53,9 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
   BaseFiles baseFiles(files, sharing);
   PatchFiles patchFiles(files, sharing, options.effort);
   TinyMeshes tinyMeshes(document, options, files, patchFiles, report, done);
-  const std::vector<std::size_t> frames = meshOf.size() >= minTinyMeshScene && sharing != nullptr
-                                              ? transformsAbove(document.graph)
-                                              : std::vector<std::size_t>{};
+  const bool sharesNodes = meshOf.size() >= minTinyMeshScene && sharing != nullptr;
+  const std::vector<std::size_t> transforms =
+      sharesNodes ? transformsAbove(document.graph) : std::vector<std::size_t>{};
   std::vector<bool> isEncoded(meshOf.size());
   for (const std::size_t node : spatialOrder(document.graph, boxesOf(scene.meshes, meshOf))) {
     const std::size_t geometry = shapeOf(document.graph, node).mesh;
@@ -63,8 +63,8 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
       continue;
     isEncoded[geometry] = true;
     Mesh& mesh = scene.meshes[meshOf[geometry]];
-    if (!frames.empty() && isTiny(mesh, options)) {
-      tinyMeshes.add(std::move(mesh), geometry, groups[node], frames[node]);
+    if (sharesNodes && isTiny(mesh, options)) {
+      tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node]);
       continue;
     }
     EncodedMesh encoded = encodeMesh(std::move(mesh), options, files, done);
