@@ -6,6 +6,7 @@
 #include "markup/x3d_element.h"
 #include "scene/transform.h"
 
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -14,11 +15,15 @@
 
 namespace imgeo {
 
-/// The text from which elements were parsed, for the locations of Errors.
+/// The elements of a document that have a DEF; of several with the same name, the first.
+using ElementsByDef = std::map<std::string_view, pugi::xml_node>;
+
+/// The text from which elements were parsed, for the locations of Errors, and its DEFs.
 struct DocumentText {
   std::string_view text;
   const std::string& name;
   const ElementOffsets& offsets;
+  const ElementsByDef& defs;
 };
 
 /// Faults of elements that are shown nevertheless: one sentence each, with the line.

@@ -100,18 +100,14 @@ bool holdsImage(const char* name) {
 }
 
 /// The element that a USE names; the element itself without one.
-pugi::xml_node usedNode(const FieldReader& fields) {
+pugi::xml_node usedNode(const DocumentText& source, const FieldReader& fields) {
   const std::string name = fields.text("USE");
   if (name.empty())
     return fields.node();
-  const pugi::xml_node found = fields.node().root().find_node([&](const pugi::xml_node& node) {
-    return std::ranges::any_of(node.attributes(), [&](const pugi::xml_attribute& attribute) {
-      return equalIgnoringCase(attribute.name(), "DEF") && attribute.value() == name;
-    });
-  });
-  if (!found)
+  const auto found = source.defs.find(name);
+  if (found == source.defs.end())
     fields.fail(ErrorKind::malformed, "USE names no node");
-  return found;
+  return found->second;
 }
 
 /// The address of the image that an element holds: its `url` or `src`, or that of the element in it.
@@ -136,7 +132,7 @@ std::string imageUrl(const DocumentText& source, pugi::xml_node node) {
 /// Reads a child that refers to an image of the patch as in X3DOM. Several images of texture coordinates are its sets.
 void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
   const FieldReader fields(source, node);
-  const pugi::xml_node used = usedNode(fields);
+  const pugi::xml_node used = usedNode(source, fields);
   const Reference reference = referenceOf(fields, imageUrl(source, used), encoding);
   std::string role = fields.text("containerField");
   if (role.empty())

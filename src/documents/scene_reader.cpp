@@ -345,6 +345,20 @@ private:
   std::map<std::string, SharedGeometry> sharedGeometries_; ///< by DEF
 };
 
+ElementsByDef elementsByDef(pugi::xml_node root) {
+  struct Walker : pugi::xml_tree_walker {
+    bool for_each(pugi::xml_node& node) override {
+      for (const pugi::xml_attribute& attribute : node.attributes())
+        if (equalIgnoringCase(attribute.name(), "DEF"))
+          defs.emplace(attribute.value(), node);
+      return true;
+    }
+    ElementsByDef defs;
+  } walker;
+  root.traverse(walker);
+  return std::move(walker.defs);
+}
+
 } // namespace
 
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
@@ -360,7 +374,8 @@ SceneDocument readScene(std::string_view text, const std::string& name) {
   if (text.size() > maxDocumentBytes)
     throw Error(ErrorKind::limit, name, "the document is larger than 64 MiB");
   const X3dElement x3d = parseX3d(text, name);
-  const DocumentText source{text, name, x3d.offsets};
+  const ElementsByDef defs = elementsByDef(x3d.root());
+  const DocumentText source{text, name, x3d.offsets, defs};
   SceneDocument document = SceneReader(source).read(x3d.root());
   document.warnings.insert(document.warnings.begin(), x3d.warnings.begin(), x3d.warnings.end());
   return document;

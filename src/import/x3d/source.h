@@ -6,7 +6,6 @@
 #include "import/x3d/elements.h"
 #include "import/x3d/field_values.h"
 
-#include <map>
 #include <string>
 
 namespace imgeo::x3d {
@@ -26,7 +25,7 @@ public:
   pugi::xml_node defined(std::string_view name) const;
 
   /// For the readers of src/documents.
-  DocumentText documentText() const { return {text_, name_, elements_.offsets}; }
+  DocumentText documentText() const { return {text_, name_, elements_.offsets, defs_}; }
 
   /// "hall.wrl:12:3": the file, line and column of an element.
   std::string locationOf(pugi::xml_node element) const;
@@ -44,7 +43,7 @@ private:
   Elements elements_;
   std::string_view text_;
   const std::string& name_;
-  std::map<std::string_view, pugi::xml_node> defs_; ///< the first element of each name
+  ElementsByDef defs_;
 };
 
 } // namespace imgeo::x3d
