@@ -3,6 +3,7 @@
 import { vertexRoles } from "../stage/attributeRows.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
+import { entryOf } from "./tables.ts";
 
 export interface WritableElement extends SceneElement {
   setAttribute(name: string, value: string): void;
@@ -20,7 +21,7 @@ const ownUrlFields: Readonly<Record<string, readonly string[]>> = {
 };
 
 export function absoluteUrls(element: WritableElement, base: string): void {
-  const ownFields = ownUrlFields[lowerNameOf(element)] ?? [];
+  const ownFields = entryOf(ownUrlFields, lowerNameOf(element)) ?? [];
   for (const name of element.getAttributeNames()) {
     const field = name.toLowerCase();
     if (!field.endsWith("url") && !ownFields.includes(field)) continue;

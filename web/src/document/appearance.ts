@@ -20,6 +20,7 @@ import { withinPictureLimit } from "./pictureLimit.ts";
 import { isCubeMap, readCubeMap } from "./readCubeMap.ts";
 import type { ChildrenOf } from "./readImage.ts";
 import { fieldOf, isTexture, readImageOf } from "./readImage.ts";
+import { entryOf } from "./tables.ts";
 
 type TextureFields = Partial<Readonly<Record<TextureRole, string>>>;
 
@@ -78,7 +79,7 @@ export function readAppearance(
   const children =
     element === undefined ? [] : childrenOf(element).flatMap((child) => texturesFor(child, childrenOf, warnings));
   const childNamed = (name: string) => children.find((child) => lowerNameOf(child) === name);
-  const material = children.find((child) => lowerNameOf(child) in textureFields);
+  const material = children.find((child) => entryOf(textureFields, lowerNameOf(child)));
   const points = childNamed("pointproperties");
   const lines = childNamed("lineproperties");
   const appearance: AppearanceDescription = {
@@ -117,7 +118,7 @@ export function withoutLighting(appearance: AppearanceDescription, hasVertexColo
 /** The extensions of a PhysicalMaterial. */
 function extensionsOf(material: SceneElement | undefined, childrenOf: ChildrenOf): SceneElement[] {
   if (material === undefined || lowerNameOf(material) !== "physicalmaterial") return [];
-  return childrenOf(material).filter((child) => lowerNameOf(child) in extensionTextureFields);
+  return childrenOf(material).filter((child) => entryOf(extensionTextureFields, lowerNameOf(child)));
 }
 
 /** Fields of the extension that a material lacks have their defaults. */

@@ -1,6 +1,7 @@
 // Color maps for scalar values: a named map, or a list of equidistant colors.
 
 import type { Field, FieldType, Vec3 } from "./fieldTypes.ts";
+import { entryOf } from "./tables.ts";
 
 /** The largest number of colors in a map: the length of the shader's uniform array. */
 export const maxMapColors = 32;
@@ -22,7 +23,7 @@ function colorsOf(hexes: string): Vec3[] {
 const colorMap: FieldType<readonly Vec3[]> = {
   name: `color map (${Object.keys(namedMaps).join(", ")}, or 2 to ${maxMapColors} colors)`,
   parse(text) {
-    const known = namedMaps[text.trim().toLowerCase()];
+    const known = entryOf(namedMaps, text.trim().toLowerCase());
     if (known !== undefined) return colorsOf(known);
     const words = text.split(/[\s,]+/).filter((word) => word !== "");
     const numbers = words.map(Number);

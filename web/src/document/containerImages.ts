@@ -6,6 +6,7 @@ import { attributeOf, childrenOf, lowerNameOf, substitutedFor } from "./element.
 import { SFString } from "./fieldTypes.ts";
 import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { entryOf } from "./tables.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { texCoordRoles } from "../stage/attributeRows.ts";
 
@@ -26,7 +27,7 @@ type ImageField = (typeof imageFields)[number];
 export function containerImagesOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): ContainerImages {
   const urls: Record<ImageField, string[]> = { index: [], coord: [], normal: [], texCoord: [], color: [] };
   for (const child of childrenOf(element)) {
-    if (!(lowerNameOf(child) in urlReaders)) continue;
+    if (!entryOf(urlReaders, lowerNameOf(child))) continue;
     const used = resolve(child);
     if (used === undefined) {
       warnings.push({ element: child, message: `USE="${attributeOf(child, "USE") ?? ""}" names no DEF of this scene` });
@@ -39,7 +40,7 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
       warnings.push({ element: child, message: `containerField="${name}" names no part of a geometry` });
       continue;
     }
-    const url = urlReaders[lowerNameOf(used)]?.(used, warnings);
+    const url = entryOf(urlReaders, lowerNameOf(used))?.(used, warnings);
     if (url !== undefined) urls[field].push(url);
   }
   const { index, coord, normal, texCoord, color } = urls;

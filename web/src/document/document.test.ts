@@ -272,3 +272,18 @@ describe("the author's priority", () => {
     assert.equal(readScene(elementsOf('<x3d chunkpriority="normal: 2"/>')).chunkPriority, "normal: 2");
   });
 });
+
+test("elements and values that are named like members of every object are unknown", () => {
+  for (const name of ["constructor", "__proto__"]) {
+    const node = `<${name} containerField="coord"/>`;
+    const { root, warnings } = sceneOf(
+      `${node}<Shape>${node}</Shape><Shape><Appearance>${node}</Appearance><ImageGeometry coord="a.png">${node}</ImageGeometry></Shape>`,
+    );
+    assert.deepEqual(
+      warnings.map(({ message }) => message),
+      ["it is no geometry node that pages draw; nothing is drawn"],
+    );
+    assert.equal(shapesOf(root)[1]?.geometry?.patches.length, 1);
+    assert.equal(sceneOf(`<Shape priority="${name}" colorMap="${name}"/>`).warnings.length, 2);
+  }
+});

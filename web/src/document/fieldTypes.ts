@@ -4,6 +4,7 @@
 import type { Vec3 } from "../tessellate/vectors.ts";
 import type { PixelImage } from "./pixelImage.ts";
 import { pixelImageOf } from "./pixelImage.ts";
+import { entryOf } from "./tables.ts";
 
 export type { Vec3 };
 export type Vec2 = readonly [number, number];
@@ -78,7 +79,7 @@ const mfInt32: FieldType<readonly number[]> = {
 const priority: FieldType<number> = {
   name: "priority (a number of 0 or more, high, auto or low)",
   parse(text) {
-    const word = priorityWords[text.trim().toLowerCase()];
+    const word = entryOf(priorityWords, text.trim().toLowerCase());
     if (word !== undefined) return word;
     const value = sfFloat.parse(text);
     return value !== undefined && value >= 0 ? value : undefined;

@@ -22,6 +22,7 @@ import type { PlaneGeometry } from "../tessellate/geometry2d.ts";
 import { arc, circle, closedArc, disk, polyline, polypoint, rectangle, triangles2d } from "../tessellate/geometry2d.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { entryOf } from "./tables.ts";
 import type { Solid } from "../tessellate/solids.ts";
 import { box, cylinderOrCone, sphere } from "../tessellate/solids.ts";
 
@@ -130,7 +131,7 @@ export interface InlineGeometryReader {
 }
 
 export const inlineGeometryReader: InlineGeometryReader = {
-  reads: (name) => [solids, planeReaders, runReaders, surfaces].some((readers) => name in readers),
+  reads: (name) => [solids, planeReaders, runReaders, surfaces].some((readers) => Object.hasOwn(readers, name)),
   read: readInlineGeometry,
 };
 
@@ -140,10 +141,10 @@ function readInlineGeometry(
   warnings: Warning[],
 ): GeometryDescription | undefined {
   const name = lowerNameOf(element);
-  const readSolid = solids[name],
-    readPlane = planeReaders[name],
-    readRuns = runReaders[name],
-    readSurface = surfaces[name];
+  const readSolid = entryOf(solids, name),
+    readPlane = entryOf(planeReaders, name),
+    readRuns = entryOf(runReaders, name),
+    readSurface = entryOf(surfaces, name);
   if (readPlane) return planeGeometryOf(readPlane, element, warnings);
   if (!readSolid && !readRuns && !readSurface) return undefined;
   const solidMesh = readSolid?.(element, warnings);

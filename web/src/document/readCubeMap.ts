@@ -14,6 +14,7 @@ import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import type { ChildrenOf } from "./readImage.ts";
 import { edgeToEdge, fieldOf, isTexture, readImageOf } from "./readImage.ts";
+import { entryOf } from "./tables.ts";
 
 /** The number of spherical harmonics times that of color channels. */
 const coefficientCount = 27;
@@ -85,7 +86,7 @@ export function withCubeMapDirection(
 ): AppearanceDescription {
   if (generator === undefined) return appearance;
   const { mode } = readFields(generator, nodeFields.TextureCoordinateGenerator, []);
-  const direction = directionOfMode[mode];
+  const direction = entryOf(directionOfMode, mode);
   const { cubeMap } = appearance;
   if (cubeMap === undefined || direction === undefined) {
     if (direction !== undefined && appearance.textures.length > 0)

@@ -16,6 +16,7 @@ import type { Refusals } from "./refused.ts";
 import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { entryOf } from "./tables.ts";
 
 /** The context that reading a shape needs besides its element. */
 export interface ShapeReadingContext {
@@ -186,7 +187,7 @@ function readGeometry(
   };
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
-  const fileGeometry = geometryReaders[name]?.(element, resolve, warnings);
+  const fileGeometry = entryOf(geometryReaders, name)?.(element, resolve, warnings);
   return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.read(element, resolve, warnings);
 }
 
@@ -203,7 +204,7 @@ function problemOf(children: readonly SceneElement[], context: ShapeReadingConte
   const unknown = nodes.find((node) => {
     const name = lowerNameOf(node);
     if (refusals?.reasonAgainst(node) !== undefined) return true;
-    return !(name in geometryReaders) && name !== "text" && !inlineGeometry.reads(name);
+    return !entryOf(geometryReaders, name) && name !== "text" && !inlineGeometry.reads(name);
   });
   if (unknown === undefined) return "";
   const reason = refusals?.reasonAgainst(unknown) ?? "it is no geometry node that pages draw; nothing is drawn";

@@ -8,6 +8,7 @@ import { nearestTexCoordMode } from "../tessellate/texCoordModes.ts";
 import type { VertexData } from "../tessellate/faces.ts";
 import { texCoordRoles } from "../stage/attributeRows.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { entryOf } from "./tables.ts";
 import { texCoordNodesOf } from "./texCoordNodes.ts";
 
 /**
@@ -55,7 +56,7 @@ export function texCoordModeOf(
   const [first] = texCoordNodesOf(geometry, resolve);
   if (first === undefined || lowerNameOf(first) !== "texturecoordinategenerator") return undefined;
   const { mode } = readFields(first, nodeFields.TextureCoordinateGenerator, warnings);
-  const drawn = nearestTexCoordMode[mode] ?? "SPHERE-LOCAL";
+  const drawn = entryOf(nearestTexCoordMode, mode) ?? "SPHERE-LOCAL";
   // The camera's modes are for cube maps: readCubeMap.ts.
   if (drawn !== mode && !mode.startsWith("CAMERASPACE"))
     warnings.push({ element: first, message: `mode="${mode}" is drawn as ${drawn}` });

@@ -7,6 +7,7 @@ import type { Field } from "./fieldTypes.ts";
 import { SFBool, SFFloat, SFInt32, SFString } from "./fieldTypes.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { entryOf } from "./tables.ts";
 
 const notEvenConverted = "neither pages nor imgeo convert read it; convert the model from which it was made instead";
 
@@ -38,7 +39,7 @@ function reasonAgainst(element: SceneElement): string | undefined {
   const name = lowerNameOf(element);
   if (name === "binarygeometry" && readFields(element, nodeFields.BinaryGeometry, []).compressed)
     return "compressed arrays are not read; let the server compress the files (Content-Encoding) instead";
-  return refusedNodes[name.startsWith("nurbs") ? "nurbs" : name];
+  return entryOf(refusedNodes, name.startsWith("nurbs") ? "nurbs" : name);
 }
 
 interface RefusedField {
@@ -68,7 +69,7 @@ const refusedFields: Readonly<Record<string, Readonly<Record<string, RefusedFiel
 };
 
 function warnOfFields(element: SceneElement, warnings: Warning[]): void {
-  for (const [name, { field, reason }] of Object.entries(refusedFields[lowerNameOf(element)] ?? {})) {
+  for (const [name, { field, reason }] of Object.entries(entryOf(refusedFields, lowerNameOf(element)) ?? {})) {
     const text = attributeOf(element, name);
     if (text === undefined || isSame(field.type.parse(text), field.defaultValue)) continue;
     warnings.push({ element, message: `${name}="${text}" has no effect: ${reason}` });
