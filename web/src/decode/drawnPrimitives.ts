@@ -61,7 +61,7 @@ function drawnAs(
 ): { primitive: DrawRange["primitive"]; indices: IndexArray } {
   switch (primitive) {
     case "triangleStrip":
-      return { primitive: "triangles", indices: separateTriangles(indices, stripCorners) };
+      return { primitive: "triangles", indices: trianglesFromStrip(indices) };
     case "triangleFan":
       return { primitive: "triangles", indices: separateTriangles(indices, fanCorners) };
     case "lineLoop":
