@@ -44,6 +44,8 @@ PrecompressReport precompressSite(const fs::path& site) {
 
   PrecompressReport sum;
   for (const PrecompressReport& report : reports) {
+    if (report.brotliBytes == report.bytes && report.gzipBytes == report.bytes)
+      continue; // neither coding makes it smaller
     sum.files += report.files;
     sum.bytes += report.bytes;
     sum.brotliBytes += report.brotliBytes;

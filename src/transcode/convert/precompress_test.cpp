@@ -84,9 +84,12 @@ TEST_F(Precompress, ALaterConversionReplacesTheCopies) {
 
 TEST_F(Precompress, ACompressedFileOfSomebodyElseIsForeign) {
   convertGrid(true);
-  writeFile(site() / "notes.txt.gz", asBytes("somebody else's"));
-  EXPECT_THROW(convertGrid(true), Error);
-  EXPECT_TRUE(fs::exists(site() / "notes.txt.gz"));
+  for (const char* name : {"notes.txt.gz", "index.html.br.gz"}) {
+    writeFile(site() / name, asBytes("somebody else's"));
+    EXPECT_THROW(convertGrid(true), Error) << name;
+    EXPECT_TRUE(fs::exists(site() / name));
+    fs::remove(site() / name);
+  }
 }
 
 } // namespace

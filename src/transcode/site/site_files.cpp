@@ -14,8 +14,10 @@ bool isPrecompressed(const fs::path& file) {
 }
 
 bool isSiteFile(const fs::path& file) {
-  if (isPrecompressed(file))
-    return isSiteFile(fs::path(file).replace_extension());
+  if (isPrecompressed(file)) {
+    const fs::path original = fs::path(file).replace_extension();
+    return !isPrecompressed(original) && isSiteFile(original);
+  }
   const fs::path folder = file.parent_path();
   if (isContentNamed(file.filename().native()))
     return folder == geometryFolder || folder == textureFolder || folder == runtimeFolder ||
