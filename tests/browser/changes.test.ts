@@ -9,7 +9,7 @@ import { assertSamePicture, difference } from "./compare.ts";
 import { finalPicture, settle, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
-import { gate } from "./server.ts";
+import { gate, type TestServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, withShapes } from "./sites.ts";
 
@@ -188,33 +188,60 @@ describe("a change of the document changes the picture", () => {
     });
   });
 
-  test("of the files that a geometry references: those of another mesh", async () => {
-    await withTransform(async (view) => {
+  test("of the files that a geometry references: the old mesh stays until the new one is whole", async () => {
+    const { closed, open } = gate();
+    const rules = (server: TestServer): void => {
+      server.when(/^\/$/, { replace });
+      server.when(/^\/other\//, { hold: closed });
+      server.when(/^\/missing\//, { status: 404 });
+    };
+    const expectedErrors = /404|missing/;
+    await withPage(twoMeshSite(), { server: rules, before: recordFrames, expectedErrors }, async (view) => {
+      await view.promise("complete");
       const before = await view.picture();
-      await view.page.evaluate((text) => {
-        const other = new DOMParser().parseFromString(text, "text/html");
-        for (const name of ["imagegeometry", "geometrypatch"]) {
-          const [own, replacement] = [document.querySelector(name)!, other.querySelector(name)!];
-          for (const attribute of [...own.getAttributeNames(), ...replacement.getAttributeNames()]) {
-            const value = replacement.getAttribute(attribute);
-            if (value === null) own.removeAttribute(attribute);
-            else own.setAttribute(attribute, value);
-          }
-        }
-      }, sphereShape());
+      await startRecording(view);
+      const original = await geometryOf(view);
+      await setGeometry(view, sphereShape());
       await until("its files are requested", () => view.server.requestsOf(/^\/other\//).length > 0);
-      await until("no request is open", () =>
-        view.page.evaluate(
-          () =>
-            (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics
-              .openRequests === 0,
-        ),
-      );
+      // Only the progress bar is new.
+      assertSamePicture("while the files are on their way", await view.picture(), before, { mean: 0.15 });
+      const firstImages = await view.events("first-image", "shape");
+      open();
+      await view.promise("complete", "shape");
       const after = await view.picture();
       assert.ok(difference(before, after).mean > 0.5, "nothing has changed");
       assertSamePicture("changed files", after, await freshPicture(twoMeshSite(), await sceneText(view)), {
         mean: 0.001,
       });
+      assert.equal((await view.events("first-image", "shape")).length, firstImages.length + 1);
+
+      // A geometry that changes again before it is whole has displayed nothing.
+      for (let n = 0; n < 3; ++n) {
+        await setGeometry(view, original);
+        await setGeometry(view, sphereShape());
+      }
+      await setGeometry(view, original);
+      await view.promise("complete", "shape");
+      assertSamePicture("changed back", await view.picture(), before, { mean: 0 });
+
+      const isRejected = setGeometry(view, sphereShape().replaceAll("other/", "missing/")).then(() =>
+        view.page.evaluate(() =>
+          (document.querySelector("shape") as unknown as { complete: Promise<unknown> }).complete.then(
+            () => false,
+            () => true,
+          ),
+        ),
+      );
+      assert.ok(await isRejected, "the promise has resolved although files are missing");
+      assertSamePicture("no file could be used", await view.picture(), before, { mean: 0 });
+      const errors = await view.events("error", "shape");
+      assert.ok(errors.length > 0 && errors.every(({ detail }) => (detail as { type: string }).type === "http"));
+
+      await setGeometry(view, sphereShape());
+      await view.promise("complete", "shape");
+      assertSamePicture("after an error", await view.picture(), after, { mean: 0 });
+      const coverages = await view.page.evaluate(() => (window as unknown as { coverages: number[] }).coverages);
+      assert.ok(coverages.length > 10 && Math.min(...coverages) > 100, `pixels covered: ${coverages.join()}`);
     });
   });
 
@@ -280,6 +307,59 @@ describe("a change of the document changes the picture", () => {
     });
   });
 });
+
+/** The geometry of the page's first shape. */
+async function geometryOf(view: View): Promise<string> {
+  return view.page.evaluate(() => document.querySelector("imagegeometry")!.outerHTML);
+}
+
+/** Gives the page's first geometry node and its patch the attributes of those in `text`, at once. */
+async function setGeometry(view: View, text: string): Promise<void> {
+  await view.page.evaluate((html) => {
+    const other = new DOMParser().parseFromString(html, "text/html");
+    for (const name of ["imagegeometry", "geometrypatch"]) {
+      const [own, replacement] = [document.querySelector(name)!, other.querySelector(name)!];
+      for (const attribute of [...own.getAttributeNames(), ...replacement.getAttributeNames()]) {
+        const value = replacement.getAttribute(attribute);
+        if (value === null) own.removeAttribute(attribute);
+        else own.setAttribute(attribute, value);
+      }
+    }
+  }, text);
+}
+
+/** In the page, before its scripts: keeps what a canvas displays readable after the frame. */
+function recordFrames(): void {
+  type GetContext = (this: HTMLCanvasElement, type: string, options?: object) => unknown;
+  const getContext = Reflect.get(HTMLCanvasElement.prototype, "getContext") as GetContext;
+  const getKeptContext: GetContext = function (type, options) {
+    if (type === "webgl2") Object.assign(window, { sceneCanvas: this });
+    return getContext.call(this, type, { ...options, preserveDrawingBuffer: true });
+  };
+  Object.assign(HTMLCanvasElement.prototype, { getContext: getKeptContext });
+}
+
+/** From now on counts, in each frame of a page with `recordFrames`, the pixels that differ from the background. */
+async function startRecording(view: View): Promise<void> {
+  await view.page.evaluate(() => {
+    const { sceneCanvas } = window as unknown as { sceneCanvas: HTMLCanvasElement };
+    const [width, height] = [64, 48];
+    const small = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
+    const coverages: number[] = [];
+    Object.assign(window, { coverages });
+    const record = (): void => {
+      small.clearRect(0, 0, width, height);
+      small.drawImage(sceneCanvas, 0, 0, width, height);
+      const { data } = small.getImageData(0, 0, width, height);
+      let count = 0;
+      for (let at = 0; at < data.length; at += 4)
+        if ([0, 1, 2, 3].some((channel) => Math.abs(data[at + channel]! - data[channel]!) > 8)) count += 1;
+      coverages.push(count);
+      requestAnimationFrame(record);
+    };
+    record();
+  });
+}
 
 async function addShape(view: View, shape: string): Promise<void> {
   await view.page.evaluate((text) => {

@@ -10,6 +10,7 @@ import type {
   AppearanceDescription,
   CubeMapPicture,
   CubeMapRole,
+  GeometryDescription,
   ShapeDescription,
   TextureDescription,
   TextureRole,
@@ -34,16 +35,15 @@ export interface PageShapesListener {
 
 /** Receives what a shape loads. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
-  onStage(shape: PageShape, patch: number, stage: Stage | undefined): void;
+  onStage(shape: PageShape, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void;
   onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
   onRemoved(shape: PageShape): void;
 }
 
 export class PageShape extends LoadingShape {
-  readonly loading: LoadingEvents;
-  /** The stage that each patch displays. */
-  readonly stages: (StageName | "none")[];
+  #loading: LoadingEvents;
+  #stages: (StageName | "none")[];
   readonly #listener: PageShapeListener;
 
   /** `isPreviewed`: the preview has displayed the shape's base. */
@@ -55,13 +55,33 @@ export class PageShape extends LoadingShape {
   ) {
     super(deliveries, described);
     this.#listener = listener;
-    this.stages = described.geometry?.patches.map(() => "none" as const) ?? [];
-    this.loading = new LoadingEvents(described.element as Element, () => this.transfers, isPreviewed ? "base" : "none");
-    if (described.geometry === undefined) this.loading.settle();
+    this.#stages = noStages(described.geometry);
+    this.#loading = new LoadingEvents(
+      described.element as Element,
+      () => this.transfers,
+      isPreviewed ? "base" : "none",
+    );
+    if (described.geometry === undefined) this.#loading.settle();
   }
 
-  protected override onStage(patch: number, stage: Stage | undefined): void {
-    this.#listener.onStage(this, patch, stage);
+  get loading(): LoadingEvents {
+    return this.#loading;
+  }
+
+  /** The stage that each patch of the described geometry displays. */
+  get stages(): (StageName | "none")[] {
+    return this.#stages;
+  }
+
+  protected override onStage(geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+    this.#listener.onStage(this, geometry, patch, stage);
+  }
+
+  protected override onGeometryReplaced(): void {
+    this.#loading.abandon();
+    this.#stages = noStages(this.geometry);
+    this.#loading = new LoadingEvents(this.element as Element, () => this.transfers);
+    if (this.geometry === undefined) this.#loading.settle();
   }
 
   protected override picturesOf({
@@ -89,6 +109,10 @@ export class PageShape extends LoadingShape {
     this.loading.abandon();
     this.#listener.onRemoved(this);
   }
+}
+
+function noStages(geometry: GeometryDescription | undefined): "none"[] {
+  return geometry?.patches.map(() => "none" as const) ?? [];
 }
 
 export class PageShapes extends LoadingShapes<PageShape> {
@@ -122,8 +146,10 @@ export class PageShapes extends LoadingShapes<PageShape> {
   }
 
   override follow(changes: SceneChanges): () => void {
-    for (const [element, { visible }] of changes.shapes)
-      if (this.get(element)?.isVisible !== visible) this.#isQuiet = false;
+    for (const [element, { visible, geometry }] of changes.shapes) {
+      const shape = this.get(element);
+      if (shape?.isVisible !== visible || shape.geometry !== geometry) this.#isQuiet = false;
+    }
     const leave = super.follow(changes);
     for (const element of changes.shapes.keys()) {
       const shape = this.get(element);
@@ -176,7 +202,10 @@ export class PageShapes extends LoadingShapes<PageShape> {
 
   /** Completes visible shapes of which this view requests nothing more, even if they could be refined. */
   settle(): void {
-    for (const shape of this) this.#settle(shape);
+    for (const shape of this) {
+      shape.displayWhole();
+      this.#settle(shape);
+    }
   }
 
   updateProgress(): void {
@@ -220,8 +249,8 @@ export class PageShapes extends LoadingShapes<PageShape> {
   protected override makeShape(described: ShapeDescription): PageShape {
     this.#isQuiet = false;
     return new PageShape(this.#deliveries, described, this.#previewed.delete(described.element), {
-      onStage: (shape, patch, stage) => {
-        this.#onStage(shape, patch, stage);
+      onStage: (shape, geometry, patch, stage) => {
+        this.#onStage(shape, geometry, patch, stage);
       },
       onTextureImage: ({ element }, role, image) => {
         this.#renderer.setTextureImage(element, role, image);
@@ -238,11 +267,11 @@ export class PageShapes extends LoadingShapes<PageShape> {
     });
   }
 
-  #onStage(shape: PageShape, patch: number, stage: Stage | undefined): void {
-    const { element, geometry, stages, loading } = shape;
-    if (geometry === undefined) return;
+  #onStage(shape: PageShape, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+    const { element, stages, loading } = shape;
     this.#renderer.setStage(element, geometry, patch, stage);
     this.#listener.onStage(stage);
+    if (geometry !== shape.geometry) return;
     stages[patch] = stage?.name ?? "none";
     loading.reach(displayedStageOf(stages));
     this.#isQuiet = false;

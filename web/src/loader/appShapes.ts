@@ -5,7 +5,7 @@ import type { Group } from "three";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
-import type { ShapeDescription, TextureRole } from "../document/description.ts";
+import type { GeometryDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking/picker.ts";
@@ -40,7 +40,7 @@ interface InstancedObject {
 export class AppShape extends LoadingShape {
   readonly object: ShapeObject;
   /** Indices of patches that display nothing yet and whose files may still load. */
-  readonly missingPatches: Set<number>;
+  missingPatches: Set<number>;
   readonly #context: ShapeContext;
   readonly #listener: AppShapesListener;
 
@@ -58,12 +58,15 @@ export class AppShape extends LoadingShape {
     this.missingPatches = new Set(described.geometry?.patches.keys());
   }
 
-  protected override onStage(patch: number, stage: Stage | undefined): void {
-    if (this.geometry === undefined) return;
-    this.object.setStage(this.geometry, patch, stage);
-    this.missingPatches.delete(patch);
+  protected override onStage(geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+    this.object.setStage(geometry, patch, stage);
+    if (geometry === this.geometry) this.missingPatches.delete(patch);
     this.#listener.onChange();
     this.#listener.onAdvance();
+  }
+
+  protected override onGeometryReplaced(): void {
+    this.missingPatches = new Set(this.geometry?.patches.keys());
   }
 
   protected override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {

@@ -1,5 +1,6 @@
 // One shape of a scene while it loads: the deliveries of its geometry and of its
-// textures. A derived class for each host displays them.
+// textures. A derived class for each host displays them. When the geometry changes, its last
+// stages stay displayed until all files of the new one have arrived, so that no frame is empty.
 
 import { DeliveryError } from "../delivery/deliveryError.ts";
 import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
@@ -22,12 +23,21 @@ import type { Stage } from "../stage/stage.ts";
 /** A texture, or a picture of the cube map. */
 type LoadedPicture = TextureDescription | CubeMapPicture;
 
+/** A geometry, its delivery and the stages that the delivery has reported last. */
+interface GeometrySource {
+  readonly geometry: GeometryDescription;
+  readonly stages: Map<number, Stage>;
+  joined: JoinedDelivery | undefined;
+}
+
 export abstract class LoadingShape {
   readonly element: SceneElement;
-  readonly geometry: GeometryDescription | undefined;
   readonly #deliveries: SceneDeliveries;
   readonly #textures: RoleTextures<TextureRole | CubeMapRole>;
-  #delivery: JoinedDelivery | undefined;
+  /** The described geometry. */
+  #source: GeometrySource | undefined;
+  /** The geometry before, which is displayed until the described one is whole. */
+  #replaced: GeometrySource | undefined;
   #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
   /** Why the geometry is not drawn, until this has been reported; empty: nothing to report. */
@@ -36,7 +46,7 @@ export abstract class LoadingShape {
   /** Joins no delivery before `join`. */
   constructor(deliveries: SceneDeliveries, { element, geometry, visible, unreadableGeometry = "" }: ShapeDescription) {
     this.element = element;
-    this.geometry = geometry;
+    this.#source = sourceOf(geometry);
     this.#isVisible = visible;
     this.#problem = unreadableGeometry;
     this.#deliveries = deliveries;
@@ -53,17 +63,16 @@ export abstract class LoadingShape {
     });
   }
 
-  /** A patch has another stage; undefined: none. */
-  protected abstract onStage(patch: number, stage: Stage | undefined): void;
+  /** A patch of the geometry, or of the one before, displays another stage; undefined: none. */
+  protected abstract onStage(geometry: GeometryDescription, patch: number, stage: Stage | undefined): void;
+  /** The shape has another geometry. The stages of the one before are still displayed. */
+  protected abstract onGeometryReplaced(): void;
   /** A texture has another image; undefined: none. The image before is not used after this call. */
   protected abstract onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   protected abstract onError(error: DeliveryError): void;
   /** All files that were requested of the geometry, or of a texture, have loaded or failed. */
   protected abstract onSettled(): void;
-  /**
-   * The scene no longer has the shape, or the shape has another geometry. Stages and images of its deliveries must no
-   * longer be displayed.
-   */
+  /** The scene no longer has the shape. Stages and images of its deliveries must no longer be displayed. */
   abstract onRemoved(): void;
 
   /** The pictures of an appearance that the host displays. */
@@ -76,6 +85,10 @@ export abstract class LoadingShape {
     return this.#describedTextures.find((picture) => picture.role === role)?.urls[0] ?? "";
   }
 
+  get geometry(): GeometryDescription | undefined {
+    return this.#source?.geometry;
+  }
+
   /** Whether any instance of the shape is visible. */
   get isVisible(): boolean {
     return this.#isVisible;
@@ -83,12 +96,12 @@ export abstract class LoadingShape {
 
   /** Whether the geometry's delivery is joined. */
   get isJoined(): boolean {
-    return this.#delivery !== undefined;
+    return this.#source?.joined !== undefined;
   }
 
   /** Whether no file of the geometry is being loaded. */
   get isGeometrySettled(): boolean {
-    return this.geometry === undefined || this.#delivery?.isSettled === true;
+    return this.#source === undefined || this.#source.joined?.isSettled === true;
   }
 
   /** Whether no file of the shape, its textures included, is being loaded. */
@@ -98,49 +111,111 @@ export abstract class LoadingShape {
 
   /** The files that have been requested. */
   get transfers(): readonly Readonly<Transfer>[] {
-    return [...(this.#delivery?.transfers ?? []), ...this.#textures.transfers];
+    return [...(this.#source?.joined?.transfers ?? []), ...this.#textures.transfers];
   }
 
-  /** Follows a changed description of the same geometry; joins deliveries unless `isSuspended`. */
-  follow({ visible, appearance }: ShapeDescription, isSuspended: boolean): void {
+  /**
+   * Follows a changed description; joins deliveries unless `isSuspended`. Returns a function that ends the deliveries
+   * that are no longer needed: call it after the files of new shapes have been requested.
+   */
+  follow(described: ShapeDescription, isSuspended: boolean): () => void {
+    const { visible, appearance, geometry, unreadableGeometry = "" } = described;
     this.#isVisible = visible;
     this.#describedTextures = this.picturesOf(appearance);
+    const left = geometry === this.geometry ? undefined : this.#replaceGeometry(geometry, unreadableGeometry);
     if (!isSuspended) this.join();
+    return () => left?.joined?.cancel();
   }
 
   /** Joins the deliveries of the geometry and of the textures described last. */
   join(): void {
-    const { geometry } = this;
     if (this.#problem !== "") {
       const problem = this.#problem;
       this.#problem = ""; // reported once
       this.onError(new DeliveryError("unsupported", "", problem));
     }
-    if (geometry !== undefined)
-      this.#delivery ??= this.#deliveries.geometries.join(geometry, {
+    const source = this.#source;
+    if (source !== undefined)
+      source.joined ??= this.#deliveries.geometries.join(source.geometry, {
         onStage: (patch, stage) => {
-          this.onStage(patch, stage);
+          this.#receiveStage(source, patch, stage);
         },
         onError: (error) => {
-          this.onError(error);
+          if (source === this.#source) this.onError(error);
         },
         onSettled: () => {
+          if (source !== this.#source) return;
+          this.displayWhole();
           this.onSettled();
         },
       });
     this.#textures.follow(this.#describedTextures);
   }
 
+  /**
+   * Displays the described geometry in place of the one before, if it has something to display and no file of it is
+   * being loaded. If none of its files could be used, the one before stays.
+   */
+  displayWhole(): void {
+    if (this.#replaced !== undefined && this.#source?.stages.size !== 0 && this.isGeometrySettled) this.#swap();
+  }
+
   /** Leaves all deliveries and reports that textures have no images any more; `join` joins them again. */
   suspend(): void {
-    this.#delivery?.cancel();
-    this.#delivery = undefined;
+    this.#leaveGeometries();
+    this.#source = sourceOf(this.geometry);
     this.#textures.follow([]);
   }
 
   /** Leaves all deliveries. The shape must not be used again. */
   cancel(): void {
-    this.#delivery?.cancel();
+    this.#leaveGeometries();
     this.#textures.cancel();
   }
+
+  #leaveGeometries(): void {
+    for (const source of [this.#source, this.#replaced]) source?.joined?.cancel();
+    this.#replaced = undefined;
+  }
+
+  /** Returns the geometry whose delivery is no longer needed; undefined: the one before is still displayed. */
+  #replaceGeometry(geometry: GeometryDescription | undefined, problem: string): GeometrySource | undefined {
+    const before = this.#source;
+    this.#source = sourceOf(geometry);
+    this.#problem = problem;
+    this.onGeometryReplaced();
+    if (this.#replaced === undefined && geometry !== undefined && before !== undefined && before.stages.size > 0) {
+      this.#replaced = before;
+      return undefined;
+    }
+    if (geometry !== undefined) return before;
+    const displayed = this.#replaced ?? before;
+    this.#replaced = undefined;
+    for (const patch of displayed?.stages.keys() ?? [])
+      if (displayed !== undefined) this.onStage(displayed.geometry, patch, undefined);
+    if (displayed !== before) displayed?.joined?.cancel();
+    return before;
+  }
+
+  #receiveStage(source: GeometrySource, patch: number, stage: Stage | undefined): void {
+    if (stage === undefined) source.stages.delete(patch);
+    else source.stages.set(patch, stage);
+    if (source === (this.#replaced ?? this.#source)) this.onStage(source.geometry, patch, stage);
+    if (source === this.#replaced && source.stages.size === 0) this.#swap(); // all of it has been evicted
+  }
+
+  /** Replaces the displayed stages at once: no frame is drawn in between. */
+  #swap(): void {
+    const [before, after] = [this.#replaced, this.#source];
+    this.#replaced = undefined;
+    if (before === undefined || after === undefined) return;
+    for (const patch of before.stages.keys())
+      if (!after.stages.has(patch)) this.onStage(before.geometry, patch, undefined);
+    for (const [patch, stage] of after.stages) this.onStage(after.geometry, patch, stage);
+    before.joined?.cancel();
+  }
+}
+
+function sourceOf(geometry: GeometryDescription | undefined): GeometrySource | undefined {
+  return geometry && { geometry, stages: new Map(), joined: undefined };
 }

@@ -23,18 +23,23 @@ export abstract class LoadingShapes<Shape extends LoadingShape> implements Itera
 
   /**
    * Follows the shapes of the scene. Returns a function that ends the deliveries of
-   * removed shapes: call it after the files of new shapes have been requested, so that
-   * files that both use are not fetched again.
+   * removed shapes and replaced geometries: call it after the files of new ones have been
+   * requested, so that files that both use are not fetched again.
    */
   follow({ shapes, removed }: SceneChanges): () => void {
-    const removedShapes: Shape[] = [];
-    for (const element of removed) this.#remove(element, removedShapes);
-    for (const [element, described] of shapes) {
-      if (this.#shapes.get(element)?.geometry !== described.geometry) this.#remove(element, removedShapes);
-      this.#shapeOf(described).follow(described, this.isSuspended);
+    const leave: (() => void)[] = [];
+    for (const element of removed) {
+      const shape = this.#shapes.get(element);
+      if (shape === undefined) continue;
+      this.#shapes.delete(element);
+      shape.onRemoved();
+      leave.push(() => {
+        shape.cancel();
+      });
     }
+    for (const described of shapes.values()) leave.push(this.#shapeOf(described).follow(described, this.isSuspended));
     return () => {
-      for (const shape of removedShapes) shape.cancel();
+      for (const leaveDelivery of leave) leaveDelivery();
     };
   }
 
@@ -58,13 +63,5 @@ export abstract class LoadingShapes<Shape extends LoadingShape> implements Itera
     const shape = this.#shapes.get(described.element) ?? this.makeShape(described);
     this.#shapes.set(described.element, shape);
     return shape;
-  }
-
-  #remove(element: SceneElement, removedShapes: Shape[]): void {
-    const shape = this.#shapes.get(element);
-    if (shape === undefined) return;
-    this.#shapes.delete(element);
-    shape.onRemoved();
-    removedShapes.push(shape);
   }
 }

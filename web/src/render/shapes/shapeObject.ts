@@ -129,11 +129,10 @@ export class ShapeObject {
     return this.#isPickable;
   }
 
-  /** Follows a changed description. Stages of another geometry are removed. */
+  /** Follows a changed description. Stages of the geometry before stay until `setStage` replaces them. */
   setShape({ appearance, isPickable, geometry, box }: ShapeDescription): void {
     this.#isPickable = isPickable;
     this.#box = box;
-    if (geometry !== this.#geometry) this.clear();
     this.#geometry = geometry;
     const isSame = deepEqual(appearance, this.#appearance);
     const isSameCubeMap =
