@@ -175,7 +175,7 @@ const typesOfMethod: Readonly<Record<string, RegExp>> = {
 };
 
 /** Nodes that convert reads and never writes: docs/formats/x3dom-geometry.md has their fields. */
-const onlyRead = ["PopGeometry", "PopGeometryLevel"];
+const onlyRead = ["PopGeometry", "PopGeometryLevel", "ExternalGeometry", "ExternalShape"];
 
 /**
  * Attributes that every node has or that are HTML's, and fields that the converter refuses unless they have their

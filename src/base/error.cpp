@@ -4,8 +4,20 @@
 
 namespace imgeo {
 
+namespace {
+
+/// A data: URL would fill the screen.
+std::string shortened(std::string location) {
+  constexpr std::size_t maxDataUrlBytes = 60;
+  if (location.starts_with("data:") && location.size() > maxDataUrlBytes)
+    location.replace(maxDataUrlBytes, location.npos, "...");
+  return location;
+}
+
+} // namespace
+
 Error::Error(ErrorKind kind, std::string location, std::string message)
-    : kind_(kind), location_(std::move(location)), message_(std::move(message)),
+    : kind_(kind), location_(shortened(std::move(location))), message_(std::move(message)),
       what_(location_.empty() ? message_ : location_ + ": " + message_) {}
 
 int exitCode(ErrorKind kind) noexcept {

@@ -4,6 +4,7 @@
 #include "containers/read_mesh.h"
 #include "documents/geometry_reader.h"
 #include "import/x3d/pop_geometry.h"
+#include "scene/mf_string.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ bool isPatchGeometry(std::string_view element) {
 } // namespace
 
 bool isContainerGeometry(std::string_view element) {
-  return isPatchGeometry(element) || element == "PopGeometry";
+  return isPatchGeometry(element) || element == "PopGeometry" || element == "ExternalGeometry";
 }
 
 std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_node group) {
@@ -67,6 +68,22 @@ std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> no
   Mesh mesh = readMesh(reader_, geometry, source_.locationOf(nodes[0]));
   chooseAttributes(mesh, kept, attributes);
   return mesh;
+}
+
+gltf::ShapeResource ContainerGeometries::readExternal(pugi::xml_node node, bool withMaterials) const {
+  const std::vector<std::string> urls = parseStrings(node.attribute("url").value());
+  if (urls.empty())
+    throw Error(ErrorKind::malformed, source_.locationOf(node), "there is no url");
+  for (std::size_t i = 0;; ++i)
+    try {
+      // What follows '#' names a mesh of the file.
+      const std::size_t hash = std::min(urls[i].find('#'), urls[i].size());
+      const std::string file = urls[i].substr(0, hash), mesh = urls[i].substr(std::min(hash + 1, urls[i].size()));
+      return gltf::readShapeResource(fetch_(file), file, mesh, withMaterials);
+    } catch (const Error&) {
+      if (i + 1 == urls.size())
+        throw;
+    }
 }
 
 std::map<std::uint32_t, ContainerGeometries::SharedPatch>

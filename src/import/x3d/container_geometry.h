@@ -1,9 +1,10 @@
 #pragma once
-// Geometry whose vertices are in files beside the document: ImageGeometry, BinaryGeometry and PopGeometry, of sites
-// that imgeo or another program has written, such as aopt for X3DOM.
+// Geometry whose vertices are in files beside the document: ImageGeometry, BinaryGeometry, PopGeometry and
+// ExternalGeometry, of sites that imgeo or another program has written, such as aopt for X3DOM.
 
 #include "base/error.h"
 #include "containers/container_reader.h"
+#include "import/gltf/shape_resource.h"
 #include "import/references.h"
 #include "import/x3d/source.h"
 #include "scene/mesh.h"
@@ -34,9 +35,9 @@ public:
       : source_(source), fetch_([&references](const std::string& url) { return references.fetch(url); }),
         reader_(fetch_) {}
 
-  /// The mesh of nodes whose patches belong together, or of one node; empty where nodes differ in more than their
-  /// patches. Of the named attributes it has those in `kept`; the names of all are added to `attributes`.
-  /// Throws Error with the file and line of the node or with the url of a file.
+  /// The mesh of nodes whose patches belong together, or of one node that is no ExternalGeometry; empty where nodes
+  /// differ in more than their patches. Of the named attributes it has those in `kept`; the names of all are added to
+  /// `attributes`. Throws Error with the file and line of the node or with the url of a file.
   std::optional<Mesh> read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
                            std::set<std::string>& attributes) const;
 
@@ -47,6 +48,10 @@ public:
   /// such one. Otherwise as read().
   std::map<std::uint32_t, SharedPatch> readShared(pugi::xml_node node, const std::set<std::uint32_t>& indices,
                                                   const AttributeChoice& kept, std::set<std::string>& attributes) const;
+
+  /// The content of the first url of an ExternalGeometry or, with its materials, of an ExternalShape that can be read.
+  /// Throws the Error of the last one, or Error{malformed} at the node where it has no url.
+  gltf::ShapeResource readExternal(pugi::xml_node node, bool withMaterials) const;
 
 private:
   /// Keeps the named attributes of a mesh that are in `kept`; adds the names of all to `attributes`.

@@ -299,6 +299,8 @@ constexpr NodeRow nodesOfOthers[] = {
     {"Effect", "Castle Game Engine", 0, "effects", dropped, noShaders},
     {"EffectPart", "Castle Game Engine", 0, "parts", dropped, noShaders},
     {"EmissiveStrengthMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
+    {"ExternalGeometry", "X3DOM", 0, "geometry", drawn, byConvert},
+    {"ExternalShape", "X3DOM", 0, "children", converted, "a Shape for each of its materials"},
     {"GeometryPatch", "imgeo", 0, "children", drawn, ""},
     {"IORMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"ImageGeometry", "imgeo", 0, "geometry", drawn, ""},

@@ -135,6 +135,8 @@ private:
     if (name == "Shape")
       if (const std::optional<std::size_t> shape = readShape(element))
         return *shape;
+    if (name == "ExternalShape")
+      return readExternalShape(element);
     if (const std::vector<pugi::xml_node> patches = geometriesOfPatches(source_, element); !patches.empty())
       if (const std::optional<std::size_t> shape = readShapeOfPatches(element, patches))
         return *shape;
@@ -256,32 +258,48 @@ private:
   std::optional<std::size_t> readShape(pugi::xml_node element) {
     if (hasSharedPatch(source_, element)) {
       const std::optional<Shape> shape = shapes_.shapeOfSharedPatch(element);
-      return shape ? std::optional(addShapeNode(element, *shape, {}, {})) : std::nullopt;
+      return shape ? std::optional(addShapeNodes(element, {*shape}, {}, {})) : std::nullopt;
     }
     for (const pugi::xml_node& child : element.children()) {
       if (child.type() != pugi::node_element)
         continue;
       const pugi::xml_node geometry = source_.resolved(child);
       const pugi::xml_node generator = hasCubeMap(element) ? cameraGeneratorOf(geometry) : pugi::xml_node();
-      const std::optional<Shape> shape = shapes_.shapeOf(geometry, !generator.empty());
-      if (!shape)
-        continue;
-      return addShapeNode(element, *shape, child, generator);
+      const std::vector<Shape> shapes = shapes_.shapesOf(geometry, !generator.empty());
+      if (!shapes.empty())
+        return addShapeNodes(element, shapes, child, generator);
     }
     return {};
   }
 
-  /// Adds a Shape with the fields of `element` and its children other than `geometry`. `generator`: see
-  /// cameraGeneratorOf.
-  std::size_t addShapeNode(pugi::xml_node element, const Shape& shape, pugi::xml_node geometry,
-                           pugi::xml_node generator) {
+  /// Adds Shapes, in a Group unless it is one, each with the fields of `element` and its children other than
+  /// `geometry`. `generator`: see cameraGeneratorOf.
+  std::size_t addShapeNodes(pugi::xml_node element, const std::vector<Shape>& shapes, pugi::xml_node geometry,
+                            pugi::xml_node generator) {
     Node node;
-    node.content = shape;
     node.fields = fieldsOf(element, {"bboxCenter", "bboxSize", "patch"});
     addChildren(element, node, geometry);
     if (generator)
       addTo(node.children, generator);
-    return addNode(imported_.scene.graph, std::move(node));
+    return addCopies(std::move(node), shapes);
+  }
+
+  /// Adds a node for each shape, in a Group unless it is one.
+  std::size_t addCopies(Node node, const std::vector<Shape>& shapes) {
+    SceneGraph& graph = imported_.scene.graph;
+    std::vector<std::size_t> copies;
+    for (const Shape& shape : shapes) {
+      node.content = shape;
+      copies.push_back(addNode(graph, node));
+    }
+    return copies.size() == 1 ? copies[0] : addNode(graph, {"", Group{}, std::move(copies), ""});
+  }
+
+  /// An ExternalShape as the Shapes of its file; an empty Group where it cannot be read.
+  std::size_t readExternalShape(pugi::xml_node element) {
+    Node node;
+    node.fields = fieldsOf(element, {"bboxCenter", "bboxSize", "url"});
+    return addCopies(std::move(node), shapes_.shapesOfExternal(element));
   }
 
   /// Whether the Appearance of a Shape has a cube map.

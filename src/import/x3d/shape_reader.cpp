@@ -1,5 +1,7 @@
 #include "import/x3d/shape_reader.h"
 
+#include "images/image_type.h"
+#include "import/text/text_scanner.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/geometry_text.h"
 
@@ -60,12 +62,12 @@ void ShapeReader::addTextureMappings() {
   source_.root().traverse(walker);
 }
 
-std::optional<Shape> ShapeReader::shapeOf(pugi::xml_node node, bool isForCubeMap) {
+std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap) {
   const auto [found, isNew] = converted_.try_emplace(node.internal_object());
   if (!isNew || !node)
     return found->second;
   if (isContainerGeometry(node.name()))
-    return found->second = shapeOfFiles(node);
+    return found->second = shapesOfFiles(node);
   std::optional<Geometry> geometry =
       faults_.attempt("A geometry is left as it is", [&] { return readGeometry(source_, node, mappings_); });
   if (!geometry)
@@ -83,7 +85,7 @@ std::optional<Shape> ShapeReader::shapeOf(pugi::xml_node node, bool isForCubeMap
     return {};
   noteDataOf(node);
   summary_.fans += geometry->fans;
-  return found->second = addShape(std::move(geometry->mesh), geometry->solid);
+  return found->second = {addShape(std::move(geometry->mesh), geometry->solid)};
 }
 
 std::optional<Shape> ShapeReader::shapeOfSharedPatch(pugi::xml_node element) {
@@ -108,24 +110,87 @@ std::optional<Shape> ShapeReader::shapeOfPatches(const std::vector<pugi::xml_nod
   return addShape(std::move(*mesh), source_.boolean(geometries[0], "solid", true));
 }
 
-/// A shape with the mesh that a node's files hold. Empty where they cannot be read: pages could not either.
-std::optional<Shape> ShapeReader::shapeOfFiles(pugi::xml_node node) {
-  std::optional<Mesh> mesh;
+template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, const Read& read) -> decltype(read()) {
   try {
-    mesh = containers_.read(std::array{node}, keptAttributes_, attributes_);
+    return read();
   } catch (const Error& error) {
     if (faults_.isStrict()) // a missing file is a fault of the document, not of the disk
       throw Error(error.kind() == ErrorKind::io ? ErrorKind::malformed : error.kind(), error.location(),
                   error.message());
-    imported_.warnings.push_back(
-        fmt::format("{}: {} left out: {}.", source_.locationOf(node), node.name(), error.what()));
+    // An Error of the document's own text has its line, that of the node or of a child; one of its URLs has its name.
+    const std::string location = source_.locationOf(node), file = location.substr(0, location.find(':'));
+    const bool hasLine = error.location().starts_with(file + ':'), isOfDocument = hasLine || error.location() == file;
+    imported_.warnings.push_back(fmt::format("{}: {} left out: {}.", hasLine ? error.location() : location, node.name(),
+                                             isOfDocument ? error.message() : error.what()));
     return {};
   }
+}
+
+/// Shapes with the meshes that a node's files hold. Empty where they cannot be read: pages could not either.
+std::vector<Shape> ShapeReader::shapesOfFiles(pugi::xml_node node) {
+  if (std::string_view(node.name()) == "ExternalGeometry")
+    return shapesOfResource(node, attemptFiles(node, [&] { return containers_.readExternal(node, false); }));
+  std::optional<Mesh> mesh =
+      attemptFiles(node, [&] { return containers_.read(std::array{node}, keptAttributes_, attributes_); });
+  if (!mesh)
+    return {};
   if (mesh->corners.empty()) {
     ++summary_.empty[node.name()];
     return {};
   }
-  return addShape(std::move(*mesh), source_.boolean(node, "solid", true));
+  return {addShape(std::move(*mesh), source_.boolean(node, "solid", true))};
+}
+
+std::vector<Shape> ShapeReader::shapesOfExternal(pugi::xml_node externalShape) {
+  const auto [found, isNew] = converted_.try_emplace(externalShape.internal_object());
+  if (isNew)
+    found->second = shapesOfResource(
+        externalShape, attemptFiles(externalShape, [&] { return containers_.readExternal(externalShape, true); }));
+  return found->second;
+}
+
+/// Adds the meshes of a container and, for an ExternalShape, its materials: without one, X3D's default.
+std::vector<Shape> ShapeReader::shapesOfResource(pugi::xml_node node, gltf::ShapeResource resource) {
+  std::vector<Shape> shapes;
+  std::map<std::optional<std::size_t>, std::size_t> appearances; ///< by material
+  const bool isSolid = source_.boolean(node, "solid", true), isCcw = source_.boolean(node, "ccw", true);
+  for (auto& [mesh, material] : resource.shapes) {
+    if (mesh.corners.empty())
+      continue;
+    for (std::size_t i = 0; !isCcw && mesh.topology == Topology::triangles && i < mesh.corners.size(); i += 3)
+      std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
+    shapes.push_back(addShape(std::move(mesh), material ? resource.materials[*material].isSolid : isSolid));
+    if (std::string_view(node.name()) != "ExternalShape")
+      continue;
+    if (!appearances.contains(material))
+      appearances[material] = addAppearance(material ? resource.materials[*material] : gltf::ResourceMaterial{});
+    shapes.back().appearance = appearances[material];
+  }
+  if (shapes.empty() && !resource.shapes.empty())
+    ++summary_.empty[node.name()];
+  return shapes;
+}
+
+std::size_t ShapeReader::addAppearance(gltf::ResourceMaterial material) {
+  SceneGraph& graph = imported_.scene.graph;
+  Appearance appearance;
+  appearance.name = material.name;
+  appearance.material = material.material;
+  for (auto& [role, bytes] : material.images) {
+    if (imageType(bytes).empty()) {
+      imported_.warnings.push_back(
+          fmt::format("The texture of material \"{}\" is left out: it is an image of a kind that browsers do not show.",
+                      asPrintable(material.name)));
+      continue;
+    }
+    graph.images.push_back({"", std::move(bytes)});
+    Texture texture;
+    texture.image = graph.images.size() - 1;
+    graph.textures.push_back(std::move(texture));
+    appearance.textures.push_back({role, graph.textures.size() - 1, {}, {}});
+  }
+  graph.appearances.push_back(std::move(appearance));
+  return graph.appearances.size() - 1;
 }
 
 /// Notes the children of a geometry node that its mesh does not hold.

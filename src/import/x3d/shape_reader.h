@@ -23,9 +23,13 @@ public:
   ShapeReader(const Source& source, const References& references, const ImportOptions& options, Imported& imported,
               Summary& summary, Faults& faults);
 
-  /// A shape with the mesh of a geometry node, one mesh for all its USEs. Empty for geometry that stays in the
-  /// document, which is read too, to report its errors. `isForCubeMap`: its generator is drawn as it is.
-  std::optional<Shape> shapeOf(pugi::xml_node geometry, bool isForCubeMap);
+  /// The shapes of a geometry node: one, or one for each kind of element of a container that draws several. They have
+  /// the same meshes in all its USEs. Empty for geometry that stays in the document, which is read too, to report its
+  /// errors. `isForCubeMap`: its generator is drawn as it is.
+  std::vector<Shape> shapesOf(pugi::xml_node geometry, bool isForCubeMap);
+
+  /// The shapes of an ExternalShape, with its materials. Empty where it cannot be read, which is noted.
+  std::vector<Shape> shapesOfExternal(pugi::xml_node externalShape);
 
   /// The shape of a Shape that hasSharedPatch(); see SharedPatches::shapeOf.
   std::optional<Shape> shapeOfSharedPatch(pugi::xml_node element);
@@ -41,7 +45,11 @@ private:
   bool staysInline(pugi::xml_node node) const;
   void addTextureMappings();
   Shape addShape(Mesh mesh, bool isSolid);
-  std::optional<Shape> shapeOfFiles(pugi::xml_node node);
+  std::vector<Shape> shapesOfFiles(pugi::xml_node node);
+  std::vector<Shape> shapesOfResource(pugi::xml_node node, gltf::ShapeResource resource);
+  std::size_t addAppearance(gltf::ResourceMaterial material);
+  /// Calls `read` and turns its Error into a warning that `node` is left out, or if strict into the document's Error.
+  template <typename Read> auto attemptFiles(pugi::xml_node node, const Read& read) -> decltype(read());
   void noteDataOf(pugi::xml_node geometry);
 
   const Source& source_;
@@ -54,7 +62,7 @@ private:
   ContainerGeometries containers_;
   std::set<std::string> attributes_; ///< names of the vertex attributes of geometries of files
   SharedPatches sharedPatches_;
-  std::map<pugi::xml_node_struct*, std::optional<Shape>> converted_; ///< by geometry node
+  std::map<pugi::xml_node_struct*, std::vector<Shape>> converted_; ///< by geometry node
 };
 
 } // namespace imgeo::x3d

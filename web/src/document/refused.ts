@@ -9,14 +9,14 @@ import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
 
-const notEvenConverted = "neither pages nor imgeo convert read it; convert the model from which it was made instead";
+const readByConvert = "pages do not draw it; imgeo convert reads the document and writes patches of it";
 
 /** Nodes that are left out, by their lower-case name. */
 const refusedNodes: Readonly<Record<string, string>> = {
-  popgeometry: "pages do not draw it; imgeo convert reads the document and writes patches of it",
+  popgeometry: readByConvert,
   popgeometrylevel: "a PopGeometryLevel is part of a PopGeometry, which pages do not draw",
-  externalgeometry: notEvenConverted,
-  externalshape: notEvenConverted,
+  externalgeometry: readByConvert,
+  externalshape: readByConvert,
   bitlodgeometry: "pages do not draw it; X3DOM itself has given it up for PopGeometry",
   buffergeometry: "pages do not draw it; imgeo convert reads the glTF file that its buffer belongs to",
   bvhrefiner: "pages do not draw it; imgeo convert makes patches and levels of detail of the whole model",
