@@ -11,6 +11,8 @@ int runInfo(const Arguments& arguments);
 int runVerify(const Arguments& arguments);
 int runExport(const Arguments& arguments);
 int runSample(const Arguments& arguments);
+/// `imgeo sample MOTION --live`
+int runLiveSample(const Arguments& arguments);
 int runServe(const Arguments& arguments);
 int runCompletion(const Arguments& arguments);
 int runManual(const Arguments& arguments);

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/element_counts.h"
 #include "cli/interruption.h"
@@ -44,6 +45,13 @@ int runExport(const Arguments& arguments) {
 
 int runSample(const Arguments& arguments) {
   handleSignals();
+  if (arguments.has("live"))
+    return runLiveSample(arguments);
+  const std::string& what = arguments.text("sample");
+  if (what != "hall")
+    throw Error(ErrorKind::usage, "", fmt::format("{} is a motion: imgeo sample {} --live", what, what));
+  if (arguments.text("output").empty())
+    throw Error(ErrorKind::usage, "", "--output FILE is missing: imgeo sample hall -o FILE");
   const auto seats = static_cast<std::uint32_t>(arguments.integer("seats"));
   return print(arguments, writeSampleHall(seats, arguments.text("output")));
 }

@@ -231,38 +231,83 @@ Command exportCommand() {
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
 }
 
+Flag textFlag(const std::string& name, const std::string& valueName, const std::string& help) {
+  return {.name = name, .valueKind = ValueKind::text, .valueName = valueName, .help = help};
+}
+
+/// The options of commands that listen.
+Flag hostFlag() {
+  Flag flag = textFlag("host", "A", "the address to listen on; 0.0.0.0 for every network");
+  flag.defaultValue = "127.0.0.1";
+  return flag;
+}
+Flag portFlag(const std::string& defaultValue) {
+  return integer("port", {}, 0, 65535, defaultValue, "the port to listen on; 0: any that is free");
+}
+Flag publishTokenFlag(const std::string& help) {
+  return textFlag("token", "TOKEN", help + "; otherwise the variable IMGEO_TOKEN");
+}
+Flag viewTokenFlag() {
+  return textFlag("view-token", "TOKEN", "with --live: viewers add ?token=TOKEN to addresses of streams");
+}
+
 Command sampleCommand() {
-  Flag what = positional("sample", "SAMPLE", ValueKind::choice, "hall: rows of seats, stairs, columns, trusses, signs");
-  what.choices = {"hall"};
+  Flag what =
+      positional("sample", "SAMPLE", ValueKind::choice,
+                 "hall: rows of seats, stairs, columns, trusses, signs. With --live, cloth: in the wind; water: "
+                 "drops fall into a basin; turntable: a laser scanner turns in a street");
+  what.choices = {"hall", "cloth", "water", "turntable"};
   Flag output{.name = "output",
               .aliases = {"-o"},
               .valueKind = ValueKind::file,
               .valueName = "FILE",
-              .help = "the GLB file to write",
-              .required = true};
+              .help = "of hall: the GLB file to write"};
+  Flag site{.name = "site",
+            .valueKind = ValueKind::directory,
+            .valueName = "DIR",
+            .help = "with --live: also serve this directory"};
   return {.name = "sample",
-          .usage = "hall [--seats N] -o FILE",
-          .summary = "write a generated scene to try things with",
-          .text = "All seats are one mesh in many places, so that the file stays small.",
-          .flags = {what, integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"), output,
-                    jsonFlag("what was written"), helpFlag()},
-          .examples = {"imgeo sample hall --seats 2000 -o hall.glb && imgeo convert hall.glb -o site"}};
+          .usage = "hall [--seats N] -o FILE | cloth|water|turntable --live",
+          .summary = "write a generated scene or publish a moving one",
+          .text = "All seats of the hall are one mesh in many places, so that the file stays small. With --live, a "
+                  "simulation runs until Ctrl-C and its vertices are a live stream.",
+          .flags = {what,
+                    integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"),
+                    output,
+                    {.name = "live", .help = "serve the motion as a live stream at /live/SAMPLE"},
+                    integer("grid", {}, 8, 2048, "128", "with --live: N x N vertices"),
+                    integer("rate", {}, 1, 1000, "30", "with --live: frames per second"),
+                    integer("bits", {}, 8, 24, "16", "with --live: bits of a coordinate"),
+                    integer("seed", {}, 0, 4294967295, "1", "with --live: another number, another motion"),
+                    integer("frames", {}, 0, 1000000000, "0", "with --live: end after N frames; 0: never"),
+                    portFlag("8090"),
+                    hostFlag(),
+                    site,
+                    publishTokenFlag("with --live: lets others publish here, too"),
+                    viewTokenFlag(),
+                    jsonFlag("what was written"),
+                    helpFlag()},
+          .examples = {"imgeo sample hall --seats 2000 -o hall.glb && imgeo convert hall.glb -o site",
+                       "imgeo sample cloth --live --grid 256 --rate 30"}};
 }
 
 Command serveCommand() {
-  Flag host{.name = "host",
-            .valueKind = ValueKind::text,
-            .valueName = "A",
-            .help = "the address to listen on; 0.0.0.0 for every network",
-            .defaultValue = "127.0.0.1"};
+  Flag site = positional("site", "DIR", ValueKind::directory, "the directory to serve; with --live it may be left out");
+  site.required = false;
   return {.name = "serve",
-          .usage = "DIR [--port N] [--host A]",
+          .usage = "DIR [--live] [--port N] [--host A]",
           .summary = "serve a directory over HTTP until Ctrl-C",
-          .text = "Prints the address when it listens.",
-          .flags = {positional("site", "DIR", ValueKind::directory, "the directory to serve"),
-                    integer("port", {}, 0, 65535, "8080", "the port to listen on; 0: any that is free"), host,
+          .text = "Prints the address when it listens. With --live, programs publish vertex streams below /live/, and "
+                  "any number of browsers draw them.",
+          .flags = {site,
+                    portFlag("8080"),
+                    hostFlag(),
+                    {.name = "live", .help = "take live streams and serve them to viewers"},
+                    publishTokenFlag("with --live: what publishers state; without it nobody may publish"),
+                    viewTokenFlag(),
                     helpFlag()},
-          .examples = {"imgeo serve site", "imgeo serve site --port 0 --host 0.0.0.0"}};
+          .examples = {"imgeo serve site", "imgeo serve site --port 0 --host 0.0.0.0",
+                       "imgeo serve site --live --token secret"}};
 }
 
 Command completionCommand() {

@@ -1,4 +1,6 @@
+#include "base/error.h"
 #include "cli/commands.h"
+#include "cli/live_options.h"
 #include "serve/serve.h"
 
 #include <cstdio>
@@ -6,14 +8,33 @@
 
 namespace imgeo::cli {
 
+namespace {
+
+std::shared_ptr<live::Streams> streamsOf(const Arguments& arguments) {
+  live::StreamLimits limits;
+  limits.publishToken = publishTokenOf(arguments);
+  limits.viewToken = arguments.text("view-token");
+  return std::make_shared<live::Streams>(std::move(limits));
+}
+
+} // namespace
+
 int runServe(const Arguments& arguments) {
+  const bool isLive = arguments.has("live");
+  const std::string& site = arguments.text("site");
+  if (site.empty() && !isLive)
+    throw Error(ErrorKind::usage, "", "DIR is missing: imgeo serve DIR");
   ServeOptions options;
-  options.directory = arguments.text("site");
+  options.directory = site;
   options.host = arguments.text("host");
   options.port = static_cast<std::uint16_t>(arguments.integer("port"));
   options.stopOnSignals = true;
+  if (isLive)
+    options.streams = streamsOf(arguments);
   Server server(options);
-  fmt::print("Serving {} at {} (Ctrl-C stops it)\n", arguments.text("site"), server.url());
+  fmt::print("Serving {} at {} (Ctrl-C stops it)\n", site.empty() ? "live streams" : site, server.url());
+  if (isLive && options.streams->limits().publishToken.empty())
+    fmt::print(stderr, "imgeo: warning: without --token nobody may publish a stream\n");
   std::fflush(stdout);
   server.run();
   return 0;

@@ -40,4 +40,15 @@ protected:
 /// vertices in units of 4 m/s.
 std::unique_ptr<Motion> makeCloth(std::uint32_t grid, std::uint32_t seed);
 
+/// The surface of a basin of 4 m into which drops fall: a square grid of `grid` x `grid` vertices, 3..2048, moved by
+/// the wave equation. The values are the heights: 0.5 is the level at rest, 0 and 1 are 0.25 m below and above it.
+std::unique_ptr<Motion> makeWater(std::uint32_t grid, std::uint32_t seed);
+
+/// A scanner with 64 lasers that turns ten times a second on a vehicle in a street: about `grid` * `grid` measured
+/// points, in the order in which they are measured, each with its error. 8..2048. The values are the reflectances.
+std::unique_ptr<Motion> makeTurntable(std::uint32_t grid, std::uint32_t seed);
+
+/// A motion by its name: "cloth", "water" or "turntable"; nullptr if there is none of this name.
+std::unique_ptr<Motion> makeMotion(const std::string& name, std::uint32_t grid, std::uint32_t seed);
+
 } // namespace imgeo

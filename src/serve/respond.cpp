@@ -130,6 +130,8 @@ Response respondToGet(const Site& site, const RequestHead& request) {
   const std::optional<RequestPath> path = parseRequestTarget(request.target);
   if (!path)
     return plainResponse(400, "The path is malformed.");
+  if (site.root.empty())
+    return plainResponse(404, "There is no such file.");
   auto found = openBelow(site.root, *path);
   if (const Absence* absence = std::get_if<Absence>(&found)) {
     if (*absence == Absence::notFound)
@@ -145,6 +147,14 @@ Response respondToGet(const Site& site, const RequestHead& request) {
 std::string_view Response::field(std::string_view name) const {
   const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == name; });
   return found == fields.end() ? std::string_view() : std::string_view(found->second);
+}
+
+void Response::setField(std::string_view name, std::string value) {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == name; });
+  if (found == fields.end())
+    fields.emplace_back(name, std::move(value));
+  else
+    found->second = std::move(value);
 }
 
 Response plainResponse(unsigned status, std::string_view sentence) {

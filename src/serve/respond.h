@@ -17,6 +17,7 @@ namespace imgeo {
 struct RequestHead {
   std::string_view method, target;
   std::string_view acceptEncoding, ifNoneMatch, ifRange, range;
+  std::string_view authorization;
 };
 
 struct Response {
@@ -29,11 +30,13 @@ struct Response {
 
   /// The value of a field; empty where it is absent.
   std::string_view field(std::string_view name) const;
+  /// Replaces the value of a field, or adds it.
+  void setField(std::string_view name, std::string value);
 };
 
 /// The served directory, shared by all responses.
 struct Site {
-  std::filesystem::path root; ///< canonical
+  std::filesystem::path root; ///< canonical; empty: there are no files
   CodingCache& codings;
 };
 

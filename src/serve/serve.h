@@ -1,6 +1,6 @@
 #pragma once
 // A static file server over HTTP/1.1, for local use and for many slow clients: one coroutine per connection on a few
-// threads. It is independent of geometry formats.
+// threads. With live streams (docs/live.md), requests below /live/ read and publish their frames.
 //
 // - GET and HEAD; If-None-Match, a single Range, If-Range; keep-alive, pipelining.
 // - The path of a directory gives its index.html.
@@ -11,6 +11,8 @@
 // - Nothing outside the directory is served, neither by ".." nor through symbolic links, and no name that starts with a
 //   dot. Safe for untrusted requests.
 
+#include "live/streams.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -19,14 +21,15 @@
 namespace imgeo {
 
 struct ServeOptions {
-  std::filesystem::path directory;
-  std::string host = "127.0.0.1";   ///< the address or host name to listen on
-  std::uint16_t port = 8080;        ///< 0: any free port, see Server::port
-  unsigned threads = 0;             ///< 0: as many as the machine has, at most 4
-  bool stopOnSignals = false;       ///< SIGINT and SIGTERM call stop()
-  unsigned headTimeoutMs = 15'000;  ///< for a whole request head to arrive, and between requests
-  unsigned writeTimeoutMs = 30'000; ///< for the client to receive each 64 KiB of a response
-  unsigned stopTimeoutMs = 3'000;   ///< for unfinished responses after stop()
+  std::filesystem::path directory;          ///< empty: no files are served
+  std::string host = "127.0.0.1";           ///< the address or host name to listen on
+  std::uint16_t port = 8080;                ///< 0: any free port, see Server::port
+  unsigned threads = 0;                     ///< 0: as many as the machine has, at most 4
+  bool stopOnSignals = false;               ///< SIGINT and SIGTERM call stop()
+  unsigned headTimeoutMs = 15'000;          ///< for a whole request head to arrive, and between requests
+  unsigned writeTimeoutMs = 30'000;         ///< for the client to receive each 64 KiB of a response
+  unsigned stopTimeoutMs = 3'000;           ///< for unfinished responses after stop()
+  std::shared_ptr<live::Streams> streams{}; ///< nullptr: no live streams
 };
 
 class Server {

@@ -43,6 +43,8 @@ void raiseOpenFileLimit() {
 }
 
 fs::path canonicalDirectory(const fs::path& directory) {
+  if (directory.empty())
+    return {};
   std::error_code failure;
   fs::path root = fs::canonical(directory, failure);
   if (failure)
@@ -83,7 +85,20 @@ struct Server::State {
   explicit State(const ServeOptions& o)
       : options(o), codings(codingCacheBytes), site{canonicalDirectory(o.directory), codings},
         acceptor(listenOn(context, o.host, o.port)), endpoint(acceptor.local_endpoint()),
-        signals(acceptor.get_executor()), stopTimer(acceptor.get_executor()), retryTimer(acceptor.get_executor()) {}
+        signals(acceptor.get_executor()), stopTimer(acceptor.get_executor()), retryTimer(acceptor.get_executor()) {
+    // Publishers hand the calls of waiting viewers over and go on.
+    if (options.streams)
+      options.streams->setRunner([this](std::vector<std::function<void()>> calls) {
+        asio::post(context, [calls = std::move(calls)] {
+          for (const auto& call : calls)
+            call();
+        });
+      });
+  }
+  ~State() {
+    if (options.streams)
+      options.streams->setRunner([](const auto&) {});
+  }
 
   asio::awaitable<void> acceptConnections();
   void startSession(tcp::socket socket);
@@ -119,7 +134,7 @@ asio::awaitable<void> Server::State::acceptConnections() {
 }
 
 void Server::State::startSession(tcp::socket socket) {
-  const auto session = std::make_shared<Session>(boost::beast::tcp_stream(std::move(socket)), site,
+  const auto session = std::make_shared<Session>(boost::beast::tcp_stream(std::move(socket)), site, options.streams,
                                                  SessionLimits{options.headTimeoutMs, options.writeTimeoutMs});
   sessions.insert(session);
   asio::co_spawn(

@@ -44,16 +44,28 @@ _imgeo() {
     "export -o"|"export --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "sample --seats") COMPREPLY=(); return ;;
     "sample -o"|"sample --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "sample --grid") COMPREPLY=(); return ;;
+    "sample --rate") COMPREPLY=(); return ;;
+    "sample --bits") COMPREPLY=(); return ;;
+    "sample --seed") COMPREPLY=(); return ;;
+    "sample --frames") COMPREPLY=(); return ;;
+    "sample --port") COMPREPLY=(); return ;;
+    "sample --host") COMPREPLY=(); return ;;
+    "sample --site") COMPREPLY=($(compgen -d -- "$word")); return ;;
+    "sample --token") COMPREPLY=(); return ;;
+    "sample --view-token") COMPREPLY=(); return ;;
     "serve --port") COMPREPLY=(); return ;;
     "serve --host") COMPREPLY=(); return ;;
+    "serve --token") COMPREPLY=(); return ;;
+    "serve --view-token") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
     convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall" -- "$word")); fi ;;
-    serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
+    serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;
     manual) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
   esac

@@ -6,7 +6,7 @@ _imgeo() {
     'info:say what a site or a mesh file holds, and where its bytes are'
     'verify:read a site back and prove that it equals its input'
     'export:write the mesh that a site holds as PLY, OBJ or GLB'
-    'sample:write a generated scene to try things with'
+    'sample:write a generated scene or publish a moving one'
     'serve:serve a directory over HTTP until Ctrl-C'
     'completion:print a completion script for bash, zsh or fish'
     'manual:print the manual page'
@@ -98,15 +98,29 @@ _imgeo() {
       ':site:_files -/' ;;
     sample) _arguments \
       '--seats[how many seats the hall has]:seats: ' \
-      '-o[the GLB file to write]:output:_files' \
-      '--output[the GLB file to write]:output:_files' \
+      '-o[of hall\: the GLB file to write]:output:_files' \
+      '--output[of hall\: the GLB file to write]:output:_files' \
+      '--live[serve the motion as a live stream at /live/SAMPLE]' \
+      '--grid[with --live\: N x N vertices]:grid: ' \
+      '--rate[with --live\: frames per second]:rate: ' \
+      '--bits[with --live\: bits of a coordinate]:bits: ' \
+      '--seed[with --live\: another number, another motion]:seed: ' \
+      '--frames[with --live\: end after N frames; 0\: never]:frames: ' \
+      '--port[the port to listen on; 0\: any that is free]:port: ' \
+      '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
+      '--site[with --live\: also serve this directory]:site:_files -/' \
+      '--token[with --live\: lets others publish here, too; otherwise the variable IMGEO_TOKEN]:token: ' \
+      '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams]:view-token: ' \
       '--json[print what was written as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
-      ':sample:(hall)' ;;
+      ':sample:(hall cloth water turntable)' ;;
     serve) _arguments \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
+      '--live[take live streams and serve them to viewers]' \
+      '--token[with --live\: what publishers state; without it nobody may publish; otherwise the variable IMGEO_TOKEN]:token: ' \
+      '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams]:view-token: ' \
       '-h[print this help]' \
       '--help[print this help]' \
       ':site:_files -/' ;;
