@@ -40,6 +40,16 @@ const char* nameOf(Primitive primitive) {
   return names[static_cast<std::size_t>(primitive)];
 }
 
+const char* nameOf(GridKind kind) {
+  constexpr const char* names[] = {"heightMap", "geometryImage", "sculpt"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::uint64_t gridTriangleCount(GridKind kind, Vec2<std::uint32_t> size) {
+  const std::uint64_t columns = kind == GridKind::sculpt ? size.x : size.x - 1;
+  return 2 * columns * (size.y - 1);
+}
+
 const char* nameOf(NormalEncoding encoding) {
   constexpr const char* names[] = {"rgb", "octahedral", "spherical", "palette", "derived"};
   return names[static_cast<std::size_t>(encoding)];

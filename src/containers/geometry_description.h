@@ -50,6 +50,19 @@ const char* nameOf(Primitive primitive);
 
 std::uint32_t byteSizeOf(ElementType type);
 
+/// What the texels of a grid are, a vertex each (docs/formats/nodes.md, "Grids").
+enum class GridKind : std::uint8_t {
+  heightMap,     ///< heights: y; x and z follow from column and row
+  geometryImage, ///< points of a surface
+  sculpt         ///< points of a surface whose last column is joined to its first
+};
+
+/// "heightMap", "geometryImage", "sculpt": values of `implicitMeshMode`.
+const char* nameOf(GridKind kind);
+
+/// The number of triangles of a grid of at least 2 x 2 vertices.
+std::uint64_t gridTriangleCount(GridKind kind, Vec2<std::uint32_t> size);
+
 struct PatchDescription {
   Box3d box;                     ///< tight, for culling and priority
   std::uint32_t vertexCount = 0; ///< records in coord, normal, ...; 0: the largest index + 1
@@ -110,6 +123,9 @@ struct GeometryDescription {
                                             ElementType::uint16, ElementType::uint16, ElementType::uint8}}; ///< bg only
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   bool ccw = true; ///< false: the front of triangles is clockwise
+  /// Classic: every patch is a grid of implicitMeshSize vertices, without an index. A height map has one patch, and its
+  /// lattice is that of gridLattice().
+  std::optional<GridKind> grid;
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded

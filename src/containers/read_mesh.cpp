@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "base/parallel.h"
+#include "containers/grid.h"
 #include "containers/stored.h"
 #include "prepare/weld.h"
 
@@ -64,7 +65,12 @@ void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const
 
 Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& location) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
-  parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
+  parallelFor(patches.size(), [&](std::size_t i) {
+    patches[i] = reader.decode(geometry.patches[i], geometry);
+    if (geometry.grid && patches[i].normals.empty())
+      patches[i].normals = slopeNormals(*geometry.grid, geometry.patches[i].implicitMeshSize, patches[i].positions,
+                                        geometry.lattice, geometry.ccw);
+  });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, location);
   mesh.texCoordMappings = geometry.texCoordMappings;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/shortest_decimal.h"
 #include "containers/encodings.h"
+#include "containers/grid.h"
 
 #include <algorithm>
 #include <bit>
@@ -92,6 +93,8 @@ DecodeFields decodeFields(const GeometryDescription& geometry) {
     const double half = lattice.bits == sourceBits ? edge / 2 : edge;
     return {lattice.origin + Vec3d{edge, edge, edge} * 0.5, {half, half, half}};
   }
+  if (geometry.grid == GridKind::heightMap)
+    return heightMapBox(lattice, geometry.patches[0].implicitMeshSize);
   const StoredCoords stored = storedCoords(geometry.encoding, geometry.coordType, lattice.bits);
   const Vec3d unit = lattice.stretch * std::ldexp(lattice.step, -static_cast<int>(stored.shift));
   const Vec3d zero = lattice.origin - unit * static_cast<double>(stored.bias), size = unit * stored.maximum;

@@ -30,10 +30,13 @@ std::string urlOf(const Reference& reference) {
   return reference.url + std::visit([](const auto& location) { return fragmentOf(location); }, reference.location);
 }
 
-/// The components of a vector as the shortest decimals whose error is at most `fraction` of the lattice's step.
+/// The components of a vector as the shortest decimals whose error is at most `fraction` of the lattice's step along
+/// their axis.
 std::string shortNumbers(Vec3d vector, const Lattice& lattice, double fraction) {
-  for (int axis = 0; axis < 3; ++axis)
-    vector[axis] = shortestWithin(vector[axis], fraction * lattice.step);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double stretch = lattice.stretch[axis] > 0 ? lattice.stretch[axis] : 1;
+    vector[axis] = shortestWithin(vector[axis], fraction * stretch * lattice.step);
+  }
   return numbers(vector);
 }
 
@@ -107,6 +110,8 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   if (hasPlanes)
     draws.push_back({"implicitMeshSize",
                      std::to_string(patch.implicitMeshSize.x) + " " + std::to_string(patch.implicitMeshSize.y)});
+  if (geometry.grid)
+    draws.erase(draws.begin(), draws.end() - 1); // they follow from the size
   Attributes references;
   const auto add = [&](const char* name, const std::optional<Reference>& reference) {
     if (reference)
@@ -190,6 +195,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   Attributes fields;
   if (!row.node.isDefaultProfile && !ownBox)
     fields = {{"profile", row.node.profile}};
+  if (geometry.grid)
+    fields.push_back({"implicitMeshMode", nameOf(*geometry.grid)});
   if (hasElementTypes) {
     fields = {{"indexType", nameOf(geometry.indexType)}, {"coordType", nameOf(geometry.coordType)}};
     for (const VertexRole role : vertexRoles)

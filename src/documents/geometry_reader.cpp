@@ -1,6 +1,8 @@
 #include "documents/geometry_reader.h"
 
 #include "containers/encodings.h"
+#include "containers/grid.h"
+#include "containers/limits.h"
 #include "containers/stored_coords.h"
 #include "documents/geometry_element.h"
 #include "documents/vertex_attribute_reader.h"
@@ -238,6 +240,30 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
   return 8 * static_cast<std::uint32_t>(planes);
 }
 
+/// The grid that `implicitMeshMode` names; none for vertices in sequence.
+std::optional<GridKind> gridOf(const FieldReader& fields) {
+  const std::string mode = fields.text("implicitMeshMode");
+  for (const GridKind kind : {GridKind::heightMap, GridKind::geometryImage, GridKind::sculpt})
+    if (equalIgnoringCase(mode, nameOf(kind)))
+      return kind;
+  if (!mode.empty() && !equalIgnoringCase(mode, "auto") && !equalIgnoringCase(mode, "sig"))
+    fields.fail(ErrorKind::unsupported, "implicitMeshMode is none of auto, SIG, heightMap, geometryImage and sculpt");
+  return {};
+}
+
+/// Vertices and triangles of a patch that is a grid follow from its size.
+void describeGrid(const FieldReader& fields, GridKind kind, PatchDescription& patch) {
+  const auto [columns, rows] = patch.implicitMeshSize;
+  if (columns < 2 || rows < 2)
+    fields.fail(ErrorKind::malformed,
+                "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices has no surface");
+  if (columns > maxImageEdge || rows > maxImageEdge)
+    fields.fail(ErrorKind::limit, "a grid has more than " + std::to_string(maxImageEdge) + " columns or rows");
+  patch.index.reset();
+  patch.vertexCount = columns * rows;
+  patch.draws = {{Primitive::triangles, static_cast<std::uint32_t>(3 * gridTriangleCount(kind, {columns, rows}))}};
+}
+
 Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
   const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
   const PatchStorage storage = rowOf(geometry).storage;
@@ -255,6 +281,8 @@ Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry
       cube.value_or(DecodeFields{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})});
   if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
+  if (geometry.grid == GridKind::heightMap)
+    return heightMapLattice(box, geometry.patches[0].implicitMeshSize, std::max(stored, 16u));
   return imgeo::latticeOf(box, geometry.encoding, geometry.coordType, bits);
 }
 
@@ -344,6 +372,13 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
           readPatch(source, child, geometry, implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize)));
   if (geometry.patches.empty())
     geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
+  if (row.storage == PatchStorage::bytePlanes)
+    geometry.grid = gridOf(fields);
+  if (geometry.grid == GridKind::heightMap && geometry.patches.size() != 1)
+    fields.fail(ErrorKind::unsupported, "a height map has several patches, which all fill its decode box");
+  if (geometry.grid)
+    for (PatchDescription& patch : geometry.patches)
+      describeGrid(fields, *geometry.grid, patch);
   // Faces are shaded by their slope.
   const bool isFlat = row.storage == PatchStorage::arrays && !fields.boolean("normalPerVertex", true);
   if (isFlat)

@@ -1,8 +1,10 @@
 #include "containers/classic/classic.h"
 
 #include "base/error.h"
+#include "base/narrow.h"
 #include "containers/classic/layout.h"
 #include "containers/classic/normal_image.h"
+#include "containers/grid.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/png/png.h"
@@ -91,9 +93,19 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const Fe
   return indices;
 }
 
-void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
+/// Vertices of a height map on the lattice of heightMapLattice().
+void addColumnsAndRows(std::vector<Vec3u>& stored, std::uint32_t planes, std::uint32_t columns) {
+  // 8-bit heights are spread over the 16 bits of the lattice.
+  const std::uint32_t factor = planes == 1 ? 257 : 1;
   for (std::size_t n = 0; n < stored.size(); ++n)
-    for (int axis = 0; axis < 3; ++axis)
+    stored[n] = {static_cast<std::uint32_t>(n % columns), stored[n].x * factor,
+                 static_cast<std::uint32_t>(n / columns)};
+}
+
+void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
+  const int channels = std::min(static_cast<int>(texels.image().channels), 3);
+  for (std::size_t n = 0; n < stored.size(); ++n)
+    for (int axis = 0; axis < channels; ++axis)
       stored[n][axis] = stored[n][axis] << 8 | texels[n][axis];
 }
 
@@ -153,7 +165,8 @@ NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t 
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   const std::uint32_t bits = geometry.lattice.bits;
   const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, bits);
-  if (patch.coord.size() != coordBytes(Encoding::classic, bits))
+  const bool isHeightMap = geometry.grid == GridKind::heightMap;
+  if (!isHeightMap && patch.coord.size() != coordBytes(Encoding::classic, bits))
     throw Error(ErrorKind::malformed, "",
                 std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Encoding::classic, bits)) +
                     " images and have " + std::to_string(patch.coord.size()));
@@ -162,14 +175,17 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   // indices.
   const std::uint32_t columns = patch.index ? 0 : patch.implicitMeshSize.x;
   const std::string& location = patch.coord[0].url;
-  const Texels first(patch.coord[0], fetch, columns, 3);
+  const std::uint32_t coordChannels = isHeightMap ? 1 : 3;
+  const Texels first(patch.coord[0], fetch, columns, coordChannels);
   IndexedPatch decoded;
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
   if (patch.index)
     decoded.indices = geometry.indexType == ElementType::uint32 ? decodeWideIndices(patch, fetch)
                                                                 : decodeIndices(patch, fetch, first.image(), location);
-  const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : location);
+  const std::uint32_t count = geometry.grid
+                                  ? patch.vertexCount
+                                  : recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : location);
   first.require(count);
 
   const auto fetchRecords = [&](const Reference& reference, std::uint32_t minChannels) {
@@ -182,10 +198,17 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   decoded.positions.resize(count);
   addPlane(decoded.positions, first);
   for (std::size_t plane = 1; plane < patch.coord.size(); ++plane)
-    addPlane(decoded.positions, fetchRecords(patch.coord[plane], 3));
-  for (Vec3u& position : decoded.positions)
-    for (int axis = 0; axis < 3; ++axis)
-      position[axis] = loadCoord(position[axis], stored, location);
+    addPlane(decoded.positions, fetchRecords(patch.coord[plane], coordChannels));
+  if (isHeightMap)
+    addColumnsAndRows(decoded.positions, static_cast<std::uint32_t>(patch.coord.size()), columns);
+  else
+    for (Vec3u& position : decoded.positions)
+      for (int axis = 0; axis < 3; ++axis)
+        position[axis] = loadCoord(position[axis], stored, location);
+  if (geometry.grid) {
+    decoded.indices = gridTriangles(*geometry.grid, patch.implicitMeshSize, decoded.positions);
+    decoded.draws = {{Primitive::triangles, narrow<std::uint32_t>(decoded.indices.size())}};
+  }
   checkInsideBox(decoded.positions, geometry, patch.box, location);
 
   const auto decode = [&](VertexRole role, const Reference& reference) {

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "containers/encodings.h"
+#include "containers/grid.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored.h"
@@ -66,6 +67,14 @@ std::vector<IndexedPatch> decodePatches(const ContainerReader& reader, const Geo
   std::vector<IndexedPatch> patches(geometry.patches.size());
   parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   return patches;
+}
+
+/// Gives the patches of a grid without an image of normals those that a page shows.
+void addSlopeNormals(std::vector<IndexedPatch>& patches, const GeometryDescription& geometry) {
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (patches[i].normals.empty())
+      patches[i].normals = slopeNormals(*geometry.grid, geometry.patches[i].implicitMeshSize, patches[i].positions,
+                                        geometry.lattice, geometry.ccw);
 }
 
 /// Checks that every patch has the box that the document states for it, where it states one.
@@ -218,6 +227,8 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   if (!manifest && mesh.normals.empty())
     for (IndexedPatch& patch : patches)
       patch.normals.clear(); // the other program computed them in a way that is not known
+  if (geometry.grid && !mesh.normals.empty())
+    addSlopeNormals(patches, geometry);
   checkAttributesPresent(mesh, patches, findings);
   const std::vector<Vec3u> quantised = quantisedAs(geometry, patches, mesh, !manifest);
   checkPositions(geometry, quantised, mesh, report, findings);
