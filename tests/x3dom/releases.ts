@@ -75,7 +75,8 @@ async function loaded(page: Page): Promise<void> {
   await page.waitForFunction(
     () => {
       const doc = document.querySelector<X3domElement>("x3d")?.runtime?.canvas.doc;
-      const isIdle = doc?.downloadCount === 0 && !doc.needRender;
+      // An ExternalGeometry sets the count to 0, and then it falls below with each image that is still loading.
+      const isIdle = doc !== undefined && doc.downloadCount <= 0 && !doc.needRender;
       const state = window as unknown as { idleFrames?: number };
       state.idleFrames = isIdle ? (state.idleFrames ?? 0) + 1 : 0;
       return state.idleFrames > 5;
