@@ -47,9 +47,11 @@ void Streams::setRunner(std::function<void(std::vector<std::function<void()>>)> 
 }
 
 bool areEqualTokens(std::string_view a, std::string_view b) {
-  unsigned difference = a.size() == b.size() ? 0 : 1;
+  if (a.size() != b.size())
+    return false;
+  unsigned difference = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    difference |= static_cast<unsigned char>(a[i] ^ b[b.empty() ? 0 : i % b.size()]);
+    difference |= static_cast<unsigned char>(a[i] ^ b[i]);
   return difference == 0;
 }
 

@@ -41,7 +41,7 @@ private:
   std::function<void(std::vector<std::function<void()>>)> run_;
 };
 
-/// Whether two tokens are equal, in a time that does not depend on where they differ.
+/// Whether two tokens are equal. The time that this takes does not tell where tokens of equal length differ.
 bool areEqualTokens(std::string_view a, std::string_view b);
 
 } // namespace imgeo::live

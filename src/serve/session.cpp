@@ -208,8 +208,9 @@ asio::awaitable<bool> Session::receive(Parser& parser, Publication publication, 
   http::request_parser<http::vector_body<std::uint8_t>> body(std::move(parser));
   co_await http::async_read(stream_, received_, body, asio::use_awaitable);
   auto& request = body.get();
-  co_await write(publish(*streams_, publication, view(request[http::field::content_type]), std::move(request.body())),
-                 keepAlive);
+  const Response response =
+      publish(*streams_, publication, view(request[http::field::content_type]), std::move(request.body()));
+  co_await write(response, keepAlive);
   co_return keepAlive;
 }
 
