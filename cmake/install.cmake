@@ -25,8 +25,23 @@ target_link_libraries(imgeo_library PRIVATE fmt::fmt TBB::tbb meshoptimizer::mes
   PkgConfig::BROTLI PkgConfig::DEFLATE PkgConfig::GUMBO PkgConfig::WEBP PkgConfig::XXHASH ${DRACO_ARCHIVE}
   Threads::Threads ${CMAKE_DL_LIBS})
 
+# libimgeo-live.a adds the publishing of live streams to it (imgeo/live.h), with an HTTP server.
+add_library(imgeo_live_library STATIC $<TARGET_OBJECTS:imgeo_live> $<TARGET_OBJECTS:imgeo_serve>
+  $<TARGET_OBJECTS:imgeo_publish>)
+set_target_properties(imgeo_live_library PROPERTIES OUTPUT_NAME imgeo-live EXPORT_NAME live LINKER_LANGUAGE CXX)
+target_link_libraries(imgeo_live_library PUBLIC imgeo_library)
+
+# libimgeo-live.so has all that C programs and other languages need (imgeo/live_c.h), and shows nothing else.
+set(live_exports ${PROJECT_SOURCE_DIR}/cmake/live_exports.map)
+add_library(imgeo_live_shared SHARED $<TARGET_OBJECTS:imgeo_publish>)
+set_target_properties(imgeo_live_shared PROPERTIES OUTPUT_NAME imgeo-live EXPORT_NAME live_c LINKER_LANGUAGE CXX
+  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINK_DEPENDS ${live_exports})
+target_link_libraries(imgeo_live_shared PRIVATE imgeo_serve imgeo_live imgeo_content imgeo_base)
+target_link_options(imgeo_live_shared PRIVATE "-Wl,--version-script,${live_exports}" -Wl,--gc-sections)
+target_include_directories(imgeo_live_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+
 install(TARGETS imgeo)
-install(TARGETS imgeo_library EXPORT imgeoTargets)
+install(TARGETS imgeo_library imgeo_live_library imgeo_live_shared EXPORT imgeoTargets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/imgeo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

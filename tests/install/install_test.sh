@@ -43,3 +43,13 @@ output="$("$work/example/convert_and_verify" "$work/tetrahedron.obj" "$work/site
 version="$("$prefix/bin/imgeo" --version)"
 [[ "$output" == "$version"$'\n'* ]] || fail "the tool is $version, the library is not"
 "$prefix/bin/imgeo" verify "$work/site" "$work/tetrahedron.obj" >/dev/null || fail "the installed tool finds a difference"
+
+# The examples that publish live streams: C++ with imgeo::live, C with imgeo::live_c, Python with the shared library.
+cmake -S "$source/examples/live" -B "$work/live" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_CXX_COMPILER="$compiler" >"$work/configure.log" 2>&1 || { cat "$work/configure.log"; fail "find_package"; }
+cmake --build "$work/live" >"$work/build.log" || { cat "$work/build.log"; fail "the examples of live streams do not build"; }
+library="$(find "$prefix" -name libimgeo-live.so)"
+for example in "$work/live/waves" "$work/live/waves_c" "python3 $source/examples/live/waves.py"; do
+  output="$(IMGEO_LIVE_LIBRARY="$library" $example 5 0)" || fail "$example failed: $output"
+  [[ "$output" == http://127.0.0.1:*/live/waves*"5 frames, "* ]] || fail "$example: unexpected output: $output"
+done
