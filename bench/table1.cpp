@@ -1,10 +1,11 @@
 // Table 1 of the 2012 paper: the size of a mesh in each encoding, as four kinds of triangle primitives, compared with
 // the paper's numbers for the models that it has. Meshes have 16-bit positions and 8-bit normals in SIG, and single
-// precision in BG and in X3D text. Every SIG patch is read back before it is counted.
+// precision in BG and in X3D. Every SIG patch is read back before it is counted.
 //
-//   build/bench/table1 [--effort 0..9] MODEL...
+//   build/bench/table1 [--effort 0..9] MODEL...        (in the repository's root, with libfastinfoset-java)
 
 #include "base/error.h"
+#include "base/file.h"
 #include "bench/models.h"
 #include "containers/container_reader.h"
 #include "containers/raw_size.h"
@@ -12,6 +13,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <span>
@@ -21,6 +23,7 @@ namespace imgeo {
 namespace {
 
 constexpr const char* kinds[] = {"raw triangles", "triangle strips", "indexed triangles", "indexed strips"};
+constexpr std::size_t indexedTriangles = 2;
 enum Column { x3d, x3db, bg, sigRaw, sigPng, columnCount };
 using Row = std::array<std::uint64_t, columnCount>;
 
@@ -48,17 +51,17 @@ std::string grouped(std::uint64_t number) {
 
 /// The X3D nodes of some of a patch's vertices.
 std::string verticesText(const IndexedPatch& patch, const Lattice& lattice, std::size_t first, std::size_t count) {
-  std::string text = "><Coordinate point='";
+  std::string text = "><Coordinate DEF='c' point='";
   for (const Vec3u& position : std::span(patch.positions).subspan(first, count))
     text += numbers(Vec3f(lattice.point(position))) + " ";
-  text += "'></Coordinate><Normal vector='";
+  text += "'></Coordinate><Normal DEF='n' vector='";
   for (const Vec3f& normal : std::span(patch.normals).subspan(first, count))
     text += numbers(normal) + " ";
   return text + "'></Normal>";
 }
 
-/// Size of the X3D nodes that hold a patch inline: one for each draw; all but the first USE its vertices.
-std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
+/// The X3D nodes that hold a patch inline: one for each draw; all but the first USE its vertices.
+std::string textOf(const IndexedPatch& patch, const Lattice& lattice) {
   std::string text;
   std::size_t first = 0;
   for (const Draw& draw : patch.draws) {
@@ -80,12 +83,39 @@ std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
     text += "</" + name + ">";
     first += draw.count;
   }
-  return text.size();
+  return text;
+}
+
+/// Bytes of an X3D document in X3DB.
+struct X3dbSize {
+  std::uint64_t plain = 0;    ///< with the number encodings of Fast Infoset
+  std::uint64_t deflated = 0; ///< with X3D's own, which deflate
+};
+
+/// Writes the nodes as a document and has bench/X3dbSizes.java measure it.
+X3dbSize x3dbSizeOf(const std::string& nodes) {
+  std::string folder = (std::filesystem::temp_directory_path() / "imgeo-table1-XXXXXX").string();
+  if (!mkdtemp(folder.data()))
+    throw Error(ErrorKind::io, folder, "cannot be made");
+  writeFile(std::filesystem::path(folder) / "mesh.x3d", asBytes("<X3D><Scene>" + nodes + "</Scene></X3D>"));
+  const std::string command =
+      fmt::format("java -Xmx6g -cp /usr/share/java/FastInfoset.jar bench/X3dbSizes.java {}/mesh.x3d", folder);
+  X3dbSize size;
+  FILE* output = popen(command.c_str(), "r");
+  const int count = output ? std::fscanf(output, "%zu %zu", &size.plain, &size.deflated) : 0;
+  if (output)
+    pclose(output);
+  std::filesystem::remove_all(folder);
+  if (count != 2)
+    throw Error(ErrorKind::io, "bench/X3dbSizes.java", "failed; it needs packages of scripts/apt-packages-bench.txt");
+  return size;
 }
 
 struct Measured {
   std::size_t vertices = 0, indices = 0;
-  std::uint64_t x3d = 0, bg = 0;
+  std::string x3d; ///< the nodes of all patches
+  X3dbSize x3db;
+  std::uint64_t bg = 0;
   std::array<std::uint64_t, 5> sig{}; ///< by role
 
   std::uint64_t sigBytes() const {
@@ -99,7 +129,7 @@ struct Measured {
 void add(const IndexedPatch& patch, const PatchedMesh& mesh, const EncodeOptions& options, Measured& sum) {
   sum.vertices += patch.vertexCount();
   sum.indices += patch.indices.size();
-  sum.x3d += textSize(patch, mesh.lattice);
+  sum.x3d += "<Shape>" + textOf(patch, mesh.lattice) + "</Shape>";
   const GeometryDescription geometry = describe(mesh, options);
   const EncodedPatch encoded = encodePatch(patch, geometry, options);
   const IndexedPatch decoded = decodePatch(encoded, geometry);
@@ -122,7 +152,21 @@ std::array<Measured, 4> measure(const PatchedMesh& mesh, const EncodeOptions& op
     add(triangles, mesh, options, rows[2]);
     add(strips, mesh, options, rows[3]);
   }
+  for (Measured& row : rows)
+    row.x3db = x3dbSizeOf(row.x3d);
   return rows;
+}
+
+/// Bytes of the files of compact, which orders vertices and triangles itself.
+std::uint64_t compactSize(const PatchedMesh& mesh, EncodeOptions options) {
+  options.encoding = Encoding::compact;
+  options.normals = NormalEncoding::octahedral;
+  const GeometryDescription geometry = describe(mesh, options);
+  std::uint64_t bytes = 0;
+  for (const Patch& patch : mesh.patches)
+    for (const EncodedFile& file : encodePatch(patch, geometry, options).files)
+      bytes += file.bytes.size();
+  return bytes;
 }
 
 /// Prints our numbers, and below them the paper's numbers and the ratio.
@@ -134,19 +178,20 @@ std::string cell(std::uint64_t ours, const PaperTable* paper, std::size_t row, C
                      static_cast<double>(ours) / static_cast<double>(theirs));
 }
 
-void printTable(const std::array<Measured, 4>& rows, std::size_t triangles) {
+void printTable(const std::array<Measured, 4>& rows, std::uint64_t compact, std::size_t triangles) {
   const PaperTable* paper = nullptr;
   for (const PaperTable& table : paperTables)
     if (table.triangles == triangles)
       paper = &table;
-  fmt::print("| mesh | vertices | indices | X3D text | X3DB (the paper's) | BG | SIG raw | SIG PNG | BG of 16 and "
-             "8 bits |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  fmt::print("| mesh | vertices | indices | X3D text | X3DB, not deflated | X3DB | BG | SIG raw | SIG PNG | compact | "
+             "BG of 16 and 8 bits |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const Measured& m = rows[row];
     const RawSize raw = rawSize(m.vertices, m.indices);
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kinds[row], grouped(m.vertices), grouped(m.indices),
-               cell(m.x3d, paper, row, x3d), paper ? grouped(paper->rows[row][x3db]) : "", cell(raw.bg, paper, row, bg),
-               cell(raw.sig, paper, row, sigRaw), cell(m.sigBytes(), paper, row, sigPng), grouped(m.bg));
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kinds[row], grouped(m.vertices),
+               grouped(m.indices), cell(m.x3d.size(), paper, row, x3d), grouped(m.x3db.plain),
+               cell(m.x3db.deflated, paper, row, x3db), cell(raw.bg, paper, row, bg), cell(raw.sig, paper, row, sigRaw),
+               cell(m.sigBytes(), paper, row, sigPng), row == indexedTriangles ? grouped(compact) : "", grouped(m.bg));
   }
   fmt::print("\nSIG PNG by role, and its share:\n\n| mesh | index | coord | normal | bytes/triangle |\n"
              "|---|--:|--:|--:|--:|\n");
@@ -176,7 +221,7 @@ int main(int count, char** words) {
         fmt::print("\n## {}: {} triangles, {} vertices, {} {}\n\n", std::filesystem::path(model).filename().string(),
                    grouped(mesh.elementCount()), grouped(mesh.wedgeCount()), patched.patches.size(),
                    patched.patches.size() == 1 ? "patch" : "patches");
-        printTable(measure(patched, options), mesh.elementCount());
+        printTable(measure(patched, options), compactSize(patched, options), mesh.elementCount());
         std::fflush(stdout);
       });
   });

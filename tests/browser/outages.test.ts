@@ -76,11 +76,18 @@ describe("a slow host", () => {
 test("a host that refuses other origins affects only shapes with files on it, and the error says what it must allow", async () => {
   const other = await startServer(site());
   try {
+    const [file = ""] = /geometry\/\w+\.png/.exec(pageOf(site())) ?? [];
+    // The browser displays such an <img>, but gives its pixels to nobody.
+    const ofImage = `<imagegeometry vertexcount="3"><img containerfield="coord" src="${other.origin}${file}"></imagegeometry>`;
     const scene =
-      shapeIn(site(), "good", 'id="good"') + shapeIn(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin);
+      shapeIn(site(), "good", 'id="good"') +
+      shapeIn(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin) +
+      `<shape id="image" bboxsize="1 1 1">${ofImage}</shape>`;
     const options = {
       isCrossOrigin: true,
-      server: (server: View["server"]): void => void (server.contentPolicy = "default-src 'self'; connect-src *"),
+      server: (server: View["server"]): void => {
+        server.contentPolicy = "default-src 'self'; connect-src *; img-src *";
+      },
       expectedErrors: /Access-Control-Allow-Origin|Failed to load resource|imgeo/,
     };
     await withPage(sceneOf("cross-origin", { good: site() }, scene), options, async (view) => {
@@ -92,6 +99,9 @@ test("a host that refuses other origins affects only shapes with files on it, an
         assert.equal(detail.type, "network");
         assert.match(String(detail.message), /another origin must allow it with Access-Control-Allow-Origin/);
       }
+      const errorsOfImage = await view.events("error", "shape#image");
+      assert.equal(errorsOfImage.length, 1);
+      assert.match(String(errorsOfImage[0]?.detail.message), /another origin must allow it/);
       assert.deepEqual(await view.events("error", "shape#good"), []);
     });
   } finally {

@@ -2,6 +2,7 @@
 
 #include "import/x3d/element_edits.h"
 #include "import/x3d/surface_shader.h"
+#include "import/x3d/unlit_geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,7 @@ private:
         {"LayerSet", &NodeConverter::convertLayerSet},
         {"PhysicalMaterial", &NodeConverter::convertPhysicalMaterial},
         {"PickableGroup", &NodeConverter::makeGroup},
+        {"Shape", &NodeConverter::convertShape},
         {"TwoSidedMaterial", &NodeConverter::convertTwoSidedMaterial},
         {"ViewpointGroup", &NodeConverter::makeGroup},
     };
@@ -172,6 +174,11 @@ private:
     for (const char* field : {"separateBackColor", "backAmbientIntensity", "backDiffuseColor", "backEmissiveColor",
                               "backShininess", "backSpecularColor", "backTransparency"})
       material.remove_attribute(field);
+  }
+
+  void convertShape(pugi::xml_node shape) {
+    if (convertUnlitGeometry(shape, [this](pugi::xml_node element) { takeOut(element); }))
+      ++result_.converted["Material of a geometry with lit=false as UnlitMaterial"];
   }
 
   void convertSurfaceShader(pugi::xml_node shader) { surfaceShaders_.convert(shader); }

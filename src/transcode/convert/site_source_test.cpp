@@ -133,6 +133,23 @@ TEST_F(SourcePage, KeepsItsMaterialsTransformsAndViewpoints) {
   EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
 }
 
+TEST_F(SourcePage, KeepsGeometryThatIsNotLitInItsOwnColors) {
+  writePage(
+      "<binarygeometry vertexcount=3 size='2 2 0' position='1 1 0' coord=c.bin lit=false></binarygeometry></shape>"
+      "<shape><appearance use=glow></appearance>"
+      "<binarygeometry vertexcount=3 size='2 2 0' position='1 1 0' coord=c.bin lit=false></binarygeometry></shape>"
+      "<shape><appearance def=glow><material emissivecolor='0 0 1' transparency=0.5></appearance><box></box>");
+  const ConvertReport report = convertPage(true);
+  EXPECT_EQ(report.elements.triangles, 2u);
+  const std::string text = page();
+  for (const char* kept :
+       {"<UnlitMaterial emissiveColor=\"0 0 0\"", "<UnlitMaterial transparency=\"0.5\" emissiveColor=\"0 0 1\"",
+        "<Material emissiveColor=\"0 0 1\" transparency=\"0.5\"", "<Material diffuseColor=\"1 0 0\""})
+    EXPECT_NE(text.find(kept), std::string::npos) << kept << " in " << text;
+  const VerifyReport verified = verify(directory_ / "site", directory_ / "in/index.html");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+}
+
 TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {
   const std::string begin = "<binarygeometry vertexcount=3 size='2 2 0' coord=";
   expectRefused(begin + "missing.bin></binarygeometry>", "missing.bin");

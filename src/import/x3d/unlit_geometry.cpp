@@ -1,0 +1,89 @@
+#include "import/x3d/unlit_geometry.h"
+
+#include "import/x3d/element_edits.h"
+
+#include <algorithm>
+
+namespace imgeo::x3d {
+
+namespace {
+
+/// The element that `element` USEs, or itself.
+pugi::xml_node definitionOf(pugi::xml_node element) {
+  const std::string_view name = element.attribute("USE").value();
+  if (name.empty())
+    return element;
+  return element.root().find_node([&](pugi::xml_node node) { return node.attribute("DEF").value() == name; });
+}
+
+bool isUnlitGeometry(pugi::xml_node node) {
+  const std::string_view name = node.name(), primitives = node.attribute("primType").value();
+  return (name == "ImageGeometry" || name == "BinaryGeometry") &&
+         std::string_view(node.attribute("lit").value()) == "false" &&
+         (primitives.empty() || primitives.find("TRIANGLE") != primitives.npos);
+}
+
+bool hasColors(pugi::xml_node geometry) {
+  return geometry.attribute("color") || geometry.find_child_by_attribute("containerField", "color");
+}
+
+bool isColorTexture(pugi::xml_node texture) {
+  const std::string_view field = texture.attribute("containerField").value();
+  return isTextureNode(texture.name()) && (field == "diffuseTexture" || field == "baseTexture");
+}
+
+/// Copies have no names: the elements that they are copies of keep them.
+void removeNames(pugi::xml_node element) {
+  element.remove_attribute("DEF");
+  for (const pugi::xml_node& child : elementsOf(element))
+    removeNames(child);
+}
+
+/// Replaces the material of an Appearance.
+void makeUnlit(pugi::xml_node appearance, bool hasVertexColors) {
+  pugi::xml_node unlit = appearance.prepend_child("UnlitMaterial");
+  std::string emissiveColor = "0 0 0";
+  bool isTextured = false;
+  for (pugi::xml_node child : elementsOf(appearance)) {
+    isTextured = isTextured || isTextureNode(child.name());
+    const bool isShader = std::string_view(child.name()) == "CommonSurfaceShader";
+    if (child == unlit || !(isShader || isMaterialNode(child.name())))
+      continue;
+    const pugi::xml_node material = definitionOf(child);
+    if (const pugi::xml_attribute given = material.attribute(isShader ? "emissiveFactor" : "emissiveColor"))
+      emissiveColor = given.value();
+    if (const pugi::xml_attribute given = material.attribute("transparency"))
+      setField(unlit, "transparency", given.value());
+    for (const pugi::xml_node& texture : elementsOf(material))
+      if (isColorTexture(texture)) {
+        isTextured = true;
+        pugi::xml_node copy = unlit.append_copy(texture);
+        removeNames(copy);
+        setField(copy, "containerField", "emissiveTexture");
+      }
+    appearance.remove_child(child);
+  }
+  setField(unlit, "emissiveColor", isTextured || hasVertexColors ? "1 1 1" : emissiveColor);
+}
+
+} // namespace
+
+bool convertUnlitGeometry(pugi::xml_node shape, const std::function<void(pugi::xml_node)>& takeOut) {
+  const std::vector<pugi::xml_node> children = elementsOf(shape);
+  const auto geometry =
+      std::ranges::find_if(children, [](pugi::xml_node child) { return isUnlitGeometry(definitionOf(child)); });
+  if (geometry == children.end())
+    return false;
+  pugi::xml_node appearance = shape.child("Appearance");
+  if (!appearance)
+    appearance = shape.prepend_child("Appearance");
+  pugi::xml_node own = shape.insert_copy_before(definitionOf(appearance), appearance);
+  if (!own) // the USE names no Appearance
+    return false;
+  takeOut(appearance);
+  removeNames(own);
+  makeUnlit(own, hasColors(definitionOf(*geometry)));
+  return true;
+}
+
+} // namespace imgeo::x3d

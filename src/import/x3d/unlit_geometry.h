@@ -1,0 +1,16 @@
+#pragma once
+// X3DOM's `lit="false"` of ImageGeometry and BinaryGeometry, as an UnlitMaterial (docs/formats/nodes.md).
+
+#include "import/x3d/node_conversions.h"
+
+#include <functional>
+#include <pugixml.hpp>
+
+namespace imgeo::x3d {
+
+/// Gives a Shape whose geometry has triangles that are not lit an Appearance of its own with an UnlitMaterial: in the
+/// colours of the texture, else those of the vertices, else the material's emissiveColor. Points and lines are unlit in
+/// any case. `takeOut` moves an element out of the scene. Returns whether the Shape is such a one.
+bool convertUnlitGeometry(pugi::xml_node shape, const std::function<void(pugi::xml_node)>& takeOut);
+
+} // namespace imgeo::x3d
