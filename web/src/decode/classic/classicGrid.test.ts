@@ -16,7 +16,7 @@ interface Vector {
   ccw: boolean;
   position: [number, number, number];
   size: [number, number, number];
-  /** Of the images; at least `columns`. */
+  /** Width of the images; at least `columns`. */
   width: number;
   channels: 1 | 3;
   /** Bytes of each image, the most significant first. */
