@@ -1,5 +1,5 @@
 // Makes a page to walk through a hall (paper, figure 1): the visitor stands on the ground, walks with the arrow keys or
-// with a finger, and a second viewpoint is before the steps of the stage.
+// with two fingers, and a second viewpoint is before the steps of the stage.
 
 /** Turns `page`, the index.html of a converted hall, into a walk. */
 export function walkPage(page: string, title: string, text: string): string {

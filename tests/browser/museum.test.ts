@@ -2,25 +2,15 @@
 // triangles.
 
 import assert from "node:assert/strict";
-import { cpSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
-import { museumPage } from "../../examples/museum/page.ts";
 import { assertSamePicture, difference } from "./compare.ts";
+import { museumSite } from "./exampleSites.ts";
 import { focusView } from "./gestures.ts";
 import { until, withPage } from "./harness.ts";
 import { viewEvents, recordViewEvents } from "./viewEvents.ts";
-import { repository } from "./paths.ts";
-import { siteOfGenerated, variantOf } from "./sites.ts";
 
 test("the museum example has notes that are readable from everywhere, displays its points, and does not rotate with reduced motion", async () => {
-  const notes = [
-    { name: "Front", text: "Its face.", position: [0, 0, 1.2], normal: [0, 0, 1] },
-    { name: "Back", text: "Its other side.", position: [0, 0, -1.2], normal: [0, 0, -1] },
-  ] as const;
-  const site = variantOf(siteOfGenerated("sphere"), "museum", (page) => museumPage(page, "A ball", "Turn it.", notes));
-  cpSync(join(repository, "examples/museum/museum.css"), join(site, "museum.css"));
-  await withPage(site, { before: recordViewEvents }, async (view) => {
+  await withPage(museumSite(), { before: recordViewEvents }, async (view) => {
     const { page } = view;
     await view.promise("complete");
     const opacityOf = (name: string): Promise<string> =>

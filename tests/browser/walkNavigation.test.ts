@@ -1,16 +1,11 @@
 // Tests WALK in the generated hall: in through the door, down the stairs, onto the stage, and not through walls.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { cpSync, mkdirSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
-import { walkPage } from "../../examples/hall/page.ts";
+import { hallSite } from "./exampleSites.ts";
 import { focusView } from "./gestures.ts";
 import { until, withPage, type View } from "./harness.ts";
-import { converter, outputDirectory, repository } from "./paths.ts";
-import { siteOf, variantOf } from "./sites.ts";
 
 interface Eye {
   x: number;
@@ -28,22 +23,6 @@ const back = firstRow + (rows - 0.5) * rowDepth;
 /** Height of the floor in the aisle. */
 function floorAt(z: number): number {
   return rowRise * Math.min(Math.max(Math.round((z - firstRow) / rowDepth), 0), rows - 1);
-}
-
-/** The hall without shapes that are slow to draw; the test does not walk through its seats. */
-function hall(): string {
-  mkdirSync(outputDirectory, { recursive: true });
-  const file = join(outputDirectory, "hall.glb");
-  execFileSync(converter, ["sample", "hall", "--seats", String(rows * 40), "-o", file], {
-    stdio: ["ignore", "ignore", "inherit"],
-  });
-  const site = variantOf(siteOf(file), "walk", (page) =>
-    walkPage(page, "A hall", "Walk.")
-      .replaceAll(/(DEF="(?:row\d+|trusses|columns)")/g, '$1 visible="false"')
-      .replace('speed="3"', 'speed="5"'),
-  );
-  cpSync(join(repository, "examples/hall/hall.css"), join(site, "hall.css"));
-  return site;
 }
 
 /** Records every position of the camera in the page. */
@@ -76,7 +55,7 @@ const assertNear = (actual: number, expected: number, tolerance: number, what: s
 };
 
 test("WALK leads into the hall, down its stairs and up to the stage, and not through walls", async () => {
-  await withPage(hall(), { before: recordPositions, size: { width: 240, height: 180 } }, async (view) => {
+  await withPage(hallSite(rows), { before: recordPositions, size: { width: 240, height: 180 } }, async (view) => {
     await view.promise("complete");
     await focusView(view);
     const door = await eyeIn(view);
