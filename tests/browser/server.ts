@@ -32,6 +32,14 @@ export interface Behaviour {
   headers?: Record<string, string>;
   /** Changes the body. */
   replace?: (body: Buffer) => Buffer | string;
+  /** Answers in place of the files, when it resolves. */
+  answer?: (path: string) => Promise<Answer>;
+}
+
+export interface Answer {
+  status: number;
+  headers?: Record<string, string>;
+  body?: Buffer | string;
 }
 
 export interface TestServer {
@@ -95,8 +103,10 @@ export async function startServer(directory: string): Promise<TestServer> {
       request.socket.destroy();
       return;
     }
-    const body = behaviour.status === undefined ? await bodyOf(path, behaviour) : undefined;
-    record.status = behaviour.status ?? (body ? 200 : 404);
+    const made = await behaviour.answer?.(path);
+    const file = behaviour.status === undefined && made === undefined ? await bodyOf(path, behaviour) : undefined;
+    const body = made?.body === undefined ? file : Buffer.from(made.body);
+    record.status = behaviour.status ?? made?.status ?? (body ? 200 : 404);
     response.on("finish", () => (record.state = "answered"));
     const packed = Object.keys(behaviour).length === 0 ? encodedFor(request, path) : undefined;
     const sent = packed?.body ?? body ?? Buffer.alloc(0);
@@ -107,6 +117,7 @@ export async function startServer(directory: string): Promise<TestServer> {
       "Cache-Control": "no-cache",
       ...(packed && { "Content-Encoding": packed.encoding }),
       ...behaviour.headers,
+      ...made?.headers,
     });
     testServer.bytesSent += sent.length;
     if (link) await link.send(response, sent);

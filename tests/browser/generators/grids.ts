@@ -48,7 +48,7 @@ export function vase(columns = 64, rows = 48): GridExample {
   });
 }
 
-function exampleOf(
+export function exampleOf(
   mode: GridExample["mode"],
   columns: number,
   rows: number,

@@ -11,6 +11,7 @@ import {
 } from "./classic/classicArrays.ts";
 import { classicGrid } from "./classic/classicGrid.ts";
 import { compactBases, compactPatches } from "./compact/jobs.ts";
+import { frameImages } from "./frame/frameImages.ts";
 
 export const jobs = {
   classicCoords,
@@ -23,6 +24,7 @@ export const jobs = {
   classicGrid,
   compactPatches,
   compactBases,
+  frameImages,
 } as const;
 
 export type JobName = keyof typeof jobs;

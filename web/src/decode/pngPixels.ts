@@ -2,6 +2,8 @@
 // return them: browsers multiply by alpha, apply colour profiles, and add noise against fingerprinting.
 
 import { DecodeError } from "./decodeError.ts";
+import { crc32 } from "./crc32.ts";
+import { inflate, maxDeflateRatio } from "./inflate.ts";
 import type { PngHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
 
@@ -37,9 +39,6 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
 const signatureLength = 8;
 const colorTypeOffset = 25;
 
-/** The maximum number of bytes that deflate can encode in one byte. */
-const maxDeflateRatio = 1032;
-
 /** The chunks of a PNG that `checkPng` has accepted. */
 function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
   const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
@@ -53,19 +52,11 @@ function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Arra
   return chunks;
 }
 
-const crcTable = Int32Array.from({ length: 256 }, (_, byte) => {
-  let crc = byte;
-  for (let bit = 0; bit < 8; ++bit) crc = (crc >>> 1) ^ ((crc & 1) === 0 ? 0 : 0xedb88320);
-  return crc;
-});
-
 /** Throws unless the CRC after a chunk's data is that of its type and data. */
 function checkCrc({ type, data }: { type: string; data: Uint8Array }): void {
   const checked = new Uint8Array(data.buffer, data.byteOffset - 4, data.length + 4);
-  let crc = -1;
-  for (const byte of checked) crc = (crcTable[(crc ^ byte) & 255] ?? 0) ^ (crc >>> 8);
-  const expectedCrc = new DataView(data.buffer, data.byteOffset + data.length, 4).getInt32(0);
-  if (~crc !== expectedCrc) throw new DecodeError("malformed", `has a damaged ${type} chunk`);
+  const expectedCrc = new DataView(data.buffer, data.byteOffset + data.length, 4).getUint32(0);
+  if (crc32(checked) !== expectedCrc) throw new DecodeError("malformed", `has a damaged ${type} chunk`);
 }
 
 /**
@@ -119,34 +110,6 @@ function adler32(bytes: Uint8Array): number {
     b %= 65521;
   }
   return b * 65536 + a;
-}
-
-/** Unpacks a zlib stream to exactly `length` bytes, and allocates no more. Rejects with DecodeError. */
-async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: number): Promise<Uint8Array> {
-  const bytes = new Uint8Array(length);
-  let filled = 0;
-  const { writable, readable } = new DecompressionStream("deflate");
-  const reader = readable.getReader();
-  feed(writable, packed).catch(() => undefined); // the reader rejects with the same error
-  try {
-    for (let chunk = await reader.read(); !chunk.done; chunk = await reader.read()) {
-      if (filled + chunk.value.length > length) throw new DecodeError("malformed", "holds more than its texels");
-      bytes.set(chunk.value, filled);
-      filled += chunk.value.length;
-    }
-  } catch (error) {
-    await reader.cancel().catch(() => undefined);
-    if (error instanceof DecodeError) throw error;
-    throw new DecodeError("malformed", "is a PNG that does not decode");
-  }
-  if (filled < length) throw new DecodeError("truncated", "does not hold all of its texels");
-  return bytes;
-}
-
-async function feed(stream: WritableStream<BufferSource>, chunks: readonly Uint8Array<ArrayBuffer>[]): Promise<void> {
-  const writer = stream.getWriter();
-  for (const chunk of chunks) await writer.write(chunk);
-  await writer.close();
 }
 
 /**

@@ -69,6 +69,9 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
       return (jobs[name] as (input: unknown) => Promise<never>)(input);
     },
     runOnMainThread: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
+    makeWritableImage: () => {
+      throw new Error("no streams here");
+    },
     makeTextureImage: (png) => {
       textureImages.open += 1;
       return Promise.resolve({

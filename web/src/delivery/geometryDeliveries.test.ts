@@ -38,6 +38,9 @@ function deliveriesOf() {
       readsTextures: () => Promise.resolve(true),
       maxTextureSize: 2048,
       runJob: () => Promise.reject(new Error("no jobs here")),
+      makeWritableImage: () => {
+        throw new Error("no streams here");
+      },
       makeTextureImage: () => Promise.reject(new Error("no texture images here")),
       storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
       download: {

@@ -2,9 +2,10 @@
 // once.
 
 import type { Stage } from "../stage/stage.ts";
-import type { GeometryDescription } from "../document/description.ts";
+import type { GeometryDescription, Playback } from "../document/description.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
+import { deliverStream } from "./live/streamDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { Members } from "./members.ts";
 import type { Transfer } from "./progress.ts";
@@ -12,13 +13,15 @@ import type { ResourcePool } from "./resourcePool.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
 
 /** A shared delivery as one of its members has joined it. */
-export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel">;
+export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel"> & {
+  setPlayback(playback: Playback): void;
+};
 
 interface SharedDelivery {
   readonly delivery: Delivery;
   readonly members: Members<DeliveryListener>;
   /** The present stages and all errors, for members that join later. */
-  readonly stages: Map<number, Stage>;
+  readonly stages: Map<number, readonly [stage: Stage, drawn: GeometryDescription | undefined]>;
   readonly errors: DeliveryError[];
 }
 
@@ -40,7 +43,7 @@ export class GeometryDeliveries {
     const cancel = shared.members.join(
       listener,
       () => {
-        for (const [patch, stage] of shared.stages) listener.onStage(patch, stage);
+        for (const [patch, [stage, drawn]] of shared.stages) listener.onStage(patch, stage, drawn);
         for (const error of shared.errors) listener.onError(error);
         if (delivery.isSettled) listener.onSettled();
       },
@@ -58,6 +61,9 @@ export class GeometryDeliveries {
       },
       get isExhausted() {
         return delivery.isExhausted;
+      },
+      setPlayback(playback) {
+        delivery.setPlayback?.(playback);
       },
       cancel,
     };
@@ -93,13 +99,17 @@ export class GeometryDeliveries {
 
   #start(geometry: GeometryDescription): SharedDelivery {
     const members = new Members<DeliveryListener>();
-    const stages = new Map<number, Stage>();
+    const stages: SharedDelivery["stages"] = new Map();
     const errors: DeliveryError[] = [];
-    const delivery = deliverGeometry(geometry, this.#pool, {
-      onStage(patch, stage) {
+    const deliver = geometry.encoding === "live" ? deliverStream : deliverGeometry;
+    const delivery = deliver(geometry, this.#pool, {
+      onStage(patch, stage, drawn) {
         if (stage === undefined) stages.delete(patch);
-        else stages.set(patch, stage);
-        for (const listener of members) listener.onStage(patch, stage);
+        else stages.set(patch, [stage, drawn]);
+        for (const listener of members) listener.onStage(patch, stage, drawn);
+      },
+      onFrame(frame) {
+        for (const listener of members) listener.onFrame?.(frame);
       },
       onError(error) {
         errors.push(error);

@@ -3,7 +3,7 @@
 // that the GPU budget has no room for are evicted, and can be requested again.
 
 import type { Stage } from "../stage/stage.ts";
-import type { GeometryDescription, PatchDescription } from "../document/description.ts";
+import type { GeometryDescription, PatchDescription, Playback } from "../document/description.ts";
 import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
@@ -15,14 +15,28 @@ import { deliveryOf } from "./encodings/encodings.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
 export interface DeliveryListener {
-  /** A new stage of a patch, which replaces the previous one as a whole. Undefined: nothing of the patch is left. */
-  onStage(patchIndex: number, stage: Stage | undefined): void;
+  /**
+   * A new stage of a patch, which replaces the previous one as a whole. Undefined: nothing of the patch is left.
+   * `drawn`: the geometry with what the document does not state (live streams); absent: the geometry itself.
+   */
+  onStage(patchIndex: number, stage: Stage | undefined, drawn?: GeometryDescription): void;
+  /** The vertices of a live stream have changed; the stage stays the same. */
+  onFrame?(frame: LiveFrame): void;
   /** Called once for each URL that fails. */
   onError(error: DeliveryError): void;
   /**
    * Every requested file has loaded or failed. Called again after each later `request` that requires more files.
    */
   onSettled(): void;
+}
+
+/** A displayed frame of a live stream. */
+export interface LiveFrame {
+  readonly number: number;
+  /** Seconds of the publisher's clock. */
+  readonly time: number;
+  /** Number of frames between this one and the one before. */
+  readonly skipped: number;
 }
 
 /** The priority of a file; undefined: it is not needed now. */
@@ -44,6 +58,8 @@ export interface Delivery {
    * without. Ready files stay; but if `granted` is given, files of a budget request that is not in it are evicted.
    */
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
+  /** Live streams only. */
+  setPlayback?(playback: Playback): void;
   /** Aborts and frees everything. The listener is not called again; its stages must no longer be drawn. */
   cancel(): void;
 }
@@ -77,17 +93,16 @@ interface PatchBudgetRequest extends BudgetRequest {
   readonly files: readonly TrackedFile[];
 }
 
+/** Where a delivery gets its files from. */
+export type FilePool = Pick<ResourcePool, "acquire" | "runJob" | "storeBytes" | "maxTextureSize">;
+
 /** Requests nothing before `request` is called. Never calls the listener before it returns. */
-export function deliverGeometry(
-  geometry: GeometryDescription,
-  pool: ResourcePool,
-  listener: DeliveryListener,
-): Delivery {
+export function deliverGeometry(geometry: GeometryDescription, pool: FilePool, listener: DeliveryListener): Delivery {
   return new GeometryDelivery(geometry, pool, listener);
 }
 
 class GeometryDelivery implements Delivery {
-  readonly #pool: ResourcePool;
+  readonly #pool: FilePool;
   readonly #listener: DeliveryListener;
   readonly #patches: readonly PatchState[];
   readonly #files: readonly TrackedFile[];
@@ -97,7 +112,7 @@ class GeometryDelivery implements Delivery {
   #storedBytes: number | undefined;
   #isCancelled = false;
 
-  constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
+  constructor(geometry: GeometryDescription, pool: FilePool, listener: DeliveryListener) {
     this.#pool = pool;
     this.#listener = listener;
     this.#patches = geometry.patches.map((patch, index) => ({
@@ -242,7 +257,9 @@ class GeometryDelivery implements Delivery {
   /** The file's bytes on the GPU are known now, and stay known after an eviction. */
   #recordStoredBytes({ builder, files }: PatchState, tracked: TrackedFile, content: Content): void {
     this.#storedBytes = undefined;
-    if (content.kind === "image") {
+    if (content.kind === "live") {
+      tracked.storedBytes = content.images.byteLength;
+    } else if (content.kind === "image") {
       tracked.storedBytes = content.image.width * content.image.height * bytesPerTexel;
     } else if (builder.isDivisible && files.every(isSeparate)) {
       const others = files.filter((other) => other !== tracked && other.state === "ready");
@@ -319,5 +336,5 @@ function isImage({
 
 /** Whether the file is useful, and counts its GPU memory, independently of the patch's other files. */
 function isSeparate(tracked: TrackedFile): boolean {
-  return isImage(tracked) || tracked.file.target.kind === "patches" || tracked.file.target.kind === "bases";
+  return isImage(tracked) || ["patches", "bases", "live"].includes(tracked.file.target.kind);
 }

@@ -5,7 +5,7 @@
 import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage } from "../decode/image.ts";
-import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
 import type { InputOf, JobName, OutputOf, RunJob } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { ByteSemaphore } from "../scheduler/byteSemaphore.ts";
@@ -19,18 +19,30 @@ export type Content =
   | ({ readonly kind: "image" } & DataImage)
   | ({ readonly kind: "textureImage" } & TextureImage)
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> }
+  | { readonly kind: "live"; readonly images: LiveImages }
   | { readonly kind: "patches"; readonly patches: readonly PatchBuffers[] }
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
  * The form that a file is decoded to: a texture, its own bytes, or either, as the GPU allows; a texture image; or all
- * patches or base meshes that it holds, which a job decodes.
+ * patches or base meshes that it holds, which a job decodes; or images that frames of a live stream fill (live/).
  */
 export type ContentTarget =
+  | { readonly kind: "live" }
   | { readonly kind: "texture" | "bytes" | "either" }
   | { readonly kind: "textureImage"; readonly sampling: SamplingDescription }
   | { readonly kind: "patches"; readonly job: FileJob<PatchBuffers[]> }
   | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> };
+
+/** The images that frames of a live stream fill. */
+export interface LiveImages {
+  readonly coord: readonly DecodedImage[];
+  readonly normal: DecodedImage | undefined;
+  readonly color: DecodedImage | undefined;
+  readonly value: readonly DecodedImage[];
+  /** On the GPU. */
+  readonly byteLength: number;
+}
 
 /** The jobs that turn the bytes of a file into an Output. */
 type FileJob<Output> = {
@@ -92,6 +104,8 @@ export interface DeliveryOptions {
   readonly prefetchedBases?: (url: string) => Promise<PrefetchedBases> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makeTextureImage: MakeTextureImage;
+  /** Allocates an image on the GPU. */
+  readonly makeWritableImage: (width: number, height: number) => WritableImage;
   readonly download: DownloadOptions;
   /** Makes a URL of the document absolute. */
   readonly resolve: (url: string) => string;
@@ -128,6 +142,25 @@ export class ResourcePool {
 
   get maxTextureSize(): number {
     return this.#options.maxTextureSize;
+  }
+
+  /** Requests outside of the pool, as those of live streams. */
+  get fetch(): typeof fetch {
+    return this.#options.download.fetch;
+  }
+
+  /** Makes a URL of the document absolute. */
+  resolve(url: string): string {
+    return this.#options.resolve(url);
+  }
+
+  makeWritableImage(width: number, height: number): WritableImage {
+    return this.#options.makeWritableImage(width, height);
+  }
+
+  /** Whether shaders read textures exactly. */
+  readsTextures(): Promise<boolean> {
+    return this.#options.readsTextures();
   }
 
   acquire(request: ResourceRequest): ResourceHandle {
@@ -370,6 +403,8 @@ class Resource {
         return { kind: "bases", bases: await runOnMainThread(target.job, bytes, signal) };
       case "bytes":
         return { kind: "bytes", bytes };
+      case "live":
+        throw new RangeError("live streams are no files");
       case "texture":
         return { kind: "image", ...(await makeImage(bytes, signal)) };
       case "either":

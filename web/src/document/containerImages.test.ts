@@ -68,8 +68,17 @@ describe("images that are children of an ImageGeometry", () => {
       <canvas containerField="coord"/>
       <ImageTexture url="a.png"/>`);
     assert.deepEqual(patch?.coord, []);
-    assert.equal(warnings.filter((message) => message.startsWith("movies are not yet read")).length, 2);
+    assert.equal(warnings.filter((message) => message.startsWith("movies are not read")).length, 2);
     assert.equal(warnings.length, 7);
+  });
+
+  test("may be a live stream, as a texture or a movie", () => {
+    for (const element of ["ImageTexture", "MovieTexture"]) {
+      const { patch, warnings } = readImages(
+        `<${element} containerField="coord" url="https://a.example/live/cloth-1"/>`,
+      );
+      assert.deepEqual([patch?.coord[0]?.url, warnings], ["https://a.example/live/cloth-1", []]);
+    }
   });
 
   test("may be a canvas, whose pixels are read; one with another site's image is left out with a warning", () => {

@@ -3,7 +3,7 @@
 
 import type { Resolve, SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf, substitutedFor } from "./element.ts";
-import { SFString } from "./fieldTypes.ts";
+import { MFString, SFString } from "./fieldTypes.ts";
 import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
@@ -68,7 +68,14 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
   };
 }
 
+/** Whether a URL names a live stream (docs/live.md). */
+export function isStreamUrl(url: string): boolean {
+  return /(^|\/)live\/[\w-]{1,64}$/.test(url);
+}
+
 type UrlReader = (element: SceneElement, warnings: Warning[]) => string | undefined;
+
+const refusedMovie = refused("movies are not read as geometry; images and live streams are");
 
 /** Readers of the address of an image, by the element's lower-case name; each warns where it finds none. */
 const urlReaders: Readonly<Record<string, UrlReader>> = {
@@ -82,8 +89,11 @@ const urlReaders: Readonly<Record<string, UrlReader>> = {
     return undefined;
   },
   canvas: canvasUrl,
-  movietexture: refused("movies are not yet read as geometry; images are"),
-  video: refused("movies are not yet read as geometry; images are"),
+  movietexture(element, warnings) {
+    const [first] = readFields(element, { url: MFString([]) }, warnings).url;
+    return first !== undefined && isStreamUrl(first) ? first : refusedMovie(element, warnings);
+  },
+  video: refusedMovie,
 };
 
 /** The first of the texture's addresses, or its first child that is an image. */

@@ -55,6 +55,15 @@ export interface ShapeDescription {
    * Undefined where there is a geometry, or no element for one.
    */
   readonly unreadableGeometry: string | undefined;
+  /** Live streams only. */
+  readonly playback?: Playback;
+}
+
+/** How a live stream is followed. */
+export interface Playback {
+  readonly paused: boolean;
+  /** The largest number of frames per second; 0: all. */
+  readonly rate: number;
 }
 
 export interface GroupDescription {

@@ -42,6 +42,18 @@ const maxElementValues: Readonly<Record<ElementType, number>> = {
 /** Byte planes that coordinates can have: 32 bits. */
 const maxCoordPlaneCount = 4;
 
+const classic: EncodingFormat = {
+  profile: "classic",
+  storage: "bytePlanes",
+  hasBase: false,
+  hasGrids: true,
+  maxCoordFileCount: maxCoordPlaneCount,
+  attributeFileCount: (valueBits) => valueBits / 8,
+  attributeBits: (valueBits) => valueBits,
+  referenceOf: (url, fragment) => ({ url, firstTexel: numberIn(beforePlus(fragment)) }),
+  maxStoredValue: (_, patch) => 256 ** Math.max(1, patch.coord.length) - 1,
+};
+
 export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
   compact: {
     profile: "compact",
@@ -54,17 +66,8 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
     referenceOf: (url, fragment) => ({ url, patchIndex: numberIn(beforePlus(fragment)) }),
     maxStoredValue: (geometry) => maxLatticeValue(latticeBitsOf(geometry)),
   },
-  classic: {
-    profile: "classic",
-    storage: "bytePlanes",
-    hasBase: false,
-    hasGrids: true,
-    maxCoordFileCount: maxCoordPlaneCount,
-    attributeFileCount: (valueBits) => valueBits / 8,
-    attributeBits: (valueBits) => valueBits,
-    referenceOf: (url, fragment) => ({ url, firstTexel: numberIn(beforePlus(fragment)) }),
-    maxStoredValue: (_, patch) => 256 ** Math.max(1, patch.coord.length) - 1,
-  },
+  classic,
+  live: { ...classic, profile: undefined, attributeFileCount: () => 0 },
   bg: {
     profile: undefined,
     storage: "arrays",

@@ -20,7 +20,7 @@ import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./descri
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { byVertexRole, byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
-import { containerImagesOf } from "./containerImages.ts";
+import { containerImagesOf, isStreamUrl } from "./containerImages.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { Resolve, SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
@@ -42,7 +42,7 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     hasGrids && !isAutomatic
       ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
       : "sig";
-  return {
+  return withStream({
     ...commonFieldsOf(element, values, warnings),
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
     attributes: readAttributes(element, encoding, warnings),
@@ -54,8 +54,19 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     coordType: "Uint8",
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
     patches: readPatches(element, encoding, resolve, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
-  };
+  });
 }
+
+/** A live stream in place of files of coordinates (docs/live.md). */
+function withStream(geometry: GeometryDescription): GeometryDescription {
+  const [patch, ...others] = geometry.patches;
+  const coord = patch?.coord[0];
+  if (patch === undefined || others.length > 0 || coord === undefined || !isStreamUrl(coord.url)) return geometry;
+  return { ...geometry, encoding: "live", attributes: [streamedValues], patches: [{ ...patch, coord: [coord] }] };
+}
+
+/** The values of a stream, as `colorBy="value"` names them; the stream states their range. */
+const streamedValues = { name: "value", components: 1, fileCount: 0, bits: 8, min: [0], size: [1] } as const;
 
 /**
  * The quantization box of a compact geometry with neither `position` nor `size`: the cube over the longest edge of its
@@ -130,10 +141,14 @@ export function hasNormalsInCoords(geometry: GeometryDescription, patch: PatchDe
 }
 
 /**
- * Whether a patch's bounds are unknown before its coordinates are loaded: floats need not lie in the quantization box.
+ * Whether a patch's bounds are unknown before its coordinates are loaded: floats need not lie in the quantization box,
+ * and a live stream states its own.
  */
-export function isUnbounded({ coordType }: Pick<GeometryDescription, "coordType">, { box }: PatchDescription): boolean {
-  return coordType === "Float32" && box === undefined;
+export function isUnbounded(
+  { coordType, encoding }: Pick<GeometryDescription, "coordType" | "encoding">,
+  { box }: PatchDescription,
+): boolean {
+  return (coordType === "Float32" || encoding === "live") && box === undefined;
 }
 
 /** Whether normals are two numbers: octahedral x and y, or spherical phi and theta. */
@@ -142,7 +157,8 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 }
 
 /** Fields of ImageGeometry only. */
-type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode" | "implicitMeshCount";
+type ImageFields =
+  "paused" | "rate" | "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode" | "implicitMeshCount";
 
 function commonFieldsOf(
   element: SceneElement,

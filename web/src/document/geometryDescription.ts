@@ -108,10 +108,10 @@ export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as 
 export type NormalEncoding = (typeof normalEncodings)[number];
 
 /**
- * How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), or as
- * typed arrays (BG).
+ * How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), as
+ * typed arrays (BG), or as classic with coordinates that a live stream sends.
  */
-export type Encoding = "compact" | "classic" | "bg";
+export type Encoding = "compact" | "classic" | "bg" | "live";
 
 /** The encodings of an ImageGeometry, by the values of its `profile` field. */
 export const imageProfiles = ["classic", "compact"] as const;

@@ -301,6 +301,10 @@ export const nodeFields = {
     implicitMeshMode: SFString("auto"),
     /** The paper's name for implicitMeshSize. */
     implicitMeshCount: optional(SFVec2f([256, 256])),
+    /** Live streams: the picture stands still. */
+    paused: SFBool(false),
+    /** Live streams: the largest number of frames per second; 0: all. */
+    rate: SFFloat(0),
   },
   BinaryGeometry: {
     ...geometryFields,

@@ -2,7 +2,7 @@
 
 import { colorMapOf, withValues } from "./attributes.ts";
 import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
-import type { Box3, GeometryDescription, ShapeDescription } from "./description.ts";
+import type { Box3, Encoding, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
 import { fogDepthName } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
@@ -47,7 +47,7 @@ export function readShape(
   const values = readFields(node, nodeFields.Shape, warnings);
   const children = childrenOf(node);
   const ownBox = boxOf(values);
-  const { geometry, priority, lit } =
+  const { geometry, priority, lit, playback } =
     values.patch !== "" && !children.some(isGeometry)
       ? readSharedPatch(node, values.patch, context)
       : readGeometryOf(children, context, ownBox, values.colorBy);
@@ -72,6 +72,7 @@ export function readShape(
     host,
     unreadableGeometry:
       geometry !== undefined ? undefined : (problemOf(children, context) ?? (values.patch !== "" ? "" : undefined)),
+    ...(playback && { playback }),
     visible: isVisible,
     contributesToBounds: isVisible,
     priority: values.priority * priority,
@@ -110,6 +111,7 @@ interface ShapeGeometry {
   /** Separate from the geometry, as `lit` is, because it does not change the geometry's identity. */
   readonly priority: number;
   readonly lit: boolean;
+  readonly playback?: Playback;
 }
 
 /** The geometry among a shape's children. */
@@ -135,7 +137,7 @@ function readGeometryOf(
   const geometry = hasValues
     ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
     : boxed;
-  return { geometry, ...drawingFieldsOf(found.child) };
+  return { geometry, ...drawingFieldsOf(found.child, geometry.encoding) };
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
@@ -157,9 +159,10 @@ function readSharedPatch(element: SceneElement, patch: string, context: ShapeRea
 }
 
 /** The fields of a geometry node that are not part of its description. The reader of the node has warned of them. */
-function drawingFieldsOf(node: SceneElement): Pick<ShapeGeometry, "priority" | "lit"> {
-  const { priority, lit } = nodeFields.ImageGeometry;
-  return readFields(node, { priority, lit }, []);
+function drawingFieldsOf(node: SceneElement, encoding?: Encoding): Omit<ShapeGeometry, "geometry"> {
+  const { priority, lit, paused, rate } = nodeFields.ImageGeometry;
+  const fields = readFields(node, { priority, lit }, []);
+  return encoding === "live" ? { ...fields, playback: readFields(node, { paused, rate }, []) } : fields;
 }
 
 function withPatchIndex(geometry: GeometryDescription, patchIndex: number): GeometryDescription | undefined {

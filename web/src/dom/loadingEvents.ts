@@ -4,6 +4,7 @@
 
 import type { StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
+import type { LiveFrame } from "../delivery/geometryDelivery.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress } from "../delivery/progress.ts";
 
@@ -63,6 +64,8 @@ export class LoadingEvents {
   #outcome: "loading" | "settled" | "ended" | "abandoned" = "loading";
   #error: Error | undefined;
   readonly #errors: ErrorDetail[] = [];
+  /** The frame of a live stream that the next frame of the page displays. */
+  #frame: LiveFrame | undefined;
 
   /**
    * Sets new promises and an empty list of errors on the element. `previewStage`: the stage that a preview displays,
@@ -116,6 +119,12 @@ export class LoadingEvents {
     if (rankOf(stage) > rankOf(this.#stage)) this.#stage = stage;
   }
 
+  /** Call it when the next frame will display this frame of a live stream. Those in between count as skipped. */
+  displayFrame(frame: LiveFrame): void {
+    const skipped = frame.skipped + (this.#frame === undefined ? 0 : this.#frame.skipped + 1);
+    this.#frame = { ...frame, skipped };
+  }
+
   updateProgress(progress: Progress): void {
     const { totalProgress, loadedBytes } = this.#progress;
     if (progress.totalProgress === totalProgress && progress.loadedBytes === loadedBytes) return;
@@ -141,6 +150,8 @@ export class LoadingEvents {
    */
   onFrame(isScene: boolean): void {
     if (this.#outcome === "abandoned") return;
+    const frame = this.#frame;
+    this.#frame = undefined;
     if (this.#stage !== this.#displayedStage) {
       const isFirst = this.#displayedStage === "none";
       this.#displayedStage = this.#stage;
@@ -151,6 +162,7 @@ export class LoadingEvents {
         this.#send("refine", { stage: this.#stage });
       }
     }
+    if (frame !== undefined) this.#send("frame", frame);
     if (this.#outcome !== "settled") return;
     this.#outcome = "ended";
     if (this.#error === undefined || isScene) {

@@ -31,6 +31,7 @@ export function makePagePool(
     runJob: (name, input, signal) => workers.run(name, input, signal),
     runOnMainThread: (name, input, signal) => workers.runOnMainThread(name, input, signal),
     makeTextureImage: (bytes, sampling, signal) => uploads.makeTextureImage(bytes, sampling, signal),
+    makeWritableImage: (width, height) => renderer.makeWritableImage(width, height),
     storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
     download: defaultDownloadOptions,
     prefetchedBases: takePrefetchedBases,

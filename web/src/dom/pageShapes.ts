@@ -2,6 +2,7 @@
 // and sends the events and settles the promises of their elements.
 
 import { DeliveryError } from "../delivery/deliveryError.ts";
+import type { LiveFrame } from "../delivery/geometryDelivery.ts";
 import { needsWorkers } from "../delivery/encodings/encodings.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
@@ -35,7 +36,14 @@ export interface PageShapesListener {
 
 /** Receives what a shape loads. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
-  onStage(shape: PageShape, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void;
+  onStage(
+    shape: PageShape,
+    geometry: GeometryDescription,
+    patch: number,
+    stage: Stage | undefined,
+    drawn: GeometryDescription,
+  ): void;
+  onLiveFrame(shape: PageShape, frame: LiveFrame): void;
   onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
   onRemoved(shape: PageShape): void;
@@ -73,8 +81,17 @@ export class PageShape extends LoadingShape {
     return this.#stages;
   }
 
-  protected override onStage(geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
-    this.#listener.onStage(this, geometry, patch, stage);
+  protected override onStage(
+    geometry: GeometryDescription,
+    patch: number,
+    stage: Stage | undefined,
+    drawn: GeometryDescription,
+  ): void {
+    this.#listener.onStage(this, geometry, patch, stage, drawn);
+  }
+
+  protected override onFrame(frame: LiveFrame): void {
+    this.#listener.onLiveFrame(this, frame);
   }
 
   protected override onGeometryReplaced(): void {
@@ -249,8 +266,12 @@ export class PageShapes extends LoadingShapes<PageShape> {
   protected override makeShape(described: ShapeDescription): PageShape {
     this.#isQuiet = false;
     return new PageShape(this.#deliveries, described, this.#previewed.delete(described.element), {
-      onStage: (shape, geometry, patch, stage) => {
-        this.#onStage(shape, geometry, patch, stage);
+      onStage: (shape, geometry, patch, stage, drawn) => {
+        this.#onStage(shape, geometry, patch, stage, drawn);
+      },
+      onLiveFrame: ({ loading }, frame) => {
+        loading.displayFrame(frame);
+        this.#isQuiet = false;
       },
       onTextureImage: ({ element }, role, image) => {
         this.#renderer.setTextureImage(element, role, image);
@@ -267,9 +288,15 @@ export class PageShapes extends LoadingShapes<PageShape> {
     });
   }
 
-  #onStage(shape: PageShape, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+  #onStage(
+    shape: PageShape,
+    geometry: GeometryDescription,
+    patch: number,
+    stage: Stage | undefined,
+    drawn: GeometryDescription,
+  ): void {
     const { element, stages, loading } = shape;
-    this.#renderer.setStage(element, geometry, patch, stage);
+    this.#renderer.setStage(element, drawn, patch, stage);
     this.#listener.onStage(stage);
     if (geometry !== shape.geometry) return;
     stages[patch] = stage?.name ?? "none";

@@ -58,11 +58,20 @@ export class AppShape extends LoadingShape {
     this.missingPatches = new Set(described.geometry?.patches.keys());
   }
 
-  protected override onStage(geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
-    this.object.setStage(geometry, patch, stage);
+  protected override onStage(
+    geometry: GeometryDescription,
+    patch: number,
+    stage: Stage | undefined,
+    drawn: GeometryDescription,
+  ): void {
+    this.object.setStage(drawn, patch, stage);
     if (geometry === this.geometry) this.missingPatches.delete(patch);
     this.#listener.onChange();
     this.#listener.onAdvance();
+  }
+
+  protected override onFrame(): void {
+    this.#listener.onChange();
   }
 
   protected override onGeometryReplaced(): void {

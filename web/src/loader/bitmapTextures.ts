@@ -3,12 +3,13 @@
 
 import { NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage } from "../decode/image.ts";
-import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import { decodeTextureImage } from "../decode/textureImage.ts";
 import { bytesPerTexel } from "../delivery/patchFiles.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
+import { emptyTexture, writeTexels } from "../render/uploads/textureStore.ts";
 import type { TextureProvider } from "../render/uploads/textureProvider.ts";
 import { setSampling } from "../render/uploads/textureSampling.ts";
 import { setDataSampling } from "../render/uploads/textureSampling.ts";
@@ -41,6 +42,25 @@ export class BitmapTextures implements TextureProvider {
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, maxTextureSize);
     return { image: await this.#store(bitmap, dataTextureOf(bitmap), signal), channels };
+  }
+
+  /** Makes an image of vertex data whose texels can be replaced. */
+  makeWritableImage(width: number, height: number): WritableImage {
+    const texture = emptyTexture(width, height);
+    const image = {
+      width,
+      height,
+      close: () => {
+        if (this.#textures.delete(image)) texture.dispose();
+      },
+    };
+    this.#textures.set(image, texture);
+    return {
+      image,
+      write: (texels) => {
+        writeTexels(texture, texels);
+      },
+    };
   }
 
   /** Decodes a texture of an appearance. Rejects as `makeImage` does. */

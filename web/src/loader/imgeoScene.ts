@@ -80,6 +80,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       maxTextureSize,
       runJob,
       makeTextureImage: (bytes, sampling, signal) => textures.makeTextureImage(bytes, sampling, signal),
+      makeWritableImage: (width, height) => textures.makeWritableImage(width, height),
       storeBytes: async (array, _, signal) => {
         await uploadThrottle.waitForFrame(array.byteLength, signal);
         return buffers.store(array);

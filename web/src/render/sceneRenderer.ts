@@ -15,7 +15,7 @@ import {
   WebGLRenderer,
 } from "three";
 import type { ElementArray } from "../stage/vertexArray.ts";
-import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
 import type { ArrayUse, Stage } from "../stage/stage.ts";
 import type {
   AnchorDescription,
@@ -277,6 +277,18 @@ export class SceneRenderer {
   /** Begins the upload of an image; stages may use it after the last step. */
   beginTextureUpload(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
     return this.#textures.begin(bitmap, this.#renderer, sampling);
+  }
+
+  /** An image of vertex data; writing its texels draws a frame. */
+  makeWritableImage(width: number, height: number): WritableImage {
+    const writable = this.#textures.makeWritable(width, height);
+    return {
+      image: writable.image,
+      write: (texels) => {
+        writable.write(texels);
+        this.requestFrame();
+      },
+    };
   }
 
   /** Begins the upload of a vertex array. */

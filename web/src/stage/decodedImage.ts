@@ -5,3 +5,10 @@ export interface DecodedImage {
   /** Frees its memory. */
   close(): void;
 }
+
+/** An image of vertex data whose texels change. */
+export interface WritableImage {
+  readonly image: DecodedImage;
+  /** Replaces all texels, four bytes each, before the next frame. */
+  write(texels: Uint8Array<ArrayBuffer>): void;
+}

@@ -32,6 +32,8 @@ export interface StatedDrawRange extends Omit<DrawRange, "primitive"> {
 interface StageHead {
   readonly name: StageName;
   readonly draws: readonly DrawRange[];
+  /** Bounds of the coordinates, where the document states none. */
+  readonly bounds?: Bounds | undefined;
 }
 
 /** Texels of an image from `firstTexel` on, row by row. */
@@ -137,8 +139,6 @@ export interface BufferStage extends StageHead {
   readonly vertexCount: number;
   readonly index: GpuIndex | undefined;
   readonly coord: GpuVertices;
-  /** Bounds of the coordinates, where the document states none. */
-  readonly bounds?: Bounds | undefined;
   readonly attributes: ByVertexRole<GpuVertices>;
   /** Normals of two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normalFormat: NormalFormat;

@@ -3,6 +3,7 @@
 // stages stay displayed until all files of the new one have arrived, so that no frame is empty.
 
 import { DeliveryError } from "../delivery/deliveryError.ts";
+import type { LiveFrame } from "../delivery/geometryDelivery.ts";
 import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
@@ -13,6 +14,7 @@ import type {
   CubeMapPicture,
   CubeMapRole,
   GeometryDescription,
+  Playback,
   ShapeDescription,
   TextureDescription,
   TextureRole,
@@ -26,9 +28,14 @@ type LoadedPicture = TextureDescription | CubeMapPicture;
 /** A geometry, its delivery and the stages that the delivery has reported last. */
 interface GeometrySource {
   readonly geometry: GeometryDescription;
-  readonly stages: Map<number, Stage>;
+  /** With the geometry that each is drawn with. */
+  readonly stages: Map<number, readonly [stage: Stage, drawn: GeometryDescription]>;
   joined: JoinedDelivery | undefined;
+  /** The newest frame of a live stream that is not displayed yet. */
+  frame: LiveFrame | undefined;
 }
+
+const allFrames: Playback = { paused: false, rate: 0 };
 
 export abstract class LoadingShape {
   readonly element: SceneElement;
@@ -40,6 +47,7 @@ export abstract class LoadingShape {
   #replaced: GeometrySource | undefined;
   #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
+  #playback: Playback = allFrames;
   /** Why the geometry is not drawn, until this has been reported; empty: nothing to report. */
   #problem: string;
 
@@ -63,8 +71,18 @@ export abstract class LoadingShape {
     });
   }
 
-  /** A patch of the geometry, or of the one before, displays another stage; undefined: none. */
-  protected abstract onStage(geometry: GeometryDescription, patch: number, stage: Stage | undefined): void;
+  /**
+   * A patch of the geometry, or of the one before, displays another stage; undefined: none. `drawn`: as in
+   * DeliveryListener.
+   */
+  protected abstract onStage(
+    geometry: GeometryDescription,
+    patch: number,
+    stage: Stage | undefined,
+    drawn: GeometryDescription,
+  ): void;
+  /** The displayed vertices of a live stream have changed. */
+  protected abstract onFrame(frame: LiveFrame): void;
   /** The shape has another geometry. The stages of the one before are still displayed. */
   protected abstract onGeometryReplaced(): void;
   /** A texture has another image; undefined: none. The image before is not used after this call. */
@@ -119,7 +137,8 @@ export abstract class LoadingShape {
    * that are no longer needed: call it after the files of new shapes have been requested.
    */
   follow(described: ShapeDescription, isSuspended: boolean): () => void {
-    const { visible, appearance, geometry, unreadableGeometry = "" } = described;
+    const { visible, appearance, geometry, unreadableGeometry = "", playback = allFrames } = described;
+    this.#playback = playback;
     this.#isVisible = visible;
     this.#describedTextures = this.picturesOf(appearance);
     const left = geometry === this.geometry ? undefined : this.#replaceGeometry(geometry, unreadableGeometry);
@@ -137,8 +156,12 @@ export abstract class LoadingShape {
     const source = this.#source;
     if (source !== undefined)
       source.joined ??= this.#deliveries.geometries.join(source.geometry, {
-        onStage: (patch, stage) => {
-          this.#receiveStage(source, patch, stage);
+        onStage: (patch, stage, drawn = source.geometry) => {
+          this.#receiveStage(source, patch, stage, drawn);
+        },
+        onFrame: (frame) => {
+          if (source === (this.#replaced ?? this.#source)) this.onFrame(frame);
+          else source.frame = frame;
         },
         onError: (error) => {
           if (source === this.#source) this.onError(error);
@@ -149,6 +172,7 @@ export abstract class LoadingShape {
           this.onSettled();
         },
       });
+    source?.joined?.setPlayback(this.#playback);
     this.#textures.follow(this.#describedTextures);
   }
 
@@ -191,16 +215,15 @@ export abstract class LoadingShape {
     if (geometry !== undefined) return before;
     const displayed = this.#replaced ?? before;
     this.#replaced = undefined;
-    for (const patch of displayed?.stages.keys() ?? [])
-      if (displayed !== undefined) this.onStage(displayed.geometry, patch, undefined);
+    if (displayed !== undefined) this.#clear(displayed, displayed.stages.keys());
     if (displayed !== before) displayed?.joined?.cancel();
     return before;
   }
 
-  #receiveStage(source: GeometrySource, patch: number, stage: Stage | undefined): void {
+  #receiveStage(source: GeometrySource, patch: number, stage: Stage | undefined, drawn: GeometryDescription): void {
     if (stage === undefined) source.stages.delete(patch);
-    else source.stages.set(patch, stage);
-    if (source === (this.#replaced ?? this.#source)) this.onStage(source.geometry, patch, stage);
+    else source.stages.set(patch, [stage, drawn]);
+    if (source === (this.#replaced ?? this.#source)) this.onStage(source.geometry, patch, stage, drawn);
     if (source === this.#replaced && source.stages.size === 0) this.#swap(); // all of it has been evicted
   }
 
@@ -209,13 +232,23 @@ export abstract class LoadingShape {
     const [before, after] = [this.#replaced, this.#source];
     this.#replaced = undefined;
     if (before === undefined || after === undefined) return;
-    for (const patch of before.stages.keys())
-      if (!after.stages.has(patch)) this.onStage(before.geometry, patch, undefined);
-    for (const [patch, stage] of after.stages) this.onStage(after.geometry, patch, stage);
+    this.#clear(
+      before,
+      Array.from(before.stages.keys()).filter((patch) => !after.stages.has(patch)),
+    );
+    for (const [patch, [stage, drawn]] of after.stages) this.onStage(after.geometry, patch, stage, drawn);
+    if (after.frame !== undefined) this.onFrame(after.frame);
     before.joined?.cancel();
+  }
+
+  #clear({ geometry, stages }: GeometrySource, patches: Iterable<number>): void {
+    for (const patch of patches) {
+      const [, drawn = geometry] = stages.get(patch) ?? [];
+      this.onStage(geometry, patch, undefined, drawn);
+    }
   }
 }
 
 function sourceOf(geometry: GeometryDescription | undefined): GeometrySource | undefined {
-  return geometry && { geometry, stages: new Map(), joined: undefined };
+  return geometry && { geometry, stages: new Map(), joined: undefined, frame: undefined };
 }

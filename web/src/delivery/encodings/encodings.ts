@@ -4,12 +4,14 @@ import type { Encoding, GeometryDescription } from "../../document/description.t
 import { bgDelivery } from "./bg/bgDelivery.ts";
 import { classicDelivery } from "./classic/classicDelivery.ts";
 import { compactDelivery } from "./compact/compactDelivery.ts";
+import { liveDelivery } from "./live/liveDelivery.ts";
 import type { EncodingDelivery } from "./encodingDelivery.ts";
 
 export const encodingDeliveries: Readonly<Record<Encoding, EncodingDelivery>> = {
   compact: compactDelivery,
   classic: classicDelivery,
   bg: bgDelivery,
+  live: liveDelivery,
 };
 
 export function deliveryOf({ encoding }: Pick<GeometryDescription, "encoding">): EncodingDelivery {

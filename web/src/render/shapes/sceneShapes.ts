@@ -208,7 +208,7 @@ export class SceneShapes {
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     const object = this.#shapes.get(element);
     object?.setStage(geometry, patch, stage);
-    if (object === undefined || stage?.kind !== "buffers" || stage.bounds === undefined) return;
+    if (object === undefined || stage?.bounds === undefined) return;
     this.#unbounded.add(object);
     this.#extendBounds(object, stage.bounds);
   }

@@ -108,7 +108,7 @@ export class ShapeObject {
 
   /** Bounds of patches for which the document gives none. */
   *bounds(): Generator<Bounds> {
-    for (const { stage } of this.#patches.values()) if (stage.kind === "buffers" && stage.bounds) yield stage.bounds;
+    for (const { stage } of this.#patches.values()) if (stage.bounds) yield stage.bounds;
   }
 
   /** Whether any instance is visible. */

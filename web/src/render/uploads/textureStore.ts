@@ -2,7 +2,7 @@
 // bytes of the file. JavaScript keeps no copy.
 
 import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
-import type { DecodedImage } from "../../stage/decodedImage.ts";
+import type { DecodedImage, WritableImage } from "../../stage/decodedImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
 import { setDataSampling, setSampling } from "./textureSampling.ts";
 
@@ -35,6 +35,29 @@ export class TextureStore {
     const texture = this.#textures.get(image);
     if (texture === undefined) throw new RangeError("the image is not on the GPU");
     return texture;
+  }
+
+  /** Allocates an image of vertex data whose texels can be replaced, all at once, before a frame is drawn. */
+  makeWritable(width: number, height: number): WritableImage {
+    const texture = emptyTexture(width, height);
+    const bytes = width * height * bytesPerTexel;
+    this.#bytes += bytes;
+    const image = {
+      width,
+      height,
+      close: () => {
+        if (!this.#textures.delete(image)) return;
+        this.#bytes -= bytes;
+        texture.dispose();
+      },
+    };
+    this.#textures.set(image, texture);
+    return {
+      image,
+      write: (texels) => {
+        writeTexels(texture, texels);
+      },
+    };
   }
 
   /**
@@ -79,7 +102,15 @@ function* uploadStrips(
   }
 }
 
-function emptyTexture(width: number, height: number): Texture {
+/** Replaces the texels of a data texture: three.js uploads them into the same texture before it draws it. */
+export function writeTexels(texture: DataTexture, texels: Uint8Array<ArrayBuffer>): void {
+  const { width, height } = texture.image as { width: number; height: number };
+  texture.image = { data: texels, width, height };
+  texture.source.dataReady = true;
+  texture.needsUpdate = true;
+}
+
+export function emptyTexture(width: number, height: number): DataTexture {
   const texture = new DataTexture(null, width, height, RGBAFormat, UnsignedByteType);
   texture.source.dataReady = false;
   setDataSampling(texture);

@@ -49,7 +49,8 @@ export function classicStageBuilder(
   };
 }
 
-function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+/** Builds stages of images that are on the GPU. */
+export function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   let coordPlanes: (TexelRange | undefined)[] = [];
   let valuePlanes: (TexelRange | undefined)[] = [];
   let index: TexelRange | undefined;

@@ -1,0 +1,77 @@
+// Decodes a frame of a live stream to the stored integers of its vertices (docs/formats/frame.md). src/live/frame.h does
+// the same; vectors/frame-1 binds both.
+
+import { DecodeError } from "../decodeError.ts";
+import { inflate } from "../inflate.ts";
+import type { FrameHeader, Prediction } from "./frameHeader.ts";
+import { componentRunsOf, frameHeaderBytes, readFrameHeader, unpackedBytesOf } from "./frameHeader.ts";
+
+export interface Frame {
+  readonly header: FrameHeader;
+  /** The stored integers, one array for each component, in the order of `componentRunsOf`. */
+  readonly components: readonly Uint32Array<ArrayBuffer>[];
+}
+
+/** Rejects with DecodeError. Safe for untrusted bytes; allocates memory in proportion to what they can unpack to. */
+export async function decodeFrame(bytes: Uint8Array<ArrayBuffer>): Promise<Frame> {
+  const header = readFrameHeader(bytes);
+  const unpacked = await unpack(bytes.subarray(frameHeaderBytes), unpackedBytesOf(header));
+  const { vertices } = header;
+  const components: Uint32Array<ArrayBuffer>[] = [];
+  let first = 0;
+  for (const { count, bits } of componentRunsOf(header)) {
+    const byteCount = Math.ceil(bits / 8);
+    for (let component = 0; component < count; ++component) {
+      const values = new Uint32Array(vertices);
+      for (let byte = 0; byte < byteCount; ++byte) {
+        const plane = first + (byte * count + component) * vertices;
+        for (let vertex = 0; vertex < vertices; ++vertex)
+          values[vertex] = ((values[vertex] ?? 0) << 8) | (unpacked[plane + vertex] ?? 0);
+      }
+      addPredictions(values, header.prediction, header.columns, 2 ** bits - 1);
+      components.push(values);
+    }
+    first += byteCount * count * vertices;
+  }
+  return { header, components };
+}
+
+async function unpack(packed: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
+  // The stream ends in the length that it unpacks to, so that bytes behind it are noticed.
+  const view = new DataView(packed.buffer, packed.byteOffset, packed.byteLength);
+  if (packed.length < 4 || view.getUint32(packed.length - 4, true) !== length)
+    throw new DecodeError("malformed", "is packed from another number of bytes");
+  try {
+    return await inflate([packed], length, "gzip");
+  } catch (error) {
+    throw new DecodeError("malformed", error instanceof Error ? error.message : String(error));
+  }
+}
+
+/** Replaces the residuals of one component by its values. `mask`: the bits that a value has. */
+function addPredictions(values: Uint32Array, prediction: Prediction, columns: number, mask: number): void {
+  // Elements before the first read as undefined, and `| 0` makes them 0.
+  const at = (n: number) => (values[n] ?? 0) | 0;
+  const set = (n: number, predicted: number) => {
+    const residual = at(n);
+    values[n] = (predicted + ((residual >>> 1) ^ -(residual & 1))) & mask;
+  };
+  const count = values.length;
+  switch (prediction) {
+    case "none":
+      for (let n = 0; n < count; ++n) set(n, 0);
+      return;
+    case "previous":
+      for (let n = 0; n < count; ++n) set(n, at(n - 1));
+      return;
+    case "linear":
+      for (let n = 0; n < count; ++n) set(n, n === 1 ? at(0) : 2 * at(n - 1) - at(n - 2));
+      return;
+    case "planar":
+      for (let n = 0; n < Math.min(columns, count); ++n) set(n, at(n - 1));
+      for (let first = columns; first < count; first += columns) {
+        set(first, at(first - columns));
+        for (let n = first + 1; n < first + columns; ++n) set(n, at(n - 1) + at(n - columns) - at(n - columns - 1));
+      }
+  }
+}

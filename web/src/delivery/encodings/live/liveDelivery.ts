@@ -1,0 +1,91 @@
+// Delivery of live streams: images of SIG classic for what is static (index, texture coordinates …), and images that
+// frames fill for coordinates and whatever else the stream has.
+
+import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
+import type { TextureStage } from "../../../stage/stage.ts";
+import { DecodeError } from "../../../decode/decodeError.ts";
+import { bytesPerTexel } from "../../patchFiles.ts";
+import type { PatchFile } from "../../patchFiles.ts";
+import type { LiveImages } from "../../resourcePool.ts";
+import type { StageBuilder } from "../../stageBuilder.ts";
+import { classicDelivery } from "../classic/classicDelivery.ts";
+import { textureStageBuilder } from "../classic/classicStage.ts";
+import type { EncodingDelivery } from "../encodingDelivery.ts";
+
+export const liveDelivery: EncodingDelivery = {
+  patchFilesOf: (geometry, patch, maxTextureSize) => [
+    ...streamFilesOf(patch),
+    ...classicDelivery
+      .patchFilesOf(geometry, patch, maxTextureSize)
+      .filter(({ role }) => role !== "coord" && role !== "value")
+      .map((file) => ({ ...file, target: { kind: "texture" } as const })),
+  ],
+  stageBuilder: (geometry, patch) => liveStageBuilder(geometry, patch),
+  needsWorkers: () => true,
+};
+
+/** The stream, as a file of the patch. */
+export function streamFilesOf({ coord: [reference], vertexCount, coord }: PatchDescription): PatchFile[] {
+  if (reference === undefined) return [];
+  const storedBytes = bytesPerTexel * vertexCount * coord.length;
+  const chunk = { type: "coord", plane: 0 } as const;
+  return [
+    { role: "coord", plane: 0, reference, target: { kind: "live" }, chunk, expectedBytes: storedBytes, storedBytes },
+  ];
+}
+
+function liveStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+  const builder = textureStageBuilder(geometry, patch);
+  let live: LiveImages | undefined;
+  const fileOf = (role: PatchFile["role"], plane: number): PatchFile => ({
+    role,
+    plane,
+    reference: { url: "", firstTexel: 0 },
+    target: { kind: "texture" },
+    chunk: { type: "coord", plane },
+    expectedBytes: 0,
+    storedBytes: 0,
+  });
+  const drop = (): void => {
+    live?.coord.forEach((_, plane) => {
+      builder.drop(fileOf("coord", plane));
+    });
+    live?.value.forEach((_, plane) => {
+      builder.drop(fileOf("value", plane));
+    });
+    if (live?.color) builder.drop(fileOf("color", 0));
+    live = undefined;
+  };
+  return {
+    ...builder,
+    accept(file, content, signal) {
+      if (file.role !== "coord") return builder.accept(file, content, signal);
+      if (content.kind !== "live") throw new DecodeError("malformed", "is no live stream");
+      live = content.images;
+      const accept = (role: PatchFile["role"], plane: number, image: LiveImages["coord"][number]) =>
+        builder.accept(fileOf(role, plane), { kind: "image", image, channels: 4 }, signal);
+      for (const [plane, image] of live.coord.entries()) void accept("coord", plane, image);
+      if (geometry.value !== undefined)
+        for (const [plane, image] of live.value.entries()) void accept("value", plane, image);
+      if (live.color) void accept("color", 0, live.color);
+      return undefined;
+    },
+    drop(file) {
+      if (file.role === "coord") drop();
+      else builder.drop(file);
+    },
+    clear() {
+      live = undefined;
+      builder.clear();
+    },
+    stage() {
+      const stage = builder.stage() as TextureStage | undefined;
+      if (stage === undefined) return undefined;
+      const bounded = { ...stage, bounds: patch.box };
+      if (live?.normal === undefined) return bounded;
+      const normal = { image: live.normal, firstTexel: 0 };
+      const attributes = { ...stage.attributes, normal };
+      return { ...bounded, attributes, normalFormat: { kind: "octahedral", bits: 16 } as const };
+    },
+  };
+}

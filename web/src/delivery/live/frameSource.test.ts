@@ -1,0 +1,169 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { encodeFrame } from "../../decode/frame/encodeFrame.testing.ts";
+import { readFrameHeader } from "../../decode/frame/frameHeader.ts";
+import { FrameSource } from "./frameSource.ts";
+
+const rate = 30;
+const intervalMs = 1000 / rate;
+const layout = {
+  vertices: 4,
+  columns: 2,
+  positionBits: 16,
+  normalBits: 0,
+  colorComponents: 0,
+  valueComponents: 0,
+  valueBits: 0,
+};
+
+interface Line {
+  /** Time that a frame takes on the way to the viewer; all frames share the line. */
+  readonly frameMs: number;
+  /** Whether a cache has kept every response since its frame appeared. */
+  readonly isCached?: boolean;
+  /** Times at which the server does not answer. */
+  readonly outage?: readonly [from: number, to: number];
+}
+
+/** Follows a stream of 30 frames a second for a time, on a simulated clock; returns when each frame was displayed. */
+async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, durationMs: number) {
+  let now = 0;
+  const sleepers: { readonly at: number; readonly wake: () => void }[] = [];
+  const sleep = (ms: number, signal?: AbortSignal | null) =>
+    new Promise<void>((resolve, reject) => {
+      sleepers.push({ at: now + ms, wake: resolve });
+      signal?.addEventListener("abort", () => {
+        reject(signal.reason as Error);
+      });
+    });
+  const newest = () => 100 + Math.floor(now / intervalMs);
+  let lineFreeAt = 0;
+  const isOut = () => now >= outage[0] && now < outage[1];
+  const answer = async (url: string, signal: AbortSignal | null | undefined): Promise<Response> => {
+    if (isOut()) throw new TypeError("connection refused");
+    if (url.endsWith("/latest")) {
+      const box = [
+        [0, 0, 0],
+        [1, 1, 1],
+      ];
+      const state = {
+        ...layout,
+        epoch: 100,
+        number: newest(),
+        next: newest() + 1,
+        rate,
+        origin: [0, 0, 0],
+        step: 1,
+        box,
+      };
+      return new Response(JSON.stringify(state));
+    }
+    const number = Number(url.split("/").at(-1));
+    if (number > newest() + 8) return new Response(null, { status: 404 });
+    while (number > newest()) await sleep((number - 100) * intervalMs - now + 0.01, signal);
+    lineFreeAt = Math.max(lineFreeAt, now) + frameMs;
+    const headers = { "imgeo-newest": `${isCached ? number : newest()}`, "imgeo-epoch": "100" };
+    const bytes = encodeFrame(
+      { ...layout, number, epoch: 100, time: 0, prediction: "planar" },
+      [1, 2, 3].map((value) => [value, value, value, value]),
+    );
+    const arrival = sleep(lineFreeAt - now, signal);
+    const body = new ReadableStream({
+      async pull(controller) {
+        await arrival;
+        controller.enqueue(bytes);
+        controller.close();
+      },
+    });
+    return new Response(body, { headers });
+  };
+  const displayed: {
+    readonly number: number;
+    readonly ageMs: number;
+    readonly skipped: number;
+    readonly at: number;
+  }[] = [];
+  const outages: Error[] = [];
+  let openRequests = 0;
+  let maxOpenRequests = 0;
+  const source = new FrameSource(
+    {
+      url: "http://a.example/live/test",
+      fetch: async (url, init) => {
+        openRequests += 1;
+        maxOpenRequests = Math.max(maxOpenRequests, openRequests);
+        try {
+          return await answer(url as string, init?.signal);
+        } finally {
+          openRequests -= 1;
+        }
+      },
+      // Unpacking would take real time, which the simulated clock does not know.
+      decode: (bytes) =>
+        Promise.resolve({
+          header: readFrameHeader(bytes),
+          width: 2,
+          height: 2,
+          coord: [],
+          normal: undefined,
+          color: undefined,
+          value: [],
+        }),
+      now: () => now,
+      delay: sleep,
+    },
+    {
+      onEpoch: () => undefined,
+      onFrame: ({ header: { number } }, skipped) => {
+        displayed.push({ number, skipped, at: now, ageMs: now - (number - 100) * intervalMs });
+      },
+      onOutage: (error) => {
+        outages.push(error);
+      },
+    },
+  );
+  source.start();
+  while (now < durationMs) {
+    // Real work, such as decoding, takes no simulated time.
+    for (let n = 0; n < 4; ++n) await new Promise((resolve) => setImmediate(resolve));
+    const next = sleepers.reduce((min, { at }) => Math.min(min, at), now + 5);
+    now = Math.max(now, Math.min(next, now + 5));
+    for (const sleeper of sleepers.filter(({ at }) => at <= now)) {
+      sleepers.splice(sleepers.indexOf(sleeper), 1);
+      sleeper.wake();
+    }
+  }
+  source.stop();
+  return { displayed, outages, maxOpenRequests };
+}
+
+const maxAge = (frames: readonly { ageMs: number }[]) => Math.max(...frames.slice(5).map(({ ageMs }) => ageMs));
+
+describe("a viewer", () => {
+  test("on a fast line displays every frame", async () => {
+    const { displayed, outages, maxOpenRequests } = await follow({ frameMs: 1 }, 3000);
+    assert.ok(displayed.length > 85, `${displayed.length} frames`);
+    assert.ok(displayed.every(({ skipped }) => skipped === 0));
+    assert.ok(maxAge(displayed) < 2 * intervalMs, `age ${maxAge(displayed)} ms`);
+    assert.ok(maxOpenRequests <= 3, `${maxOpenRequests} requests at a time`);
+    assert.deepEqual(outages, []);
+  });
+
+  for (const isCached of [false, true]) {
+    test(`on a line too slow for all frames ${isCached ? "behind a cache " : ""}skips, and stays current`, async () => {
+      const { displayed } = await follow({ frameMs: 60, isCached }, 6000);
+      assert.ok(displayed.length > 60, `${displayed.length} frames`);
+      assert.ok(maxAge(displayed) < 320, `age ${maxAge(displayed)} ms`);
+      const [first] = displayed;
+      const skipped = displayed.slice(1).reduce((sum, frame) => sum + frame.skipped + 1, 0);
+      assert.equal(skipped, (displayed.at(-1)?.number ?? 0) - (first?.number ?? 0));
+    });
+  }
+
+  test("reports an outage once, and goes on by itself", async () => {
+    const { displayed, outages } = await follow({ frameMs: 1, outage: [1000, 4000] }, 9000);
+    assert.equal(outages.length, 1);
+    assert.ok(displayed.some(({ at }) => at < 1000) && displayed.some(({ at }) => at > 4000));
+    assert.ok(!displayed.some(({ at }) => at > 1100 && at < 4000));
+  });
+});

@@ -1,0 +1,284 @@
+// Pulls the newest frames of a live stream (docs/live.md): two requests are outstanding, frames that are late are
+// skipped and never queued, and whatever fails is tried again.
+
+import { DecodeError } from "../../decode/decodeError.ts";
+import type { FrameImages } from "../../decode/frame/frameImages.ts";
+import { frameHeaderBytes, maxUnpackedBytes } from "../../decode/frame/frameHeader.ts";
+import { RequestError } from "../../scheduler/download.ts";
+import type { StreamState } from "./streamState.ts";
+import { readStreamState } from "./streamState.ts";
+
+export interface FrameSourceOptions {
+  /** The stream's, absolute, without "/latest". */
+  readonly url: string;
+  readonly fetch: typeof fetch;
+  /** Decodes a frame in a worker. Rejects with DecodeError, or with the signal's reason. */
+  readonly decode: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<FrameImages>;
+  /** Milliseconds of a clock that never runs backwards. */
+  readonly now: () => number;
+  /** Resolves after the given time, or rejects with the signal's reason. */
+  readonly delay: (ms: number, signal: AbortSignal) => Promise<void>;
+}
+
+export interface FrameSourceListener {
+  /** Called before the first frame and before that of another epoch. */
+  onEpoch(state: StreamState): void;
+  /** A frame newer than all before. `skipped`: the number of frames between it and the one before. */
+  onFrame(frame: FrameImages, skipped: number, byteLength: number): void;
+  /** No frame can be had. Called once until the next frame; the source tries on by itself. */
+  onOutage(error: Error): void;
+}
+
+/** Requests that wait for frames at the same time: with one, a frame in two would be missed on a slow line. */
+const outstanding = 2;
+/** After a failure `latest` is read again after this time, and after twice the time from failure to failure. */
+const firstPauseMs = 1000;
+const maxPauseMs = 15_000;
+/** A request that brings no answer, or no further byte, for this long has failed. The server answers after 10 s. */
+const idleMs = 20_000;
+/** A viewer that is further behind, by the publisher's rate, asks `latest` how far. */
+const maxFramesBehind = 3;
+const maxStateBytes = 2 ** 16;
+/** Larger than any frame: deflate makes incompressible bytes hardly longer. */
+const maxFrameBytes = frameHeaderBytes + 2 * maxUnpackedBytes;
+
+/** `latest` is to be read again, at once where the stream has another epoch. Nothing is wrong. */
+class StateIsOld extends Error {
+  readonly isUrgent: boolean;
+
+  constructor(isUrgent: boolean) {
+    super();
+    this.isUrgent = isUrgent;
+  }
+}
+
+export class FrameSource {
+  readonly #options: FrameSourceOptions;
+  readonly #listener: FrameSourceListener;
+  #running: AbortController | undefined;
+  #rate = 0;
+  #epoch: number | undefined;
+  /** The number of the frame that the listener has received last. */
+  #shown = -1;
+  #isOut = false;
+  /** The newest number that is known to have existed at a time. */
+  #newest = { number: 0, at: 0 };
+
+  constructor(options: FrameSourceOptions, listener: FrameSourceListener) {
+    this.#options = options;
+    this.#listener = listener;
+  }
+
+  get isRunning(): boolean {
+    return this.#running !== undefined;
+  }
+
+  /** Begins to request frames. */
+  start(): void {
+    if (this.#running !== undefined) return;
+    const aborter = (this.#running = new AbortController());
+    void this.#run(aborter.signal);
+  }
+
+  /** Aborts all requests. */
+  stop(): void {
+    this.#running?.abort();
+    this.#running = undefined;
+  }
+
+  /** Sets the largest number of frames that are requested per second; 0: all. */
+  setRate(rate: number): void {
+    if (rate === this.#rate) return;
+    this.#rate = rate;
+    if (!this.isRunning) return;
+    this.stop();
+    this.start();
+  }
+
+  async #run(signal: AbortSignal): Promise<void> {
+    let pauseMs = firstPauseMs / 2;
+    for (;;) {
+      const shownBefore = this.#shown;
+      try {
+        const state = await this.#readState(signal);
+        await this.#pull(state, signal);
+      } catch (error) {
+        if (signal.aborted) return;
+        if (error instanceof StateIsOld) {
+          if (error.isUrgent) continue;
+        } else {
+          this.#report(error);
+        }
+      }
+      pauseMs = this.#shown === shownBefore ? Math.min(2 * pauseMs, maxPauseMs) : firstPauseMs;
+      // Viewers that lost the same server do not return at the same moment.
+      await this.#options.delay(pauseMs * (1 + Math.random() / 2), signal).catch(() => undefined);
+      if (isAborted(signal)) return;
+    }
+  }
+
+  #report(error: unknown): void {
+    if (this.#isOut) return;
+    this.#isOut = true;
+    this.#listener.onOutage(error instanceof Error ? error : new Error(String(error)));
+  }
+
+  async #readState(signal: AbortSignal): Promise<StreamState> {
+    const bytes = await this.#get("/latest", maxStateBytes, signal);
+    const state = readStreamState(new TextDecoder().decode(bytes));
+    if (state.hasEnded) throw new RequestError("http", this.#options.url, "the stream has ended", 404);
+    if (state.epoch !== this.#epoch) {
+      this.#epoch = state.epoch;
+      this.#shown = Math.min(this.#shown, state.epoch - 1); // a server may have lost its clock
+      this.#listener.onEpoch(state);
+    }
+    this.#newest = { number: state.number ?? state.next - 1, at: this.#options.now() };
+    return state;
+  }
+
+  /** Requests frames until one request fails; then aborts the others and rejects with the failure. */
+  async #pull(state: StreamState, signal: AbortSignal): Promise<void> {
+    const lanes = new AbortController();
+    const all = AbortSignal.any([signal, lanes.signal]);
+    let requested = Math.max(this.#shown, (state.number ?? state.next) - 1);
+    // While a frame was on its way over a slow line, others have appeared.
+    const takeNumber = () => (requested = Math.max(requested + 1, this.#newest.number));
+    const lane = async () => {
+      for (;;) {
+        const number = takeNumber();
+        await this.#requestFrame(number, state, all);
+        if (number + maxFramesBehind < this.#expectedNewest(state)) await this.#readStateOf(state, all);
+      }
+    };
+    try {
+      if (this.#rate > 0) await this.#pullSlowly(takeNumber, state, all);
+      else await Promise.all(Array.from({ length: outstanding }, lane));
+    } finally {
+      lanes.abort();
+    }
+  }
+
+  /** Requests a frame, the newest then, at most `rate` times a second. */
+  async #pullSlowly(takeNumber: () => number, state: StreamState, signal: AbortSignal): Promise<void> {
+    for (;;) {
+      const due = this.#options.now() + 1000 / this.#rate;
+      await this.#requestFrame(takeNumber(), state, signal);
+      await this.#options.delay(Math.max(0, due - this.#options.now()), signal);
+      await this.#readStateOf(state, signal);
+    }
+  }
+
+  /** Learns the newest number. */
+  async #readStateOf({ epoch }: StreamState, signal: AbortSignal): Promise<void> {
+    if ((await this.#readState(signal)).epoch !== epoch) throw new StateIsOld(true);
+  }
+
+  /** The newest number by the publisher's rate. */
+  #expectedNewest({ rate }: StreamState): number {
+    return this.#newest.number + ((this.#options.now() - this.#newest.at) * rate) / 1000;
+  }
+
+  /**
+   * Notes what the head of a response tells: a frame that the server has waited for is the newest one. `Imgeo-Newest`
+   * of a response that a cache has kept may be too small.
+   */
+  #noteNewest(state: StreamState, number: number, requestedAt: number, stated: number): void {
+    const now = this.#options.now();
+    const hasWaited = now - requestedAt > 500 / (state.rate || 30);
+    const newest = hasWaited ? Math.max(number, stated) : stated;
+    if (hasWaited || newest > this.#expectedNewest(state)) this.#newest = { number: newest, at: now };
+  }
+
+  async #requestFrame(number: number, state: StreamState, signal: AbortSignal): Promise<void> {
+    const requestedAt = this.#options.now();
+    const bytes = await this.#get(`/frames/${number}`, maxFrameBytes, signal, (response) => {
+      this.#noteNewest(state, number, requestedAt, Number(response.headers.get("imgeo-newest") ?? 0));
+      const epoch = response.headers.get("imgeo-epoch");
+      if (epoch !== null && Number(epoch) !== state.epoch) throw new StateIsOld(true);
+    });
+    const byteLength = bytes.byteLength;
+    const frame = await this.#options.decode(bytes, signal);
+    signal.throwIfAborted();
+    const { header } = frame;
+    if (header.number !== number) throw new DecodeError("malformed", `is frame ${header.number} and not ${number}`);
+    if (header.epoch !== state.epoch) throw new StateIsOld(true);
+    if (!isSameLayout(header, state))
+      throw new DecodeError("malformed", `has other vertices than "latest" states for epoch ${state.epoch}`);
+    if (number <= this.#shown) return; // the other request was faster
+    const skipped = this.#shown < 0 ? 0 : number - this.#shown - 1;
+    this.#shown = number;
+    this.#isOut = false;
+    this.#listener.onFrame(frame, skipped, byteLength);
+  }
+
+  async #get(
+    path: string,
+    maxBytes: number,
+    signal: AbortSignal,
+    onHeaders: (response: Response) => void = () => undefined,
+  ): Promise<Uint8Array<ArrayBuffer>> {
+    const url = this.#options.url + path;
+    const idle = new AbortController();
+    let timer = setTimeout(() => {
+      idle.abort();
+    }, idleMs);
+    try {
+      const response = await this.#options.fetch(url, { signal: AbortSignal.any([signal, idle.signal]) });
+      if (!response.ok) {
+        await response.body?.cancel();
+        throw failureOf(url, path, response);
+      }
+      onHeaders(response);
+      const chunks: Uint8Array[] = [];
+      let length = 0;
+      const reader = response.body?.getReader();
+      for (let read = await reader?.read(); read && !read.done; read = await reader?.read()) {
+        clearTimeout(timer);
+        timer = setTimeout(() => {
+          idle.abort();
+        }, idleMs);
+        length += read.value.byteLength;
+        if (length > maxBytes) throw new RequestError("limit", url, `more than ${maxBytes} bytes came`);
+        chunks.push(read.value);
+      }
+      const bytes = new Uint8Array(length);
+      let at = 0;
+      for (const chunk of chunks) {
+        bytes.set(chunk, at);
+        at += chunk.byteLength;
+      }
+      return bytes;
+    } catch (error) {
+      if (signal.aborted) throw signal.reason;
+      if (idle.signal.aborted) throw new RequestError("timeout", url, `no byte came for ${idleMs / 1000} s`);
+      if (error instanceof RequestError || error instanceof DecodeError || error instanceof StateIsOld) throw error;
+      throw new RequestError("network", url, error instanceof Error ? error.message : String(error));
+    } finally {
+      clearTimeout(timer);
+    }
+  }
+}
+
+/** A function, because the type checker takes a property for what it was before an `await`. */
+function isAborted(signal: AbortSignal): boolean {
+  return signal.aborted;
+}
+
+function failureOf(url: string, path: string, { status, statusText }: Response): Error {
+  const isFrame = path !== "/latest";
+  if (isFrame && (status === 404 || status === 410)) return new StateIsOld(false); // it is too new, or gone
+  if (status === 503) return new RequestError("timeout", url, "the publisher sends no frames", status);
+  return new RequestError("http", url, `the server answered ${status} ${statusText}`.trim(), status);
+}
+
+function isSameLayout(a: FrameImages["header"], b: StreamState): boolean {
+  return (
+    a.vertices === b.vertices &&
+    a.columns === b.columns &&
+    a.positionBits === b.positionBits &&
+    a.normalBits === b.normalBits &&
+    a.colorComponents === b.colorComponents &&
+    a.valueComponents === b.valueComponents &&
+    a.valueBits === b.valueBits
+  );
+}

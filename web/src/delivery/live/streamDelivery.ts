@@ -1,0 +1,265 @@
+// The delivery of a live stream. When the stream has stated its lattice and its vertices, a delivery of its static files
+// begins, to which the stream is one more file; frames then change the vertices of the delivered stage. Another epoch
+// gets a delivery of its own, which replaces the one before when it is whole.
+
+import type { FrameImages } from "../../decode/frame/frameImages.ts";
+import { DecodeError } from "../../decode/decodeError.ts";
+import type { GeometryDescription, Playback } from "../../document/description.ts";
+import type { BudgetRequest } from "../../scheduler/budget.ts";
+import type { Stage } from "../../stage/stage.ts";
+import { asDeliveryError } from "../deliveryError.ts";
+import { streamFilesOf } from "../encodings/live/liveDelivery.ts";
+import type { Delivery, DeliveryListener, FilePool, FilePriority, LiveFrame } from "../geometryDelivery.ts";
+import { deliverGeometry } from "../geometryDelivery.ts";
+import type { Transfer } from "../progress.ts";
+import type { Content, ResourceHandle, ResourcePool, ResourceRequest } from "../resourcePool.ts";
+import { FrameSource } from "./frameSource.ts";
+import { FrameTarget } from "./liveImages.ts";
+import type { StreamState } from "./streamState.ts";
+import { withStreamState } from "./streamGeometry.ts";
+
+/** The delivery of the frames of one epoch. */
+interface EpochDelivery {
+  readonly geometry: GeometryDescription;
+  readonly delivery: Delivery;
+  /** Resolves with the images of the first frame. */
+  readonly content: PromiseWithResolvers<Content>;
+  target: FrameTarget | undefined;
+  stage: Stage | undefined;
+  /** The newest frame, while the listener does not know that it is displayed. */
+  frame: LiveFrame | undefined;
+}
+
+/** Requests nothing before `request` is called. Never calls the listener before it returns. */
+export function deliverStream(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener): Delivery {
+  return new StreamDelivery(geometry, pool, listener);
+}
+
+class StreamDelivery implements Delivery {
+  readonly #geometry: GeometryDescription;
+  readonly #pool: ResourcePool;
+  readonly #listener: DeliveryListener;
+  readonly #source: FrameSource;
+  readonly #transfer: Transfer;
+  #displayed: EpochDelivery | undefined;
+  /** The newest epoch, which is not displayed yet. */
+  #next: EpochDelivery | undefined;
+  #priorityOf: FilePriority = () => undefined;
+  /** Whether the shape is visible. */
+  #isNeeded = false;
+  #isSupported = false;
+  #isPaused = false;
+  #isCancelled = false;
+
+  constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
+    this.#geometry = geometry;
+    this.#pool = pool;
+    this.#listener = listener;
+    const url = geometry.patches[0]?.coord[0]?.url ?? "";
+    this.#transfer = { url, state: "waiting", loadedBytes: 0, totalBytes: 0, tries: 0, error: undefined };
+    this.#source = new FrameSource(
+      {
+        url: pool.resolve(url),
+        fetch: pool.fetch,
+        decode: (bytes, signal) => pool.runJob("frameImages", bytes, signal),
+        now: () => performance.now(),
+        delay: pause,
+      },
+      {
+        onEpoch: (state) => {
+          this.#onEpoch(state);
+        },
+        onFrame: (frame, skipped, byteLength) => {
+          this.#onFrame(frame, skipped, byteLength);
+        },
+        onOutage: (error) => {
+          this.#onOutage(error);
+        },
+      },
+    );
+  }
+
+  get transfers(): readonly Readonly<Transfer>[] {
+    const others = this.#newest?.delivery.transfers ?? [];
+    const transfers = others.includes(this.#transfer) ? others : [this.#transfer, ...others];
+    return this.#transfer.tries === 0 ? [] : transfers;
+  }
+
+  /** Before its first frame a stream that cannot be reached counts as a file that has failed. */
+  get isSettled(): boolean {
+    if (this.#transfer.state === "failed" || this.#transfer.tries === 0) return true;
+    return this.#newest?.delivery.isSettled ?? false;
+  }
+
+  /** Never: `request` tells the stream whether it is visible. */
+  readonly isExhausted = false;
+
+  get storedBytes(): number {
+    return (this.#displayed?.delivery.storedBytes ?? 0) + (this.#next?.delivery.storedBytes ?? 0);
+  }
+
+  budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[] {
+    return this.#newest?.delivery.budgetRequests(priorityOf) ?? [];
+  }
+
+  request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
+    this.#priorityOf = priorityOf;
+    const [file] = this.#geometry.patches.flatMap(streamFilesOf);
+    this.#isNeeded = file !== undefined && priorityOf(0, file) !== undefined;
+    if (this.#isNeeded && this.#transfer.tries === 0) {
+      this.#transfer.tries = 1;
+      this.#transfer.state = "loading";
+      void this.#checkSupport();
+    }
+    this.#followNeeds();
+    this.#newest?.delivery.request(priorityOf, granted);
+  }
+
+  setPlayback({ paused, rate }: Playback): void {
+    this.#isPaused = paused;
+    this.#source.setRate(Math.max(0, rate));
+    this.#followNeeds();
+  }
+
+  cancel(): void {
+    this.#isCancelled = true;
+    this.#source.stop();
+    for (const epoch of [this.#displayed, this.#next]) if (epoch) close(epoch);
+  }
+
+  get #newest(): EpochDelivery | undefined {
+    return this.#next ?? this.#displayed;
+  }
+
+  /** Frames are requested while the shape is visible; if it is paused, until the first one is displayed. */
+  #followNeeds(): void {
+    const isRunning = this.#isSupported && this.#isNeeded && !(this.#isPaused && this.#displayed !== undefined);
+    if (isRunning) this.#source.start();
+    else this.#source.stop();
+  }
+
+  async #checkSupport(): Promise<void> {
+    const { decode, ccw } = this.#geometry;
+    this.#isSupported = decode !== "cpu" && ccw && (await this.#pool.readsTextures());
+    if (this.#isCancelled) return;
+    if (this.#isSupported) this.#followNeeds();
+    else
+      this.#onOutage(new DecodeError("unsupported", 'is drawn only where the GPU reads images, and with ccw="true"'));
+  }
+
+  #onEpoch(state: StreamState): void {
+    if (this.#next) close(this.#next);
+    const geometry = withStreamState(this.#geometry, state);
+    const content = Promise.withResolvers<Content>();
+    content.promise.catch(() => undefined); // there may be nobody who waits for it
+    const epoch: EpochDelivery = {
+      geometry,
+      content,
+      target: undefined,
+      stage: undefined,
+      frame: undefined,
+      delivery: deliverGeometry(geometry, this.#poolWith(content.promise), {
+        onStage: (_, stage) => {
+          epoch.stage = stage;
+          if (epoch === this.#displayed) this.#listener.onStage(0, stage, geometry);
+          else this.#displayWhole();
+        },
+        onError: (error) => {
+          this.#listener.onError(error);
+        },
+        onSettled: () => {
+          this.#displayWhole();
+          if (epoch === this.#newest) this.#listener.onSettled();
+        },
+      }),
+    };
+    this.#next = epoch;
+    epoch.delivery.request(this.#priorityOf);
+  }
+
+  #onFrame(frame: FrameImages, skipped: number, byteLength: number): void {
+    const epoch = this.#newest;
+    if (epoch === undefined) return;
+    const { number, time } = frame.header;
+    if (this.#transfer.state !== "ready") {
+      this.#transfer.loadedBytes = this.#transfer.totalBytes = byteLength;
+      this.#transfer.state = "ready";
+      this.#transfer.error = undefined;
+    }
+    if (epoch.target !== undefined) {
+      epoch.target.write(frame);
+    } else {
+      epoch.target = new FrameTarget(frame, (width, height) => this.#pool.makeWritableImage(width, height));
+      epoch.content.resolve({ kind: "live", images: epoch.target });
+    }
+    epoch.frame = { number, time, skipped: skipped + (epoch.frame ? epoch.frame.skipped + 1 : 0) };
+    if (epoch === this.#displayed) this.#reportFrame(epoch);
+  }
+
+  #reportFrame(epoch: EpochDelivery): void {
+    if (epoch.frame !== undefined) this.#listener.onFrame?.(epoch.frame);
+    epoch.frame = undefined;
+  }
+
+  /** The picture stays as it is. */
+  #onOutage(error: Error): void {
+    this.#listener.onError(asDeliveryError(error, this.#transfer.url));
+    if (this.#displayed !== undefined) return;
+    this.#transfer.state = "failed";
+    this.#transfer.error = error.message;
+    this.#listener.onSettled();
+  }
+
+  /** Displays the newest epoch if all its files have arrived, or if none is displayed. */
+  #displayWhole(): void {
+    const epoch = this.#next;
+    if (epoch?.stage === undefined || (this.#displayed !== undefined && !epoch.delivery.isSettled)) return;
+    const before = this.#displayed;
+    this.#displayed = epoch;
+    this.#next = undefined;
+    this.#listener.onStage(0, epoch.stage, epoch.geometry);
+    this.#reportFrame(epoch);
+    if (before) close(before);
+    this.#followNeeds();
+  }
+
+  /** The pool, with the frames of an epoch as the content of the stream. */
+  #poolWith(content: Promise<Content>): FilePool {
+    const pool = this.#pool;
+    return {
+      runJob: pool.runJob,
+      storeBytes: pool.storeBytes,
+      maxTextureSize: pool.maxTextureSize,
+      acquire: (request: ResourceRequest): ResourceHandle =>
+        request.kind !== "live"
+          ? pool.acquire(request)
+          : {
+              transfer: this.#transfer,
+              content,
+              setPriority: () => undefined,
+              fail: () => undefined,
+              finish: () => undefined,
+              release: () => undefined,
+            },
+    };
+  }
+}
+
+function close({ delivery, target }: EpochDelivery): void {
+  delivery.cancel();
+  target?.close();
+}
+
+function pause(ms: number, signal: AbortSignal): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(resolve, ms);
+    signal.addEventListener(
+      "abort",
+      () => {
+        clearTimeout(timer);
+        reject(signal.reason as Error);
+      },
+      { once: true },
+    );
+  });
+}
