@@ -14,6 +14,7 @@ int runSample(const Arguments& arguments);
 /// `imgeo sample MOTION --live`
 int runLiveSample(const Arguments& arguments);
 int runServe(const Arguments& arguments);
+int runPublish(const Arguments& arguments);
 int runCompletion(const Arguments& arguments);
 int runManual(const Arguments& arguments);
 

@@ -310,6 +310,33 @@ Command serveCommand() {
                        "imgeo serve site --live --token secret"}};
 }
 
+Command publishCommand() {
+  const auto required = [](Flag flag) {
+    flag.required = true;
+    return flag;
+  };
+  Flag name = textFlag("name", "NAME", "the stream's name: /live/NAME");
+  name.defaultValue = "stream";
+  return {.name = "publish",
+          .usage = "--vertices N|CxR --box X,Y,Z,X,Y,Z [options] < FRAMES",
+          .summary = "publish frames of vertices from a pipe as a live stream",
+          .text = "Reads frames of 32-bit floats, little-endian, from standard input: x y z of all vertices, then the "
+                  "normals, the colours and the values of all of them, where the stream has them.",
+          .flags = {required(textFlag("vertices", "N|CxR", "the vertices, or columns and rows of their grid")),
+                    required(textFlag("box", "NUMBERS", "the smallest x,y,z and the largest; others are clamped")),
+                    name, integer("bits", {}, 8, 24, "16", "bits of a coordinate"),
+                    integer("normals", {}, 0, 16, "0", "bits of a normal's number, 8..16; 0: there are no normals"),
+                    integer("colors", {}, 0, 4, "0", "components of a colour, 3 or 4 from 0 to 1; 0: none"),
+                    textFlag("values", "NUMBERS", "the smallest and the largest value of each component"),
+                    integer("rate", {}, 0, 1000, "0", "frames per second; faster ones are dropped. 0: no limit"),
+                    textFlag("to", "URL", "the server to publish to; otherwise this command is the server"),
+                    textFlag("token", "TOKEN", "with --to: the server's token; otherwise the variable IMGEO_TOKEN"),
+                    portFlag("8090"), hostFlag(), helpFlag()},
+          .examples = {"./simulation | imgeo publish --vertices 128x128 --box -1,-1,-1,1,1,1 --rate 30",
+                       "./scanner | imgeo publish --vertices 50000 --box -40,-3,-40,40,20,40 --name street "
+                       "--to http://example.org:8080 --token secret"}};
+}
+
 Command completionCommand() {
   Flag shell = positional("shell", "SHELL", ValueKind::choice, "bash, zsh or fish");
   shell.choices = {"bash", "zsh", "fish"};
@@ -335,8 +362,9 @@ Command manualCommand() {
 } // namespace
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all{convertCommand(), infoCommand(),  verifyCommand(),     exportCommand(),
-                                        sampleCommand(),  serveCommand(), completionCommand(), manualCommand()};
+  static const std::vector<Command> all{convertCommand(), infoCommand(),       verifyCommand(),
+                                        exportCommand(),  sampleCommand(),     serveCommand(),
+                                        publishCommand(), completionCommand(), manualCommand()};
   return all;
 }
 

@@ -37,6 +37,8 @@ int run(const Arguments& arguments) {
     return runSample(arguments);
   if (name == "serve")
     return runServe(arguments);
+  if (name == "publish")
+    return runPublish(arguments);
   if (name == "completion")
     return runCompletion(arguments);
   return runManual(arguments);

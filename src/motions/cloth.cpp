@@ -13,7 +13,7 @@ constexpr int substeps = 8;         ///< many small steps stretch less than many
 constexpr float damping = 0.6F;     ///< share of the speed that is lost in a second
 constexpr float airResistance = 9;  ///< acceleration by air that flows along the normal, in 1/s
 constexpr float maxStretch = 1.02F; ///< of the distance to the vertex from which a column hangs
-constexpr float shearStiffness = 0.2F, bendStiffness = 0.1F;
+constexpr float shearStiffness = 0.2F, bendResistance = 0.2F;
 constexpr float innerFriction = 0.5F; ///< 0..1, each frame
 
 /// A wind whose strength and direction change smoothly: sums of sines with random phases.
@@ -76,7 +76,7 @@ public:
     time_ += static_cast<float>(seconds);
     wind_.setTime(time_);
     applyForces(static_cast<float>(seconds));
-    smoothVelocities();
+    smooth(velocities_, innerFriction);
     for (int i = 0; i < substeps; ++i)
       advanceBy(static_cast<float>(seconds) / substeps);
     store();
@@ -97,22 +97,22 @@ private:
       }
   }
 
-  /// Inner friction: the velocity of each vertex approaches the mean of its neighbours', so that folds are wider than
-  /// the cells of the grid.
-  void smoothVelocities() {
-    for (std::vector<float>* axis : {&velocities_.x, &velocities_.y, &velocities_.z}) {
-      std::vector<float>& sum = scratch_;
-      sum = *axis;
+  /// Moves each vector towards the mean of its neighbours' by this share. It makes folds wider than the cells of the
+  /// grid: of velocities it is inner friction, of positions resistance to bending.
+  void smooth(Coordinates& vectors, float share) {
+    for (std::vector<float>* axis : {&vectors.x, &vectors.y, &vectors.z}) {
+      scratch_ = *axis;
       for (std::uint32_t row = 1; row + 1 < columns_; ++row) {
         const float* value = axis->data() + std::size_t{row} * columns_;
         const float *above = value - columns_, *below = value + columns_;
-        float* out = sum.data() + std::size_t{row} * columns_;
+        float* out = scratch_.data() + std::size_t{row} * columns_;
+#pragma GCC ivdep
         for (std::uint32_t i = 1; i + 1 < columns_; ++i) {
           const float neighbours = value[i - 1] + value[i + 1] + above[i] + below[i];
-          out[i] = value[i] + innerFriction * (neighbours / 4 - value[i]);
+          out[i] = value[i] + share * (neighbours / 4 - value[i]);
         }
       }
-      std::swap(*axis, sum);
+      std::swap(*axis, scratch_);
     }
   }
 
@@ -124,6 +124,7 @@ private:
       current_.z[i] += velocities_.z[i] * step;
     }
     satisfyConstraints();
+    smooth(current_, bendResistance);
     const float rate = 1 / step;
     for (std::size_t i = columns_; i < positions_.size(); ++i) {
       velocities_.x[i] = (current_.x[i] - before_.x[i]) * rate;
@@ -149,8 +150,6 @@ private:
       satisfyBetween(row, 0, 0, spacing_, 1, upperShare);
       satisfyBetween(row, 0, 1, diagonal, shearStiffness, upperShare);
       satisfyBetween(row, 1, 0, diagonal, shearStiffness, upperShare);
-      if (row + 2 < columns_)
-        satisfyBetween(row, 0, columns_, 2 * spacing_, bendStiffness, upperShare);
       satisfyAlong(row + 1);
       limitStretch(row + 1);
     }
@@ -162,7 +161,7 @@ private:
     const std::size_t a = std::size_t{row} * columns_ + first, b = std::size_t{row + 1} * columns_ + second;
     float *ax = &current_.x[a], *ay = &current_.y[a], *az = &current_.z[a];
     float *bx = &current_.x[b], *by = &current_.y[b], *bz = &current_.z[b];
-    const std::uint32_t count = columns_ - std::max(first, second % columns_);
+    const std::uint32_t count = columns_ - std::max(first, second);
 #pragma GCC ivdep
     for (std::uint32_t i = 0; i < count; ++i) {
       const float dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];

@@ -2,7 +2,7 @@ _imgeo() {
   local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}"
   COMPREPLY=()
   if [[ $COMP_CWORD -eq 1 ]]; then
-    COMPREPLY=($(compgen -W "convert info verify export sample serve completion manual --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "convert info verify export sample serve publish completion manual --help --version" -- "$word"))
     return
   fi
   case "${COMP_WORDS[1]} $before" in
@@ -58,6 +58,18 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
     "serve --token") COMPREPLY=(); return ;;
     "serve --view-token") COMPREPLY=(); return ;;
+    "publish --vertices") COMPREPLY=(); return ;;
+    "publish --box") COMPREPLY=(); return ;;
+    "publish --name") COMPREPLY=(); return ;;
+    "publish --bits") COMPREPLY=(); return ;;
+    "publish --normals") COMPREPLY=(); return ;;
+    "publish --colors") COMPREPLY=(); return ;;
+    "publish --values") COMPREPLY=(); return ;;
+    "publish --rate") COMPREPLY=(); return ;;
+    "publish --to") COMPREPLY=(); return ;;
+    "publish --token") COMPREPLY=(); return ;;
+    "publish --port") COMPREPLY=(); return ;;
+    "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
     convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
@@ -66,6 +78,7 @@ _imgeo() {
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --rate --to --token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;
     manual) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
   esac
