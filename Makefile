@@ -10,7 +10,7 @@ export MODEL PORT
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall terrain test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -35,6 +35,9 @@ museum: build ## serve the museum example: the Stanford dragon with rotation, no
 
 hall: build ## serve a hall of 4 million triangles to walk through [PORT=8080]
 	@scripts/demo --hall
+
+terrain: build ## serve an elevation model, coloured by height [PORT=8080]
+	@scripts/demo --terrain
 
 test: dependencies ## run every test: C++, TypeScript and the browser
 	@scripts/test

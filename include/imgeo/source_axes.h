@@ -23,11 +23,13 @@ struct AxisRotation {
   friend bool operator==(const AxisRotation&, const AxisRotation&) = default;
 };
 
-/// The steps from source to document coordinates, in their order: `up` becomes y, the rotations, the scale.
+/// The steps from source to document coordinates, in their order: `up` becomes y, the rotations, the scale, the
+/// exaggeration.
 struct SourceAxes {
   AxisDirection up = AxisDirection::y;   ///< the source's direction that becomes y
   std::vector<AxisRotation> rotations{}; ///< about the document's axes, the first one first
   double scale = 1;                      ///< document units in a unit of the source
+  double exaggeration = 1;               ///< factor of heights, along y
   /// Whether all members are equal.
   friend bool operator==(const SourceAxes&, const SourceAxes&) = default;
 };
@@ -37,6 +39,7 @@ struct SourceAxesOptions {
   std::optional<AxisDirection> up{};     ///< nothing: what the format says, otherwise a guess by the shape
   std::vector<AxisRotation> rotations{}; ///< see SourceAxes
   double scale = 1;                      ///< a factor, greater than 0
+  double exaggeration = 1;               ///< a factor of heights, greater than 0
   std::optional<double> metres{};        ///< length of the source's unit; nothing: what the file says, otherwise 1
 };
 

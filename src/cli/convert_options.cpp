@@ -48,12 +48,13 @@ std::vector<AxisRotation> rotationsFrom(const std::string& text) {
   return rotations;
 }
 
-double scaleFrom(const std::string& text) {
+/// The factor that an option states.
+double factorFrom(const char* option, const std::string& text) {
   double scale = 0;
   const char* const end = text.data() + text.size();
   const auto [last, fault] = std::from_chars(text.data(), end, scale);
   if (fault != std::errc{} || last != end || !(scale >= 1e-12 && scale <= 1e12))
-    throw Error(ErrorKind::usage, "--scale", fmt::format("\"{}\" is not a factor within 1e-12..1e12", text));
+    throw Error(ErrorKind::usage, option, fmt::format("\"{}\" is not a factor within 1e-12..1e12", text));
   return scale;
 }
 
@@ -137,7 +138,8 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
   options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
   options.axes = {.up = valueNamed(upChoices, arguments.text("up")),
                   .rotations = rotationsFrom(arguments.text("rotate")),
-                  .scale = scaleFrom(arguments.text("scale")),
+                  .scale = factorFrom("--scale", arguments.text("scale")),
+                  .exaggeration = factorFrom("--exaggerate", arguments.text("exaggerate")),
                   .metres = valueNamed(unitChoices, arguments.text("unit"))};
   options.view = valueNamed(viewChoices, arguments.text("view"));
   options.pictures = !arguments.has("no-pictures");

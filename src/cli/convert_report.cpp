@@ -102,6 +102,8 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   if (report.axes.axes.scale != 1)
     printLine("scale",
               fmt::format("{:.6g} metres a unit; the unit is {}", report.axes.axes.scale, report.axes.unitReason));
+  if (report.axes.axes.exaggeration != 1)
+    printLine("heights", fmt::format("exaggerated {:.6g} times", report.axes.axes.exaggeration));
   if (report.patches == 0) { // a scene of a few primitives
     printLine("elements", "none to encode: what geometry there is stays in the document as it is");
     return printTextures(report.textures);
@@ -191,6 +193,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   for (const AxisRotation& rotation : report.axes.axes.rotations)
     json["rotate"].push_back(fmt::format("{}:{}", static_cast<char>('x' + rotation.axis), rotation.degrees));
   json["scale"] = report.axes.axes.scale;
+  json["exaggeration"] = report.axes.axes.exaggeration;
   json["view"] = arguments.text("view");
   json["container"] = arguments.text("container");
   json["profile"] = rowOf(report.encoding).profile;

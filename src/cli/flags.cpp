@@ -87,6 +87,11 @@ Command convertCommand() {
                  .valueName = "FACTOR",
                  .help = "then multiply its lengths",
                  .defaultValue = "1"},
+                {.name = "exaggerate",
+                 .valueKind = ValueKind::text,
+                 .valueName = "FACTOR",
+                 .help = "then multiply its heights, as maps of terrain do",
+                 .defaultValue = "1"},
                 choice("unit", namesOf(unitChoices),
                        "the unit of the source's numbers, which become metres; auto: what the file says, otherwise m"),
                 choice("view", namesOf(viewChoices),
@@ -184,6 +189,7 @@ Command convertCommand() {
                    "imgeo convert house.glb -o site --textures webp --texture-size 2048",
                    "imgeo convert cloud.ply -o site -vp 20 --title \"The cave\"",
                    "imgeo convert scan.ply -o site --keep-attributes intensity",
+                   "imgeo convert dem.tif -o terrain --exaggerate 2",
                    "curl -s https://example.org/part.stl | imgeo convert - -o site",
                    "imgeo convert statue.ply -o site --json | jq .bytesPerTriangle"}};
 }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "import/assimp/assimp.h"
+#include "import/dem/dem.h"
 #include "import/gltf/gltf.h"
 #include "import/gltf/gltf1.h"
 #include "import/obj/obj.h"
@@ -34,7 +35,7 @@ constexpr std::array plyExtensions{".ply"sv};
 constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 
-constexpr std::array<Format, 10> rows{{
+constexpr std::array<Format, 11> rows{{
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "HTML",
      .help = "HTML",
@@ -68,6 +69,12 @@ constexpr std::array<Format, 10> rows{{
      .sniffing = Sniffing::heuristic,
      .read = readObj},
     {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = isStl, .read = readStl},
+    {.name = "GeoTIFF and other grids of heights",
+     .help = "GeoTIFF",
+     .extensions = demExtensions,
+     .sniff = isDem,
+     .isYUpInMetres = true,
+     .read = readDem},
     {.name = "those of Assimp (Collada, FBX, 3DS ...)", .readsExtension = isReadByAssimp, .read = readByAssimp},
 }};
 

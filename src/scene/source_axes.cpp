@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <span>
 #include <string_view>
@@ -62,6 +63,17 @@ void wrap(SceneGraph& graph, const Affine3d& map) {
   graph.roots = std::move(before);
 }
 
+/// Adds the factor of heights to the Transform of wrap() as metadata.
+void stateExaggeration(SceneGraph& graph, double exaggeration) {
+  Node metadata{"", GenericNode{"MetadataDouble", "", {}}, {}, ""};
+  metadata.fields = {
+      {"containerField", "metadata"}, {"name", "verticalExaggeration"}, {"value", fmt::format("{}", exaggeration)}};
+  const std::size_t index = addNode(graph, std::move(metadata));
+  for (const std::size_t root : graph.roots)
+    if (Node& node = graph.nodes[root]; std::holds_alternative<Transform>(node.content))
+      node.children.insert(node.children.begin(), index);
+}
+
 } // namespace
 
 const char* nameOf(AxisDirection direction) {
@@ -73,12 +85,20 @@ Affine3d documentFromSource(const SourceAxes& axes) {
   Affine3d map = uprightFrom(axes.up);
   for (const AxisRotation& rotation : axes.rotations)
     map = rotationOf(rotation) * map;
-  return {map.x * axes.scale, map.y * axes.scale, map.z * axes.scale, {}};
+  for (Vec3d* column : {&map.x, &map.y, &map.z}) {
+    *column = *column * axes.scale;
+    column->y *= axes.exaggeration;
+  }
+  return map;
 }
 
 void applySourceAxes(SceneGraph& graph, const SourceAxes& axes) {
-  if (const Affine3d map = documentFromSource(axes); map != Affine3d{})
-    wrap(graph, map);
+  const Affine3d map = documentFromSource(axes);
+  if (map == Affine3d{})
+    return;
+  wrap(graph, map);
+  if (axes.exaggeration != 1)
+    stateExaggeration(graph, axes.exaggeration);
 }
 
 void undoSourceAxes(SceneGraph& graph, const SourceAxes& axes) {
@@ -86,9 +106,9 @@ void undoSourceAxes(SceneGraph& graph, const SourceAxes& axes) {
   if (map == Affine3d{})
     return;
   // The inverse of a rotation is its transpose.
-  const double scale = 1 / (axes.scale * axes.scale);
+  const double scale = 1 / (axes.scale * axes.scale), height = scale / (axes.exaggeration * axes.exaggeration);
   wrap(graph, {Vec3d{map.x.x, map.y.x, map.z.x} * scale,
-               Vec3d{map.x.y, map.y.y, map.z.y} * scale,
+               Vec3d{map.x.y, map.y.y, map.z.y} * height,
                Vec3d{map.x.z, map.y.z, map.z.z} * scale,
                {}});
 }

@@ -29,7 +29,7 @@ TEST(SourceAxes, RotateInTheirOrderAndThenScale) {
 }
 
 TEST(SourceAxes, AreOneTransformAndCanBeUndone) {
-  const SourceAxes axes{.up = AxisDirection::z, .rotations = {{1, 25}}, .scale = 0.001};
+  const SourceAxes axes{.up = AxisDirection::z, .rotations = {{1, 25}, {0, 10}}, .scale = 0.001, .exaggeration = 3};
   Scene scene = testing::sceneOf({testing::sphere(4, 4), testing::sphere(4, 4)});
   applySourceAxes(scene.graph, axes);
   ASSERT_EQ(scene.graph.roots.size(), 1u);

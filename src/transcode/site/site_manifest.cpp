@@ -34,6 +34,8 @@ void writeAxes(nlohmann::ordered_json& json, const SourceAxes& axes) {
     json["rotate"].push_back({{"axis", nameOf(axisDirections[rotation.axis])}, {"degrees", rotation.degrees}});
   if (axes.scale != 1)
     json["scale"] = axes.scale;
+  if (axes.exaggeration != 1)
+    json["exaggeration"] = axes.exaggeration;
 }
 
 SourceAxes readAxes(const nlohmann::json& json, const std::string& location) {
@@ -46,8 +48,10 @@ SourceAxes readAxes(const nlohmann::json& json, const std::string& location) {
     axes.rotations.push_back({static_cast<int>(axis), rotation.at("degrees")});
   }
   axes.scale = json.value("scale", 1.0);
-  if (!(axes.scale > 0) || !std::isfinite(axes.scale))
-    throw Error(ErrorKind::malformed, location, "has a scale that is not a positive number");
+  axes.exaggeration = json.value("exaggeration", 1.0);
+  for (const double factor : {axes.scale, axes.exaggeration})
+    if (!(factor > 0) || !std::isfinite(factor))
+      throw Error(ErrorKind::malformed, location, "has a scale or an exaggeration that is not a positive number");
   return axes;
 }
 

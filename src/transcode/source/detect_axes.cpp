@@ -33,6 +33,7 @@ SourceAxesReport detectAxes(const Imported& imported, const SourceAxesOptions& o
   SourceAxesReport report;
   resolveUp(imported, options, report);
   report.axes.rotations = options.rotations;
+  report.axes.exaggeration = options.exaggeration;
   report.axes.scale = options.scale * options.metres.value_or(imported.metres.value_or(1));
   report.unitReason = options.metres    ? "stated"
                       : imported.metres ? fmt::format("as {} has it", imported.format)

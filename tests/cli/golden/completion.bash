@@ -11,6 +11,7 @@ _imgeo() {
     "convert --up") COMPREPLY=($(compgen -W "auto x y z -x -y -z" -- "$word")); return ;;
     "convert --rotate") COMPREPLY=(); return ;;
     "convert --scale") COMPREPLY=(); return ;;
+    "convert --exaggerate") COMPREPLY=(); return ;;
     "convert --unit") COMPREPLY=($(compgen -W "auto m cm mm um km in ft yd mi" -- "$word")); return ;;
     "convert --view") COMPREPLY=($(compgen -W "auto front left back right top bottom" -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
@@ -72,7 +73,7 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

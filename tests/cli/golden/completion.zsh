@@ -21,13 +21,14 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
-      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL or GeoTIFF file, gzipped or not; "-" reads standard input]:input:_files' \
+      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL or GeoTIFF file, gzipped or not; "-" reads standard input]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
       '--rotate[then turn the source\: y\:90 about the upward axis, x\:-30,y\:90 about x first]:rotate: ' \
       '--scale[then multiply its lengths]:scale: ' \
+      '--exaggerate[then multiply its heights, as maps of terrain do]:exaggerate: ' \
       '--unit[the unit of the source'\''s numbers, which become metres; auto\: what the file says, otherwise m]:unit:(auto m cm mm um km in ft yd mi)' \
       '--view[the side that is shown first; auto\: the source'\''s viewpoint, otherwise the three-quarter view that shows the most of the surface]:view:(auto front left back right top bottom)' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \

@@ -1,0 +1,56 @@
+// Converts elevation models, and reads the sites back.
+
+#include "base/error.h"
+#include "scene/shape_instances.h"
+#include "transcode/site/testing.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+/// An ASCII grid of hills with a hole of one cell.
+std::string hills(int columns, int rows) {
+  std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n"
+                                 "NODATA_value -9999\n",
+                                 columns, rows);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      text +=
+          row == 7 && column == 9 ? "-9999 " : fmt::format("{:.2f} ", 300 + 80 * std::sin(column / 5.0 + row / 7.0));
+  return text;
+}
+
+TEST(TerrainSite, EqualsItsSourceAndKeepsItsGeoreferenceWhateverItsExaggeration) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "hills.asc", asBytes(hills(60, 50)));
+  for (const double exaggeration : {1.0, 3.0}) {
+    SCOPED_TRACE(exaggeration);
+    ConvertOptions options;
+    options.pictures = false;
+    options.axes.exaggeration = exaggeration;
+    const ConvertReport report = convert(directory / "hills.asc", directory / "site", options);
+    EXPECT_EQ(report.format, "AAIGrid");
+    EXPECT_EQ(report.elements.triangles, 2u * 59 * 49 - 4);
+    EXPECT_EQ(report.encoding, Encoding::compact);
+    EXPECT_TRUE(report.warnings.empty()) << ::testing::PrintToString(report.warnings);
+    const VerifyReport verified = verify(directory / "site", directory / "hills.asc");
+    EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+
+    const SiteDocument document = openDocument(directory / "site");
+    for (const char* name : {"geoTransform", "origin", "metresPerUnit", "noData", "cells"})
+      EXPECT_NE(document.text.find(fmt::format("name=\"{}\"", name)), std::string::npos) << name;
+    EXPECT_EQ(document.text.find("verticalExaggeration") != std::string::npos, exaggeration != 1);
+    const SceneGraph& graph = document.scene.graph;
+    EXPECT_EQ(shapeInstances(graph).at(0).worldFromShape.point({1, 1, 1}), (Vec3d{1, exaggeration, 1}));
+    exportSite(directory / "site", directory / "out.ply");
+    EXPECT_TRUE(verify(directory / "site", directory / "out.ply").equal);
+  }
+}
+
+} // namespace
+} // namespace imgeo
