@@ -46,8 +46,9 @@ private:
     std::uint32_t& vertex = vertexOf_[cell];
     if (vertex == noVertex) {
       vertex = static_cast<std::uint32_t>(mesh_.positions.size());
+      const std::size_t wholeRows = cell / grid_.columns;
       const double column = static_cast<double>(cell % grid_.columns) - (grid_.columns - 1) / 2.0,
-                   row = static_cast<double>(cell / grid_.columns) - (grid_.rows - 1) / 2.0;
+                   row = static_cast<double>(wholeRows) - (grid_.rows - 1) / 2.0;
       mesh_.positions.emplace_back(Vec3d{column * ground_.columnStep.x + row * ground_.rowStep.x,
                                          grid_.heights[cell] * ground_.metresPerHeight,
                                          column * ground_.columnStep.y + row * ground_.rowStep.y});
