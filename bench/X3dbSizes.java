@@ -1,25 +1,36 @@
 // Prints the size of X3D documents (XML) in X3D's compressed binary encoding (ISO/IEC 19776-3), a line each with two
 // numbers: with the encodings of Fast Infoset itself for floats and integers (four bytes a number), and with X3D's
-// own, which deflate them. Debian's libfastinfoset-java writes the documents. Both keep every bit of the numbers.
+// own, which deflate them. Debian's libfastinfoset-java writes the documents, and reads them again: every number must
+// have kept all its bits.
 //
 // X3D's table of names of elements and fields, which a real file refers to, is not used: each name is in the file
 // once, which takes some two hundred bytes.
 //
 //   java -cp /usr/share/java/FastInfoset.jar bench/X3dbSizes.java FILE.x3d...
 
+import com.sun.xml.fastinfoset.sax.SAXDocumentParser;
 import com.sun.xml.fastinfoset.sax.SAXDocumentSerializer;
+import com.sun.xml.fastinfoset.vocab.ParserVocabulary;
 import com.sun.xml.fastinfoset.vocab.SerializerVocabulary;
+import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.File;
 import java.nio.ByteBuffer;
 import java.nio.FloatBuffer;
 import java.nio.IntBuffer;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
 import java.util.Map;
 import java.util.StringTokenizer;
+import java.util.zip.DataFormatException;
 import java.util.zip.Deflater;
+import java.util.zip.Inflater;
 import javax.xml.parsers.SAXParserFactory;
 import org.jvnet.fastinfoset.EncodingAlgorithmIndexes;
+import org.jvnet.fastinfoset.sax.EncodingAlgorithmAttributes;
 import org.jvnet.fastinfoset.sax.helpers.EncodingAlgorithmAttributesImpl;
+import org.jvnet.fastinfoset.sax.helpers.FastInfosetDefaultHandler;
 import org.xml.sax.Attributes;
 import org.xml.sax.SAXException;
 import org.xml.sax.helpers.DefaultHandler;
@@ -27,6 +38,8 @@ import org.xml.sax.helpers.DefaultHandler;
 public final class X3dbSizes {
   private static final String FLOATS = "encoder://web3d.org/QuantizedzlibFloatArrayEncoder";
   private static final String INTEGERS = "encoder://web3d.org/DeltazlibIntArrayEncoder";
+  /** The vocabulary that documents refer to: the two encodings. */
+  private static final String VOCABULARY = "urn:external-vocabulary";
   /** The fields of geometry that are lists of numbers, and whether the numbers are floats. */
   private static final Map<String, Boolean> LISTS =
       Map.of("point", true, "vector", true, "index", false, "stripCount", false);
@@ -61,18 +74,43 @@ public final class X3dbSizes {
     return bytes.toByteArray();
   }
 
+  private static ByteBuffer inflated(byte[] bytes, int headerLength, int length) throws DataFormatException {
+    Inflater inflater = new Inflater();
+    inflater.setInput(bytes, headerLength, bytes.length - headerLength);
+    byte[] plain = new byte[length];
+    for (int at = 0; at < length && !inflater.finished();)
+      at += inflater.inflate(plain, at, length - at);
+    inflater.end();
+    return ByteBuffer.wrap(plain);
+  }
+
+  /** What deflated() has written. */
+  private static Object inflated(byte[] bytes, boolean isFloats) throws DataFormatException {
+    ByteBuffer header = ByteBuffer.wrap(bytes);
+    if (isFloats) {
+      float[] numbers = new float[header.getInt(6)];
+      inflated(bytes, 10, header.getInt(2)).asFloatBuffer().get(numbers);
+      return numbers;
+    }
+    int[] numbers = new int[header.getInt(0)];
+    inflated(bytes, 5, 4 * numbers.length).asIntBuffer().get(numbers);
+    for (int i = 0; i < numbers.length; ++i)
+      numbers[i] += (i >= bytes[4] ? numbers[i - bytes[4]] : 0) - 1;
+    return numbers;
+  }
+
   private static float[] floats(String list) {
     FloatBuffer numbers = FloatBuffer.allocate(list.length() / 2 + 1);
     for (StringTokenizer words = new StringTokenizer(list); words.hasMoreTokens();)
       numbers.put(Float.parseFloat(words.nextToken()));
-    return java.util.Arrays.copyOf(numbers.array(), numbers.position());
+    return Arrays.copyOf(numbers.array(), numbers.position());
   }
 
   private static int[] integers(String list) {
     IntBuffer numbers = IntBuffer.allocate(list.length() / 2 + 1);
     for (StringTokenizer words = new StringTokenizer(list); words.hasMoreTokens();)
       numbers.put(Integer.parseInt(words.nextToken()));
-    return java.util.Arrays.copyOf(numbers.array(), numbers.position());
+    return Arrays.copyOf(numbers.array(), numbers.position());
   }
 
   /** Of both spans the smaller result: lists of indices come in threes, or follow one another in strips. */
@@ -85,13 +123,15 @@ public final class X3dbSizes {
   private static final class Writer {
     private final ByteArrayOutputStream bytes = new ByteArrayOutputStream();
     private final SAXDocumentSerializer serializer = new SAXDocumentSerializer();
+    private final List<Object> lists = new ArrayList<>();
     private final boolean isDeflated;
 
     Writer(boolean isDeflated) throws SAXException {
       this.isDeflated = isDeflated;
-      SerializerVocabulary vocabulary = new SerializerVocabulary();
-      vocabulary.encodingAlgorithm.add(FLOATS);
-      vocabulary.encodingAlgorithm.add(INTEGERS);
+      SerializerVocabulary vocabulary = new SerializerVocabulary(), named = new SerializerVocabulary();
+      named.encodingAlgorithm.add(FLOATS);
+      named.encodingAlgorithm.add(INTEGERS);
+      vocabulary.setExternalVocabulary(VOCABULARY, named, false);
       serializer.setVocabulary(vocabulary);
       serializer.setOutputStream(bytes);
       serializer.startDocument();
@@ -106,24 +146,68 @@ public final class X3dbSizes {
 
     private void add(EncodingAlgorithmAttributesImpl coded, String field, String value) {
       Boolean isFloats = LISTS.get(field);
-      if (isFloats == null)
+      if (isFloats == null) {
         coded.addAttribute("", field, field, "CDATA", value);
-      else if (isDeflated)
+        return;
+      }
+      Object numbers = isFloats ? floats(value) : integers(value);
+      lists.add(numbers);
+      if (isDeflated)
         coded.addAttributeWithAlgorithmData("", field, field, isFloats ? FLOATS : INTEGERS, 0,
-            isFloats ? deflated(floats(value)) : smallest(integers(value)));
+            isFloats ? deflated((float[]) numbers) : smallest((int[]) numbers));
       else
         coded.addAttributeWithBuiltInAlgorithmData("", field, field,
-            isFloats ? EncodingAlgorithmIndexes.FLOAT : EncodingAlgorithmIndexes.INT,
-            isFloats ? floats(value) : integers(value));
+            isFloats ? EncodingAlgorithmIndexes.FLOAT : EncodingAlgorithmIndexes.INT, numbers);
     }
 
     void end(String name) throws SAXException {
       serializer.endElement("", name, name);
     }
 
-    int size() throws SAXException {
+    /** Size of the document, which has been read again. */
+    int size() throws Exception {
       serializer.endDocument();
+      Reader reader = new Reader(lists);
+      ParserVocabulary named = new ParserVocabulary();
+      named.encodingAlgorithm.add(FLOATS);
+      named.encodingAlgorithm.add(INTEGERS);
+      SAXDocumentParser parser = new SAXDocumentParser();
+      parser.setExternalVocabularies(Map.of(VOCABULARY, named));
+      parser.setContentHandler(reader);
+      parser.setEncodingAlgorithmContentHandler(reader); // without it the parser refuses X3D's encodings
+      parser.parse(new ByteArrayInputStream(bytes.toByteArray()));
+      if (reader.count != lists.size())
+        throw new SAXException("the document has other lists of numbers than were written");
       return bytes.size();
+    }
+  }
+
+  /** Compares the lists of numbers of a document with those that were written. */
+  private static final class Reader extends FastInfosetDefaultHandler {
+    private final List<Object> written;
+    int count = 0;
+
+    Reader(List<Object> written) {
+      this.written = written;
+    }
+
+    @Override
+    public void startElement(String uri, String localName, String name, Attributes attributes) throws SAXException {
+      EncodingAlgorithmAttributes coded = (EncodingAlgorithmAttributes) attributes;
+      for (int i = 0; i < coded.getLength(); ++i) {
+        Boolean isFloats = LISTS.get(coded.getQName(i));
+        if (isFloats == null)
+          continue;
+        Object data = coded.getAlgorithmData(i);
+        try {
+          if (data instanceof byte[])
+            data = inflated((byte[]) data, isFloats);
+        } catch (DataFormatException error) {
+          throw new SAXException(error);
+        }
+        if (!Arrays.deepEquals(new Object[] {data}, new Object[] {written.get(count++)}))
+          throw new SAXException("a list of numbers reads back as another one");
+      }
     }
   }
 
