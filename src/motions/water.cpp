@@ -7,22 +7,22 @@ namespace imgeo {
 
 namespace {
 
-constexpr float edge = 4, waveSpeed = 1.2F, maxHeight = 0.25F;
-constexpr float damping = 0.35F; ///< share of the speed that is lost in a second
+constexpr float poolEdge = 4, waveSpeed = 1.2F, maxHeight = 0.25F;
+constexpr float waveDamping = 0.35F; ///< share of the speed that is lost in a second
 constexpr float dropsPerSecond = 2.5F;
 
 class Water final : public Motion {
 public:
   Water(std::uint32_t grid, std::uint32_t seed)
-      : random_(seed), spacing_(edge / static_cast<float>(grid - 1)), heights_(std::size_t{grid} * grid),
+      : random_(seed), spacing_(poolEdge / static_cast<float>(grid - 1)), heights_(std::size_t{grid} * grid),
         speeds_(heights_.size()) {
     columns_ = grid;
     for (std::size_t i = 0; i < heights_.size(); ++i)
-      positions_.push_back(
-          {static_cast<float>(i % grid) * spacing_ - edge / 2, 0, static_cast<float>(i / grid) * spacing_ - edge / 2});
+      positions_.push_back({static_cast<float>(i % grid) * spacing_ - poolEdge / 2, 0,
+                            static_cast<float>(i / grid) * spacing_ - poolEdge / 2});
     values_.assign(heights_.size(), 0.5F);
-    box_.add({-edge / 2, -maxHeight, -edge / 2});
-    box_.add({edge / 2, maxHeight, edge / 2});
+    box_.add({-poolEdge / 2, -maxHeight, -poolEdge / 2});
+    box_.add({poolEdge / 2, maxHeight, poolEdge / 2});
   }
 
   void advance(double seconds) override {
@@ -42,7 +42,7 @@ private:
   void addDrops(float seconds) {
     if (random_.unit() >= dropsPerSecond * seconds)
       return;
-    const float x = edge * (random_.unit() - 0.5F), z = edge * (random_.unit() - 0.5F);
+    const float x = poolEdge * (random_.unit() - 0.5F), z = poolEdge * (random_.unit() - 0.5F);
     const float radius = 0.12F + 0.15F * random_.unit(), depth = 0.05F + 0.08F * random_.unit();
     for (std::size_t i = 0; i < heights_.size(); ++i) {
       const float dx = positions_[i].x - x, dz = positions_[i].z - z;
@@ -53,7 +53,7 @@ private:
   }
 
   void advanceBy(float step) {
-    const float factor = step * waveSpeed * waveSpeed / (spacing_ * spacing_), kept = 1 - damping * step;
+    const float factor = step * waveSpeed * waveSpeed / (spacing_ * spacing_), kept = 1 - waveDamping * step;
     const std::size_t grid = columns_;
     for (std::size_t row = 0; row < grid; ++row) {
       // Waves are reflected at the border.
