@@ -82,7 +82,10 @@ void Stream::changed(std::unique_lock<std::mutex>& lock) {
   ++version_;
   lastChange_ = std::chrono::steady_clock::now();
   std::vector<std::function<void()>> calls;
-  calls.swap(calls_);
+  for (Call& call : calls_)
+    if (!call.owner.expired())
+      calls.push_back(std::move(call.call));
+  calls_.clear();
   const auto run = run_;
   lock.unlock();
   if (!calls.empty())
@@ -106,11 +109,16 @@ std::shared_ptr<const StoredFrame> Stream::frame(std::uint64_t number) const {
   return frames_[static_cast<std::size_t>(number - frames_.front()->number())];
 }
 
-bool Stream::callAtChange(std::uint64_t version, std::function<void()> call) {
+bool Stream::callAtChange(std::uint64_t version, std::weak_ptr<const void> owner, std::function<void()> call) {
   const std::lock_guard lock(mutex_);
   if (version != version_)
     return false;
-  calls_.push_back(std::move(call));
+  // Viewers who have given up leave their calls behind.
+  if (calls_.size() >= maxCalls_) {
+    std::erase_if(calls_, [](const Call& old) { return old.owner.expired(); });
+    maxCalls_ = std::max(minMaxCalls, 2 * calls_.size());
+  }
+  calls_.push_back({std::move(owner), std::move(call)});
   return true;
 }
 

@@ -79,9 +79,9 @@ public:
   /// A frame of the history; nullptr if it is not there.
   std::shared_ptr<const StoredFrame> frame(std::uint64_t number) const;
 
-  /// Calls `call` once, at the next change. False if the state is no longer `version`; it is not called then. `call`
-  /// must not throw and must not wait.
-  bool callAtChange(std::uint64_t version, std::function<void()> call);
+  /// Calls `call` once, at the next change, unless `owner` is no more. False if the state is no longer `version`; it is
+  /// not called then. `call` must not throw and must not wait.
+  bool callAtChange(std::uint64_t version, std::weak_ptr<const void> owner, std::function<void()> call);
 
   /// The response to GET /live/NAME/latest.
   std::string latest() const;
@@ -90,6 +90,8 @@ public:
   std::chrono::steady_clock::time_point lastChange() const;
 
 private:
+  static constexpr std::size_t minMaxCalls = 64;
+
   void changed(std::unique_lock<std::mutex>& lock);
 
   const std::string name_;
@@ -101,7 +103,12 @@ private:
   std::deque<std::shared_ptr<const StoredFrame>> frames_; ///< with consecutive numbers
   std::size_t historyBytes_ = 0;
   bool hasEnded_ = false;
-  std::vector<std::function<void()>> calls_;
+  struct Call {
+    std::weak_ptr<const void> owner;
+    std::function<void()> call;
+  };
+  std::vector<Call> calls_;
+  std::size_t maxCalls_ = minMaxCalls; ///< with more calls, those without an owner are removed
   std::chrono::steady_clock::time_point lastChange_ = std::chrono::steady_clock::now();
   double allowance_ = 1; ///< frames that may come now
   std::chrono::steady_clock::time_point lastAllowance_;

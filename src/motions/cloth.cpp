@@ -67,8 +67,8 @@ public:
     for (std::size_t i = 0; i < positions_.size(); ++i)
       current_.set(i,
                    {static_cast<float>(i % grid) * spacing_ - edge / 2, -static_cast<float>(i / grid) * spacing_, 0});
-    box_.add({-2, -2.5, -2});
-    box_.add({2, 1.5, 2});
+    box_.add({-2.25, -2.75, -2.25});
+    box_.add({2.25, 1.75, 2.25});
     store();
   }
 

@@ -178,13 +178,13 @@ asio::awaitable<bool> Session::waitForChange(std::shared_ptr<live::Stream> strea
                                              TimePoint deadline) {
   waiter_ = std::make_shared<Waiter>(Waiter{asio::steady_timer(stream_.get_executor(), deadline)});
   const std::weak_ptr<Waiter> weak = waiter_;
-  const bool isWaiting = stream->callAtChange(version, [weak, executor = stream_.get_executor()] {
-    asio::post(executor, [weak] {
-      if (const auto waiter = weak.lock()) {
+  // The call must not keep the strand: streams outlive servers.
+  const bool isWaiting = stream->callAtChange(version, weak, [weak] {
+    if (const auto waiter = weak.lock())
+      asio::post(waiter->timer.get_executor(), [waiter] {
         waiter->isWoken = true;
         waiter->timer.cancel();
-      }
-    });
+      });
   });
   // The strand runs nothing between the registration and the wait, so that no call is missed.
   beast::error_code ignored;
