@@ -1,6 +1,7 @@
 // Bytes by role of compact sites at the maximum effort, compared with Draco and gltfpack with brotli on the same welded
 // mesh with the same normals and the same precision. Every site is verified against its input before it is counted.
-// Prints a Markdown table.
+// Then bytes and times of classic sites by image format, and of their normals by encoding and precision. Prints
+// Markdown tables.
 //
 //   build/bench/size MODEL...        (in the repository's root, with draco_encoder installed)
 
@@ -8,9 +9,12 @@
 #include "bench/process.h"
 #include "containers/compact/header.h"
 #include "containers/compact/payload_image.h"
+#include "containers/image_file.h"
+#include "imgeo/site.h"
 
 #include <array>
 #include <brotli/encode.h>
+#include <ctime>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -106,6 +110,79 @@ std::string printModel(const std::string& model, const fs::path& work) {
   return summary;
 }
 
+/// Seconds of processor time of this thread that a function takes.
+template <typename Function> double processorSeconds(Function function) {
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) / 1e9;
+  };
+  const double start = now();
+  function();
+  return now() - start;
+}
+
+/// Bytes of the images of one role in a format, and the processor time of one thread.
+struct ImageCost {
+  std::uint64_t bytes = 0;
+  double encode = 0, decode = 0; ///< seconds
+};
+
+void addCost(ImageCost& cost, const Image& image, ImageFormat format) {
+  Bytes file;
+  cost.encode += processorSeconds([&] { file = encodeImageFile(image, format, 5); });
+  cost.decode += processorSeconds([&] { (void)decodeImageFile(file, "image"); });
+  cost.bytes += file.size();
+}
+
+/// Prints a row for each role of a classic site: its images as PNG and as WebP, at the default effort.
+void printImageFormats(const std::string& model, const fs::path& work) {
+  const fs::path site = work / "classic";
+  runOnce({"build/imgeo", "convert", model, "-o", site, "--profile", "classic", "--no-pictures"});
+  std::map<std::string, std::array<ImageCost, 2>> roles;
+  for (const SiteFile& file : inspect(site).files) {
+    if (!file.path.starts_with("geometry/"))
+      continue;
+    const Image image = decodeImageFile(readFile(site / file.path), file.path);
+    for (const ImageFormat format : {ImageFormat::png, ImageFormat::webp})
+      addCost(roles[file.role][format == ImageFormat::webp], image, format);
+  }
+  for (const auto& [role, costs] : roles) {
+    const auto& [png, webp] = costs;
+    fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} / {:.2f} | {:.1f} / {:.1f} |\n", fs::path(model).stem().string(),
+               role, png.bytes, webp.bytes, static_cast<double>(webp.bytes) / static_cast<double>(png.bytes),
+               png.encode, webp.encode, 1000 * png.decode, 1000 * webp.decode);
+  }
+  std::fflush(stdout);
+}
+
+/// Prints the bytes of a classic site's normals in one encoding and precision.
+void printNormals(const std::string& model, const char* normals, const char* bits, const fs::path& work) {
+  const std::string site = work / "classic", report = work / "classic.json";
+  runOnce({"build/imgeo", "convert", model, "-o", site, "--profile", "classic", "--normals", normals, "-vn", bits,
+           "--no-pictures", "-r", report});
+  runOnce({"build/imgeo", "verify", site, model});
+  const Json json = Json::parse(asText(readFile(report)));
+  for (const Json& role : json["roles"])
+    if (role["role"] == "normal")
+      fmt::print("| {} | {} | {} | {} | {:.4f} |\n", fs::path(model).stem().string(), normals, bits,
+                 role["bytes"].get<std::uint64_t>(), json["normalErrorDegrees"].get<double>());
+  std::fflush(stdout);
+}
+
+void printClassic(const std::vector<std::string>& models, const fs::path& work) {
+  fmt::print(
+      "\n| model | classic's images | PNG | WebP | ratio | encode, s | decode, ms |\n|---|---|--:|--:|--:|--:|--:|\n");
+  for (const std::string& model : models)
+    printImageFormats(model, work);
+  fmt::print("\nEffort 5; PNG / WebP, processor time of one thread, by libdeflate and libwebp.\n\n"
+             "| model | classic's normals | bits | bytes | largest error, degrees |\n|---|---|--:|--:|--:|\n");
+  for (const std::string& model : models)
+    for (const char* normals : {"rgb", "octahedral", "spherical"})
+      for (const char* bits : {"8", "16"})
+        printNormals(model, normals, bits, work);
+}
+
 void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   fmt::print("| model | triangles | bits | {} | files | with nodes | Draco | ratio | gltfpack + brotli | ratio |\n"
              "|---|--:|--:|{}--:|--:|--:|--:|--:|--:|\n",
@@ -115,6 +192,7 @@ void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   for (const std::string& model : models)
     summary += printModel(model, work);
   fmt::print("\ndraco_encoder -cl 10 -qn 8 -qt 12; gltfpack -cz -vn 8 -vt 12 -kv, then brotli 11.\n\n{}", summary);
+  printClassic(models, work);
 }
 
 } // namespace

@@ -14,7 +14,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   geometry.colorComponents = 3 + kinds % 2;
   geometry.normalEncoding = static_cast<NormalEncoding>(kinds / 2 % 4);
   geometry.indexType = kinds / 8 % 2 ? ElementType::uint32 : ElementType::uint16;
-  const PatchDescription patch = fuzz::readDescription(input, geometry.encoding, input.bits(8) % 5);
+  PatchDescription patch = fuzz::readDescription(input, geometry.encoding, input.bits(8) % 5);
+  if (kinds & 16)
+    for (const VertexRole role : vertexRoles) {
+      const std::uint32_t precision = input.bits(8);
+      geometry.imageBits[role] = 8 * (1 + precision % 3);
+      for (std::uint32_t further = precision / 8 % 4; further > 0 && patch.vertexAttributes[role]; --further)
+        patch.lowBytes[role].push_back({std::to_string(precision / 32), TexelLocation{}});
+    }
 
   std::map<std::string, Bytes> files;
   for (std::size_t i = 0; i < 9; ++i) {

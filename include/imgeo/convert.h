@@ -73,10 +73,11 @@ struct ConvertOptions {
   std::optional<MaxError> maxError{};     ///< SIG: chooses the position bits of each mesh instead of positionBits
   std::optional<ElementType> coordType{}; ///< BG: type of coordinates; default: smallest unsigned type
   Layout layout = Layout::separate;       ///< BG: order of attributes
+  ImageFormat images = ImageFormat::png;  ///< classic: file format of its images
   NormalEncoding normals = NormalEncoding::rgb; ///< how normals are stored; compact replaces rgb by octahedral
   std::uint32_t normalBits = 0;   ///< bits of a stored component; 0: 8, or more in BG if that costs no bytes
-  std::uint32_t texCoordBits = 0; ///< compact: 1..16; 0: 12 in compact, 16 elsewhere
-  std::uint32_t colorBits = 0;    ///< compact: 1..8; 0: 8
+  std::uint32_t texCoordBits = 0; ///< compact: 1..16; classic: 8, 16, 24; BG: 8, 16, 32; 0: 12 in compact, 16 elsewhere
+  std::uint32_t colorBits = 0;    ///< compact: 1..8; classic: 8, 16, 24; BG: 8, 16, 32; 0: 8
   DroppedElements dropped{};      ///< elements to leave out
   NormalWeighting normalWeighting = NormalWeighting::area; ///< for meshes without normals
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304

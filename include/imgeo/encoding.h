@@ -45,10 +45,18 @@ enum class ElementType : std::uint8_t {
   float32, ///< "Float32"
 };
 
+/// File format of the images of SIG classic. Both are lossless.
+enum class ImageFormat : std::uint8_t {
+  png,  ///< PNG, which X3DOM's tools write
+  webp, ///< lossless WebP where it is smaller, otherwise PNG
+};
+
 /// "compact", "classic", "bg".
 const char* nameOf(Encoding encoding);
 /// "rgb", "octahedral", "spherical", "palette", "derived".
 const char* nameOf(NormalEncoding encoding);
+/// "png", "webp".
+const char* nameOf(ImageFormat format);
 /// The name of a type in X3D's BinaryGeometry: "Uint16" ...
 const char* nameOf(ElementType type);
 

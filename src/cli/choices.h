@@ -56,6 +56,8 @@ inline constexpr Choice<NormalEncoding> normalsChoices[] = {{"rgb", NormalEncodi
                                                             {"palette", NormalEncoding::palette},
                                                             {"derived", NormalEncoding::derived}};
 
+inline constexpr Choice<ImageFormat> imagesChoices[] = {{"png", ImageFormat::png}, {"webp", ImageFormat::webp}};
+
 inline constexpr Choice<DroppedElements> dropChoices[] = {{"none", {}},
                                                           {"degenerate", {.degenerate = true}},
                                                           {"repeated", {.repeated = true}},

@@ -129,6 +129,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     options.basePercent = basePercentFrom(arguments.text("base"));
   options.coordType = valueNamed(coordTypeChoices, arguments.text("coord-type"));
   options.layout = valueNamed(layoutChoices, arguments.text("layout"));
+  options.images = valueNamed(imagesChoices, arguments.text("images"));
   options.normals = valueNamed(normalsChoices, arguments.text("normals"));
   options.dropped = valueNamed(dropChoices, arguments.text("drop"));
   options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));

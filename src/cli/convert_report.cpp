@@ -110,9 +110,11 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   }
   printLine("elements", fmt::format("{} of {} vertices", listed(report.elements), grouped(report.vertices)));
   const bool onlyPoints = report.elements.points == report.elements.sum();
-  printLine("container", fmt::format("{} ({}), profile {}, target {}, {}{}", row.container, row.fileKind, row.profile,
-                                     arguments.text("target"), onlyPoints ? "points" : arguments.text("primitives"),
-                                     onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
+  printLine("container",
+            fmt::format("{} ({}), profile {}, target {}, {}{}", row.container,
+                        arguments.text("images") == "webp" ? "PNG and lossless WebP images" : row.fileKind, row.profile,
+                        arguments.text("target"), onlyPoints ? "points" : arguments.text("primitives"),
+                        onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions", positionsOf(arguments, report));

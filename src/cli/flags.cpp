@@ -131,12 +131,17 @@ Command convertCommand() {
                 choice("normals", namesOf(normalsChoices),
                        "how normals are stored: as vectors, as two numbers (compact: always), as 256 directions "
                        "a patch, or in compact not at all"),
+                choice("images", namesOf(imagesChoices),
+                       "file format of classic's images, both lossless; webp: WebP where it is smaller than PNG, a few "
+                       "percent fewer bytes for ten times the encoding time"),
                 integer("normal-bits", {"-vn", "-qn"}, 4, 32, "",
-                        "bits of a normal's component; sig: 8, compact: 4..16; bg: 8, 16 or 32; otherwise 8"),
-                integer("texcoord-bits", {"-vt", "-qt"}, 1, 16, "",
-                        "bits of a texture coordinate; compact: 1..16, otherwise 12; classic and bg have 16"),
-                integer("color-bits", {"-vc"}, 1, 8, "",
-                        "bits of a colour's component; compact: 1..8, otherwise 8; classic and bg have 8"),
+                        "bits of a normal's component; classic: 8 or 16, compact: 4..16; bg: 8, 16 or 32; otherwise 8"),
+                integer("texcoord-bits", {"-vt", "-qt"}, 1, 32, "",
+                        "bits of a texture coordinate; compact: 1..16, otherwise 12; classic: 8, 16 or 24, bg: 8, 16 "
+                        "or 32, otherwise 16"),
+                integer("color-bits", {"-vc"}, 1, 32, "",
+                        "bits of a colour's component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; "
+                        "otherwise 8"),
                 integer("patch-vertices", {}, 256, 4194304, "65535",
                         "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
                 {.name = "base",

@@ -197,7 +197,7 @@ int runInfo(const Arguments& arguments) {
   if (std::filesystem::is_directory(path, ignored) || extension == ".html" ||
       (extension == ".x3d" && refersToContainers(path)))
     return print(arguments, inspect(path), printSite);
-  if (extension == ".png" || extension == ".bin")
+  if (extension == ".png" || extension == ".webp" || extension == ".bin")
     return print(arguments, inspectGeometryFile(path), printGeometryFile);
   return print(arguments, inspectSource(path, arguments.has("outside")), printSource);
 }

@@ -16,14 +16,13 @@ IndexedPatch SinglePatchReader::decode(const PatchDescription& patch, const Geom
 }
 
 StoredPrecision SinglePatchReader::precisionOf(const GeometryDescription& geometry) {
-  constexpr ByVertexRole<std::uint32_t> bitsInImages{{8, 16, 16, 16, 16, 8}};
   StoredPrecision precision;
   precision.normalEncoding = geometry.normalEncoding;
   for (const VertexRole role : vertexRoles)
     if (std::ranges::any_of(geometry.patches,
                             [&](const PatchDescription& patch) { return patch.vertexAttributes[role].has_value(); }))
       precision.bits[role] =
-          hasElementTypes(geometry.encoding) ? 8 * byteSizeOf(geometry.attributeTypes[role]) : bitsInImages[role];
+          hasElementTypes(geometry.encoding) ? 8 * byteSizeOf(geometry.attributeTypes[role]) : geometry.imageBits[role];
   return precision;
 }
 

@@ -32,6 +32,9 @@ struct GeometryNode {
 /// Bits of a stored component that an encoding can be asked for.
 struct BitRange {
   std::uint32_t min = 0, max = 0, defaultBits = 0;
+  std::uint32_t step = 1; ///< bits are a multiple of it
+
+  constexpr bool holds(std::uint32_t bits) const { return bits >= min && bits <= max && bits % step == 0; }
 };
 
 /// What an encoding can hold, and what convert can be asked for.
@@ -46,6 +49,7 @@ struct Capabilities {
   bool elementTypes = false;               ///< --coord-type and --layout choose elements and their order
   bool attributeBits = false;              ///< --attribute-bits chooses the bits of further attributes
   bool maxError = false;                   ///< --max-error chooses the position bits of each mesh
+  bool webp = false;                       ///< --images webp chooses the file format of images
   bool base = false;                       ///< a base mesh stands in for patches that have not arrived
 };
 

@@ -1,6 +1,7 @@
 #include "containers/geometry_description.h"
 
 #include "containers/encodings.h"
+#include "containers/normals.h"
 
 #include <algorithm>
 
@@ -63,6 +64,21 @@ const char* nameOf(ElementType type) {
 std::uint32_t byteSizeOf(ElementType type) {
   constexpr std::uint32_t sizes[] = {1, 1, 2, 2, 4, 4, 4};
   return sizes[static_cast<std::size_t>(type)];
+}
+
+std::size_t imageCountOf(VertexRole role, NormalEncoding normals, std::uint32_t bits) {
+  const bool isWhole = bits == 8 || bits == 16 || bits == 24;
+  if (role != VertexRole::normal)
+    return !isWhole ? 0 : isTexCoord(role) ? (bits + 15) / 16 : bits / 8;
+  if (!isWhole || bits == 24 || (bits == 16 && normals == NormalEncoding::palette))
+    return 0;
+  return isPair(normals) ? 1 : bits / 8;
+}
+
+std::uint32_t bitsOfImages(VertexRole role, NormalEncoding normals, std::size_t imageCount) {
+  if (role == VertexRole::normal && isPair(normals))
+    return defaultImageBits[role];
+  return defaultImageBits[role] + 8 * static_cast<std::uint32_t>(imageCount - 1);
 }
 
 ByteLocation normalInCoords(const ByteLocation& coord) {

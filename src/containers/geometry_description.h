@@ -71,6 +71,8 @@ struct PatchDescription {
   std::optional<Reference> index;                 ///< nothing: records are drawn in order
   std::vector<Reference> coord;                   ///< classic: byte planes, most significant first. bg: one
   ByVertexRole<std::optional<Reference>> vertexAttributes;
+  /// Classic: further images of an attribute, each with the next lower byte of its numbers.
+  ByVertexRole<std::vector<Reference>> lowBytes;
   std::vector<std::vector<Reference>> attributes; ///< per attribute of the geometry: byte planes (classic) or one (bg)
   std::optional<Reference> data;                  ///< compact: the whole patch
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
@@ -83,8 +85,11 @@ template <typename Patch, typename Visit> void visitReferences(Patch& patch, Vis
   for (auto& plane : patch.coord)
     visit(Role::coord, plane);
   for (const VertexRole role : vertexRoles)
-    if (auto& reference = patch.vertexAttributes[role])
+    if (auto& reference = patch.vertexAttributes[role]) {
       visit(fileRoleOf(role), *reference);
+      for (auto& plane : patch.lowBytes[role])
+        visit(fileRoleOf(role), plane);
+    }
   for (auto& planes : patch.attributes)
     for (auto& plane : planes)
       visit(Role::attribute, plane);
@@ -109,6 +114,9 @@ struct TexCoordBox {
   friend bool operator==(const TexCoordBox&, const TexCoordBox&) = default;
 };
 
+/// Bits of a stored component in images of which a node states nothing else: SIG of version 1.
+inline constexpr ByVertexRole<std::uint32_t> defaultImageBits{{8, 16, 16, 16, 16, 8}};
+
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
   Encoding encoding = Encoding::classic;
@@ -122,7 +130,8 @@ struct GeometryDescription {
   ByVertexRole<ElementType> attributeTypes{{ElementType::int8, ElementType::uint16, ElementType::uint16,
                                             ElementType::uint16, ElementType::uint16, ElementType::uint8}}; ///< bg only
   NormalEncoding normalEncoding = NormalEncoding::rgb;
-  bool ccw = true; ///< false: the front of triangles is clockwise
+  ByVertexRole<std::uint32_t> imageBits = defaultImageBits; ///< classic only: bits of a stored component
+  bool ccw = true;                                          ///< false: the front of triangles is clockwise
   /// Classic: every patch is a grid of implicitMeshSize vertices, without an index. A height map has one patch, and its
   /// lattice is that of gridLattice().
   std::optional<GridKind> grid;
@@ -134,6 +143,12 @@ struct GeometryDescription {
   bool isShared = false;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
+
+/// Classic: the number of images of an attribute of so many bits a component; 0 for bits that images do not hold.
+/// Texture coordinates and pairs of 16 bits are in one image, other numbers in one for each byte.
+std::size_t imageCountOf(VertexRole role, NormalEncoding normals, std::uint32_t bits);
+/// Classic: the bits of a component in so many images, unless the node states others.
+std::uint32_t bitsOfImages(VertexRole role, NormalEncoding normals, std::size_t imageCount);
 
 /// The reference to normals in the fourth element of 16-bit coordinates, where X3DOM has spherical normals. `coord` has
 /// a ByteLocation.

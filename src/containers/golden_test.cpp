@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "containers/normals.h"
 #include "containers/png/png.h"
+#include "containers/stored.h"
 #include "containers/testing.h"
 #include "containers/unit_vectors.h"
 
@@ -42,9 +43,28 @@ const Variant variants[] = {
     {"sig-classic-1-octahedral", {Encoding::classic, 8, 9, Target::web, NormalEncoding::octahedral}},
     {"sig-classic-1-spherical", {Encoding::classic, 8, 9, Target::web, NormalEncoding::spherical}},
     {"sig-classic-1-palette", {Encoding::classic, 8, 9, Target::web, NormalEncoding::palette}},
+    {"sig-classic-1-rgb-16", {.encoding = Encoding::classic, .normalBits = 16, .effort = 9, .texCoordBits = 8}},
+    {"sig-classic-1-octahedral-16",
+     {.encoding = Encoding::classic, .normalBits = 16, .effort = 9, .normals = NormalEncoding::octahedral}},
+    {"sig-classic-1-spherical-16",
+     {.encoding = Encoding::classic,
+      .normalBits = 16,
+      .effort = 9,
+      .normals = NormalEncoding::spherical,
+      .texCoordBits = 24,
+      .colorBits = 16}},
+    {"sig-classic-1-color-24", {.encoding = Encoding::classic, .effort = 9, .colorBits = 24}},
     {"bg-1", {Encoding::bg, 8, 9}},
     {"bg-1-octahedral", {Encoding::bg, 16, 9, Target::web, NormalEncoding::octahedral}},
     {"bg-1-spherical", {Encoding::bg, 8, 9, Target::web, NormalEncoding::spherical}},
+    {"bg-1-spherical-16",
+     {.encoding = Encoding::bg,
+      .normalBits = 16,
+      .effort = 9,
+      .normals = NormalEncoding::spherical,
+      .texCoordBits = 8,
+      .colorBits = 16}},
+    {"bg-1-floats", {.encoding = Encoding::bg, .normalBits = 32, .effort = 9, .texCoordBits = 32, .colorBits = 32}},
 };
 
 GoldenPatch encodeGolden(const EncodeOptions& options) {
@@ -83,7 +103,8 @@ TEST_P(Golden, FilesAreStillRead) {
   for (std::size_t i = 0; i < decoded.normals.size(); ++i)
     EXPECT_LE(angleBetween(decoded.normals[i], patch.source.normals[i]), bound);
   for (std::size_t i = 0; i < decoded.texCoords.size(); ++i)
-    EXPECT_NEAR(decoded.texCoords[i].x, patch.source.texCoords[i].x, 1e-5);
+    EXPECT_NEAR(decoded.texCoords[i].x, patch.source.texCoords[i].x,
+                texCoordErrorBound(patch.geometry, 0, patch.geometry.imageBits[VertexRole::texCoord]).x);
 }
 
 TEST_P(Golden, FilesAreStillWritten) {

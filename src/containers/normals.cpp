@@ -4,6 +4,7 @@
 #include "containers/unit_vectors.h"
 
 #include <cassert>
+#include <cmath>
 
 namespace imgeo {
 
@@ -30,7 +31,8 @@ double normalErrorBound(const GeometryDescription& geometry) {
   if (rowOf(geometry).hasMeasuredNormalError)
     return 0;
   const bool isSig = !hasElementTypes(geometry.encoding);
-  const std::uint32_t bits = isSig ? 8 : 8 * byteSizeOf(geometry.attributeTypes[VertexRole::normal]);
+  const std::uint32_t bits =
+      isSig ? geometry.imageBits[VertexRole::normal] : 8 * byteSizeOf(geometry.attributeTypes[VertexRole::normal]);
   switch (geometry.normalEncoding) {
   case NormalEncoding::octahedral:
     return octahedralErrorBound(bits);
@@ -44,7 +46,8 @@ double normalErrorBound(const GeometryDescription& geometry) {
   }
   if (!isSig && geometry.attributeTypes[VertexRole::normal] == ElementType::float32)
     return 2e-7; // only the rounding of single precision
-  return componentErrorBound(isSig ? 1 / 127.5 : 1 / maximumOf(geometry.attributeTypes[VertexRole::normal]));
+  return componentErrorBound(isSig ? 2 / (std::ldexp(1.0, static_cast<int>(bits)) - 1)
+                                   : 1 / maximumOf(geometry.attributeTypes[VertexRole::normal]));
 }
 
 } // namespace imgeo

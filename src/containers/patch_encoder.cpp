@@ -81,7 +81,10 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
   case Role::texCoord2:
   case Role::texCoord3:
   case Role::color:
-    patch.vertexAttributes[*vertexRoleOf(role)] = reference;
+    if (std::optional<Reference>& first = patch.vertexAttributes[*vertexRoleOf(role)])
+      patch.lowBytes[*vertexRoleOf(role)].push_back(reference);
+    else
+      first = reference;
   }
 }
 

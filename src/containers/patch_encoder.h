@@ -16,8 +16,8 @@ namespace imgeo {
 /// Options of convert that an encoding needs, with every default filled in.
 struct EncodeOptions {
   Encoding encoding = Encoding::classic;
-  /// Bits of a stored component. Classic: 8. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); for octahedral normals 8 or
-  /// 16, for spherical ones 8. These two have 8 bits only beside coordinates of 9 .. 16 bits.
+  /// Bits of a stored component. Classic: 8 or 16. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); for octahedral and
+  /// spherical normals 16, or 8 beside coordinates of 9 .. 16 bits.
   std::uint32_t normalBits = 8;
   int effort = 5; ///< 0 fastest .. 9 smallest
   Target target = Target::web;
@@ -25,9 +25,10 @@ struct EncodeOptions {
   std::optional<ElementType> coordType{};         ///< BG; nothing: the smallest unsigned type
   Layout layout = Layout::separate;               ///< BG
   std::uint32_t attributeBits = 16;               ///< SIG: 8, 16 or 24; BG has Float32
-  std::uint32_t texCoordBits = 16, colorBits = 8; ///< classic and BG: only these
+  std::uint32_t texCoordBits = 16, colorBits = 8; ///< as in Capabilities
   Primitives primitives = Primitives::triangles;  ///< point clouds are always points
   bool indexed = true;                            ///< false: vertices are repeated wherever they are drawn
+  ImageFormat images = ImageFormat::png;          ///< classic
 };
 
 /// A file of a site, before it has a name.

@@ -2,6 +2,7 @@
 
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
+#include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
 #include "containers/unit_vectors.h"
@@ -56,18 +57,19 @@ void expectEqualWithinSteps(const Encoded& encoded) {
   EXPECT_EQ(decoded.indices, source.indices);
   EXPECT_EQ(decoded.draws, source.draws);
   ASSERT_EQ(decoded.normals.size(), source.normals.size());
-  const double bound = std::max(normalErrorBound(encoded.geometry), encoded.patch.normalError + 1e-6);
+  const double normalBound = std::max(normalErrorBound(encoded.geometry), encoded.patch.normalError + 1e-6);
   for (std::size_t i = 0; i < source.normals.size(); ++i) {
-    ASSERT_LE(angleBetween(decoded.normals[i], source.normals[i]), bound);
+    ASSERT_LE(angleBetween(decoded.normals[i], source.normals[i]), normalBound);
     ASSERT_NEAR(length(Vec3d(decoded.normals[i])), 1, 1e-6);
   }
   for (std::size_t set = 0; set < maxTexCoordSets; ++set) {
     const std::vector<Vec2f>&is = texCoordsOf(decoded, set), &should = texCoordsOf(source, set);
     ASSERT_EQ(is.size(), should.size());
-    const Vec2f size = encoded.geometry.texCoordBoxes[set].size;
+    const Vec2<double> bound =
+        texCoordErrorBound(encoded.geometry, set, encoded.geometry.imageBits[texCoordRoles[set]]);
     for (std::size_t i = 0; i < should.size(); ++i) {
-      EXPECT_NEAR(is[i].x, should[i].x, size.x * 0.5001 / 65535 + 1e-6);
-      EXPECT_NEAR(is[i].y, should[i].y, size.y * 0.5001 / 65535 + 1e-6);
+      ASSERT_NEAR(is[i].x, should[i].x, bound.x);
+      ASSERT_NEAR(is[i].y, should[i].y, bound.y);
     }
   }
   ASSERT_EQ(decoded.namedAttributes.size(), source.namedAttributes.size());
@@ -85,10 +87,13 @@ std::vector<EncodeOptions> everyNormalEncoding(std::uint32_t bits) {
   std::vector<EncodeOptions> all;
   for (const NormalEncoding normals :
        {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
-    all.push_back(options(Encoding::classic, normals, 8));
+    for (const std::uint32_t normalBits : {8u, 16u})
+      if (normalBits == 8 || normals != NormalEncoding::palette)
+        all.push_back(options(Encoding::classic, normals, normalBits));
   for (const std::uint32_t normalBits : {8u, 16u, 32u})
     all.push_back(options(Encoding::bg, NormalEncoding::rgb, normalBits));
-  all.push_back(options(Encoding::bg, NormalEncoding::octahedral, 16));
+  for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical})
+    all.push_back(options(Encoding::bg, normals, 16));
   if (coordBytes(Encoding::bg, bits) == 2) {
     all.push_back(options(Encoding::bg, NormalEncoding::octahedral, 8));
     all.push_back(options(Encoding::bg, NormalEncoding::spherical, 8));
@@ -147,6 +152,31 @@ TEST(Containers, DecodeEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
           EXPECT_EQ(encoded.source.draws.front().primitive, primitive);
           expectEqualWithinSteps(encoded);
         }
+}
+
+TEST(Containers, DecodeEveryAttributeWithinTheBoundOfEachOfItsPrecisions) {
+  std::uint32_t seed = 0;
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg})
+    for (const std::uint32_t texCoordBits : {8u, 16u, encoding == Encoding::bg ? 32u : 24u})
+      for (const std::uint32_t colorBits : {8u, 16u, encoding == Encoding::bg ? 32u : 24u})
+        for (const EncodeOptions& normals : everyNormalEncoding(16))
+          if (normals.encoding == encoding) {
+            EncodeOptions options = normals;
+            options.effort = 0;
+            options.texCoordBits = texCoordBits;
+            options.colorBits = colorBits;
+            SCOPED_TRACE(fmt::format("{}: {} normals of {} bits, texture coordinates of {}, colours of {}",
+                                     nameOf(encoding), nameOf(options.normals), options.normalBits, texCoordBits,
+                                     colorBits));
+            const Encoded encoded = encode(richMesh(++seed), Primitive::triangles, true, 16, options);
+            ASSERT_FALSE(encoded.source.texCoords.empty() || encoded.source.colors.empty());
+            expectEqualWithinSteps(encoded);
+            for (const VertexRole role : {VertexRole::normal, VertexRole::texCoord, VertexRole::color})
+              if (encoding == Encoding::classic) {
+                EXPECT_EQ(1 + encoded.description.lowBytes[role].size(),
+                          imageCountOf(role, options.normals, encoded.geometry.imageBits[role]));
+              }
+          }
 }
 
 /// BG options for every coordinate type, layout and normal encoding that can hold coordinates of `bits` bits.

@@ -51,6 +51,25 @@ Reference randomReference(Random& random, Encoding encoding) {
   return {url, ByteLocation{begin, random.oneIn(2) ? 1 + random.below(64) : 0}};
 }
 
+/// Sets bits that images hold, and gives every patch the images for them.
+void setRandomImageBits(Random& random, GeometryDescription& geometry) {
+  const std::uint32_t texCoordBits = 8 * (1 + random.below(3));
+  for (const VertexRole role : vertexRoles) {
+    std::uint32_t bits = isTexCoord(role) ? texCoordBits : 8 * (1 + random.below(3));
+    if (imageCountOf(role, geometry.normalEncoding, bits) == 0)
+      bits = 8;
+    bool isStored = false;
+    for (PatchDescription& patch : geometry.patches)
+      if (patch.vertexAttributes[role]) {
+        isStored = true;
+        for (std::size_t image = 1; image < imageCountOf(role, geometry.normalEncoding, bits); ++image)
+          patch.lowBytes[role].push_back(randomReference(random, geometry.encoding));
+      }
+    if (isStored)
+      geometry.imageBits[role] = bits;
+  }
+}
+
 PatchDescription randomPatch(Random& random, Encoding encoding, std::size_t planes) {
   PatchDescription patch;
   patch.box = randomBox(random);
@@ -109,6 +128,8 @@ GeometryDescription randomGeometry(Random& random) {
     geometry.patches.push_back(
         randomPatch(random, geometry.encoding,
                     geometry.encoding == Encoding::classic ? coordBytes(Encoding::classic, geometry.lattice.bits) : 1));
+  if (geometry.encoding == Encoding::classic && random.oneIn(2))
+    setRandomImageBits(random, geometry);
   for (PatchDescription& patch : geometry.patches)
     for (const AttributeDescription& attribute : geometry.attributes) {
       patch.attributes.emplace_back();
@@ -420,7 +441,8 @@ SceneDocument documentNamed(const std::string& name) {
   SceneDocument document;
   document.graph.title = name;
   GeometryDescription geometry;
-  geometry.patches = {{{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}}};
+  geometry.patches = {
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   addRoot(document.graph, {"", Viewpoint{name, {}, {}, 0.8, {}}, {}, ""});
   addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});

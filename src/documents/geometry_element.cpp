@@ -30,6 +30,14 @@ std::string urlOf(const Reference& reference) {
   return reference.url + std::visit([](const auto& location) { return fragmentOf(location); }, reference.location);
 }
 
+/// The images of an attribute as an MFString, in quotes only where they are needed.
+std::string imageUrls(const Reference& first, const std::vector<Reference>& lowBytes) {
+  std::vector<std::string> urls{urlOf(first)};
+  for (const Reference& image : lowBytes)
+    urls.push_back(urlOf(image));
+  return urls.size() == 1 && urls[0].find('"') == std::string::npos ? urls[0] : quoteStrings(urls);
+}
+
 /// The components of a vector as the shortest decimals whose error is at most `fraction` of the lattice's step along
 /// their axis.
 std::string shortNumbers(Vec3d vector, const Lattice& lattice, double fraction) {
@@ -69,6 +77,14 @@ namespace {
 bool isInAnyPatch(const GeometryDescription& geometry, VertexRole role) {
   return std::ranges::any_of(geometry.patches,
                              [&](const PatchDescription& patch) { return patch.vertexAttributes[role].has_value(); });
+}
+
+/// Adds the bits of an attribute's numbers, unless they follow from the number of its images.
+void addBits(Attributes& fields, const char* name, const GeometryDescription& geometry, VertexRole role) {
+  const std::uint32_t bits = geometry.imageBits[role];
+  const std::size_t imageCount = imageCountOf(role, geometry.normalEncoding, bits);
+  if (isInAnyPatch(geometry, role) && bits != bitsOfImages(role, geometry.normalEncoding, imageCount))
+    fields.push_back({name, std::to_string(bits)});
 }
 
 /// The fields of a compact patch, without its box.
@@ -127,8 +143,8 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
     references.push_back({"coord", urlOf(patch.coord[0])});
   }
   for (const VertexRole role : vertexRoles)
-    if (role != VertexRole::normal || !hasNormalsInCoords(geometry))
-      add(nameOf(role), patch.vertexAttributes[role]);
+    if (patch.vertexAttributes[role] && (role != VertexRole::normal || !hasNormalsInCoords(geometry)))
+      references.push_back({nameOf(role), imageUrls(*patch.vertexAttributes[role], patch.lowBytes[role])});
   std::vector<std::string> attributes;
   for (const std::vector<Reference>& planes : patch.attributes)
     for (const Reference& plane : planes)
@@ -211,6 +227,13 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     fields.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)
     fields.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
+  if (row.storage == PatchStorage::bytePlanes) {
+    addBits(fields, "normalBits", geometry, VertexRole::normal);
+    const auto* set =
+        std::ranges::find_if(texCoordRoles, [&](VertexRole role) { return isInAnyPatch(geometry, role); });
+    if (set != texCoordRoles.end()) // all sets have the same bits
+      addBits(fields, "texCoordBits", geometry, *set);
+  }
   for (const VertexRole role : texCoordRoles) {
     const auto& [min, size] = geometry.texCoordBoxes[texCoordSetOf(role)];
     addUnless(fields, minFieldOf(role).c_str(), min, Vec2f{0, 0}, numbers(min));

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 
 namespace imgeo {
 
@@ -131,6 +132,13 @@ std::string imageUrl(const DocumentText& source, pugi::xml_node node) {
   }
 }
 
+void addImage(PatchDescription& patch, VertexRole role, const Reference& reference) {
+  if (patch.vertexAttributes[role])
+    patch.lowBytes[role].push_back(reference);
+  else
+    patch.vertexAttributes[role] = reference;
+}
+
 /// Reads a child that refers to an image of the patch as in X3DOM. Several images of texture coordinates are its sets.
 void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
   const FieldReader fields(source, node);
@@ -161,10 +169,7 @@ void readTexture(const DocumentText& source, const pugi::xml_node& node, Encodin
       }
     fields.fail(ErrorKind::unsupported, "an ImageGeometry has more than four images of texture coordinates");
   }
-  if (patch.vertexAttributes[*known])
-    fields.fail(ErrorKind::unsupported,
-                "a second image of " + role + " has the low bytes of 16-bit numbers, which only pages read");
-  patch.vertexAttributes[*known] = reference;
+  addImage(patch, *known, reference);
 }
 
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
@@ -189,7 +194,11 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   }
   read("index", patch.index);
   for (const VertexRole role : vertexRoles)
-    read(nameOf(role), patch.vertexAttributes[role]);
+    for (const std::string& url : fields.strings(nameOf(role)))
+      addImage(patch, role, referenceOf(fields, url, encoding));
+  if (storage == PatchStorage::arrays &&
+      std::ranges::any_of(patch.lowBytes.values, std::not_fn(&std::vector<Reference>::empty)))
+    fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of each attribute");
   for (const std::string& url : fields.strings("coord"))
     patch.coord.push_back(referenceOf(fields, url, encoding));
   if (storage == PatchStorage::bytePlanes)
@@ -286,6 +295,28 @@ Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry
   return imgeo::latticeOf(box, geometry.encoding, geometry.coordType, bits);
 }
 
+/// Sets the bits of attributes in images: as a field states, otherwise those of so many images.
+void readImageBits(const FieldReader& fields, GeometryDescription& geometry) {
+  for (const VertexRole role : vertexRoles) {
+    std::optional<std::size_t> count;
+    for (const PatchDescription& patch : geometry.patches)
+      if (patch.vertexAttributes[role]) {
+        if (count.value_or(1 + patch.lowBytes[role].size()) != 1 + patch.lowBytes[role].size())
+          fields.fail(ErrorKind::malformed, std::string("patches differ in their images of ") + nameOf(role));
+        count = 1 + patch.lowBytes[role].size();
+      }
+    if (!count)
+      continue;
+    const char* field = role == VertexRole::normal ? "normalBits" : isTexCoord(role) ? "texCoordBits" : "";
+    const std::uint32_t stated = *field == '\0' ? 0 : fields.integer(field, 0);
+    const std::uint32_t bits = stated != 0 ? stated : bitsOfImages(role, geometry.normalEncoding, *count);
+    if (imageCountOf(role, geometry.normalEncoding, bits) != *count)
+      fields.fail(ErrorKind::unsupported, std::to_string(*count) + " images of " + nameOf(role) +
+                                              " hold no numbers of " + std::to_string(bits) + " bits");
+    geometry.imageBits[role] = bits;
+  }
+}
+
 /// The encoding that a node's name and its `profile` field state.
 Encoding encodingOf(const FieldReader& fields) {
   const std::string profile = fields.text("profile");
@@ -372,6 +403,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
           readPatch(source, child, geometry, implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize)));
   if (geometry.patches.empty())
     geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
+  if (row.storage == PatchStorage::bytePlanes)
+    readImageBits(fields, geometry);
   if (row.storage == PatchStorage::bytePlanes)
     geometry.grid = gridOf(fields);
   if (geometry.grid == GridKind::heightMap && geometry.patches.size() != 1)

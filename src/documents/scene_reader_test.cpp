@@ -228,12 +228,35 @@ TEST(ReadScene, ReadsImagesGivenByUseTexturesAndImgElements) {
   EXPECT_EQ(patch.vertexAttributes[VertexRole::texCoord1]->url, "u.png");
 }
 
+TEST(ReadScene, TakesThePrecisionOfAttributesFromTheirImagesUnlessTheNodeStatesIt) {
+  const auto read = [](const std::string& fields) {
+    return readScene("<X3D><Scene><Shape><ImageGeometry coord='a' " + fields + "/></Shape></Scene></X3D>", "s.x3d")
+        .geometries.at(0)
+        .imageBits;
+  };
+  EXPECT_EQ(read("normal='n' texCoord='t' color='c'"), defaultImageBits);
+  const auto deep = read(R"(normal='"n" "o"' texCoord='"t" "u"' color='"c" "d" "e"')");
+  EXPECT_EQ(deep[VertexRole::normal], 16u);
+  EXPECT_EQ(deep[VertexRole::texCoord], 24u);
+  EXPECT_EQ(deep[VertexRole::color], 24u);
+  EXPECT_EQ(read("normal='n' normalEncoding='spherical'")[VertexRole::normal], 8u);
+  EXPECT_EQ(read("normal='n' normalEncoding='spherical' normalBits='16'")[VertexRole::normal], 16u);
+  EXPECT_EQ(read("texCoord='t' texCoordBits='8'")[VertexRole::texCoord], 8u);
+  for (const char* fields :
+       {"normal='n' normalBits='16'", "normal='n' normalBits='12'", "texCoord='t' texCoordBits='24'",
+        R"(texCoord='"t" "u" "v"')", R"(normal='"n" "o"' normalEncoding='octahedral')"})
+    EXPECT_EQ(
+        errorKindOf(std::string("<X3D><Scene><Shape><ImageGeometry coord='a' ") + fields + "/></Shape></Scene></X3D>"),
+        ErrorKind::unsupported)
+        << fields;
+}
+
 TEST(ReadScene, RefusesImagesThatItCannotRead) {
   const auto images = [](const std::string& children) {
     return "<X3D><Scene><Shape><ImageGeometry coord='a'>" + children + "</ImageGeometry></Shape></Scene></X3D>";
   };
   const std::string normal = "<ImageTexture containerField='normal' url='n.png'/>";
-  EXPECT_EQ(errorKindOf(images(normal + normal)), ErrorKind::unsupported);
+  EXPECT_EQ(errorKindOf(images(normal + normal + normal)), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(images("<Texture containerField='coord'><canvas/></Texture>")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(images("<MovieTexture containerField='coord' url='a.mp4'/>")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(images("<ImageTexture containerField='coord' USE='none'/>")), ErrorKind::malformed);

@@ -100,12 +100,22 @@ interface DataImage extends Records {
   height: number;
 }
 
-function normalsOfImage(node: Attributes, image: DataImage, records: number): Float32Array {
+function normalsOfImages(node: Attributes, images: DataImage[], records: number): Float32Array {
   const encoding = node.normalencoding ?? "rgb";
+  const image = images[0]!;
   if (encoding === "rgb" || encoding === "palette")
-    return table(records, (r, axis) => (2 * image.at(r, axis)) / 255 - 1);
+    return table(records, (r, axis) => 2 * fractionOf(images, r, axis) - 1);
+  if (node.normalbits === "16") {
+    const word = (r: number, part: number): number => 256 * image.at(r, part) + image.at(r, part + 2);
+    return normalsOfPairs(encoding, 65535, records, word);
+  }
   const half = (image.width * image.height) / 2;
   return normalsOfPairs(encoding, 255, records, (r, part) => image.at(part * half + r, 0));
+}
+
+/** A number whose bytes are in several images, most significant first, as a fraction of its range. */
+function fractionOf(images: DataImage[], record: number, component: number): number {
+  return images.reduce((sum, image) => 256 * sum + image.at(record, component), 0) / (256 ** images.length - 1);
 }
 
 /** Unit vectors of octahedral (x, y) or spherical (phi, theta), integers 0..largest. */
@@ -147,8 +157,8 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   const coordinate: Records = {
     at: (r, axis) => planes.reduce((value, plane, index) => 256 * value + byteOf(plane, index, r, axis), 0),
   };
-  const normal = patch.normal ? image(patch.normal) : undefined;
-  const color = patch.color ? image(patch.color) : undefined;
+  const normals = stringsOf(patch.normal).map(image);
+  const colors = stringsOf(patch.color).map(image);
   const indexWidth = numbersOf(patch.implicitmeshsize ?? node.implicitmeshsize, [256])[0]!;
   const recordIndexOf = (n: number): number => {
     if (!index) return n;
@@ -158,8 +168,8 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   };
   return {
     positions: spread(node, coordinate, recordCount, 256 ** planes.length - 1),
-    ...(normal && { normals: normalsOfImage(node, normal, recordCount) }),
-    ...(color && { colors: table(recordCount, (r, axis) => color.at(r, axis) / 255) }),
+    ...(normals.length > 0 && { normals: normalsOfImages(node, normals, recordCount) }),
+    ...(colors.length > 0 && { colors: table(recordCount, (r, axis) => fractionOf(colors, r, axis)) }),
     ...elementsOf(patch, recordIndexOf),
   };
 }

@@ -119,12 +119,22 @@ TEST_F(Faults, RefusesOptionsThatCannotBeHonoured) {
   const auto refuse = [&](const std::string& words, const std::vector<std::string>& options) {
     expectRefusal("mesh.ply", gridPly(3), 1, words, options);
   };
-  refuse("--normal-bits", {"--profile", "classic", "--normal-bits", "16"});
+  refuse("--normal-bits", {"--profile", "classic", "--normal-bits", "12"});
   refuse("--normal-bits", {"--container", "bg", "-vn", "12"});
   refuse("--normals", {"--normals", "cube"});
   refuse("--normals", {"--container", "bg", "--normals", "palette"});
-  refuse("--normals", {"--container", "bg", "--normals", "spherical", "-vp", "20"});
-  refuse("--normal-bits", {"--container", "bg", "--normals", "spherical", "-vn", "16"});
+  refuse("--normal-bits", {"--container", "bg", "--normals", "spherical", "-vp", "20", "-vn", "8"});
+  refuse("--normal-bits", {"--normals", "palette", "-vn", "16"});
+  refuse("--normal-bits", {"--profile", "classic", "--target", "x3dom", "-vn", "16"});
+  refuse("--texcoord-bits", {"--profile", "classic", "--texcoord-bits", "12"});
+  refuse("--texcoord-bits", {"--container", "bg", "--texcoord-bits", "24"});
+  refuse("--texcoord-bits", {"--target", "x3dom", "--texcoord-bits", "24"});
+  refuse("--color-bits", {"--container", "bg", "--color-bits", "24"});
+  refuse("--color-bits", {"--profile", "compact", "--color-bits", "16"});
+  refuse("--images", {"--container", "bg", "--images", "webp"});
+  refuse("--images", {"--profile", "compact", "--images", "webp"});
+  refuse("--images", {"--target", "x3dom", "--images", "webp"});
+  refuse("--normal-bits", {"--container", "bg", "--normals", "spherical", "-vn", "32"});
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "32"});
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "8", "-vp", "8"});
   refuse("--normals", {"--target", "x3dom", "--normals", "octahedral"});

@@ -13,13 +13,17 @@ namespace {
 
 ElementType normalTypeOf(const EncodeOptions& options) {
   assert(options.normals != NormalEncoding::palette);
-  assert(options.normalBits == 8 || options.normals != NormalEncoding::spherical);
   assert(options.normalBits == 8 || options.normalBits == 16 || options.normalBits == 32);
   if (isPair(options.normals))
     return unsignedTypeOf(options.normalBits / 8);
   return options.normalBits == 8    ? ElementType::int8
          : options.normalBits == 16 ? ElementType::int16
                                     : ElementType::float32;
+}
+
+/// The type of a fraction of 8, 16 or 32 bits.
+ElementType fractionTypeOf(std::uint32_t bits) {
+  return bits == 32 ? ElementType::float32 : unsignedTypeOf(bits / 8);
 }
 
 /// X3DOM reads all attributes of interleaved records as elements of the coordinates' type.
@@ -50,6 +54,9 @@ void chooseTypes(GeometryDescription& geometry, const PatchedMesh& mesh, const E
   const std::uint32_t bits = mesh.lattice.bits;
   geometry.coordType = options.coordType.value_or(unsignedTypeOf(coordBytes(Encoding::bg, bits)));
   geometry.attributeTypes[VertexRole::normal] = normalTypeOf(options);
+  for (const VertexRole set : texCoordRoles)
+    geometry.attributeTypes[set] = fractionTypeOf(options.texCoordBits);
+  geometry.attributeTypes[VertexRole::color] = fractionTypeOf(options.colorBits);
   assert(holdsLattice(geometry.coordType, bits));
   assert(!isPair(options.normals) || options.normalBits == 16 || byteSizeOf(geometry.coordType) == 2);
   if (options.target == Target::x3dom && options.layout == Layout::interleaved)

@@ -107,12 +107,15 @@ Column normalColumn(const IndexedPatch& patch, const GeometryDescription& geomet
 Column texCoordColumn(VertexRole role, const IndexedPatch& patch, const GeometryDescription& geometry) {
   const ElementType type = geometry.attributeTypes[role];
   const std::size_t set = texCoordSetOf(role);
-  Column column{fileRoleOf(role), {}, 2 * byteSizeOf(type), false};
+  const bool isPadded = byteSizeOf(type) == 1;
+  Column column{fileRoleOf(role), {}, isPadded ? 4 : 2 * byteSizeOf(type), isPadded};
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
   for (const Vec2f& texCoord : texCoordsOf(patch, set)) {
     const Vec2<double> fraction = texCoordFraction(texCoord, geometry.texCoordBoxes[set]);
     appendFraction(column.bytes, type, fraction.x);
     appendFraction(column.bytes, type, fraction.y);
+    if (isPadded)
+      column.bytes.insert(column.bytes.end(), 2, 0);
   }
   return column;
 }

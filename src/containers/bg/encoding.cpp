@@ -47,8 +47,8 @@ constinit const EncodingRow bgEncoding{
         {
             .maxPositionBits = 32,
             .maxPatchVertices = maxPatchWedges,
-            .texCoordBits = {.min = 16, .max = 16, .defaultBits = 16},
-            .colorBits = {.min = 8, .max = 8, .defaultBits = 8},
+            .texCoordBits = {.min = 8, .max = 32, .defaultBits = 16, .step = 8},
+            .colorBits = {.min = 8, .max = 32, .defaultBits = 8, .step = 8},
             .normals = bgNormals,
             .strips = true,
             .unindexed = true,

@@ -32,7 +32,8 @@ std::uint32_t defaultPositionBits(const ConvertOptions& options) {
 std::uint32_t defaultNormalBits(const ConvertOptions& options) {
   if (needsOneElementType(options) && options.normals == NormalEncoding::rgb && options.coordType)
     return 8 * byteSizeOf(*options.coordType);
-  return options.normals == NormalEncoding::octahedral && !has16BitCoords(options) ? 16 : 8;
+  const bool isPair = options.normals == NormalEncoding::octahedral || options.normals == NormalEncoding::spherical;
+  return isPair && options.target != Target::x3dom && !has16BitCoords(options) ? 16 : 8;
 }
 
 void requireCoordType(ElementType type, const ConvertOptions& options) {
@@ -85,13 +86,24 @@ void requireNormals(const ConvertOptions& options) {
                                                 bits));
     return;
   case NormalEncoding::spherical:
-    if (bits != 8)
-      refuseOption("--normal-bits", fmt::format("spherical normals have 8 bits, not {}", bits));
-    if (!has16BitCoords(options))
-      refuseOption("--normals", "spherical normals in bg lie beside coordinates of 9..16 bits");
+    if (options.target == Target::x3dom && bits != 8)
+      refuseOption("--normal-bits", fmt::format("X3DOM reads spherical normals of 8 bits, not {}", bits));
+    if (options.target == Target::x3dom && !has16BitCoords(options))
+      refuseOption("--normals", "X3DOM reads spherical normals beside coordinates of 9..16 bits");
+    if (bits != 16 && (bits != 8 || !has16BitCoords(options)))
+      refuseOption("--normal-bits", fmt::format("spherical normals have 16 bits in bg, or 8 beside coordinates of "
+                                                "9..16 bits, not {}",
+                                                bits));
     if (options.target == Target::x3dom && options.coordType == ElementType::int16)
       refuseOption("--normals", "X3DOM takes spherical normals beside int16 for signed numbers; uint16 holds them");
   }
+}
+
+void requireOtherBits(const ConvertOptions& options) {
+  if (options.texCoordBits == 24)
+    refuseOption("--texcoord-bits", "arrays hold texture coordinates of 8, 16 or 32 bits, not 24");
+  if (options.colorBits == 24)
+    refuseOption("--color-bits", "arrays hold colours of 8, 16 or 32 bits, not 24");
 }
 
 } // namespace
@@ -103,6 +115,7 @@ void resolveBgOptions(ConvertOptions& options) {
     options.normalBits = defaultNormalBits(options);
   requireCoords(options);
   requireNormals(options);
+  requireOtherBits(options);
 }
 
 } // namespace imgeo

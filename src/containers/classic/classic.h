@@ -14,12 +14,13 @@ extern const EncodingRow classicEncoding;
 /// See EncodingRow::resolveOptions.
 void resolveClassicOptions(ConvertOptions& options);
 
-/// Writes one image for the indices if there are any, one for each byte of a coordinate, one each for normals, texture
-/// coordinates and colours, and one for each byte of further attributes. For X3DOM, which has one implicit mesh for a
-/// page, all images are 256 wide. Throws Error{limit} if the indices, the records without an index, or the
-/// normals of two numbers do not fit into an image of guaranteedImageEdge rows and 256 (X3DOM) or guaranteedImageEdge
-/// columns.
-EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target);
+/// Writes one image for the indices if there are any, one for each byte of a coordinate, those of normals, texture
+/// coordinates and colours (imageCountOf), and one for each byte of further attributes. For X3DOM, which has one
+/// implicit mesh for a page, all images are 256 wide. Throws Error{limit} if the indices, the records without an index,
+/// or the normals of two numbers do not fit into an image of guaranteedImageEdge rows and 256 (X3DOM) or
+/// guaranteedImageEdge columns.
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry,
+                           const EncodeOptions& options);
 
 /// Reads the images of encodeClassic and X3DOM's ImageGeometry with record images of any size. Safe for untrusted
 /// bytes.

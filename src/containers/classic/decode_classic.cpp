@@ -2,14 +2,17 @@
 
 #include "base/error.h"
 #include "base/narrow.h"
+#include "containers/classic/attribute_images.h"
 #include "containers/classic/layout.h"
-#include "containers/classic/normal_image.h"
 #include "containers/grid.h"
+#include "containers/image_file.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
-#include "containers/png/png.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace imgeo {
 
@@ -20,7 +23,7 @@ namespace {
 class Texels {
 public:
   Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t minChannels)
-      : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
+      : image_(decodeImageFile(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
         first_(std::get<TexelLocation>(reference.location).firstTexel), location_(reference.url) {
     if (columns > image_.width)
       throw Error(ErrorKind::malformed, location_,
@@ -119,30 +122,67 @@ std::vector<Vec3f> decodePairs(const Texels& texels, std::uint32_t count, Normal
   return normals;
 }
 
-Vec2f texCoordOf(const std::uint8_t* texel, const TexCoordBox& box) {
-  const auto fraction = [](std::uint8_t high, std::uint8_t low) { return (high << 8 | low) / 65535.0; };
-  return texCoordAt({fraction(texel[0], texel[2]), fraction(texel[1], texel[3])}, box);
+/// The number of a record that byte planes hold in a channel, most significant first.
+std::uint32_t numberAt(const std::vector<Texels>& planes, std::uint64_t record, std::uint32_t channel) {
+  std::uint32_t number = 0;
+  for (const Texels& plane : planes)
+    number = number << 8 | plane[record][channel];
+  return number;
 }
 
-std::vector<Vec3f> decodeNormals(const Texels& texels, std::uint32_t count) {
+/// Two numbers of two bytes in a texel.
+Vec2<std::uint32_t> wordPairOf(const std::uint8_t* texel) {
+  return {std::uint32_t{texel[0]} << 8 | texel[2], std::uint32_t{texel[1]} << 8 | texel[3]};
+}
+
+std::vector<Vec3f> decodeNormals(const std::vector<Texels>& planes, std::uint32_t count,
+                                 const GeometryDescription& geometry) {
+  const std::uint32_t bits = geometry.imageBits[VertexRole::normal];
   std::vector<Vec3f> normals;
+  normals.reserve(count);
   for (std::uint32_t n = 0; n < count; ++n)
-    normals.push_back(normalOf(texels[n]));
+    normals.push_back(isPair(geometry.normalEncoding)
+                          ? loadNormal(wordPairOf(planes[0][n]), geometry.normalEncoding, bits)
+                          : normalOf({numberAt(planes, n, 0), numberAt(planes, n, 1), numberAt(planes, n, 2)}, bits));
   return normals;
 }
 
-std::vector<Vec2f> decodeTexCoords(const Texels& texels, std::uint32_t count, const TexCoordBox& box) {
+std::vector<Vec2f> decodeTexCoords(const std::vector<Texels>& planes, std::uint32_t count, const TexCoordBox& box,
+                                   std::uint32_t bits) {
+  const double largest = (1u << bits) - 1;
   std::vector<Vec2f> texCoords;
-  for (std::uint32_t n = 0; n < count; ++n)
-    texCoords.push_back(texCoordOf(texels[n], box));
+  texCoords.reserve(count);
+  for (std::uint32_t n = 0; n < count; ++n) {
+    Vec2<std::uint32_t> stored =
+        bits == 8 ? Vec2<std::uint32_t>{planes[0][n][0], planes[0][n][1]} : wordPairOf(planes[0][n]);
+    if (bits == 24)
+      stored = {stored.x << 8 | planes[1][n][0], stored.y << 8 | planes[1][n][1]};
+    texCoords.push_back(texCoordAt({stored.x / largest, stored.y / largest}, box));
+  }
   return texCoords;
 }
 
-std::vector<Rgba8> decodeColors(const Texels& texels, std::uint32_t count, bool hasAlpha) {
+std::vector<Rgba8> decodeColors(const std::vector<Texels>& planes, std::uint32_t count,
+                                const GeometryDescription& geometry) {
+  const double largest = (1u << geometry.imageBits[VertexRole::color]) - 1;
+  const bool hasAlpha = geometry.colorComponents == 4;
   std::vector<Rgba8> colors;
-  for (std::uint32_t n = 0; n < count; ++n)
-    colors.push_back({texels[n][0], texels[n][1], texels[n][2], hasAlpha ? texels[n][3] : std::uint8_t{255}});
+  colors.reserve(count);
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const auto channel = [&](std::uint32_t c) {
+      return static_cast<std::uint8_t>(std::lround(255 * numberAt(planes, n, c) / largest));
+    };
+    colors.push_back({channel(0), channel(1), channel(2), hasAlpha ? channel(3) : std::uint8_t{255}});
+  }
   return colors;
+}
+
+/// The channels that the first image of an attribute must have; all further ones have three, or four of colours.
+std::uint32_t channelsOf(VertexRole role, const GeometryDescription& geometry) {
+  if (role == VertexRole::color)
+    return geometry.colorComponents;
+  const bool holdsWordPairs = isTexCoord(role) ? geometry.imageBits[role] > 8 : isPair(geometry.normalEncoding);
+  return holdsWordPairs ? 4 : 3;
 }
 
 /// Decodes an attribute from its byte planes, most significant first.
@@ -151,12 +191,8 @@ NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t 
   NamedAttribute attribute{description.name, description.components, {}};
   attribute.values.reserve(std::size_t{count} * description.components);
   for (std::uint32_t n = 0; n < count; ++n)
-    for (std::uint32_t c = 0; c < description.components; ++c) {
-      std::uint32_t stored = 0;
-      for (const Texels& plane : planes)
-        stored = stored << 8 | plane[n][c];
-      attribute.values.push_back(loadNumber(stored, description, c));
-    }
+    for (std::uint32_t c = 0; c < description.components; ++c)
+      attribute.values.push_back(loadNumber(numberAt(planes, n, c), description, c));
   return attribute;
 }
 
@@ -211,29 +247,40 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   }
   checkInsideBox(decoded.positions, geometry, patch.box, location);
 
+  const auto fetchPlanes = [&](VertexRole role) {
+    const std::uint32_t channels = channelsOf(role, geometry);
+    std::vector<Texels> planes{fetchRecords(*patch.vertexAttributes[role], channels)};
+    for (const Reference& plane : patch.lowBytes[role])
+      planes.push_back(fetchRecords(plane, role == VertexRole::color ? channels : 3));
+    return planes;
+  };
   const auto decode = [&](VertexRole role, const Reference& reference) {
     switch (role) {
     case VertexRole::normal:
-      decoded.normals = isPair(geometry.normalEncoding)
+      decoded.normals = isPair(geometry.normalEncoding) && geometry.imageBits[role] == 8
                             ? decodePairs(Texels(reference, fetch, 0, 1), count, geometry.normalEncoding)
-                            : decodeNormals(fetchRecords(reference, 3), count);
+                            : decodeNormals(fetchPlanes(role), count, geometry);
       break;
     case VertexRole::texCoord:
     case VertexRole::texCoord1:
     case VertexRole::texCoord2:
     case VertexRole::texCoord3:
-      texCoordsOf(decoded, texCoordSetOf(role)) =
-          decodeTexCoords(fetchRecords(reference, 4), count, geometry.texCoordBoxes[texCoordSetOf(role)]);
+      texCoordsOf(decoded, texCoordSetOf(role)) = decodeTexCoords(
+          fetchPlanes(role), count, geometry.texCoordBoxes[texCoordSetOf(role)], geometry.imageBits[role]);
       break;
     case VertexRole::color:
-      const bool hasAlpha = geometry.colorComponents == 4;
-      decoded.colors = decodeColors(fetchRecords(reference, hasAlpha ? 4 : 3), count, hasAlpha);
+      decoded.colors = decodeColors(fetchPlanes(role), count, geometry);
       break;
     }
   };
   for (const VertexRole role : vertexRoles)
-    if (const std::optional<Reference>& reference = patch.vertexAttributes[role])
+    if (const std::optional<Reference>& reference = patch.vertexAttributes[role]) {
+      if (1 + patch.lowBytes[role].size() != imageCountOf(role, geometry.normalEncoding, geometry.imageBits[role]))
+        throw Error(ErrorKind::malformed, reference->url,
+                    std::string("there are ") + std::to_string(1 + patch.lowBytes[role].size()) + " images of " +
+                        nameOf(role) + ", which do not hold " + std::to_string(geometry.imageBits[role]) + " bits");
       decode(role, *reference);
+    }
   checkAttributes(patch, geometry);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {
     std::vector<Texels> planes;

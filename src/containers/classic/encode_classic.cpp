@@ -3,11 +3,11 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "base/parallel.h"
+#include "containers/classic/attribute_images.h"
 #include "containers/classic/layout.h"
-#include "containers/classic/normal_image.h"
+#include "containers/image_file.h"
 #include "containers/limits.h"
 #include "containers/named_attributes.h"
-#include "containers/png/png.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
 
@@ -70,46 +70,9 @@ Image coordImage(const IndexedPatch& patch, ImageSize size, const StoredCoords& 
   });
 }
 
-Image texCoordImage(const std::vector<Vec2f>& texCoords, const TexCoordBox& box, ImageSize size) {
-  const auto word = [](double fraction) {
-    return static_cast<std::uint16_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 65535));
-  };
-  return imageOf(size, 4, texCoords.size(), [&](std::size_t n, std::uint8_t* out) {
-    const Vec2<double> fraction = texCoordFraction(texCoords[n], box);
-    const std::uint16_t u = word(fraction.x), v = word(fraction.y);
-    out[0] = static_cast<std::uint8_t>(u >> 8);
-    out[1] = static_cast<std::uint8_t>(v >> 8);
-    out[2] = static_cast<std::uint8_t>(u);
-    out[3] = static_cast<std::uint8_t>(v);
-  });
-}
-
-Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize size) {
-  return imageOf(size, components, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
-    const Rgba8 color = patch.colors[n];
-    const std::uint8_t channels[] = {color.r, color.g, color.b, color.a};
-    std::copy_n(channels, components, out);
-  });
-}
-
-Image recordImage(VertexRole role, const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size) {
-  switch (role) {
-  case VertexRole::normal:
-    return normalImage(patch, geometry.normalEncoding, size);
-  case VertexRole::texCoord:
-  case VertexRole::texCoord1:
-  case VertexRole::texCoord2:
-  case VertexRole::texCoord3:
-    return texCoordImage(texCoordsOf(patch, texCoordSetOf(role)), geometry.texCoordBoxes[texCoordSetOf(role)], size);
-  case VertexRole::color:
-    break;
-  }
-  return colorImage(patch, geometry.colorComponents, size);
-}
-
 /// The image of byte `plane` of every number, counted from the least significant; one channel for each component.
-Image attributeImage(const NamedAttribute& attribute, const AttributeDescription& description, ImageSize size,
-                     std::size_t count, std::uint32_t plane) {
+Image namedAttributeImage(const NamedAttribute& attribute, const AttributeDescription& description, ImageSize size,
+                          std::size_t count, std::uint32_t plane) {
   return imageOf(size, channelsOf(description), count, [&](std::size_t n, std::uint8_t* out) {
     for (std::uint32_t c = 0; c < description.components; ++c) {
       const float value = attribute.values[n * description.components + c];
@@ -120,7 +83,9 @@ Image attributeImage(const NamedAttribute& attribute, const AttributeDescription
 
 } // namespace
 
-EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target) {
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry,
+                           const EncodeOptions& options) {
+  const Target target = options.target;
   EncodedPatch encoded{.description = describePatch(patch, geometry)};
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize implicitMeshSize = implicitMeshSizeOf(patch, records, target);
@@ -136,20 +101,23 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
     images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
   for (const VertexRole role : vertexRoles)
     if (hasAttribute(patch, role))
-      images.push_back({fileRoleOf(role), recordImage(role, patch, geometry, records)});
+      for (Image& image : attributeImages(role, patch, geometry, records))
+        images.push_back({fileRoleOf(role), std::move(image)});
   if (geometry.normalEncoding == NormalEncoding::palette && hasAttribute(patch, VertexRole::normal))
     encoded.normalError = paletteErrorOf(patch, std::ranges::find(images, Role::normal, &RoleImage::role)->image);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
     for (std::uint32_t plane = geometry.attributes[a].bytes; plane-- > 0;)
-      images.push_back(
-          {Role::attribute,
-           attributeImage(patch.namedAttributes.at(a), geometry.attributes[a], records, patch.vertexCount(), plane),
-           a});
+      images.push_back({Role::attribute,
+                        namedAttributeImage(patch.namedAttributes.at(a), geometry.attributes[a], records,
+                                            patch.vertexCount(), plane),
+                        a});
 
-  std::vector<Bytes> pngs(images.size());
-  parallelFor(images.size(), [&](std::size_t i) { pngs[i] = encodePng(images[i].image, effort); });
+  std::vector<EncodedImage> encodedImages(images.size());
+  parallelFor(images.size(),
+              [&](std::size_t i) { encodedImages[i] = encodeImage(images[i].image, options.images, options.effort); });
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const FileIndex file = addFile(encoded, {images[i].role, ".png", std::move(pngs[i])});
+    const FileIndex file =
+        addFile(encoded, {images[i].role, extensionOf(encodedImages[i].format), std::move(encodedImages[i].bytes)});
     encoded.references.push_back({images[i].role, file, TexelLocation{}, images[i].attribute});
   }
   return encoded;

@@ -18,6 +18,10 @@ constexpr std::array classicNormals{NormalEncoding::rgb, NormalEncoding::octahed
 
 void describeClassic(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
   geometry.indexType = indexTypeFor(mesh);
+  geometry.imageBits[VertexRole::normal] = options.normalBits;
+  for (const VertexRole set : texCoordRoles)
+    geometry.imageBits[set] = options.texCoordBits;
+  geometry.imageBits[VertexRole::color] = options.colorBits;
   if (options.target != Target::x3dom)
     return;
   if (!hasUnitTexCoords(mesh))
@@ -30,7 +34,7 @@ void describeClassic(GeometryDescription& geometry, const PatchedMesh& mesh, con
 
 EncodedPatch encodeClassicPatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                                 const EncodeOptions& options) {
-  return encodeClassic(patch, geometry, options.effort, options.target);
+  return encodeClassic(patch, geometry, options);
 }
 
 std::unique_ptr<PatchReader> makeClassicReader(const FetchFile& fetch) {
@@ -54,13 +58,14 @@ constinit const EncodingRow classicEncoding{
         {
             .maxPositionBits = 32,
             .maxPatchVertices = maxPatchWedges,
-            .texCoordBits = {.min = 16, .max = 16, .defaultBits = 16},
-            .colorBits = {.min = 8, .max = 8, .defaultBits = 8},
+            .texCoordBits = {.min = 8, .max = 24, .defaultBits = 16, .step = 8},
+            .colorBits = {.min = 8, .max = 24, .defaultBits = 8, .step = 8},
             .normals = classicNormals,
             .strips = true,
             .unindexed = true,
             .attributeBits = true,
             .maxError = true,
+            .webp = true,
         },
     .resolveOptions = resolveClassicOptions,
     .describe = describeClassic,

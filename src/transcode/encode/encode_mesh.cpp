@@ -29,7 +29,8 @@ EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
           .texCoordBits = options.texCoordBits,
           .colorBits = options.colorBits,
           .primitives = options.primitives,
-          .indexed = options.indexed};
+          .indexed = options.indexed,
+          .images = options.images};
 }
 
 /// Keeps the only patch of a mesh for PatchFiles.

@@ -44,6 +44,9 @@ bool canHold(const EncodingRow& row, const ConvertOptions& options, std::size_t 
   return (options.target != Target::x3dom || row.x3domVersion != nullptr) &&
          (options.primitives != Primitives::strips || can.strips) && (options.indexed || can.unindexed) &&
          std::ranges::find(can.normals, options.normals) != can.normals.end() &&
+         (options.images == ImageFormat::png || can.webp) &&
+         (options.texCoordBits == 0 || can.texCoordBits.holds(options.texCoordBits)) &&
+         (options.colorBits == 0 || can.colorBits.holds(options.colorBits)) &&
          options.positionBits <= can.maxPositionBits && options.patchVertices <= can.maxPatchVertices &&
          attributeCount <= can.maxNamedAttributes;
 }
@@ -58,6 +61,16 @@ Encoding automaticEncoding(const ConvertOptions& options, std::size_t attributeC
         return last;
     }
   return last;
+}
+
+void requireImages(const ConvertOptions& options) {
+  if (options.images == ImageFormat::png)
+    return;
+  if (!capabilitiesOf(options).webp)
+    refuseOption("--images", fmt::format("{} is an image format of classic; {} has its own files",
+                                         nameOf(options.images), nameOf(*options.encoding)));
+  if (options.target == Target::x3dom)
+    refuseOption("--images", "pages for X3DOM have PNG images");
 }
 
 void requireTextures(const TextureOptions& textures) {
@@ -75,10 +88,14 @@ void requireTextures(const TextureOptions& textures) {
 }
 
 void requireOtherBits(ConvertOptions& options) {
-  const auto resolve = [](const char* option, std::uint32_t& bits, const BitRange& range) {
+  const auto resolve = [&](const char* option, std::uint32_t& bits, const BitRange& range) {
     if (bits == 0)
       bits = range.defaultBits;
     requireWithin(option, bits, range.min, range.max);
+    if (!range.holds(bits))
+      refuseOption(option, fmt::format("{} is no multiple of {}", bits, range.step));
+    if (options.target == Target::x3dom && bits != range.defaultBits)
+      refuseOption(option, fmt::format("pages for X3DOM have {} bits, not {}", range.defaultBits, bits));
   };
   resolve("--texcoord-bits", options.texCoordBits, capabilitiesOf(options).texCoordBits);
   resolve("--color-bits", options.colorBits, capabilitiesOf(options).colorBits);
@@ -136,6 +153,7 @@ ConvertOptions resolved(ConvertOptions options) {
   requireWithin("--position-bits", options.positionBits, 8, capabilitiesOf(options).maxPositionBits);
   requireWithin("--patch-vertices", options.patchVertices, 256, maxPatchWedges);
   requireWithin("--effort", options.effort, 0, 9);
+  requireImages(options);
   requireTextures(options.textures);
   if (options.basePercent && !row.capabilities.base)
     refuseOption("--base", "only compact has a base; classic shows its first bytes");

@@ -1,7 +1,7 @@
 #include "transcode/site/inspect_geometry_file.h"
 
 #include "base/file.h"
-#include "containers/png/png.h"
+#include "containers/image_file.h"
 
 namespace imgeo {
 
@@ -11,9 +11,9 @@ GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file) {
   info.bytes = bytes.size();
   info.namedByContent = file.stem() == contentName(bytes);
   info.kind = "typed array";
-  if (file.extension() == ".png") {
-    const Image image = decodePng(bytes, file.string());
-    info.kind = "PNG image";
+  if (file.extension() == ".png" || file.extension() == ".webp") {
+    const Image image = decodeImageFile(bytes, file.string());
+    info.kind = file.extension() == ".webp" ? "WebP image" : "PNG image";
     info.width = image.width;
     info.height = image.height;
     info.channels = image.channels;

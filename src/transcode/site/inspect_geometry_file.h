@@ -15,7 +15,7 @@ struct GeometryFileInfo {
   bool namedByContent = false;                       ///< the file's name is the hash of its content
 };
 
-/// Decodes a .png file; takes any other file for a typed array. Safe for untrusted bytes. Throws Error.
+/// Decodes a .png or .webp file; takes any other file for a typed array. Safe for untrusted bytes. Throws Error.
 GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file);
 
 } // namespace imgeo

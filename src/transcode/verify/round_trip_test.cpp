@@ -41,12 +41,14 @@ void setNormals(ConvertOptions& options, std::uint32_t seed) {
   using enum NormalEncoding;
   if (options.encoding != Encoding::bg) {
     options.normals = std::array{rgb, octahedral, spherical, palette}[seed % 4];
+    if (options.normals == spherical)
+      options.normalBits = 8 << (seed / 4 % 2);
     return;
   }
   const bool canBeSpherical = options.positionBits > 8 && options.positionBits <= 16;
-  const std::pair<NormalEncoding, std::uint32_t> all[] = {{rgb, 8},         {rgb, 16},       {rgb, 32},
-                                                          {octahedral, 16}, {octahedral, 0}, {spherical, 0}};
-  std::tie(options.normals, options.normalBits) = all[seed % (canBeSpherical ? 6 : 5)];
+  const std::pair<NormalEncoding, std::uint32_t> all[] = {
+      {rgb, 8}, {rgb, 16}, {rgb, 32}, {octahedral, 16}, {octahedral, 0}, {spherical, 16}, {spherical, 8}};
+  std::tie(options.normals, options.normalBits) = all[seed % (canBeSpherical ? 7 : 6)];
 }
 
 TEST(RoundTrip, EveryEncodingPrimitiveAndPrecisionPreservesEveryMesh) {
@@ -61,6 +63,9 @@ TEST(RoundTrip, EveryEncodingPrimitiveAndPrecisionPreservesEveryMesh) {
           options.indexed = mesh % 2 == 0;
           options.positionBits = bits;
           setNormals(options, seed);
+          const std::uint32_t maxBits = encoding == Encoding::bg ? 32 : 24;
+          options.texCoordBits = std::array{0u, 8u, 16u, maxBits}[seed / 2 % 4];
+          options.colorBits = std::array{0u, 8u, 16u, maxBits}[seed / 3 % 4];
           options.patchVertices = seed % 2 ? 256 : 65535;
           options.effort = static_cast<int>(seed % 4);
           options.keepAttributes.all = seed % 3 > 0;

@@ -25,6 +25,7 @@ _imgeo() {
     "convert --coord-type") COMPREPLY=($(compgen -W "auto uint8 int8 uint16 int16 float32" -- "$word")); return ;;
     "convert --layout") COMPREPLY=($(compgen -W "separate interleaved" -- "$word")); return ;;
     "convert --normals") COMPREPLY=($(compgen -W "rgb octahedral spherical palette derived" -- "$word")); return ;;
+    "convert --images") COMPREPLY=($(compgen -W "png webp" -- "$word")); return ;;
     "convert -vn"|"convert -qn"|"convert --normal-bits") COMPREPLY=(); return ;;
     "convert -vt"|"convert -qt"|"convert --texcoord-bits") COMPREPLY=(); return ;;
     "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
@@ -73,7 +74,7 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

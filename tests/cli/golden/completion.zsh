@@ -44,14 +44,15 @@ _imgeo() {
       '--coord-type[bg\: elements of coordinates; auto\: the fewest unsigned bytes; float32 without --position-bits\: the source'\''s numbers]:coord-type:(auto uint8 int8 uint16 int16 float32)' \
       '--layout[bg\: a file for each attribute, or one of records with all of them beside the index]:layout:(separate interleaved)' \
       '--normals[how normals are stored\: as vectors, as two numbers (compact\: always), as 256 directions a patch, or in compact not at all]:normals:(rgb octahedral spherical palette derived)' \
-      '-vn[bits of a normal'\''s component; sig\: 8, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
-      '-qn[bits of a normal'\''s component; sig\: 8, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
-      '--normal-bits[bits of a normal'\''s component; sig\: 8, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
-      '-vt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic and bg have 16]:texcoord-bits: ' \
-      '-qt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic and bg have 16]:texcoord-bits: ' \
-      '--texcoord-bits[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic and bg have 16]:texcoord-bits: ' \
-      '-vc[bits of a colour'\''s component; compact\: 1..8, otherwise 8; classic and bg have 8]:color-bits: ' \
-      '--color-bits[bits of a colour'\''s component; compact\: 1..8, otherwise 8; classic and bg have 8]:color-bits: ' \
+      '--images[file format of classic'\''s images, both lossless; webp\: WebP where it is smaller than PNG, a few percent fewer bytes for ten times the encoding time]:images:(png webp)' \
+      '-vn[bits of a normal'\''s component; classic\: 8 or 16, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '-qn[bits of a normal'\''s component; classic\: 8 or 16, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '--normal-bits[bits of a normal'\''s component; classic\: 8 or 16, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '-vt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic\: 8, 16 or 24, bg\: 8, 16 or 32, otherwise 16]:texcoord-bits: ' \
+      '-qt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic\: 8, 16 or 24, bg\: 8, 16 or 32, otherwise 16]:texcoord-bits: ' \
+      '--texcoord-bits[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic\: 8, 16 or 24, bg\: 8, 16 or 32, otherwise 16]:texcoord-bits: ' \
+      '-vc[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8]:color-bits: ' \
+      '--color-bits[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \

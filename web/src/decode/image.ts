@@ -2,33 +2,33 @@
 
 import type { DecodedImage } from "../stage/decodedImage.ts";
 import { DecodeError } from "./decodeError.ts";
-import type { PngHeader } from "./png.ts";
-import { checkPng } from "./png.ts";
+import type { ImageHeader } from "./imageFile.ts";
+import { checkImage, mediaTypeOf } from "./imageFile.ts";
 
 /** An image, and the number of channels in its file: browsers decode every image to four. */
 export interface DataImage<Image extends DecodedImage = DecodedImage> {
   readonly image: Image;
-  readonly channels: PngHeader["channels"];
+  readonly channels: ImageHeader["channels"];
 }
 
-/** Decodes a PNG to exactly its stored bytes. Rejects if that is not possible. */
-export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuffer>) => Promise<Image>;
+/** Decodes an image file to exactly its stored bytes. Rejects if that is not possible. */
+export type ImageDecoder<Image extends DecodedImage> = (bytes: Uint8Array<ArrayBuffer>) => Promise<Image>;
 
 /**
- * Checks and decodes a PNG. The image has the size that the header states. Rejects with DecodeError; an image that was
+ * Checks and decodes a PNG or a lossless WebP. The image has the size that the header states. Rejects with DecodeError; an image that was
  * decoded is then closed.
  */
 export async function decodeImage<Image extends DecodedImage>(
-  png: Uint8Array<ArrayBuffer>,
+  bytes: Uint8Array<ArrayBuffer>,
   decoder: ImageDecoder<Image>,
   maxEdge?: number,
 ): Promise<DataImage<Image>> {
-  const header = checkPng(png, maxEdge);
+  const header = checkImage(bytes, maxEdge);
   let image: Image;
   try {
-    image = await decoder(png);
+    image = await decoder(bytes);
   } catch {
-    throw new DecodeError("malformed", "is a PNG that does not decode");
+    throw new DecodeError("malformed", "is an image that does not decode");
   }
   if (image.width === header.width && image.height === header.height) return { image, channels: header.channels };
   image.close();
@@ -39,8 +39,8 @@ export async function decodeImage<Image extends DecodedImage>(
 }
 
 /** Decodes with the browser, without premultiplication by alpha and colour conversion. */
-export async function decodeWithBrowser(png: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
-  return createImageBitmap(new Blob([png], { type: "image/png" }), {
+export async function decodeWithBrowser(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
+  return createImageBitmap(new Blob([bytes], { type: mediaTypeOf(bytes) }), {
     premultiplyAlpha: "none",
     colorSpaceConversion: "none",
   });

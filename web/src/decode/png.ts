@@ -5,7 +5,8 @@
 import { DecodeError } from "./decodeError.ts";
 import { foreignFormatOf } from "./foreignFormat.ts";
 
-export interface PngHeader {
+/** What the file of an image states. */
+export interface ImageHeader {
   readonly width: number;
   readonly height: number;
   /** Components of a texel: 1 for gray, 3 for RGB and palettes, 4 for RGBA. */
@@ -19,17 +20,20 @@ const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const headerLength = 13;
 const chunkOverhead = 12; // length, type, CRC
 /** By PNG colour type; 3 is a palette. */
-const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0: 1, 2: 3, 3: 3, 6: 4 };
+const channelsOfColorType: Readonly<Record<number, ImageHeader["channels"]>> = { 0: 1, 2: 3, 3: 3, 6: 4 };
 
 /**
  * Checks that the bytes are one whole PNG of 8-bit gray, RGB, RGBA or an opaque palette, not interlaced, with no edge
  * longer than `maxEdge`, and returns its size. Safe for untrusted bytes. Throws DecodeError.
  */
-export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): PngHeader {
+export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): ImageHeader {
   if (!signature.every((byte, index) => bytes[index] === byte)) {
     const other = foreignFormatOf(bytes);
     if (other !== undefined)
-      throw new DecodeError("unsupported", `is ${other}; vertex data must be PNG, which keeps every byte`);
+      throw new DecodeError(
+        "unsupported",
+        `is ${other}; vertex data must be PNG or lossless WebP, which keep every byte`,
+      );
     throw new DecodeError(bytes.length < signature.length ? "truncated" : "malformed", "is no PNG image");
   }
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -57,7 +61,7 @@ function checkOrder(types: readonly string[]): void {
     throw new DecodeError("malformed", "has its chunks out of order");
 }
 
-function readHeader(view: DataView, offset: number, maxEdge: number): PngHeader {
+function readHeader(view: DataView, offset: number, maxEdge: number): ImageHeader {
   const width = view.getUint32(offset);
   const height = view.getUint32(offset + 4);
   const [bitDepth, colorType, compression, filter, interlace] = [8, 9, 10, 11, 12].map((index) =>

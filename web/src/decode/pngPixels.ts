@@ -4,13 +4,13 @@
 import { DecodeError } from "./decodeError.ts";
 import { crc32 } from "./crc32.ts";
 import { inflate, maxDeflateRatio } from "./inflate.ts";
-import type { PngHeader } from "./png.ts";
+import type { ImageHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
 
 export interface Pixels {
   readonly width: number;
   readonly height: number;
-  readonly channels: PngHeader["channels"];
+  readonly channels: ImageHeader["channels"];
   /** Row by row from the top, `channels` bytes a texel. */
   readonly data: Uint8Array<ArrayBuffer>;
 }

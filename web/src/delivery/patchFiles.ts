@@ -63,6 +63,6 @@ export function attributeFilesOf(
           },
     );
   return attributeRoles.flatMap((role) =>
-    filesOf(role, [patch[role], role in patch.lowBytes ? patch.lowBytes[role as VertexRole] : []].flat()),
+    filesOf(role, [patch[role], patch.lowBytes[role as VertexRole] ?? []].flat()),
   );
 }

@@ -46,6 +46,8 @@ export function geometryOfArrays(
     texCoordMappings,
     colorComponents,
     normalEncoding: "rgb",
+    normalBits: 8,
+    texCoordImageBits: 16,
     decode: "auto",
     base: undefined,
     attributes: fogDepths ? [fogDepthDescription] : [],

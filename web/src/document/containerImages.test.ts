@@ -49,11 +49,14 @@ describe("images that are children of an ImageGeometry", () => {
   test("may be several of a field: low bytes of normals and colors, and sets of texture coordinates", () => {
     const images = (field: string, count: number) =>
       Array.from({ length: count }, (_, n) => `<ImageTexture containerField="${field}" url="${field}${n}"/>`).join("");
-    const { patch, warnings } = readImages(images("normal", 2) + images("color", 3) + images("texCoord", 5));
-    assert.deepEqual(patch?.lowBytes, { normal: texel("normal1"), color: texel("color1") });
+    const { patch, warnings } = readImages(images("normal", 2) + images("color", 4) + images("texCoord", 5));
+    assert.deepEqual(patch?.lowBytes, {
+      normal: [texel("normal1")],
+      color: [texel("color1"), texel("color2")],
+    });
     assert.deepEqual([patch.texCoord1, patch.texCoord3], [texel("texCoord1"), texel("texCoord3")]);
     assert.deepEqual(warnings, [
-      "only the first 2 of 3 color images are used",
+      "only the first 3 of 4 color images are used",
       "only the first 4 of 5 texCoord images are used",
     ]);
   });

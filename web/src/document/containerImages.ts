@@ -7,24 +7,19 @@ import { MFString, SFString } from "./fieldTypes.ts";
 import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
-import type { VertexRole } from "../stage/attributeRows.ts";
 import { texCoordRoles } from "../stage/attributeRows.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
-
-/** References that replace those of the node's own fields. */
-export interface ContainerImages {
-  readonly references: Partial<PatchValues>;
-  /** The second image of an attribute: the low bytes of its numbers. */
-  readonly lowBytes: Partial<Record<VertexRole, string>>;
-}
 
 /** Fields of ImageGeometry that images fill, in their exact case, as X3DOM has them. */
 const imageFields = ["index", "coord", "normal", "texCoord", "color"] as const;
 type ImageField = (typeof imageFields)[number];
 
-/** Reads the images in document order, which is the order of several images of one field. */
-export function containerImagesOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): ContainerImages {
+/**
+ * References that replace those of the node's own fields, in document order, which is the order of several images of one
+ * field.
+ */
+export function containerImagesOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): Partial<PatchValues> {
   const urls: Record<ImageField, string[]> = { index: [], coord: [], normal: [], texCoord: [], color: [] };
   for (const child of childrenOf(element)) {
     if (!entryOf(urlReaders, lowerNameOf(child))) continue;
@@ -50,21 +45,15 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
   };
   warnOfFurther("index", 1);
   warnOfFurther("normal", 2);
-  warnOfFurther("color", 2);
+  warnOfFurther("color", 3);
   warnOfFurther("texCoord", texCoordRoles.length);
-  const sets = Object.fromEntries(texCoordRoles.flatMap((role, set) => (texCoord[set] ? [[role, texCoord[set]]] : [])));
+  const sets = texCoordRoles.flatMap((role, set) => (texCoord[set] === undefined ? [] : [[role, [texCoord[set]]]]));
   return {
-    references: {
-      ...(coord.length > 0 && { coord }),
-      ...(index[0] !== undefined && { index: index[0] }),
-      ...(normal[0] !== undefined && { normal: normal[0] }),
-      ...(color[0] !== undefined && { color: color[0] }),
-      ...sets,
-    },
-    lowBytes: {
-      ...(normal[1] !== undefined && { normal: normal[1] }),
-      ...(color[1] !== undefined && { color: color[1] }),
-    },
+    ...(coord.length > 0 && { coord }),
+    ...(index[0] !== undefined && { index: index[0] }),
+    ...(normal.length > 0 && { normal: normal.slice(0, 2) }),
+    ...(color.length > 0 && { color: color.slice(0, 3) }),
+    ...(Object.fromEntries(sets) as Partial<PatchValues>),
   };
 }
 

@@ -1,6 +1,7 @@
 // The document format of each encoding, one row each. Stage builders are in delivery/encodings. Mirrors
 // src/containers/encodings.h.
 
+import type { VertexRole } from "../stage/attributeRows.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import type { Encoding, GeometryDescription, ImageProfile, PatchDescription, Reference } from "./description.ts";
 
@@ -18,6 +19,8 @@ export interface EncodingFormat {
   readonly hasGrids: boolean;
   /** The largest number of files that the coordinates of a patch can have. */
   readonly maxCoordFileCount: number;
+  /** The largest number of files that an attribute of a patch can have. */
+  maxAttributeFileCount(role: VertexRole): number;
   /** The number of files of each patch for one custom attribute whose numbers have `valueBits` bits. */
   attributeFileCount(valueBits: number): number;
   /** Bits of a custom attribute's stored integers; undefined: numbers are stored as they are. */
@@ -48,6 +51,7 @@ const classic: EncodingFormat = {
   hasBase: false,
   hasGrids: true,
   maxCoordFileCount: maxCoordPlaneCount,
+  maxAttributeFileCount: (role) => (role === "color" ? 3 : 2), // 24 bits, 16 bits of normals
   attributeFileCount: (valueBits) => valueBits / 8,
   attributeBits: (valueBits) => valueBits,
   referenceOf: (url, fragment) => ({ url, firstTexel: numberIn(beforePlus(fragment)) }),
@@ -61,6 +65,7 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
     hasBase: true,
     hasGrids: false,
     maxCoordFileCount: 1,
+    maxAttributeFileCount: () => 1,
     attributeFileCount: () => 0,
     attributeBits: (valueBits) => valueBits,
     referenceOf: (url, fragment) => ({ url, patchIndex: numberIn(beforePlus(fragment)) }),
@@ -74,6 +79,7 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
     hasBase: false,
     hasGrids: false,
     maxCoordFileCount: 1,
+    maxAttributeFileCount: () => 1,
     attributeFileCount: () => 1,
     attributeBits: () => undefined,
     referenceOf(url, fragment) {

@@ -9,6 +9,7 @@ import type {
   GeometryDescription,
   MeshMode,
   NormalEncoding,
+  PairBits,
   PatchDescription,
   Primitive,
   Reference,
@@ -18,7 +19,7 @@ import type { ElementType } from "../stage/elementType.ts";
 import { elementTypes } from "../stage/elementType.ts";
 import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
-import { byVertexRole, byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
+import { byVertexRole, byVertexRoleWith, texCoordRoles, vertexRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
 import { containerImagesOf, isStreamUrl } from "./containerImages.ts";
 import { encodingFormats } from "./encodings.ts";
@@ -48,6 +49,7 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     attributes: readAttributes(element, encoding, warnings),
     encoding,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
+    ...pairBitsOf(element, values, warnings),
     decode: choiceOf(element, "decode", values.decode, decodeModes, "auto", warnings),
     base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
     // Images store bytes; an index consists of two or three of them.
@@ -67,6 +69,21 @@ function withStream(geometry: GeometryDescription): GeometryDescription {
 
 /** The values of a stream, as `colorBy="value"` names them; the stream states their range. */
 const streamedValues = { name: "value", components: 1, fileCount: 0, bits: 8, min: [0], size: [1] } as const;
+
+/** The bits of two numbers in a texel; other values than those of nodes.md are ignored with a warning. */
+function pairBitsOf(
+  element: SceneElement,
+  { normalBits, texCoordBits }: Pick<Values<typeof nodeFields.ImageGeometry>, "normalBits" | "texCoordBits">,
+  warnings: Warning[],
+): Pick<GeometryDescription, "normalBits" | "texCoordImageBits"> {
+  const check = (field: string, bits: number, known: readonly number[]) => {
+    if (!known.includes(bits))
+      warnings.push({ element, message: `${field}="${bits}" is none of ${known.slice(1).join(", ")}` });
+  };
+  check("normalBits", normalBits, [0, 8, 16]);
+  check("texCoordBits", texCoordBits, [0, 8, 16, 24]);
+  return { normalBits: normalBits === 16 ? 16 : 8, texCoordImageBits: texCoordBits === 8 ? 8 : 16 };
+}
 
 /**
  * The quantization box of a compact geometry with neither `position` nor `size`: the cube over the longest edge of its
@@ -158,7 +175,16 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 
 /** Fields of ImageGeometry only. */
 type ImageFields =
-  "paused" | "rate" | "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode" | "implicitMeshCount";
+  | "paused"
+  | "rate"
+  | "numColorComponents"
+  | "normalBits"
+  | "texCoordBits"
+  | "decode"
+  | "profile"
+  | "base"
+  | "implicitMeshMode"
+  | "implicitMeshCount";
 
 function commonFieldsOf(
   element: SceneElement,
@@ -178,6 +204,8 @@ function commonFieldsOf(
     texCoordMappings: values.texCoordMapping,
     indexType,
     normalEncoding,
+    normalBits: 8 as PairBits,
+    texCoordImageBits: 16 as PairBits,
     value: undefined,
   };
 }
@@ -217,13 +245,9 @@ function readPatches(
 ): PatchDescription[] {
   const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
   if (patchElements.length === 0) {
-    const { references, lowBytes } = containerImagesOf(element, resolve, warnings);
-    const values = { ...readFields(element, nodeFields.GeometryPatch, warnings), ...references };
-    const patch = patchOf(element, withImplicitMeshCount(element, values, warnings), encoding, warnings);
-    const lowReferences = Object.fromEntries(
-      Object.entries(lowBytes).map(([role, url]) => [role, referenceOf(url, encoding)]),
-    );
-    return [{ ...patch, lowBytes: lowReferences }];
+    const images = containerImagesOf(element, resolve, warnings);
+    const values = { ...readFields(element, nodeFields.GeometryPatch, warnings), ...images };
+    return [patchOf(element, withImplicitMeshCount(element, values, warnings), encoding, warnings)];
   }
   return patchElements.map((child) =>
     patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), encoding, warnings),
@@ -250,12 +274,31 @@ function patchOf(
     grid: undefined,
     index: reference(values.index),
     coord: coord.map((url) => referenceOf(url, encoding)),
-    ...byVertexRole((role) => reference(values[role])),
+    ...byVertexRole((role) => reference(values[role][0] ?? "")),
     data: reference(values.data),
     attributes: values.attrib.map((url) => referenceOf(url, encoding)),
     value: [],
-    lowBytes: {},
+    lowBytes: lowBytesOf(element, values, encoding, warnings),
   };
+}
+
+/** The images of an attribute after the first. */
+function lowBytesOf(
+  element: SceneElement,
+  values: PatchValues,
+  encoding: Encoding,
+  warnings: Warning[],
+): PatchDescription["lowBytes"] {
+  const roles = vertexRoles.filter((role) => values[role].length > 1);
+  return Object.fromEntries(
+    roles.flatMap((role) => {
+      const used = encodingFormats[encoding].maxAttributeFileCount(role);
+      if (values[role].length > used)
+        warnings.push({ element, message: `only the first ${used} of ${values[role].length} ${role} are used` });
+      const low = values[role].slice(1, used);
+      return low.length === 0 ? [] : [[role, low.map((url) => referenceOf(url, encoding))]];
+    }),
+  );
 }
 
 /** The paper's name for `implicitMeshSize`, which has the last word where both are stated. */

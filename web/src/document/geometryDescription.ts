@@ -66,10 +66,10 @@ export interface PatchDescription extends Readonly<Record<VertexRole, Reference 
   /** Images: byte planes, most significant first. Typed arrays: one. */
   readonly coord: readonly Reference[];
   /**
-   * Classic only: the image with the low byte of each number of an attribute whose own image has the high byte. For
-   * normals as vectors and for colors.
+   * Classic only: further images of an attribute, each with the next lower byte of its numbers; one or more. For normals
+   * as vectors, for colors, and for texture coordinates, whose first image has two bytes.
    */
-  readonly lowBytes: Readonly<Partial<Record<VertexRole, Reference>>>;
+  readonly lowBytes: Readonly<Partial<Record<VertexRole, readonly Reference[]>>>;
   /** Compact only: all of the patch. */
   readonly data: Reference | undefined;
   /** The files of all further attributes, one after the other, `fileCount` each. */
@@ -107,6 +107,9 @@ export type MeshMode = (typeof meshModes)[number];
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
 export type NormalEncoding = (typeof normalEncodings)[number];
 
+/** Bits of two numbers in a texel: each one byte, or two bytes (red and blue, green and alpha). */
+export type PairBits = 8 | 16;
+
 /**
  * How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), as
  * typed arrays (BG), or as classic with coordinates that a live stream sends.
@@ -143,6 +146,10 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly texCoordMappings: readonly string[];
   readonly colorComponents: 3 | 4;
   readonly normalEncoding: NormalEncoding;
+  /** Classic only: bits of each number of octahedral and spherical normals. */
+  readonly normalBits: PairBits;
+  /** Classic only: bits of a texture coordinate in the first image of a set. */
+  readonly texCoordImageBits: PairBits;
   /** Where images are decoded: by the shader, in workers, or wherever is better. */
   readonly decode: DecodeMode;
   /** In images, Uint16 stands for the vertex's column and row, Uint32 for its index. */

@@ -47,12 +47,12 @@ const patchFields = {
   implicitMeshSize: SFVec2f([256, 256]),
   index: SFString(""),
   coord: MFString([]),
-  normal: SFString(""),
-  texCoord: SFString(""),
-  texCoord1: SFString(""),
-  texCoord2: SFString(""),
-  texCoord3: SFString(""),
-  color: SFString(""),
+  normal: MFString([]),
+  texCoord: MFString([]),
+  texCoord1: MFString([]),
+  texCoord2: MFString([]),
+  texCoord3: MFString([]),
+  color: MFString([]),
   data: SFString(""),
   attrib: MFString([]),
 };
@@ -295,6 +295,10 @@ export const nodeFields = {
   ImageGeometry: {
     ...geometryFields,
     numColorComponents: SFInt32(3),
+    /** Bits of a number of octahedral and spherical normals: 8, or 16 in one RGBA image. */
+    normalBits: SFInt32(0),
+    /** Bits of texture coordinates: 8, 16 in one RGBA image, or 24 in two. */
+    texCoordBits: SFInt32(0),
     decode: SFString("auto"),
     profile: SFString("classic"),
     base: SFString(""),

@@ -85,6 +85,8 @@ export interface TextureStage extends StageHead {
   readonly missingBytesMidpoint: number;
   readonly attributes: ByVertexRole<TexelRange>;
   readonly normalFormat: NormalFormat;
+  /** Bits of a texture coordinate in its image: one byte (red, green), or two (red and blue, green and alpha). */
+  readonly texCoordBits: 8 | 16;
   readonly colorComponents: 3 | 4;
   /** Values of the attribute that colors the geometry; undefined until its first byte plane is available. */
   readonly value: ValuePlanes | undefined;

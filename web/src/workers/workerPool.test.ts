@@ -47,7 +47,7 @@ function poolWithFakes({ size = 2, idleMs = 1000, start = true, broken = false }
 }
 
 const input = (n: number): NormalJob => ({
-  file: { png: pngWithTexels(4, 1, 3, (texel) => n + texel), firstTexel: 0 },
+  file: { bytes: pngWithTexels(4, 1, 3, (texel) => n + texel), firstTexel: 0 },
   format: { kind: "byteVector" },
   count: 2,
   rowLength: 0,
@@ -157,7 +157,7 @@ describe("jobs", () => {
       assert.equal(onMainThread.length, 3);
       assert.equal(pool.workerCount, 0);
       const bad: IndexJob = {
-        file: { png: pngWithTexels(4, 1, 3, () => 255), firstTexel: 0 },
+        file: { bytes: pngWithTexels(4, 1, 3, () => 255), firstTexel: 0 },
         draws: [{ primitive: "points", first: 0, count: 2 }],
         rowLength: 4,
         isWide: true,

@@ -5,7 +5,7 @@ import { pngWithTexels } from "../png.testing.ts";
 
 /** An RGB image of 4 x 2 texels, whose bytes begin with `first`. */
 const plane = (first: number) => pngWithTexels(4, 2, 3, (n, channel) => (first + 10 * n + channel) % 256);
-const file = (png: Uint8Array<ArrayBuffer>, firstTexel = 0) => ({ png, firstTexel });
+const file = (png: Uint8Array<ArrayBuffer>, firstTexel = 0) => ({ bytes: png, firstTexel });
 const layout = { count: 5, rowLength: 0 };
 
 describe("coordinates on the CPU", () => {

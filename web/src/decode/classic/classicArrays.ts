@@ -5,15 +5,15 @@
 import { makeIndex } from "../indexArray.ts";
 import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
-import type { Pixels } from "../pngPixels.ts";
-import { decodePixels } from "../pngPixels.ts";
+import type { Pixels } from "../imagePixels.ts";
+import { decodePixels } from "../imagePixels.ts";
 import type { DrawRange, NormalFormat, StatedDrawRange } from "../../stage/stage.ts";
 import { isPairFormat } from "../../stage/stage.ts";
 import { drawnPrimitives } from "../drawnPrimitives.ts";
 
 /** A file, and the texel at which its data begin. */
 export interface ImageFile {
-  readonly png: Uint8Array<ArrayBuffer>;
+  readonly bytes: Uint8Array<ArrayBuffer>;
   readonly firstTexel: number;
 }
 
@@ -136,11 +136,12 @@ export interface NormalJob extends RecordLayout {
 }
 
 /**
- * Decodes normals to bytes: the three of a vector, or a pair, whose first number is in the upper half of the image and
- * whose second is in the lower half.
+ * Decodes normals: to the three bytes of a vector, or to a pair. Of a pair of bytes, the first is in the upper half of
+ * the image and the second in the lower half; a texel has both numbers of a pair of words.
  */
 export async function classicNormals({ file, format, ...layout }: NormalJob): Promise<VertexArray> {
   if (!isPairFormat(format)) return bytesOf(await imageOf(file, 3), layout, 3);
+  if (format.bits === 16) return wordsOf(await imageOf(file, 4), layout);
   const image = await imageOf(file, 1);
   const { data, channels } = image;
   const half = (image.width * image.height) / 2;
@@ -153,13 +154,27 @@ export async function classicNormals({ file, format, ...layout }: NormalJob): Pr
   return { array, components: 2, stride: 4, offset: 0 };
 }
 
-export interface TexCoordJob extends RecordLayout {
-  readonly file: ImageFile;
+export interface TexCoordJob extends PlanesJob {
+  /** Bits of each number in the first image. Further images have the next lower bytes. */
+  readonly firstBits: 8 | 16;
 }
 
-/** Decodes texture coordinates to 16-bit words: red and blue are the bytes of u, green and alpha those of v. */
-export async function classicTexCoords({ file, ...layout }: TexCoordJob): Promise<VertexArray> {
-  const image = await imageOf(file, 4);
+/** Decodes texture coordinates to fractions of 8, 16 or, of two images, 24 bits. */
+export async function classicTexCoords({ planes, firstBits, ...layout }: TexCoordJob): Promise<VertexArray> {
+  const [first, low] = planes;
+  if (first === undefined) throw new DecodeError("truncated", "has no image of texture coordinates");
+  if (firstBits === 8) return { ...bytesOf(await imageOf(first, 3), layout, 3), components: 2 };
+  const words = wordsOf(await imageOf(first, 4), layout);
+  if (low === undefined) return words;
+  const lowBytes = bytesOf(await imageOf(low, 3), layout, 3).array;
+  const array = new Float32Array(layout.count * 2);
+  for (let n = 0; n < array.length; ++n)
+    array[n] = (256 * (words.array[n] ?? 0) + (lowBytes[4 * (n >> 1) + (n & 1)] ?? 0)) / 0xffffff;
+  return { array, components: 2, stride: 2, offset: 0 };
+}
+
+/** Two 16-bit numbers of each record: red and blue are the bytes of the first, green and alpha those of the second. */
+function wordsOf(image: DataPixels, layout: RecordLayout): VertexArray {
   const texelOf = texelsOf(image, layout);
   const { data, channels } = image;
   const array = new Uint16Array(layout.count * 2);
@@ -187,9 +202,16 @@ export interface WordJob extends PlanesJob {
   readonly isSigned: boolean;
 }
 
-/** Decodes an attribute of two byte planes to 16-bit words; without the lower one a byte b stands for 257 b. */
+/**
+ * Decodes an attribute of several byte planes: up to two of them to 16-bit words, three to fractions. Without the lower
+ * ones a byte b stands for 257 b.
+ */
 export async function classicWords({ components, isSigned, ...job }: WordJob): Promise<VertexArray> {
   const sums = await sumsOf(job, components, components);
+  if (job.planes.length > 2) {
+    const array = Float32Array.from(sums, (sum) => sum / 0xffffff);
+    return { array, components, stride: components, offset: 0 };
+  }
   const wordOf = (sum: number) => (job.planes.length === 1 ? 257 * sum : sum);
   const stride = 4; // WebGL reads records of whole multiples of four bytes faster
   const array = isSigned ? new Int16Array(job.count * stride) : new Uint16Array(job.count * stride);
@@ -207,8 +229,8 @@ interface DataPixels extends Pixels {
   readonly firstTexel: number;
 }
 
-async function imageOf({ png, firstTexel }: ImageFile, minChannels: number): Promise<DataPixels> {
-  const pixels = await decodePixels(png);
+async function imageOf({ bytes, firstTexel }: ImageFile, minChannels: number): Promise<DataPixels> {
+  const pixels = await decodePixels(bytes);
   if (pixels.channels < minChannels)
     throw new DecodeError("malformed", `has ${pixels.channels} channels where ${minChannels} are needed`);
   return { ...pixels, firstTexel };

@@ -34,7 +34,7 @@ async function outputOf({ kind, columns, rows, ccw, position, size, width, chann
   const pixels = (bytes: number[]) =>
     pngWithTexels(width, rows, channels, (n, channel) => bytes[channels * n + channel] ?? assert.fail("too few bytes"));
   const { coord, normal, index } = await classicGrid({
-    planes: planes.map((bytes) => ({ png: pixels(bytes), firstTexel: 0 })),
+    planes: planes.map((bytes) => ({ bytes: pixels(bytes), firstTexel: 0 })),
     planeCount: planes.length,
     missingBytesMidpoint: 0,
     count: columns * rows,

@@ -96,6 +96,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       maxStoredValue: { value: 65535 },
       firstSequenceIndex: { value: 0 },
       isStrip: { value: false },
+      areTexCoordsBytes: { value: false },
       colorHasAlpha: { value: false },
     },
   });

@@ -110,6 +110,7 @@ uniform float maxStoredValue;
 uniform int firstSequenceIndex;
 uniform bool isStrip;
 uniform int lineCount;
+uniform bool areTexCoordsBytes;
 uniform bool colorHasAlpha;
 
 #ifdef GRID
@@ -213,9 +214,17 @@ vec3 gridNormal(int record) {
 
 #endif
 
+// Two numbers of a texel in 16 bits each: red and blue are the bytes of the first, green and alpha those of the second.
+vec2 wordsOf(vec4 texel) {
+  vec4 bytes = texel * 255.0;
+  return bytes.rg * 256.0 + bytes.ba;
+}
+
 vec3 readNormal(int record) {
   #ifdef GRID_NORMALS
     return gridNormal(record);
+  #elif defined(NORMAL_WORD_TEXELS)
+    return unitOf(floor(wordsOf(texelOf(normalImage, ${glslFirstTexelOf("normal")}, recordTexelIndex(record))) + 0.5));
   #elif defined(NORMAL_MAX)
     // Numbers of 16 bits, from live streams: red and green are the high bytes.
     if (NORMAL_MAX > 255.0) {
@@ -231,10 +240,9 @@ vec3 readNormal(int record) {
   #endif
 }
 
-// Two 16-bit words: red and blue are the bytes of u, green and alpha those of v.
 vec2 readTexCoord(sampler2D image, int first, int record) {
-  vec4 bytes = texelOf(image, first, recordTexelIndex(record)) * 255.0;
-  return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
+  vec4 texel = texelOf(image, first, recordTexelIndex(record));
+  return areTexCoordsBytes ? texel.rg : wordsOf(texel) / 65535.0;
 }
 
 ${texCoordRoles.map(imageTexCoordMacro).join("\n")}

@@ -60,6 +60,7 @@ export interface ImageVertexUniforms extends VertexUniforms, Record<`${VertexRol
   isStrip: IUniform<boolean>;
   /** Lines of the draw, at least 1. A draw of several instances repeats all lines for each. */
   lineCount: IUniform<number>;
+  areTexCoordsBytes: IUniform<boolean>;
   colorHasAlpha: IUniform<boolean>;
 }
 
@@ -124,6 +125,7 @@ export function normalDefinesOf(format: NormalFormat, isWord: boolean): Record<s
   return {
     [format.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
     NORMAL_MAX: `${2 ** format.bits - 1}.0`,
+    ...(format.bits === 16 && { NORMAL_WORD_TEXELS: "" }),
     ...(isWord && { NORMAL_WORDS: "" }),
   };
 }

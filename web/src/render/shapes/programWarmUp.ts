@@ -124,7 +124,7 @@ const expectedBase: BufferStage = {
 };
 
 function bareStage(
-  { normalEncoding, indexType, colorComponents }: GeometryDescription,
+  { normalEncoding, normalBits, texCoordImageBits, indexType, colorComponents }: GeometryDescription,
   patch: PatchDescription,
 ): Omit<TextureStage, "name" | "draws" | "index"> {
   return {
@@ -136,7 +136,8 @@ function bareStage(
     coordPlaneCount: patch.coord.length,
     missingBytesMidpoint: 0,
     attributes: {},
-    normalFormat: isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" },
+    normalFormat: isPair(normalEncoding) ? { kind: normalEncoding, bits: normalBits } : { kind: "byteVector" },
+    texCoordBits: texCoordImageBits,
     colorComponents,
     value: undefined,
   };

@@ -138,6 +138,7 @@ function imageUniformsOf(
     firstSequenceIndex: { value: 0 },
     isStrip: { value: false },
     lineCount: { value: 1 },
+    areTexCoordsBytes: { value: stage.texCoordBits === 8 },
     colorHasAlpha: { value: colorsOf(stage) === "rgba" },
   };
 }

@@ -8,8 +8,8 @@ import type { ImageFile, RecordLayout } from "../../../decode/classic/classicArr
 import type { GridArrays } from "../../../decode/classic/classicGrid.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
-import type { PngHeader } from "../../../decode/png.ts";
-import { checkPng } from "../../../decode/png.ts";
+import type { ImageHeader } from "../../../decode/imageFile.ts";
+import { checkImage } from "../../../decode/imageFile.ts";
 import type { BufferStage, DrawRange, GpuIndex, GpuVertices } from "../../../stage/stage.ts";
 import { drawnPrimitives } from "../../../decode/drawnPrimitives.ts";
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
@@ -23,20 +23,35 @@ import type { Content } from "../../resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
-/** Decodes the image of an attribute in a worker. */
+/** The available byte planes of an attribute, of `planeCount`. */
+interface AttributeImages {
+  readonly planes: readonly [ImageFile, ...ImageFile[]];
+  readonly planeCount: number;
+  readonly layout: RecordLayout;
+}
+
+/** Decodes an attribute in a worker. */
 type AttributeDecoder = (
   run: BuilderTools["runJob"],
-  image: RecordLayout & { readonly file: ImageFile },
+  images: AttributeImages,
   geometry: GeometryDescription,
   signal: AbortSignal,
 ) => Promise<VertexArray>;
 
 const attributeDecoders: Readonly<Record<VertexRole, AttributeDecoder>> = {
-  normal: (run, image, geometry, signal) =>
-    run("classicNormals", { ...image, format: normalFormatOf(geometry) }, signal),
-  ...withTexCoordRoles((): AttributeDecoder => (run, image, _, signal) => run("classicTexCoords", image, signal)),
-  color: (run, image, { colorComponents }, signal) =>
-    run("classicColors", { ...image, components: colorComponents }, signal),
+  normal: (run, { planes, planeCount, layout }, geometry, signal) =>
+    planeCount > 1
+      ? run("classicWords", { planes, components: 3, isSigned: true, ...layout }, signal)
+      : run("classicNormals", { file: planes[0], format: normalFormatOf(geometry), ...layout }, signal),
+  ...withTexCoordRoles(
+    (): AttributeDecoder =>
+      (run, { planes, layout }, { texCoordImageBits }, signal) =>
+        run("classicTexCoords", { planes, firstBits: texCoordImageBits, ...layout }, signal),
+  ),
+  color: (run, { planes, planeCount, layout }, { colorComponents: components }, signal) =>
+    planeCount > 1
+      ? run("classicWords", { planes, components, isSigned: false, ...layout }, signal)
+      : run("classicColors", { file: planes[0], components, ...layout }, signal),
 };
 
 interface IndexedDraws {
@@ -53,16 +68,16 @@ class AvailableArrays {
   coordPlanes: (ImageFile | undefined)[] = [];
   /** The undecoded index image, until the first coordinate image is available. */
   waitingIndex: ImageFile | undefined;
-  coordHeader: PngHeader | undefined;
+  coordHeader: ImageHeader | undefined;
   coord: GpuVertices | undefined;
   coordPlaneCount = 0;
   indexedDraws: IndexedDraws | undefined;
   attributes: Partial<Record<VertexRole, GpuVertices>> = {};
   /** Normals computed from the slope of a grid without stored normals. */
   slopeNormals: GpuVertices | undefined;
-  /** Undecoded images of attributes of two byte planes, until both are available. */
+  /** Undecoded images of attributes, until all planes of an attribute are available. */
   attributePlanes: Partial<Record<VertexRole, (ImageFile | undefined)[]>> = {};
-  /** Byte planes of those attributes that have been decoded. */
+  /** Byte planes of attributes that have been decoded. */
   attributePlaneCounts: Partial<Record<VertexRole, number>> = {};
   /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
@@ -95,8 +110,8 @@ class BufferStageBuilder implements StageBuilder {
   async accept(file: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
     const available = this.#available;
-    const image = { png: content.bytes, firstTexel: firstTexelOf(file.reference) };
-    const header = checkPng(image.png);
+    const image = { bytes: content.bytes, firstTexel: firstTexelOf(file.reference) };
+    const header = checkImage(image.bytes);
     switch (file.role) {
       case "coord":
         available.coordPlanes[file.plane] = image;
@@ -114,15 +129,8 @@ class BufferStageBuilder implements StageBuilder {
       case "patch":
       case "base":
         return;
-      default: {
-        if (this.#patch.lowBytes[file.role] !== undefined) {
-          await this.#decodeWords(available, file.role, file.plane, image, header, signal);
-          return;
-        }
-        const input = { file: image, ...this.#layout(header) };
-        const vertices = await attributeDecoders[file.role](this.#run, input, this.#geometry, signal);
-        available.attributes[file.role] = await this.#uploads.storeVertices(vertices, signal);
-      }
+      default:
+        await this.#decodeAttribute(available, file.role, file.plane, image, header, signal);
     }
   }
 
@@ -158,8 +166,9 @@ class BufferStageBuilder implements StageBuilder {
       coord: Array.from({ length: available.coordPlaneCount }),
       value: value ? this.#patch.value : [],
     });
-    const lowRoles = vertexRoles.filter((role) => this.#patch.lowBytes[role] !== undefined);
-    const isWhole = lowRoles.every((role) => available.attributePlaneCounts[role] === 2);
+    const isWhole = vertexRoles.every(
+      (role) => attributes[role] === undefined || available.attributePlaneCounts[role] === this.#planeCountOf(role),
+    );
     const name = attained === "full" && !isWhole ? "shaded" : attained;
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
@@ -222,41 +231,43 @@ class BufferStageBuilder implements StageBuilder {
     if (planes.length === planeCount) available.coordPlanes = [];
   }
 
-  /** Decodes an attribute of two byte planes: from the upper one as soon as it is available, then from both. */
-  async #decodeWords(
+  #planeCountOf(role: VertexRole): number {
+    return 1 + (this.#patch.lowBytes[role]?.length ?? 0);
+  }
+
+  /** Decodes the byte planes of an attribute from the most significant on, as far as they are available. */
+  async #decodeAttribute(
     available: AvailableArrays,
     role: VertexRole,
     plane: number,
     image: ImageFile,
-    header: PngHeader,
+    header: ImageHeader,
     signal: AbortSignal,
   ): Promise<void> {
     const stored = (available.attributePlanes[role] ??= []);
     stored[plane] = image;
-    const planes = leadingPlanes(stored);
+    const [first, ...others] = leadingPlanes(stored);
+    if (first === undefined) return;
+    const planes = [first, ...others] as const;
+    const planeCount = this.#planeCountOf(role);
     const isDecoded = () => planes.length <= (available.attributePlaneCounts[role] ?? 0);
     if (isDecoded()) return;
-    const isSigned = role === "normal";
-    const components = isSigned ? 3 : this.#geometry.colorComponents;
-    const vertices = await this.#run(
-      "classicWords",
-      { planes, components, isSigned, ...this.#layout(header, planes[0]) },
-      signal,
-    );
-    const words = await this.#uploads.storeVertices(vertices, signal);
-    // The job of one plane may end after that of both.
+    const images = { planes, planeCount, layout: this.#layout(header, first) };
+    const vertices = await attributeDecoders[role](this.#run, images, this.#geometry, signal);
+    const decoded = await this.#uploads.storeVertices(vertices, signal);
+    // Jobs of fewer and of more planes may end in any order.
     if (isDecoded()) {
-      this.#uploads.retire(words);
+      this.#uploads.retire(decoded);
       return;
     }
     this.#uploads.retire(available.attributes[role]);
-    available.attributes[role] = words;
+    available.attributes[role] = decoded;
     available.attributePlaneCounts[role] = planes.length;
-    if (planes.length > 1) available.attributePlanes[role] = [];
+    if (planes.length === planeCount) available.attributePlanes[role] = [];
   }
 
   /** Decodes the values once all their planes are available. */
-  async #decodeValues(available: AvailableArrays, header: PngHeader, signal: AbortSignal): Promise<void> {
+  async #decodeValues(available: AvailableArrays, header: ImageHeader, signal: AbortSignal): Promise<void> {
     const { value: attribute } = this.#geometry;
     const planes = available.valuePlanes.filter((plane) => plane !== undefined);
     if (attribute === undefined || planes.length < this.#patch.value.length) return;
@@ -317,7 +328,7 @@ class BufferStageBuilder implements StageBuilder {
     }
   }
 
-  #layout({ width, height }: PngHeader, { firstTexel }: { firstTexel: number } = { firstTexel: 0 }): RecordLayout {
+  #layout({ width, height }: ImageHeader, { firstTexel }: { firstTexel: number } = { firstTexel: 0 }): RecordLayout {
     const { index, grid, vertexCount, implicitWidth } = this.#patch;
     if (grid !== undefined) return { count: vertexCount, rowLength: implicitWidth };
     if (index === undefined) return { count: cornerCountOf(this.#patch), rowLength: implicitWidth };

@@ -5,8 +5,8 @@ import type { GeometryDescription, Reference } from "../../../document/descripti
 import { isPair } from "../../../document/geometry.ts";
 import type { NormalFormat } from "../../../stage/stage.ts";
 
-export function normalFormatOf({ normalEncoding }: GeometryDescription): NormalFormat {
-  return isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" };
+export function normalFormatOf({ normalEncoding, normalBits }: GeometryDescription): NormalFormat {
+  return isPair(normalEncoding) ? { kind: normalEncoding, bits: normalBits } : { kind: "byteVector" };
 }
 
 export function firstTexelOf(reference: Reference): number {

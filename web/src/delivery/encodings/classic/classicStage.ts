@@ -63,7 +63,8 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       case "coord":
         return patch.grid?.kind === "heightMap" ? 1 : 3;
       case "normal":
-        return isPairFormat(normalFormat) ? 1 : attributeRows.normal.classic.channels;
+        if (!isPairFormat(normalFormat)) return attributeRows.normal.classic.channels;
+        return normalFormat.bits === 16 ? 4 : 1;
       case "color":
         return geometry.colorComponents;
       case "value":
@@ -73,7 +74,7 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       case "base":
         return 3;
       default:
-        return attributeRows[role].classic.channels;
+        return geometry.texCoordImageBits === 8 ? 3 : attributeRows[role].classic.channels;
     }
   }
 
@@ -100,7 +101,7 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
       const range = { image, firstTexel: firstTexelOf(file.reference) };
-      const holdsPairs = file.role === "normal" && isPairFormat(normalFormat);
+      const holdsHalves = file.role === "normal" && isPairFormat(normalFormat) && normalFormat.bits === 8;
       const needed = channelsOf(file.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (file.role === "index") {
@@ -110,7 +111,7 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       }
       const records = patch.index === undefined && patch.grid === undefined ? cornerCount : patch.vertexCount;
       // The upper half of the image has the first number of each pair, the lower half the second.
-      if (holdsPairs) checkHolds(range, texelCountOf(image) / 2 + records, image.width);
+      if (holdsHalves) checkHolds(range, texelCountOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (file.role === "coord") coordPlanes[file.plane] = range;
       else if (file.role === "value") valuePlanes[file.plane] = range;
@@ -146,6 +147,7 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
         missingBytesMidpoint: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
         attributes,
         normalFormat,
+        texCoordBits: geometry.texCoordImageBits,
         colorComponents: geometry.colorComponents,
         value:
           value.length === 0
