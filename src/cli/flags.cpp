@@ -141,7 +141,7 @@ Command convertCommand() {
                         "or 32, otherwise 16"),
                 integer("color-bits", {"-vc"}, 1, 32, "",
                         "bits of a colour's component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; "
-                        "otherwise 8"),
+                        "otherwise 8, which is what imgeo reads of sources"),
                 integer("patch-vertices", {}, 256, 4194304, "65535",
                         "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
                 {.name = "base",

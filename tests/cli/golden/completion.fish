@@ -29,7 +29,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normals -x -a 'rgb
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l images -x -a 'png webp' -d 'file format of classic\'s images, both lossless; webp: WebP where it is smaller than PNG, a few percent fewer bytes for ten times the encoding time'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-bits -o vn -o qn -x -d 'bits of a normal\'s component; classic: 8 or 16, compact: 4..16; bg: 8, 16 or 32; otherwise 8'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texcoord-bits -o vt -o qt -x -d 'bits of a texture coordinate; compact: 1..16, otherwise 12; classic: 8, 16 or 24, bg: 8, 16 or 32, otherwise 16'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l color-bits -o vc -x -d 'bits of a colour\'s component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; otherwise 8'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l color-bits -o vc -x -d 'bits of a colour\'s component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l patch-vertices -x -d 'the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l base -x -d 'compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l drop -x -a 'none degenerate repeated both' -d 'which elements to leave out: those with two corners at one place, those that repeat another, or both'

@@ -51,8 +51,8 @@ _imgeo() {
       '-vt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic\: 8, 16 or 24, bg\: 8, 16 or 32, otherwise 16]:texcoord-bits: ' \
       '-qt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic\: 8, 16 or 24, bg\: 8, 16 or 32, otherwise 16]:texcoord-bits: ' \
       '--texcoord-bits[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic\: 8, 16 or 24, bg\: 8, 16 or 32, otherwise 16]:texcoord-bits: ' \
-      '-vc[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8]:color-bits: ' \
-      '--color-bits[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8]:color-bits: ' \
+      '-vc[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources]:color-bits: ' \
+      '--color-bits[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
