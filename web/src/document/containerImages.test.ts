@@ -71,7 +71,7 @@ describe("images that are children of an ImageGeometry", () => {
       <canvas containerField="coord"/>
       <ImageTexture url="a.png"/>`);
     assert.deepEqual(patch?.coord, []);
-    assert.equal(warnings.filter((message) => message.startsWith("movies are not read")).length, 2);
+    assert.equal(warnings.filter((message) => message.startsWith("movies are not drawn")).length, 2);
     assert.equal(warnings.length, 7);
   });
 
@@ -99,4 +99,21 @@ describe("images that are children of an ImageGeometry", () => {
     });
     assert.deepEqual([patch?.coord, warnings.length], [[], 1]);
   });
+});
+
+test("a Texture in an Appearance is an ImageTexture, whose image may be an img in it", () => {
+  const texture = (content: string) => `<Shape><Appearance>${content}</Appearance><Box/></Shape>`;
+  const scene = readScene(
+    elementsOf(`<X3D><Scene>${texture('<Texture url="a.png"/>')}
+      ${texture('<Material><Texture containerField="diffuseTexture"><img src="b.png"/></Texture></Material>')}
+      ${texture('<Texture><video src="c.mp4"/></Texture>')}</Scene></X3D>`),
+  );
+  assert.deepEqual(
+    shapesOf(scene.root).map(({ appearance }) => appearance.textures.map(({ urls }) => urls)),
+    [[["a.png"]], [["b.png"]], []],
+  );
+  assert.deepEqual(
+    scene.warnings.map(({ message }) => message),
+    ["movies are not drawn; images and live streams are"],
+  );
 });

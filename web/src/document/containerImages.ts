@@ -64,7 +64,7 @@ export function isStreamUrl(url: string): boolean {
 
 type UrlReader = (element: SceneElement, warnings: Warning[]) => string | undefined;
 
-const refusedMovie = refused("movies are not read as geometry; images and live streams are");
+const refusedMovie = refused("movies are not drawn; images and live streams are");
 
 /** Readers of the address of an image, by the element's lower-case name; each warns where it finds none. */
 const urlReaders: Readonly<Record<string, UrlReader>> = {
@@ -74,7 +74,7 @@ const urlReaders: Readonly<Record<string, UrlReader>> = {
   img(element, warnings) {
     const { src } = readFields(element, { src: SFString("") }, warnings);
     if (src !== "") return src;
-    warnings.push({ element, message: "an image without src has no part in a geometry" });
+    warnings.push({ element, message: "an image without src has no part in the scene" });
     return undefined;
   },
   canvas: canvasUrl,
@@ -89,10 +89,20 @@ const urlReaders: Readonly<Record<string, UrlReader>> = {
 function textureUrl(element: SceneElement, warnings: Warning[]): string | undefined {
   const [first] = readFields(element, nodeFields.ImageTexture, warnings).url;
   if (first !== undefined) return first;
-  const child = childrenOf(element).find((candidate) => ["img", "canvas", "video"].includes(lowerNameOf(candidate)));
-  if (child !== undefined) return urlReaders[lowerNameOf(child)]?.(child, warnings);
+  if (innerImage(element)) return imageUrlIn(element, warnings);
   warnings.push({ element, message: "a texture without url and without an image in it has no part in a geometry" });
   return undefined;
+}
+
+/** The element of HTML in a texture that holds its image. */
+function innerImage(element: SceneElement): SceneElement | undefined {
+  return childrenOf(element).find((child) => ["img", "canvas", "video"].includes(lowerNameOf(child)));
+}
+
+/** The address of the image of a texture without url: an `<img>` or `<canvas>` in it, X3DOM's form. */
+export function imageUrlIn(element: SceneElement, warnings: Warning[]): string | undefined {
+  const child = innerImage(element);
+  return child && urlReaders[lowerNameOf(child)]?.(child, warnings);
 }
 
 /** An element of a page that can be drawn on. */

@@ -83,8 +83,9 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
     attributeFileCount: () => 1,
     attributeBits: () => undefined,
     referenceOf(url, fragment) {
-      // In X3DOM's "file.bin+S", "+S" gives the stride and is a part of the file's name.
-      if (fragment === undefined) return { url, byteOffset: 0, byteStride: numberIn(/\+(\d+)$/.exec(url)?.[1]) };
+      // In X3DOM's "file.bin+S", "+S" gives the stride and is a part of the file's name; base64 has a '+' too.
+      const stated = url.startsWith("data:") ? undefined : /\+(\d+)$/.exec(url)?.[1];
+      if (fragment === undefined) return { url, byteOffset: 0, byteStride: numberIn(stated) };
       const [offset, stride] = fragment.split("+");
       return { url, byteOffset: numberIn(offset), byteStride: numberIn(stride) };
     },

@@ -1,5 +1,6 @@
 // Reads texture nodes that hold an image.
 
+import { imageUrlIn } from "./containerImages.ts";
 import { dataUrl } from "./dataUrl.ts";
 import type { ImageDescription, SamplingDescription, WrapMode } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -12,7 +13,7 @@ import { pngOfPixels } from "./pixelImage.ts";
 export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
 
 export function isTexture(child: SceneElement): boolean {
-  return ["imagetexture", "pixeltexture"].includes(lowerNameOf(child));
+  return ["imagetexture", "texture", "pixeltexture"].includes(lowerNameOf(child));
 }
 
 /** The texture's containerField in lower case; empty where it has none. */
@@ -42,8 +43,9 @@ type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "rep
 };
 
 function readImage(element: SceneElement, warnings: Warning[]): ReadTexture {
-  const { url: urls, ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
-  return { ...rest, urls };
+  const { url, ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
+  const inner = url.length > 0 ? undefined : imageUrlIn(element, warnings);
+  return { ...rest, urls: inner === undefined ? url : [inner] };
 }
 
 function readPixels(element: SceneElement, warnings: Warning[]): ReadTexture {
