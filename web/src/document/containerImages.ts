@@ -57,9 +57,9 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
   };
 }
 
-/** Whether a URL names a live stream (docs/live.md). */
+/** Whether a URL, which may have a query with a token, names a live stream (docs/live.md). */
 export function isStreamUrl(url: string): boolean {
-  return /(^|\/)live\/[\w-]{1,64}$/.test(url);
+  return /(^|\/)live\/[\w-]{1,64}(\?|$)/.test(url);
 }
 
 type UrlReader = (element: SceneElement, warnings: Warning[]) => string | undefined;

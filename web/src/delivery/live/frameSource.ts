@@ -9,7 +9,7 @@ import type { StreamState } from "./streamState.ts";
 import { readStreamState } from "./streamState.ts";
 
 export interface FrameSourceOptions {
-  /** The stream's, absolute, without "/latest". */
+  /** The stream's, absolute, without "/latest"; its query, which may hold a token, is that of every request. */
   readonly url: string;
   readonly fetch: typeof fetch;
   /** Decodes a frame in a worker. Rejects with DecodeError, or with the signal's reason. */
@@ -217,7 +217,8 @@ export class FrameSource {
     signal: AbortSignal,
     onHeaders: (response: Response) => void = () => undefined,
   ): Promise<Uint8Array<ArrayBuffer>> {
-    const url = this.#options.url + path;
+    const [stream, query] = this.#options.url.split("?");
+    const url = `${stream ?? ""}${path}${query === undefined ? "" : `?${query}`}`;
     const idle = new AbortController();
     let timer = setTimeout(() => {
       idle.abort();
