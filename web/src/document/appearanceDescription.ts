@@ -3,6 +3,7 @@
 import type { Vec2, Vec3 } from "./fieldTypes.ts";
 import type { ImageDescription } from "./imageDescription.ts";
 import type { AppearanceCubeMap } from "./panoramaDescription.ts";
+import type { Operator } from "./operators.ts";
 import type { nodeFields, Values } from "./nodes.ts";
 
 /**
@@ -117,4 +118,6 @@ export interface AppearanceDescription {
   readonly lines: LineDescription | undefined;
   /** Replaces the material's diffuse color where the geometry's vertices have values. */
   readonly colorMap: ColorMapDescription | undefined;
+  /** What maps the vertices of the geometry; absent: nothing. Here because a change of it needs no other vertices. */
+  readonly operators?: readonly Operator[];
 }

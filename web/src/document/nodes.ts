@@ -64,6 +64,8 @@ const geometryFields = {
   /** False: the front of triangles is clockwise. */
   ccw: SFBool(true),
   lit: SFBool(true),
+  /** Maps the vertices; read on every geometry node. */
+  operators: SFString(""),
   position: SFVec3f([0, 0, 0]),
   size: SFVec3f([1, 1, 1]),
   /** The number of bits of a stored coordinate that are used; 0: all bits of its bytes. */

@@ -9,6 +9,8 @@ import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import type { GeometryCache, Lookup } from "./geometryCache.ts";
+import type { OperatorReader } from "./operatorReader.ts";
+import type { Operator } from "./operators.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import { withCubeMapDirection } from "./readCubeMap.ts";
 import { texCoordNodesOf } from "./texCoordNodes.ts";
@@ -29,6 +31,8 @@ export interface ShapeReadingContext {
   readonly refusals: Refusals | undefined;
   /** Undefined: Text is not drawn. */
   readonly text: TextReader | undefined;
+  /** Undefined: operators are read, but not applied. */
+  readonly operators: OperatorReader | undefined;
   /** Registers an element, of any document, whose change makes the shape be read again. */
   readonly listen: (element: SceneElement) => void;
 }
@@ -47,7 +51,7 @@ export function readShape(
   const values = readFields(node, nodeFields.Shape, warnings);
   const children = childrenOf(node);
   const ownBox = boxOf(values);
-  const { geometry, priority, lit, playback } =
+  const { geometry, priority, lit, playback, operators } =
     values.patch !== "" && !children.some(isGeometry)
       ? readSharedPatch(node, values.patch, context)
       : readGeometryOf(children, context, ownBox, values.colorBy);
@@ -60,8 +64,10 @@ export function readShape(
     warnings,
   );
   const hasColors = geometry?.patches.some(({ color }) => color !== undefined) ?? false;
+  const box = ownBox ?? (geometry && boxOfGeometry(geometry));
+  const litAppearance = lit ? ownAppearance : withoutLighting(ownAppearance, hasColors);
   const appearanceDescription = withCubeMapDirection(
-    withTexCoordSets(lit ? ownAppearance : withoutLighting(ownAppearance, hasColors), geometry?.texCoordMappings),
+    withTexCoordSets(operators ? { ...litAppearance, operators } : litAppearance, geometry?.texCoordMappings),
     texCoordGeneratorIn(node, { ...context, warnings: [] }), // USEs have been resolved with warnings
     warnings,
   );
@@ -77,7 +83,7 @@ export function readShape(
     contributesToBounds: isVisible,
     priority: values.priority * priority,
     isPickable: values.isPickable,
-    box: ownBox ?? (geometry && boxOfGeometry(geometry)),
+    box: box && geometry && operators ? (context.operators?.boxOf(operators, geometry, box) ?? box) : box,
     appearance:
       geometry?.glyphAtlas === undefined || context.text === undefined
         ? appearanceDescription
@@ -112,6 +118,7 @@ interface ShapeGeometry {
   readonly priority: number;
   readonly lit: boolean;
   readonly playback?: Playback;
+  readonly operators?: readonly Operator[];
 }
 
 /** The geometry among a shape's children. */
@@ -137,7 +144,7 @@ function readGeometryOf(
   const geometry = hasValues
     ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
     : boxed;
-  return { geometry, ...drawingFieldsOf(found.child, geometry.encoding) };
+  return { geometry, ...drawingFieldsOf(found.child, context, geometry.encoding) };
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
@@ -155,13 +162,20 @@ function readSharedPatch(element: SceneElement, patch: string, context: ShapeRea
     return { geometry: undefined, priority: 1, lit: true };
   }
   const geometry = geometries.variant(shared, `#${index}`, (plain) => withPatchIndex(plain, Number(index)));
-  return { geometry, ...drawingFieldsOf(node) };
+  return { geometry, ...drawingFieldsOf(node, context) };
 }
 
 /** The fields of a geometry node that are not part of its description. The reader of the node has warned of them. */
-function drawingFieldsOf(node: SceneElement, encoding?: Encoding): Omit<ShapeGeometry, "geometry"> {
-  const { priority, lit, paused, rate } = nodeFields.ImageGeometry;
-  const fields = readFields(node, { priority, lit }, []);
+function drawingFieldsOf(
+  node: SceneElement,
+  { operators: reader, warnings }: ShapeReadingContext,
+  encoding?: Encoding,
+): Omit<ShapeGeometry, "geometry"> {
+  const { priority, lit, paused, rate, operators: text } = nodeFields.ImageGeometry;
+  const { operators: list, ...common } = readFields(node, { priority, lit, operators: text }, []);
+  const { operators, problem } = (list === "" ? undefined : reader?.read(list)) ?? { operators: [] };
+  if (problem !== undefined) warnings.push({ element: node, message: problem });
+  const fields = list === "" ? common : { ...common, operators };
   return encoding === "live" ? { ...fields, playback: readFields(node, { paused, rate }, []) } : fields;
 }
 

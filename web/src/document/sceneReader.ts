@@ -9,6 +9,7 @@ import type { SceneElement } from "./element.ts";
 import { attributeOf, emptyElement, lowerNameOf } from "./element.ts";
 import { ElementTree } from "./elementTree.ts";
 import { GeometryCache } from "./geometryCache.ts";
+import type { OperatorReader } from "./operatorReader.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import type { Refusals } from "./refused.ts";
 import type { Warning } from "./nodes.ts";
@@ -30,6 +31,8 @@ export interface SceneReaderOptions {
   readonly levelOf?: (lod: SceneElement) => number | undefined;
   /** Reads geometry whose numbers are in the document; without it such geometry is not drawn. */
   readonly inlineGeometry?: InlineGeometryReader;
+  /** Default: operators are not applied. */
+  readonly operators?: OperatorReader;
   /** Warns of nodes and fields that are not read; without it they are ignored without a word. */
   readonly refusals?: Refusals;
   /** Reads Text nodes; without it they are not drawn. */
@@ -197,6 +200,7 @@ export class SceneReader {
       lookup,
       geometries: this.#geometries,
       inlineGeometry: this.#options.inlineGeometry,
+      operators: this.#options.operators,
       refusals: this.#options.refusals,
       text: this.#options.text,
       host: host ?? element,

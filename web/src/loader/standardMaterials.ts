@@ -5,8 +5,6 @@
 import type { Camera, Material, MeshPhysicalMaterialParameters, Sphere, Texture, WebGLRenderer } from "three";
 import {
   Color,
-  DoubleSide,
-  FrontSide,
   LinearSRGBColorSpace,
   MeshBasicMaterial,
   MeshDepthMaterial,
@@ -26,7 +24,7 @@ import type {
 import { textureRoles } from "../document/description.ts";
 import { depthShadingDefine, addDepthShading } from "../render/materials/depthShading.ts";
 import { addGlyphField, hasGlyphs, setGlyphDefine } from "../render/materials/glyphField.ts";
-import { minAlpha } from "../render/materials/materialFactory.ts";
+import { minAlpha, sideOf } from "../render/materials/materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, Shading } from "../render/materials/materialFactory.ts";
 import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
 import { addValueColors } from "../render/materials/valueColors.ts";
@@ -122,7 +120,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, shadowOptions
     batching: undefined, // three.js' Raycaster, and passes with their own materials, need one object per instance
     makeMaterial(request, appearance, surfaceTextures) {
       const material = makeMaterial(appearance.material, request.shading);
-      material.side = request.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+      material.side = sideOf(request);
       if (request.wideLineStep > 0) followViewport(material, request.shared.viewport);
       material.vertexColors = request.colors !== "none";
       if (request.colors === "rgba") material.transparent = true;

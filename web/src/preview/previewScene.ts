@@ -91,7 +91,7 @@ function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | u
     base,
   } = geometry ?? { patches: [], base: undefined };
   if (geometry?.ccw !== true || base === undefined || !("patchIndex" in base)) return undefined;
-  if (patch === undefined || appearance.colorMap !== undefined) return undefined;
+  if (patch === undefined || appearance.colorMap !== undefined || appearance.operators) return undefined;
   if (
     appearance.textures.length > 0 ||
     appearance.cubeMap ||

@@ -13,6 +13,7 @@ import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { inlineGeometryReader } from "../document/inlineGeometry.ts";
+import { operatorReader } from "../document/operatorReader.ts";
 import { refusals } from "../document/refused.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
 import { SceneReader } from "../document/sceneReader.ts";
@@ -112,6 +113,7 @@ export class ViewerCore<Shape extends LoadingShape> {
       ...reader,
       inlined: (inline) => this.inlines.documentOf(inline),
       inlineGeometry: inlineGeometryReader,
+      operators: operatorReader,
       refusals,
       text: textReader(measureRun, fontEditionOf),
     });

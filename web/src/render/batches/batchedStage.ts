@@ -190,7 +190,7 @@ function pickOf(stage: Stage, range: DrawRange, currentContext: () => PatchConte
   const { geometry, patch, buffers, geometries } = currentContext();
   return new PickDraw(stage, range, {
     buffers,
-    bounds: boundsOf(geometry, patch, stage).sphere,
+    operation: { bounds: boundsOf(geometry, patch, stage).sphere, pointOf: (stored) => stored },
     shapeFromStored: shapeFromStoredOf(geometry, patch),
     acquireResources: () => {
       const acquired = geometries.acquire(stage)[stage.draws.indexOf(range)];

@@ -2,7 +2,8 @@
 // three.js apps have three.js' own materials (loader/standardMaterials.ts). Both read vertices with
 // the same shader chunk (shaders/vertexChunk.ts).
 
-import type { Material, Vector2, Vector4 } from "three";
+import type { Material, Side, Vector2, Vector4 } from "three";
+import { BackSide, DoubleSide, FrontSide } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
@@ -77,12 +78,23 @@ export interface SceneUniforms extends SceneEffectUniforms {
   readonly backdrop?: Backdrop;
 }
 
+/** The sides of surfaces that are drawn. */
+export function sideOf({
+  solid,
+  wideLineStep,
+  isFlipped = false,
+}: Pick<MaterialRequest, "solid" | "wideLineStep" | "isFlipped">): Side {
+  return !solid || wideLineStep > 0 ? DoubleSide : isFlipped ? BackSide : FrontSide;
+}
+
 export interface MaterialRequest extends VertexFormat {
   readonly primitive: DrawRange["primitive"];
   readonly shading: Shading;
   readonly colors: VertexColors;
   /** Whether back faces are culled. */
   readonly solid: boolean;
+  /** Whether operators have mirrored the triangles, so that their back is outside. */
+  readonly isFlipped?: boolean;
   /** As valueDefinesOf returns them. */
   readonly valueDefines: Readonly<Record<string, string>>;
   readonly uniforms: Partial<VertexUniforms>;

@@ -3,7 +3,7 @@
 // chunk, and the renderer's `outputColorSpace` is linear.
 
 import type { Material } from "three";
-import { DoubleSide, FrontSide, MeshBasicMaterial, MeshPhongMaterial } from "three";
+import { MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription } from "../../document/description.ts";
 import type { LitParameters } from "../../lighting/materialParameters.ts";
 import { litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
@@ -17,7 +17,7 @@ import { lightsChunk } from "../lights/lightFalloff.ts";
 import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
 import type { Backdrop, ExtensionUniforms } from "./extendedMaterials.ts";
 import { applyExtensions, extendedVertexShader, lightingChunks, makeExtensionUniforms } from "./extendedMaterials.ts";
-import { minAlpha } from "./materialFactory.ts";
+import { minAlpha, sideOf } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
@@ -79,7 +79,7 @@ function makeMaterial(
   appearance: AppearanceDescription,
   surfaceTextures: SurfaceTextures,
 ): PatchMaterial {
-  const { shading, colors, solid, uniforms, shared } = request;
+  const { shading, colors, uniforms, shared } = request;
   const lit: LitUniforms = {
     ambientIntensity: { value: 0 },
     metallic: { value: 1 },
@@ -90,7 +90,7 @@ function makeMaterial(
   const material: PatchMaterial = isUnlit(shading)
     ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
-  material.side = solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+  material.side = sideOf(request);
   if (request.wideLineStep > 0) followViewport(material, shared.viewport);
   material.vertexColors = colors !== "none";
   material.defines = {

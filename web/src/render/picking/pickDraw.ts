@@ -2,7 +2,7 @@
 // shader gets only the last vertex of a primitive, so index and coordinates of the draw that is hit
 // are read back. JavaScript keeps vertex data of small meshes only.
 
-import type { BufferGeometry, Matrix4, Sphere, Vector4 } from "three";
+import type { BufferGeometry, Matrix4, Sphere, Vector3, Vector4 } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
@@ -33,8 +33,8 @@ export interface PickResources {
 
 export interface PickDrawOptions {
   readonly buffers: BufferProvider;
-  /** Bounds of the vertices, in stored coordinates. */
-  readonly bounds: Sphere;
+  /** Bounds of the vertices, and what operators map them to, in stored coordinates. */
+  readonly operation: { readonly bounds: Sphere; pointOf(stored: Vector3): Vector3 };
   /** Transforms stored coordinates into those of the shape. */
   readonly shapeFromStored: Matrix4;
   acquireResources(): PickResources;
@@ -46,7 +46,6 @@ export class PickDraw {
   readonly isBase: boolean;
   /** The number of triangles in the patch's earlier draws. */
   readonly trianglesBefore: number;
-  readonly bounds: Sphere;
   readonly shapeFromStored: Matrix4;
   /** Undefined for vertices from images. */
   readonly #stage: BufferStage | undefined;
@@ -58,7 +57,6 @@ export class PickDraw {
   constructor(stage: Stage, range: DrawRange, options: PickDrawOptions) {
     this.range = range;
     this.isBase = stage.name === "base";
-    this.bounds = options.bounds;
     this.shapeFromStored = options.shapeFromStored;
     this.#options = options;
     this.#stage = stage.kind === "buffers" ? stage : undefined;
@@ -69,6 +67,16 @@ export class PickDraw {
   /** Whether the vertices come from buffers, so that the primitive must be looked up in `contents`. */
   get hasContents(): boolean {
     return this.#stage !== undefined;
+  }
+
+  /** Bounds of the drawn vertices, in stored coordinates. */
+  get bounds(): Sphere {
+    return this.#options.operation.bounds;
+  }
+
+  /** The point that is drawn for the coordinates of a vertex, in stored coordinates. */
+  pointOf(stored: Vector3): Vector3 {
+    return this.#options.operation.pointOf(stored);
   }
 
   get isDisposed(): boolean {

@@ -102,8 +102,9 @@ void main() {
       }
     #endif
     #if PRIMITIVE_CORNERS == 3
-      facePoint = storedPosition(cornerVertices.x);
-      faceNormal = cross(storedPosition(cornerVertices.y) - facePoint, storedPosition(cornerVertices.z) - facePoint);
+      facePoint = operatedPosition(storedPosition(cornerVertices.x));
+      faceNormal = cross(operatedPosition(storedPosition(cornerVertices.y)) - facePoint,
+                         operatedPosition(storedPosition(cornerVertices.z)) - facePoint);
     #endif
   #endif
 }

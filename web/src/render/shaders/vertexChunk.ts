@@ -13,6 +13,7 @@ import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
+import { operatorChunk } from "./operatorChunk.ts";
 import { replaceChunks } from "./replaceChunks.ts";
 import { glslFirstTexelOf, imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
 
@@ -339,7 +340,10 @@ export function addVertexReading(
   shader.vertexShader =
     imageNormalsChunk +
     replaceChunks(shader.vertexShader, [
-      ["#include <common>", `#include <common>\n${readVertexChunk}${instanceVertexChunk}${wideLineChunk}`],
+      [
+        "#include <common>",
+        `#include <common>\n${readVertexChunk}${operatorChunk}${instanceVertexChunk}${wideLineChunk}`,
+      ],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],
       ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\napplyInstance();\nwidenLine();`],

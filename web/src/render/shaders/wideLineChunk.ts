@@ -32,7 +32,7 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Replaces `readVertex` in vertex shaders. Included after `vertexAt` and `instancePosition`. */
+/** Replaces `readVertex` in vertex shaders. Included after `vertexAt`, `operate` and `instancePosition`. */
 export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
@@ -85,6 +85,8 @@ void widenLine() {
 
 Vertex readVertex() {
   Vertex begin = vertexAt(0), end = vertexAt(1);
+  operate(begin.position, begin.normal);
+  operate(end.position, end.normal);
   computeOutline(begin.position, end.position);
   Vertex vertex;
   ${["position", ...vertexRoles].map((name) => `vertex.${name} = mix(begin.${name}, end.${name}, linePosition);`).join("\n  ")}
@@ -96,7 +98,9 @@ Vertex readVertex() {
 void widenLine() {}
 
 Vertex readVertex() {
-  return vertexAt(0);
+  Vertex vertex = vertexAt(0);
+  operate(vertex.position, vertex.normal);
+  return vertex;
 }
 
 #endif

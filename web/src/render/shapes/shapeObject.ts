@@ -13,6 +13,8 @@ import type {
   ShapeDescription,
   TextureRole,
 } from "../../document/description.ts";
+import type { Orientation } from "../../document/operators.ts";
+import { orientationOf } from "../../document/operators.ts";
 import { isCubeMapRole } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { surfaceAsPoints } from "../points/surfaceAsPoints.ts";
@@ -53,6 +55,8 @@ interface DisplayedPatch {
   /** The derived stage that is drawn. */
   readonly drawn: Stage;
   readonly drawMode: DrawMode;
+  /** What operators have done to its faces. */
+  readonly orientation: Orientation;
   readonly draws: PatchDraws;
 }
 
@@ -233,7 +237,8 @@ export class ShapeObject {
       const isSame =
         patch !== undefined &&
         this.#drawnOf(displayed.stage, patch) === displayed.drawn &&
-        this.#drawModeOf(displayed.stage) === displayed.drawMode;
+        this.#drawModeOf(displayed.stage) === displayed.drawMode &&
+        orientationOf(this.#appearance.operators ?? []) === displayed.orientation;
       if (isSame) displayed.draws.applyAppearance(this.#appearance, new Map(this.#surfaceTextures));
       else this.setStage(displayed.geometry, patchIndex, displayed.stage);
     }
@@ -267,7 +272,8 @@ export class ShapeObject {
         ? makePatchDraws(drawn, patchContext)
         : new BatchedStage(drawn, patchContext, { batches, batching, isMerged: drawMode === "merged" });
     for (const group of this.#groups.keys()) draws.addInstance(group);
-    return { geometry, stage, drawn, drawMode, draws };
+    const orientation = orientationOf(this.#appearance.operators ?? []);
+    return { geometry, stage, drawn, drawMode, orientation, draws };
   }
 
   /** The same object for the same stage, unless the drawing of points or lines changes. */
@@ -279,7 +285,8 @@ export class ShapeObject {
   #drawModeOf(stage: Stage): DrawMode {
     const { batching } = this.#context.materialFactory;
     const isHiddenFromItself = this.#appearance.cubeMap?.generated !== undefined;
-    return batching !== undefined && !isHiddenFromItself
+    const isMapped = (this.#appearance.operators ?? []).length > 0; // records of batches have no operators
+    return batching !== undefined && !isHiddenFromItself && !isMapped
       ? drawModeOf(stage, this.#drawModes, this.#appearance, this.#surfaceTextures, batching)
       : "alone";
   }

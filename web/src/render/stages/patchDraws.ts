@@ -1,7 +1,6 @@
 // Makes three.js objects from a stage: one per draw and instance.
 
 import type { BufferGeometry, Material, Matrix4 } from "three";
-import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { EffectScope } from "../../scene/effectScope.ts";
@@ -16,7 +15,9 @@ import { PickDraw } from "../picking/pickDraw.ts";
 import type { PatchContext } from "./patchContext.ts";
 import { setAppearanceUniforms, uniformsOf } from "./stageUniforms.ts";
 import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.ts";
+import { sideOf } from "../materials/materialFactory.ts";
 import { boundsOf } from "./stageBounds.ts";
+import { facesOf, StageOperation } from "./stageOperation.ts";
 
 /**
  * The displayed stage of a patch, in all instances of its shape: drawn by objects of its own (here) or in batches
@@ -40,6 +41,8 @@ export interface PatchDraws {
 export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
   const { geometry, patch, materialFactory, buffers } = context;
   const { box, sphere } = boundsOf(geometry, patch, stage);
+  const operation = new StageOperation(geometry, patch, stage, { box, sphere });
+  operation.follow(context.appearance);
   const shapeFromStored = shapeFromStoredOf(geometry, patch);
   const uniforms = uniformsOf(stage, context);
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
@@ -48,8 +51,11 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     if (range === undefined || range.count === 0) return [];
     bufferGeometry.boundingBox = box;
     bufferGeometry.boundingSphere = sphere;
-    const request = materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared);
-    const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+    const request = {
+      ...materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared),
+      ...facesOf(geometry, context.appearance),
+    };
+    const side = sideOf(request);
     const materials = new MaterialPerEffectScope((effectScope) =>
       materialFactory.makeMaterial(
         { ...request, uniforms: { ...request.uniforms, effectScope } },
@@ -59,7 +65,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     );
     const pick = new PickDraw(stage, range, {
       buffers,
-      bounds: sphere,
+      operation,
       shapeFromStored,
       acquireResources: () => ({
         geometry: bufferGeometry,
@@ -81,6 +87,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         const material = materials.of(group);
         const object = objectWithMatrix(range, bufferGeometry, material, shapeFromStored);
         materialFactory.prepareObject(object, request, material);
+        operation.setBounds(object);
         return object;
       });
       if (added.length > 0) group.add(...added);
@@ -99,7 +106,9 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     removeInstance,
     applyAppearance(appearance, surfaceTextures) {
       displayed = { appearance, surfaceTextures };
-      setAppearanceUniforms(uniforms.common, geometry, appearance);
+      setAppearanceUniforms(uniforms.common, geometry, appearance, operation.frame);
+      operation.follow(appearance);
+      for (const object of Array.from(objects.values()).flat()) operation.setBounds(object);
       for (const { materials, pick } of draws) {
         for (const material of materials.all)
           materialFactory.applyAppearance(

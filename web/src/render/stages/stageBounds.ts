@@ -17,8 +17,7 @@ export function boundsOf(
   stage: Stage,
 ): { box: Box3; sphere: Sphere } {
   const { origin, step } = dequantizationOf(geometry, patch);
-  const { min, max } =
-    stage.bounds ?? patch.box ?? boxAround(geometry.position, geometry.size);
+  const { min, max } = stage.bounds ?? patch.box ?? boxAround(geometry.position, geometry.size);
   const stored = (point: readonly [number, number, number]) =>
     new Vector3((point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
   const box = new Box3(stored(min), stored(max));

@@ -13,6 +13,9 @@ import type {
 } from "../../document/description.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { maxStoredValueOf, dequantizationOf } from "../../document/dequantization.ts";
+import type { OperatorFrame } from "../../scene/operatorFrame.ts";
+import { operatorFrameOf } from "../../scene/operatorFrame.ts";
+import { operatorUniformsOf } from "../shaders/operatorChunk.ts";
 import { texCoordFramesOf, textureSetsOf, textureTransformsOf } from "../shaders/texCoords.ts";
 import { colorMapUniformsOf, valueUniformsOf } from "../materials/valueColors.ts";
 import type { ImageVertexUniforms, VertexUniforms } from "../shaders/vertexFormat.ts";
@@ -31,7 +34,7 @@ export interface StageUniforms {
 export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
   const { geometry, patch, shared, textures } = context;
   const common: VertexUniforms = {
-    ...appearanceUniformsOf(geometry, context.appearance),
+    ...appearanceUniformsOf(geometry, context.appearance, operatorFrameOf(geometry, patch, stage.bounds)),
     pixelRatio: shared.pixelRatio,
     viewport: shared.viewport,
     latticeStep: { value: dequantizationOf(geometry, patch).step },
@@ -55,8 +58,11 @@ export function setAppearanceUniforms(
   uniforms: VertexUniforms,
   geometry: GeometryDescription,
   appearance: AppearanceDescription,
+  frame: OperatorFrame,
 ): void {
-  for (const [name, { value }] of Object.entries<IUniform<unknown>>(appearanceUniformsOf(geometry, appearance))) {
+  for (const [name, { value }] of Object.entries<IUniform<unknown>>(
+    appearanceUniformsOf(geometry, appearance, frame),
+  )) {
     const uniform = uniforms[name];
     if (uniform !== undefined) uniform.value = value;
   }
@@ -89,6 +95,7 @@ type AppearanceUniforms = Pick<
 function appearanceUniformsOf(
   geometry: GeometryDescription,
   appearance: AppearanceDescription,
+  frame: OperatorFrame,
 ): AppearanceUniforms & Record<string, IUniform> {
   const { points = defaultPoints, lines: { width, dashes } = defaultLines } = appearance;
   return {
@@ -101,6 +108,7 @@ function appearanceUniformsOf(
     textureTransforms: { value: textureTransformsOf(appearance) },
     textureSets: { value: textureSetsOf(appearance) },
     ...colorMapUniformsOf(appearance.colorMap),
+    ...operatorUniformsOf(appearance.operators ?? [], frame),
   };
 }
 

@@ -1,0 +1,191 @@
+// Image operators as geometry operators (paper, section 7.4): they map points of the geometry's box, whose coordinates
+// are 0 … 1 as those of an image's channels. `render/shaders/operatorChunk.ts` does the same in the shader.
+
+import type { Vec3 } from "./fieldTypes.ts";
+import type { Box3 } from "./geometryDescription.ts";
+
+/**
+ * What happens to a coordinate c of each axis. `affine`: a c + b. `power`: max(c, 0)^a. `fold`: c beyond a is mirrored
+ * at a. `clamp`: a … b. `steps`: to the nearest multiple of 1 / a. `permute`: axis n gets the coordinate of axis a[n].
+ */
+export interface Operator {
+  readonly kind: "affine" | "power" | "fold" | "clamp" | "steps" | "permute";
+  readonly a: Vec3;
+  readonly b: Vec3;
+}
+
+export const maxOperators = 16;
+
+/** What a list of operators does to the front side of triangles. */
+export type Orientation = "kept" | "flipped" | "folded";
+
+type Arguments = readonly number[];
+type Make = (numbers: Arguments, axes: string) => Operator | string;
+
+const none: Vec3 = [0, 0, 0];
+
+/** One number for all axes, or one for each; undefined for another count. */
+function vectorOf(numbers: Arguments): Vec3 | undefined {
+  const [x, y, z] = numbers;
+  if (x === undefined) return undefined;
+  if (numbers.length === 1) return [x, x, x];
+  return numbers.length === 3 && y !== undefined && z !== undefined ? [x, y, z] : undefined;
+}
+
+function withVector(make: (vector: Vec3) => Operator | string): Make {
+  return (numbers, axes) => {
+    const vector = axes === "" ? vectorOf(numbers) : undefined;
+    return vector === undefined ? "takes one number, or one for each axis" : make(vector);
+  };
+}
+
+const add = withVector((b) => ({ kind: "affine", a: [1, 1, 1], b }));
+/** Around the middle of the box. */
+const stretch = withVector((a) => ({
+  kind: "affine",
+  a,
+  b: [(1 - a[0]) / 2, (1 - a[1]) / 2, (1 - a[2]) / 2],
+}));
+const negate: Make = (numbers, axes) => {
+  if (numbers.length > 0 || !/^(?!.*(.).*\1)[xyz]*$/.test(axes)) return "takes axes, such as xz, or nothing";
+  const isNegated = (axis: string) => axes === "" || axes.includes(axis);
+  const of = (yes: number, no: number): Vec3 => [
+    isNegated("x") ? yes : no,
+    isNegated("y") ? yes : no,
+    isNegated("z") ? yes : no,
+  ];
+  return { kind: "affine", a: of(-1, 1), b: of(1, 0) };
+};
+const posterise: Make = ([levels = NaN, ...others], axes) => {
+  const isValid = axes === "" && others.length === 0 && Number.isInteger(levels) && levels >= 2 && levels <= 65536;
+  return isValid
+    ? { kind: "steps", a: [levels - 1, levels - 1, levels - 1], b: none }
+    : "takes a number of levels, 2 to 65536";
+};
+
+const makers: ReadonlyMap<string, Make> = new Map<string, Make>([
+  ["translate", add],
+  ["brightness", add],
+  ["scale", stretch],
+  ["contrast", stretch],
+  [
+    "gamma",
+    withVector((a) => (a.every((exponent) => exponent > 0) ? { kind: "power", a, b: none } : "takes positive numbers")),
+  ],
+  ["negate", negate],
+  ["negative", negate],
+  [
+    "swizzle",
+    (numbers, axes) =>
+      numbers.length === 0 && /^(?!.*(.).*\1)[xyz]{3}$/.test(axes)
+        ? { kind: "permute", a: Array.from(axes, (axis) => "xyz".indexOf(axis)) as unknown as Vec3, b: none }
+        : "takes the three axes in some order, such as yxz",
+  ],
+  ["solarize", withVector((a) => ({ kind: "fold", a, b: none }))],
+  [
+    "threshold",
+    ([first = NaN, second, ...others], axes) => {
+      const [low, high] = second === undefined ? [-Infinity, first] : [first, second];
+      if (axes !== "" || others.length > 0 || !(low <= high))
+        return "takes the largest coordinate, or the smallest and the largest";
+      const min = Math.max(low, -1e9);
+      return { kind: "clamp", a: [min, min, min], b: [high, high, high] };
+    },
+  ],
+  ["posterise", posterise],
+  ["posterize", posterise],
+]);
+
+/** Reads `operators`. One sentence for the first part that cannot be read; nothing is then applied. */
+export function readOperators(text: string): { operators: readonly Operator[]; problem: string | undefined } {
+  const refuse = (problem: string) => ({ operators: [], problem: `operators="${text}": ${problem}; none is applied` });
+  const operators: Operator[] = [];
+  let rest = text.trim();
+  while (rest !== "") {
+    const match = /^([a-z]+)\s*\(([^()]*)\)[\s,]*/i.exec(rest);
+    if (match === null) return refuse(`"${rest}" is no operator with arguments in parentheses`);
+    const [whole, name = "", inside = ""] = match;
+    rest = rest.slice(whole.length);
+    const key = name.toLowerCase();
+    if (key === "blur")
+      return refuse("blur mixes vertices that are neighbours in an image but not on the surface, and is not drawn");
+    const make = makers.get(key);
+    if (make === undefined) return refuse(`"${name}" is none of ${Array.from(makers.keys()).join(", ")}, blur`);
+    const words = inside.split(/[\s,]+/).filter((word) => word !== "");
+    const axes = words.length === 1 && /^[a-z]+$/i.test(words[0] ?? "") ? (words[0] ?? "").toLowerCase() : "";
+    const numbers = axes === "" ? words.map(Number) : [];
+    if (!numbers.every((number) => Number.isFinite(number) && Math.abs(number) <= 1e6))
+      return refuse(`${name}(${inside}) has something that is no number from -1000000 to 1000000`);
+    const operator = make(numbers, axes);
+    if (typeof operator === "string") return refuse(`${name} ${operator}`);
+    if (operators.length >= maxOperators) return refuse(`it has more than ${maxOperators} operators`);
+    operators.push(operator);
+  }
+  return { operators, problem: undefined };
+}
+
+/** Maps a point of the unit box. */
+export function operatedPoint(operators: readonly Operator[], point: Vec3): Vec3 {
+  return operators.reduce<Vec3>(
+    (c, operator) => [axisOf(operator, c, 0), axisOf(operator, c, 1), axisOf(operator, c, 2)],
+    point,
+  );
+}
+
+function axisOf(operator: Operator, c: Vec3, axis: 0 | 1 | 2): number {
+  return operator.kind === "permute" ? (c[operator.a[axis]] ?? 0) : mapped(operator, c[axis], axis);
+}
+
+function mapped({ kind, a, b }: Operator, c: number, axis: 0 | 1 | 2): number {
+  switch (kind) {
+    case "affine":
+      return a[axis] * c + b[axis];
+    case "power":
+      return Math.max(c, 0) ** a[axis];
+    case "fold":
+      return c > a[axis] ? 2 * a[axis] - c : c;
+    case "clamp":
+      return Math.min(Math.max(c, a[axis]), b[axis]);
+    case "steps":
+      return Math.floor(c * a[axis] + 0.5) / a[axis];
+    case "permute":
+      return c;
+  }
+}
+
+/** A box around the images of all points of a box. */
+export function operatedBox(operators: readonly Operator[], { min, max }: Box3): Box3 {
+  return operators.reduce<Box3>(
+    (box, operator) => {
+      const range = (axis: 0 | 1 | 2): readonly [number, number] => {
+        const from = operator.kind === "permute" ? (operator.a[axis] as 0 | 1 | 2) : axis;
+        const ends = [box.min[from], box.max[from]];
+        // The image of an interval ends in images of its ends and of the only turning point.
+        if (
+          operator.kind === "fold" &&
+          ends.every((end, n) => (n === 0 ? end < operator.a[axis] : end > operator.a[axis]))
+        )
+          ends.push(operator.a[axis]);
+        const images = ends.map((end) => mapped(operator, end, axis));
+        return [Math.min(...images), Math.max(...images)];
+      };
+      const [x, y, z] = [range(0), range(1), range(2)];
+      return { min: [x[0], y[0], z[0]], max: [x[1], y[1], z[1]] };
+    },
+    { min, max },
+  );
+}
+
+/** `folded`: triangles keep or lose their front side depending on where they lie. */
+export function orientationOf(operators: readonly Operator[]): Orientation {
+  if (operators.some(({ kind }) => kind === "fold")) return "folded";
+  const flips = operators.filter(({ kind, a: [x, y, z] }) =>
+    kind === "permute" ? isOdd([x, y, z]) : kind === "affine" && x * y * z < 0,
+  );
+  return flips.length % 2 === 1 ? "flipped" : "kept";
+}
+
+/** Whether a permutation of the axes exchanges two, so that it mirrors. */
+export function isOdd([x, y, z]: Vec3): boolean {
+  return (y - x) * (z - x) * (z - y) < 0;
+}
