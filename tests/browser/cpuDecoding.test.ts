@@ -40,7 +40,6 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
   { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
   { mesh: "trefoil", options: ["--normals", "octahedral"] },
-  { mesh: "trefoil", options: ["--normals", "spherical", "--normal-bits", "16"] },
   { mesh: "trefoil", options: ["--normals", "palette"] },
   { mesh: "points", options: [] },
   { mesh: "coil", options: ["--primitives", "strips"] },
