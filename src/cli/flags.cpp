@@ -276,7 +276,7 @@ Command sampleCommand() {
   Flag site{.name = "site",
             .valueKind = ValueKind::directory,
             .valueName = "DIR",
-            .help = "with --live: also serve this directory"};
+            .help = "with --live: serve this directory instead of a page that draws the motion"};
   return {.name = "sample",
           .usage = "hall [--seats N] -o FILE | cloth|water|turntable --live",
           .summary = "write a generated scene or publish a moving one",

@@ -5,12 +5,17 @@
 #include "cli/terminal.h"
 #include "imgeo/live.h"
 #include "motions/motion.h"
+#include "transcode/sample/live_page.h"
 
 #include "base/error.h"
+#include "base/unfinished_files.h"
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 #include <thread>
 
 namespace imgeo::cli {
@@ -49,6 +54,30 @@ void publishInRealTime(live::Publisher& publisher, Motion& motion, double rate, 
   }
 }
 
+/// A new folder, removed at the end of its scope and by signals.
+class TemporaryFolder {
+public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "imgeo-live-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+      throw Error(ErrorKind::io, pattern, "cannot be created");
+    path_ = pattern;
+    registered_.emplace(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+  std::optional<UnfinishedFile> registered_;
+};
+
 } // namespace
 
 int runLiveSample(const Arguments& arguments) {
@@ -56,10 +85,17 @@ int runLiveSample(const Arguments& arguments) {
                                  static_cast<std::uint32_t>(arguments.integer("seed")));
   if (!motion)
     throw Error(ErrorKind::usage, arguments.text("sample"), "is no motion: --live takes cloth, water or turntable");
-  live::Server server(serverOptionsOf(arguments));
+  live::ServerOptions options = serverOptionsOf(arguments);
+  std::optional<TemporaryFolder> page;
+  if (options.directory.empty()) {
+    page.emplace();
+    writeLivePage(page->path(), arguments.text("sample"), motion->box(), options.viewToken);
+    options.directory = page->path();
+  }
+  live::Server server(options);
   live::Publisher publisher(server, streamOf(*motion, arguments));
-  fmt::print("{} vertices at {} frames per second: {} (Ctrl-C stops it)\n", grouped(motion->positions().size()),
-             arguments.integer("rate"), publisher.url());
+  fmt::print("{} vertices at {} frames per second: {}\nThe page: {} (Ctrl-C stops it)\n",
+             grouped(motion->positions().size()), arguments.integer("rate"), publisher.url(), server.url());
   std::fflush(stdout);
   publishInRealTime(publisher, *motion, static_cast<double>(arguments.integer("rate")), arguments.integer("frames"));
   const live::PublisherTotals totals = publisher.totals();

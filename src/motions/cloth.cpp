@@ -102,16 +102,24 @@ private:
   void smooth(Coordinates& vectors, float share) {
     for (std::vector<float>* axis : {&vectors.x, &vectors.y, &vectors.z}) {
       scratch_ = *axis;
-      for (std::uint32_t row = 1; row + 1 < columns_; ++row) {
+      const std::uint32_t last = columns_ - 1;
+      for (std::uint32_t row = 1; row < last; ++row) {
         const float* value = axis->data() + std::size_t{row} * columns_;
         const float *above = value - columns_, *below = value + columns_;
         float* out = scratch_.data() + std::size_t{row} * columns_;
+        // Hems have neighbours only along the hem.
+        for (const std::uint32_t i : {0u, last})
+          out[i] = value[i] + share * ((above[i] + below[i]) / 2 - value[i]);
 #pragma GCC ivdep
-        for (std::uint32_t i = 1; i + 1 < columns_; ++i) {
+        for (std::uint32_t i = 1; i < last; ++i) {
           const float neighbours = value[i - 1] + value[i + 1] + above[i] + below[i];
           out[i] = value[i] + share * (neighbours / 4 - value[i]);
         }
       }
+      const float* value = axis->data() + std::size_t{last} * columns_;
+      float* out = scratch_.data() + std::size_t{last} * columns_;
+      for (std::uint32_t i = 1; i < last; ++i)
+        out[i] = value[i] + share * ((value[i - 1] + value[i + 1]) / 2 - value[i]);
       std::swap(*axis, scratch_);
     }
   }

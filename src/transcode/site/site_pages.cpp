@@ -45,13 +45,18 @@ void writeX3domPages(const SceneDocument& document, const X3domRelease& release,
   writeFile(site / pageName, asBytes(writeX3domHtml(document, release.files, stylesheetName, pictures)));
 }
 
-void writePages(const SceneDocument& document, const PagePictures& pictures, const fs::path& site) {
-  const Runtime runtime = runtimeOfSite();
-  const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
+Runtime writeRuntime(const fs::path& site) {
+  Runtime runtime = runtimeOfSite();
   fs::create_directory(site / runtimeFolder);
   for (const RuntimeFile& file : {runtime.page, runtime.shared, runtime.scene, runtime.worker})
     writeFile(site / runtimeFolder / file.name, asBytes(file.text));
   writeFile(site / runtimeFolder / runtimeModuleName, asBytes(runtimeModuleText(runtime)));
+  return runtime;
+}
+
+void writePages(const SceneDocument& document, const PagePictures& pictures, const fs::path& site) {
+  const Runtime runtime = writeRuntime(site);
+  const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
   writeFile(site / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
   writeFile(

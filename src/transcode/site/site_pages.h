@@ -3,6 +3,7 @@
 
 #include "containers/container_reader.h"
 #include "documents/documents.h"
+#include "transcode/site/runtime.h"
 #include "transcode/site/x3dom_release.h"
 
 #include <filesystem>
@@ -15,6 +16,9 @@ void writeInlinedDocuments(SceneDocument& document, Target target, const std::fi
 /// Writes the page, the scene and the stylesheet of a site for X3DOM. The page loads X3DOM instead of our runtime.
 void writeX3domPages(const SceneDocument& document, const X3domRelease& release, const PagePictures& pictures,
                      const std::filesystem::path& site);
+
+/// Writes the runtime's files into the folder `runtimeFolder` of a site.
+Runtime writeRuntime(const std::filesystem::path& site);
 
 /// Writes the page, the scene and the stylesheet of a site for our runtime, and the runtime's files.
 void writePages(const SceneDocument& document, const PagePictures& pictures, const std::filesystem::path& site);

@@ -72,7 +72,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from sample' -l seed -x -d 'with --
 complete -c imgeo -n '__fish_seen_subcommand_from sample' -l frames -x -d 'with --live: end after N frames; 0: never'
 complete -c imgeo -n '__fish_seen_subcommand_from sample' -l port -x -d 'the port to listen on; 0: any that is free'
 complete -c imgeo -n '__fish_seen_subcommand_from sample' -l host -x -d 'the address to listen on; 0.0.0.0 for every network'
-complete -c imgeo -n '__fish_seen_subcommand_from sample' -l site -x -a '(__fish_complete_directories)' -d 'with --live: also serve this directory'
+complete -c imgeo -n '__fish_seen_subcommand_from sample' -l site -x -a '(__fish_complete_directories)' -d 'with --live: serve this directory instead of a page that draws the motion'
 complete -c imgeo -n '__fish_seen_subcommand_from sample' -l token -x -d 'with --live: lets others publish here, too; otherwise the variable IMGEO_TOKEN'
 complete -c imgeo -n '__fish_seen_subcommand_from sample' -l view-token -x -d 'with --live: viewers add ?token=TOKEN to addresses of streams'
 complete -c imgeo -n '__fish_seen_subcommand_from sample' -l json -d 'print what was written as JSON'

@@ -111,7 +111,7 @@ _imgeo() {
       '--frames[with --live\: end after N frames; 0\: never]:frames: ' \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
-      '--site[with --live\: also serve this directory]:site:_files -/' \
+      '--site[with --live\: serve this directory instead of a page that draws the motion]:site:_files -/' \
       '--token[with --live\: lets others publish here, too; otherwise the variable IMGEO_TOKEN]:token: ' \
       '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams]:view-token: ' \
       '--json[print what was written as JSON]' \
