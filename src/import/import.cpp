@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "import/archive/gzip.h"
+#include "import/dem/dem.h"
 #include "import/format.h"
 #include "import/source_name.h"
 #include "import/text/utf16.h"
@@ -44,7 +45,7 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
   }
   if (asText(bytes).starts_with("\xef\xbb\xbf"))
     bytes = bytes.subspan(3); // byte order mark
-  const std::optional<Bytes> decoded = utf8OfUtf16(bytes);
+  const std::optional<Bytes> decoded = holdsRawNumbers(name) ? std::nullopt : utf8OfUtf16(bytes);
   if (decoded)
     bytes = *decoded;
   if (bytes.empty())

@@ -3,6 +3,7 @@
 #include "import/dem/library.h"
 #include "import/dem/terrain.h"
 #include "import/isolation/child_process.h"
+#include "import/source_name.h"
 
 #include <algorithm>
 #include <iterator>
@@ -28,6 +29,11 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
 }
 
 } // namespace
+
+bool holdsRawNumbers(const std::string& name) {
+  constexpr std::array<std::string_view, 4> extensions{".hgt", ".bil", ".flt", ".ace2"};
+  return std::ranges::find(extensions, extensionOf(name)) != extensions.end();
+}
 
 bool isDem(ByteSpan bytes) {
   return hasRasterSignature(bytes);

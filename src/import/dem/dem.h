@@ -15,6 +15,9 @@ inline constexpr std::array<std::string_view, 28> demExtensions{
     ".bil", ".flt",  ".grd", ".bt",     ".hf2", ".nc",  ".xyz", ".pgm", ".sdat", ".gxf",
     ".jp2", ".bag",  ".gtx", ".sigdem", ".isg", ".rst", ".byn", ".ace2"};
 
+/// Whether files of this name hold numbers without a header, whose first bytes may look like the mark of any format.
+bool holdsRawNumbers(const std::string& name);
+
 /// Whether bytes are TIFF, PNG or an ASCII grid.
 bool isDem(ByteSpan bytes);
 Imported readDem(ByteSpan bytes, const std::string& name, const ImportOptions& options);

@@ -79,6 +79,22 @@ TEST(Dem, TakesItsUnitsFromTheFileBesideItThatStatesThem) {
   EXPECT_EQ(boxOf(onlyMesh(asciiGrid, "hills.asc")).size().x, 30);
 }
 
+TEST(Dem, ReadsRawNumbersThatBeginLikeUtf16) {
+  const TemporaryDirectory directory;
+  const std::string header = "NROWS 3\nNCOLS 4\nNBITS 16\nPIXELTYPE SIGNEDINT\nBYTEORDER I\nLAYOUT BIL\n"
+                             "ULXMAP 500005\nULYMAP 4000025\nXDIM 10\nYDIM 10\n";
+  writeFile(directory / "hills.hdr", asBytes(header));
+  Bytes heights;
+  for (std::int16_t n = 0; n < 12; ++n)
+    appendLittle(heights, static_cast<std::uint16_t>(n - 2));
+  ASSERT_EQ(heights[0], 0xfe);
+  writeFile(directory / "hills.bil", heights);
+  const Imported imported = importFile(directory / "hills.bil");
+  EXPECT_EQ(imported.format, "EHdr");
+  EXPECT_EQ(boxOf(imported.scene.meshes[0]).min, (Vec3d{-15, -2, -10}));
+  EXPECT_EQ(boxOf(imported.scene.meshes[0]).max, (Vec3d{15, 9, 10}));
+}
+
 /// Hills of 12 x 9 cells.
 TiffGrid hills() {
   TiffGrid grid{.columns = 12, .rows = 9};
