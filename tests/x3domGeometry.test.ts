@@ -1,9 +1,13 @@
-// Holds docs/formats/x3dom-geometry.md to the fields that X3DOM's releases declare, and to the runtime: each row is fed
-// to the reader of documents.
+// Holds docs/formats/x3dom-geometry.md to the fields that X3DOM's releases declare, to the runtime and to the tool: each
+// row is fed to both readers of documents.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
+import { converter } from "./browser/paths.ts";
+import { encodePng } from "./browser/png.ts";
 import { shapesOf } from "../web/src/document/description.ts";
 import { elementsOf } from "../web/src/document/elements.testing.ts";
 import { nodeFields } from "../web/src/document/nodes.ts";
@@ -112,6 +116,69 @@ test("the runtime reads what the page says it reads, and warns of what it refuse
       assert.equal(warnings.length, treatment === "refused" ? 1 : 0, `${name}.${field}: ${warnings.join("; ")}`);
     }
   }
+});
+
+/** A square as arrays and as an image in the document, so that only the field under test can cause a warning. */
+const arrayUrl = `data:application/octet-stream;base64,${Buffer.from(
+  Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0).buffer,
+).toString("base64")}`;
+const imageUrl = `data:image/png;base64,${encodePng({
+  width: 3,
+  height: 1,
+  channels: 3,
+  data: Uint8Array.of(0, 0, 0, 255, 0, 0, 255, 255, 0),
+}).toString("base64")}`;
+const readableNodes: Readonly<Record<string, (attribute: string) => string>> = {
+  ImageGeometry: (attribute) =>
+    `<Shape><ImageGeometry implicitMeshSize="3 1" vertexCount="3" ${attribute}><ImageTexture containerField="coord" url="${imageUrl}"/></ImageGeometry></Shape>`,
+  BinaryGeometry: (attribute) => `<Shape><BinaryGeometry coord="${arrayUrl}" vertexCount="3" ${attribute}/></Shape>`,
+  ClipPlane: (attribute) => `<ClipPlane ${attribute}/>`,
+};
+
+/** The warnings of `imgeo convert` for a document with these nodes. */
+function convertWarningsOf(markup: string): string[] {
+  const folder = mkdtempSync(join(tmpdir(), "imgeo-"));
+  try {
+    writeFileSync(join(folder, "old.x3d"), `<X3D><Scene>${markup}</Scene></X3D>`);
+    const report = execFileSync(converter, ["convert", join(folder, "old.x3d"), "-o", join(folder, "site"), "--json"], {
+      encoding: "utf8",
+      stdio: ["ignore", "pipe", "ignore"],
+    });
+    return (JSON.parse(report) as { warnings: string[] }).warnings;
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+test("convert warns of what the page says is refused, field by field, and of nothing else", () => {
+  const fields = rows.flatMap(({ node, field, treatment }) =>
+    (nodesWith[node] ?? [node]).flatMap((name) => {
+      const markup = readableNodes[name];
+      const value = strangeValues[field];
+      return markup && value && treatment !== "read" ? [{ name, field, value, treatment, markup }] : [];
+    }),
+  );
+  const refused = sections.filter((section) => section.split("\n")[1]?.startsWith("Refused"));
+  const nodes = [...refused.map((section) => section.split("\n")[0] ?? ""), "SurprisingGeometry"].filter(
+    (name) => !["BufferView", "BufferAccessor", "PopGeometryLevel"].includes(name), // parts of others
+  );
+  const markup = [
+    ...fields.map(({ field, value, markup: nodeWith }) => nodeWith(`${field}="${value}"`)),
+    ...nodes.map((name) => (name === "ExternalShape" ? `<${name}/>` : `<Shape><${name}/></Shape>`)),
+  ];
+  const warnings = convertWarningsOf(markup.join("\n"));
+  const without = (pattern: RegExp) => warnings.findIndex((warning) => pattern.test(warning));
+  for (const { name, field, treatment } of fields) {
+    const pattern =
+      field === "compressed" ? /BinaryGeometry left out: .*compressed/ : new RegExp(`\\b${name}\\.${field} \\(`);
+    assert.equal(without(pattern) >= 0, treatment === "refused", `${name}.${field}: ${warnings.join("; ")}`);
+  }
+  for (const name of nodes)
+    assert.ok(without(new RegExp(`\\b${name}\\b.* left out`)) >= 0, `${name}: ${warnings.join("; ")}`);
+  assert.ok(
+    warnings.every((warning) => warning.length < 500),
+    "no warning has a whole data: URL",
+  );
 });
 
 test("every refused node is left out with one warning, and as the geometry of a Shape it is an error", () => {

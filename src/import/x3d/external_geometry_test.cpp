@@ -5,6 +5,7 @@
 #include "import/testing.h"
 #include "scene/shape_instances.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace imgeo::x3d::testing {
@@ -48,6 +49,16 @@ TEST(ExternalGeometry, HasTheMeshOfTheFirstUrlThatCanBeReadAndItsOrientation) {
   ASSERT_EQ(imported.scene.meshes.size(), 1u);
   EXPECT_EQ(imported.scene.meshes[0].cornerPosition(1), (Vec3f{2, 2, 1}));
   EXPECT_EQ(imported.scene.meshes[0].cornerPosition(2), (Vec3f{2, 0, 1}));
+}
+
+TEST(ExternalGeometry, IsNotLitWhereItsNodeSaysSo) {
+  const Imported imported = read("<Shape><Appearance><Material/></Appearance><ExternalGeometry lit='false' url='" +
+                                 srcUrl() + "#square'/></Shape>");
+  EXPECT_EQ(imported.scene.meshes.size(), 1u);
+  EXPECT_TRUE(std::ranges::any_of(imported.scene.graph.nodes, [](const Node& node) {
+    const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+    return generic && generic->element == "UnlitMaterial";
+  }));
 }
 
 TEST(ExternalGeometry, IsReadFromAPage) {

@@ -59,6 +59,7 @@ private:
         {"PhysicalMaterial", &NodeConverter::convertPhysicalMaterial},
         {"PickableGroup", &NodeConverter::makeGroup},
         {"Shape", &NodeConverter::convertShape},
+        {"Texture", &NodeConverter::convertTexture},
         {"TwoSidedMaterial", &NodeConverter::convertTwoSidedMaterial},
         {"ViewpointGroup", &NodeConverter::makeGroup},
     };
@@ -167,6 +168,16 @@ private:
   static bool isChildNode(pugi::xml_node element) {
     static constexpr std::array others{"Coordinate"sv, "Normal"sv, "HAnimDisplacer"sv};
     return !isOneOf(others, element.name());
+  }
+
+  /// X3DOM's ImageTexture under another name, whose image may also be an <img> in it.
+  void convertTexture(pugi::xml_node texture) {
+    if (std::string_view(texture.parent().name()) != "ImageGeometry") // whose images become patches
+      ++result_.converted["Texture as ImageTexture"];
+    texture.set_name("ImageTexture"); // its containerField stays
+    if (const pugi::xml_node image = texture.child("img"); image && !texture.attribute("url"))
+      texture.append_attribute("url") = image.attribute("src").value();
+    texture.remove_child("img");
   }
 
   void convertTwoSidedMaterial(pugi::xml_node material) {

@@ -56,6 +56,27 @@ TEST(NodeConversions, MakeGroupsAndTransformsOfNodesOfCad) {
                                                         "Group (1), CADLayer as Group (1), CADPart as Transform (1)."});
 }
 
+TEST(NodeConversions, MakeImageTexturesOfX3domsTextures) {
+  const std::string pixel =
+      "data:image/png;base64,"
+      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+  const Imported imported =
+      readScene("<Shape><Appearance><Texture DEF='T' url='" + pixel +
+                "'/></Appearance><Box/></Shape><Shape><Appearance>"
+                "<Material><Texture containerField='diffuseTexture'><img src='" +
+                pixel +
+                "'/></Texture></Material></Appearance><Box/></Shape><Shape><Appearance><Texture "
+                "USE='T'/></Appearance><Box/></Shape><Shape><Appearance><Texture><canvas/></Texture></Appearance><Box/>"
+                "</Shape>");
+  const SceneGraph& graph = imported.scene.graph;
+  EXPECT_EQ(treeOf(graph, graph.roots.at(0)), "Shape(Appearance(ImageTexture),Box)");
+  EXPECT_EQ(treeOf(graph, graph.roots.at(1)), "Shape(Appearance(Material(ImageTexture)),Box)");
+  EXPECT_EQ(graph.images.size(), 1u); // the same file
+  ASSERT_EQ(imported.warnings.size(), 2u) << ::testing::PrintToString(imported.warnings);
+  EXPECT_TRUE(imported.warnings[0].starts_with("canvas (1) left out")) << imported.warnings[0];
+  EXPECT_EQ(imported.warnings[1], "Written as other nodes: Texture as ImageTexture (4).");
+}
+
 TEST(NodeConversions, HideTheLayersOfCadThatAreNotVisible) {
   const std::string layer = "<CADLayer visible='true, false'><CADFace/><CADFace DEF='F'/><CADFace/></CADLayer>";
   const SceneGraph old = readScene(layer, "3.3").scene.graph;

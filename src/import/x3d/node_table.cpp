@@ -311,6 +311,7 @@ constexpr NodeRow nodesOfOthers[] = {
     {"SheenMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"SpecularMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"SurfaceShaderTexture", "X3DOM", 0, "diffuseTexture", converted, "its texture"},
+    {"Texture", "X3DOM", 0, "texture", converted, "ImageTexture"},
     {"TransmissionMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
     {"VolumeMaterialExtension", "X_ITE", 0, "extensions", drawn, ""},
 };

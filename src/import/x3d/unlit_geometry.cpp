@@ -1,5 +1,6 @@
 #include "import/x3d/unlit_geometry.h"
 
+#include "import/x3d/container_geometry.h"
 #include "import/x3d/element_edits.h"
 
 #include <algorithm>
@@ -18,8 +19,7 @@ pugi::xml_node definitionOf(pugi::xml_node element) {
 
 bool isUnlitGeometry(pugi::xml_node node) {
   const std::string_view name = node.name(), primitives = node.attribute("primType").value();
-  return (name == "ImageGeometry" || name == "BinaryGeometry") &&
-         std::string_view(node.attribute("lit").value()) == "false" &&
+  return isContainerGeometry(name) && std::string_view(node.attribute("lit").value()) == "false" &&
          (primitives.empty() || primitives.find("TRIANGLE") != primitives.npos);
 }
 

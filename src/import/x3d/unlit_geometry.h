@@ -1,5 +1,5 @@
 #pragma once
-// X3DOM's `lit="false"` of ImageGeometry and BinaryGeometry, as an UnlitMaterial (docs/formats/nodes.md).
+// X3DOM's `lit="false"` of geometry in files, as an UnlitMaterial (docs/formats/nodes.md).
 
 #include "import/x3d/node_conversions.h"
 

@@ -15,10 +15,21 @@ constexpr std::string_view noShadows = "pages draw no shadows", oneTexture = "of
                            fittedPlanes = "pages fit the near and far planes to the scene",
                            movedCamera = "binding a viewpoint always moves the camera to it",
                            oneMaterial = "the back of a surface has the material of its front",
-                           noBorder = "textures have no border", nothing = "";
+                           noBorder = "textures have no border", twoNumbers = "texture coordinates have two components",
+                           noTangents = "normal maps follow the texture coordinates",
+                           openCuts = "cut surfaces are not closed", nothing = "";
 
 constexpr auto unreadFieldTable = std::to_array<UnreadField>({
     {"Appearance", "backMaterial", "", oneMaterial},
+    {"BinaryGeometry", "binormal", "", noTangents},
+    {"BinaryGeometry", "binormalType", "Float32", noTangents},
+    {"BinaryGeometry", "idsPerVertex", "false", "the parts of a MultiPart are not read"},
+    {"BinaryGeometry", "numTexCoordComponents", "2", twoNumbers},
+    {"BinaryGeometry", "tangent", "", noTangents},
+    {"BinaryGeometry", "tangentType", "Float32", noTangents},
+    {"ClipPlane", "cappingColor", "1 1 1", nothing},
+    {"ClipPlane", "cappingStrength", "0", openCuts},
+    {"ClipPlane", "on", "true", "enabled turns the plane off"},
     {"Collision", "description", "", nothing},
     {"Collision", "enabled", "true", nothing},
     {"ComposedCubeMapTexture", "description", "", nothing},
@@ -30,6 +41,7 @@ constexpr auto unreadFieldTable = std::to_array<UnreadField>({
     {"FontStyle", "language", "", nothing},
     {"GeneratedCubeMapTexture", "description", "", nothing},
     {"ImageCubeMapTexture", "description", "", nothing},
+    {"ImageGeometry", "numTexCoordComponents", "2", twoNumbers},
     {"ImageTexture", "colorSpaceConversion", "true", "images are always read as sRGB"},
     {"ImageTexture", "description", "", nothing},
     {"Inline", "description", "", nothing},
