@@ -114,7 +114,8 @@ void measure(const std::string& name, Motion& motion, std::size_t frames) {
   description.layout.columns = motion.columns();
   description.box = box;
   double quantiseMs = 0, encodeMs = 0, decodeMs = 0, pngMs = 0;
-  std::uint64_t bytes = 0, pngBytes = 0, smallPngBytes = 0, webpBytes = 0, clamped = 0;
+  std::uint64_t bytes = 0, linearBytes = 0, previousBytes = 0, pngBytes = 0, smallPngBytes = 0, webpBytes = 0,
+                clamped = 0;
   const char* predictions[] = {"none", "previous", "linear", "planar"};
   live::Prediction prediction{};
   for (std::size_t i = 0; i < frames; ++i) {
@@ -130,6 +131,8 @@ void measure(const std::string& name, Motion& motion, std::size_t frames) {
       std::exit(1);
     }
     bytes += encoded.size();
+    linearBytes += encodeFrame(frame, live::Prediction::linear).size();
+    previousBytes += encodeFrame(frame, live::Prediction::previous).size();
     const Bytes png = timed(pngMs, [&] { return live::imageOfFrame(encoded, ""); });
     pngBytes += png.size();
     const Image image = decodePng(png, "");
@@ -138,10 +141,12 @@ void measure(const std::string& name, Motion& motion, std::size_t frames) {
   }
   const auto ratio = [&](std::uint64_t other) { return static_cast<double>(bytes) / static_cast<double>(other); };
   const auto mean = [&](double sum) { return sum / static_cast<double>(frames); };
-  fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} |\n", name,
-             description.layout.vertices, predictions[static_cast<std::size_t>(prediction)], bytes / frames,
-             ratio(frames * 6 * std::uint64_t{description.layout.vertices}), ratio(pngBytes), ratio(smallPngBytes),
-             ratio(webpBytes), mean(quantiseMs), mean(encodeMs), mean(decodeMs), clamped);
+  fmt::print(
+      "| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} |\n",
+      name, description.layout.vertices, predictions[static_cast<std::size_t>(prediction)], bytes / frames,
+      ratio(frames * 6 * std::uint64_t{description.layout.vertices}), ratio(pngBytes), ratio(smallPngBytes),
+      ratio(webpBytes), ratio(linearBytes), ratio(previousBytes), mean(quantiseMs), mean(encodeMs), mean(decodeMs),
+      clamped);
 }
 
 } // namespace
@@ -149,8 +154,9 @@ void measure(const std::string& name, Motion& motion, std::size_t frames) {
 int main(int count, char** words) {
   return runInFolder(count, words, "live", [](const std::vector<std::string>& models, const auto& folder) {
     fmt::print(
-        "| motion | vertices | prediction | bytes | of raw | of PNG, fast | of PNG, effort 5 | of WebP | quantise, "
-        "ms | encode, ms | decode, ms | clamped |\n|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+        "| motion | vertices | prediction | bytes | of raw | of PNG, fast | of PNG, effort 5 | of WebP | of linear | "
+        "of previous | quantise, ms | encode, ms | decode, ms | clamped "
+        "|\n|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const std::uint32_t grid : {64u, 128u, 256u})
       measure(fmt::format("cloth {} x {}", grid, grid), *makeCloth(grid, 1), 40);
     measure("water 128 x 128", *makeWater(128, 1), 40);
