@@ -46,6 +46,15 @@ struct MaxError {
   bool isPercent = false; ///< true: percent of the mesh's longest edge; false: units of the source
 };
 
+/// What the triangles of a source become.
+enum class MeshForm : std::uint8_t {
+  mesh,          ///< the source's vertices and triangles, quantised
+  geometryImage, ///< surfaces that are sampled anew on regular grids (Gu, Gortler and Hoppe 2002), in SIG classic
+};
+
+/// The edge of the largest grid, in texels.
+inline constexpr std::uint32_t maxGridEdge = 4096;
+
 /// File format of texture images. Data maps (normals, roughness ...) are never lossy.
 enum class TextureFormat : std::uint8_t {
   keep, ///< the source's files; formats that no browser displays become lossless WebP
@@ -67,10 +76,13 @@ struct ConvertOptions {
   std::optional<Encoding> encoding{}; ///< default: compact, or classic if compact cannot hold what is asked for
   Target target = Target::web;        ///< runtime that shows the site
   std::string x3domUrl{};             ///< target x3dom: folder of x3dom.js and x3dom.css; empty: a public copy
+  MeshForm form = MeshForm::mesh;     ///< meshes, or geometry images
+  std::uint32_t grid = 0; ///< geometry images: a mesh gets grid * grid texels, 4..maxGridEdge; 0: 256, or by maxError
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true;                    ///< false: vertices are repeated instead of indexed; points have no index
   std::uint32_t positionBits = 0;         ///< 8..32, compact 8..30; 0: 16, or what `coordType` holds
-  std::optional<MaxError> maxError{};     ///< SIG: chooses the position bits of each mesh instead of positionBits
+  std::optional<MaxError> maxError{};     ///< SIG: chooses the position bits of each mesh instead of positionBits;
+                                          ///< geometry images: the largest distance between the surfaces
   std::optional<ElementType> coordType{}; ///< BG: type of coordinates; default: smallest unsigned type
   Layout layout = Layout::separate;       ///< BG: order of attributes
   ImageFormat images = ImageFormat::png;  ///< classic: file format of its images
@@ -109,6 +121,17 @@ struct AttributeReport {
   std::uint32_t components = 1; ///< 1..4
   std::uint32_t bits = 16;      ///< bits of a stored component
   double error = 0;             ///< maximum of a component's error
+};
+
+/// A mesh that became geometry images. Distances are those of points of either surface from the nearest point of the
+/// other, in units of the source, at all vertices and at up to 100,000 points of each surface.
+struct ResampledMesh {
+  std::string name;               ///< of the source's mesh; may be empty
+  std::size_t geometryImages = 0; ///< one for each chart of the surface
+  std::size_t texels = 0;         ///< of all its geometry images
+  double largestDistance = 0;     ///< the maximum
+  double meanDistance = 0;        ///< the mean; of the two directions the larger
+  double diagonal = 0;            ///< of the mesh's box
 };
 
 /// What was done to texture images.
@@ -155,6 +178,7 @@ struct ConvertReport {
   bool hasNormals = false;                             ///< a mesh has normals
   bool hasColors = false;                              ///< a mesh has vertex colours
   std::vector<AttributeReport> attributes;             ///< further attributes that were kept
+  std::vector<ResampledMesh> resampled;                ///< meshes that became geometry images
   TextureReport textures;                              ///< texture images
   std::string x3domVersion;                            ///< target x3dom: the release that the page loads
   std::string x3domUrl;                                ///< target x3dom: URL of its script

@@ -34,6 +34,8 @@ struct GeometryInfo {
   std::uint32_t texCoordSets = 0;        ///< sets of texture coordinates, 0..4
   std::uint32_t colorBits = 0;           ///< 0: there are no colours
   std::vector<std::string> attributes;   ///< names of further attributes
+  std::string grid;                      ///< "heightMap", "geometryImage" or "sculpt"; empty: vertices in sequence
+  double surfaceDistance = 0;            ///< geometry images: as ResampledMesh::largestDistance; 0: not stated
   /// Whether all members are equal.
   friend bool operator==(const GeometryInfo&, const GeometryInfo&) = default;
 };

@@ -23,6 +23,9 @@ struct VerifyReport {
   double positionBound = 0;          ///< allowed error: half a lattice step
   double normalErrorDegrees = 0;     ///< maximum of a normal's error
   double normalBoundDegrees = 0;     ///< allowed error of normals
+  std::size_t resampledMeshes = 0;   ///< meshes that the site has as geometry images
+  double surfaceDistance = 0;        ///< the largest distance between their surfaces, as ResampledMesh has it
+  double surfaceDistanceBound = 0;   ///< what the site states of it, for the mesh that comes closest to it
   std::size_t comparedMaterials = 0; ///< shapes whose materials were compared
   double attributeError = 0;         ///< maximum error of further attributes, as a fraction of the allowed error
   std::vector<std::string> findings; ///< one sentence for each difference
@@ -31,6 +34,8 @@ struct VerifyReport {
 /// Reads the site back and compares it with the input, prepared as `convert` does it (welded, unreferenced positions
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
 /// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
+///
+/// It compares only the surfaces of geometry images: their distance must be within what the site states.
 ///
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.

@@ -112,6 +112,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
   options.encoding = encodingFrom(arguments);
   options.target = valueNamed(targetChoices, arguments.text("target"));
   options.x3domUrl = arguments.text("x3dom-url");
+  options.form = valueNamed(formChoices, arguments.text("as"));
   options.primitives = valueNamed(primitivesChoices, arguments.text("primitives"));
   options.indexed = valueNamed(indexChoices, arguments.text("index"));
   options.normalWeighting = valueNamed(normalWeightingChoices, arguments.text("normal-weighting"));
@@ -119,6 +120,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     if (!arguments.text(name).empty())
       bits = static_cast<std::uint32_t>(arguments.integer(name));
   };
+  takeBits("grid", options.grid);
   takeBits("position-bits", options.positionBits);
   takeBits("normal-bits", options.normalBits);
   takeBits("texcoord-bits", options.texCoordBits);

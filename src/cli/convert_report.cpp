@@ -61,6 +61,25 @@ std::string texturesOf(const TextureReport& textures) {
   return text;
 }
 
+/// "26 geometry images, 65,528 texels: off by at most 0.1 (0.2 % of the diagonal), 0.01 (0.02 %) in the mean"
+std::string resampledText(const std::vector<ResampledMesh>& meshes) {
+  ResampledMesh sum;
+  double largestShare = 0, meanShare = 0;
+  for (const ResampledMesh& mesh : meshes) {
+    sum.geometryImages += mesh.geometryImages;
+    sum.texels += mesh.texels;
+    sum.largestDistance = std::max(sum.largestDistance, mesh.largestDistance);
+    sum.meanDistance = std::max(sum.meanDistance, mesh.meanDistance);
+    largestShare = std::max(largestShare, mesh.largestDistance / mesh.diagonal);
+    meanShare = std::max(meanShare, mesh.meanDistance / mesh.diagonal);
+  }
+  return fmt::format("{} of {} texels; the surface is off by at most {:.4g} ({:.3g} % of the box's diagonal), by "
+                     "{:.4g} ({:.3g} %) in the mean",
+                     sum.geometryImages == 1 ? "a geometry image"
+                                             : fmt::format("{} geometry images", grouped(sum.geometryImages)),
+                     grouped(sum.texels), sum.largestDistance, 100 * largestShare, sum.meanDistance, 100 * meanShare);
+}
+
 void printTextures(const TextureReport& textures) {
   if (textures.files > 0)
     printLine("textures", texturesOf(textures));
@@ -117,6 +136,8 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                         onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
+  if (!report.resampled.empty())
+    printLine("resampled", resampledText(report.resampled));
   printLine("positions", positionsOf(arguments, report));
   if (report.collapsed.sum() > 0)
     printLine("", fmt::format("too coarse for {}: they have lost their area or length", listed(report.collapsed)));
@@ -225,6 +246,15 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
                       {"sourceBytes", textures.sourceBytes},
                       {"bytes", textures.bytes},
                       {"previewBytes", textures.previewBytes}};
+  json["as"] = arguments.text("as");
+  json["resampled"] = Json::array();
+  for (const ResampledMesh& mesh : report.resampled)
+    json["resampled"].push_back({{"name", mesh.name},
+                                 {"geometryImages", mesh.geometryImages},
+                                 {"texels", mesh.texels},
+                                 {"largestDistance", mesh.largestDistance},
+                                 {"meanDistance", mesh.meanDistance},
+                                 {"diagonal", mesh.diagonal}});
   json["texCoordBits"] = report.texCoordBits;
   if (report.texCoordError)
     json["texCoordError"] = *report.texCoordError;

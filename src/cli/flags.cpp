@@ -103,6 +103,11 @@ Command convertCommand() {
                        "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
                        "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
                        "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
+                choice("as", namesOf(formChoices),
+                       "geometry-image: sample surfaces anew on regular grids, one for each chart, without an index; "
+                       "in profile classic"),
+                integer("grid", {}, 4, maxGridEdge, "",
+                        "geometry images: N * N texels for a mesh, 4..4096, otherwise 256"),
                 choice("target", namesOf(targetChoices),
                        "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
                 {.name = "x3dom-url",
@@ -122,7 +127,8 @@ Command convertCommand() {
                  .valueKind = ValueKind::text,
                  .valueName = "LENGTH|PERCENT",
                  .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
-                         "with %, of a mesh's longest edge"},
+                         "with %, of a mesh's longest edge; geometry images: the smallest grid whose surface is no "
+                         "farther off"},
                 choice("coord-type", namesOf(coordTypeChoices),
                        "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
                        "--position-bits: the source's numbers"),

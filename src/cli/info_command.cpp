@@ -49,7 +49,9 @@ Json jsonOf(const SiteInfo& info) {
                                   {"texCoordBits", geometry.texCoordBits},
                                   {"texCoordSets", geometry.texCoordSets},
                                   {"colorBits", geometry.colorBits},
-                                  {"attributes", geometry.attributes}});
+                                  {"attributes", geometry.attributes},
+                                  {"grid", geometry.grid},
+                                  {"surfaceDistance", geometry.surfaceDistance}});
   json["missing"] = info.missing;
   json["warnings"] = info.warnings;
   json["files"] = Json::array();
@@ -74,6 +76,10 @@ std::string textOf(const GeometryInfo& geometry) {
   text += geometry.normalEncoding.empty()
               ? ", no normals"
               : fmt::format(", {} normals of {} bits", geometry.normalEncoding, geometry.normalBits);
+  if (!geometry.grid.empty())
+    text += ", grids: " + geometry.grid;
+  if (geometry.surfaceDistance > 0)
+    text += fmt::format(" of another mesh, off by at most {:.4g}", geometry.surfaceDistance);
   if (!geometry.attributes.empty())
     text += fmt::format(", further attributes {}", fmt::join(geometry.attributes, ", "));
   return text;

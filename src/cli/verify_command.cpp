@@ -27,6 +27,10 @@ void printJson(const VerifyReport& report) {
   json["normalErrorDegrees"] = report.normalErrorDegrees;
   json["normalBoundDegrees"] = report.normalBoundDegrees;
   json["attributeError"] = report.attributeError;
+  if (report.resampledMeshes > 0)
+    json["resampled"] = {{"meshes", report.resampledMeshes},
+                         {"largestDistance", report.surfaceDistance},
+                         {"statedDistance", report.surfaceDistanceBound}};
   json["materials"] = report.comparedMaterials;
   json["findings"] = report.findings;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -38,8 +42,14 @@ void printText(const VerifyReport& report) {
       fmt::print("{} {} in the input, {} in the site: {} missing, {} extra\n", bold(fmt::format("{:10}", nameOf(kind))),
                  grouped(report.input.of(kind)), grouped(report.site.of(kind)), grouped(report.missing.of(kind)),
                  grouped(report.extra.of(kind)));
-  fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n", bold(fmt::format("{:10}", "positions")),
-             report.positionError, report.positionBound);
+  if (report.resampledMeshes > 0)
+    fmt::print("{} {} {} geometry images, sampled anew: off by at most {:.6g}, and the site states {:.6g}\n",
+               bold(fmt::format("{:10}", "surfaces")), grouped(report.resampledMeshes),
+               report.resampledMeshes == 1 ? "mesh is" : "meshes are", report.surfaceDistance,
+               report.surfaceDistanceBound);
+  if (report.positionBound > 0)
+    fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n", bold(fmt::format("{:10}", "positions")),
+               report.positionError, report.positionBound);
   if (report.normalBoundDegrees > 0)
     fmt::print("{} off by at most {:.4g} degrees; their rounding allows {:.4g}\n",
                bold(fmt::format("{:10}", "normals")), report.normalErrorDegrees, report.normalBoundDegrees);
@@ -54,7 +64,9 @@ void printText(const VerifyReport& report) {
                bold(fmt::format("{:10}", "materials")), grouped(report.comparedMaterials));
   for (const std::string& finding : report.findings)
     fmt::print("{}\n", finding);
-  fmt::print("{}\n", report.equal ? "The site equals its input." : "The site does not equal its input.");
+  fmt::print("{}\n", !report.equal                ? "The site does not equal its input."
+                     : report.resampledMeshes > 0 ? "The site is its input, resampled within what it states."
+                                                  : "The site equals its input.");
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include "containers/reference.h"
 #include "imgeo/encoding.h"
+#include "prepare/geometry_image/surface_distance.h"
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
 #include "scene/vertex_attributes.h"
@@ -135,6 +136,8 @@ struct GeometryDescription {
   /// Classic: every patch is a grid of implicitMeshSize vertices, without an index. A height map has one patch, and its
   /// lattice is that of gridLattice().
   std::optional<GridKind> grid;
+  /// The distance of grids that were sampled from a mesh from its surface.
+  std::optional<SurfaceDistance> surfaceDistance;
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded

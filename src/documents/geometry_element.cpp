@@ -213,6 +213,11 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     fields = {{"profile", row.node.profile}};
   if (geometry.grid)
     fields.push_back({"implicitMeshMode", nameOf(*geometry.grid)});
+  if (geometry.surfaceDistance) {
+    const auto& [largest, mean] = *geometry.surfaceDistance;
+    fields.push_back({"surfaceDistance", numbers(std::vector{shortestWithin(largest, 1e-6 * largest),
+                                                             shortestWithin(mean, 1e-6 * mean)})});
+  }
   if (hasElementTypes) {
     fields = {{"indexType", nameOf(geometry.indexType)}, {"coordType", nameOf(geometry.coordType)}};
     for (const VertexRole role : vertexRoles)

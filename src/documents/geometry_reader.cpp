@@ -260,6 +260,16 @@ std::optional<GridKind> gridOf(const FieldReader& fields) {
   return {};
 }
 
+/// What a node states of the distance from its source.
+std::optional<SurfaceDistance> surfaceDistanceOf(const FieldReader& fields) {
+  const std::vector<double> distances = fields.reals("surfaceDistance", 2);
+  if (distances.empty())
+    return {};
+  if (!(distances[0] >= 0 && distances[1] >= 0))
+    fields.fail(ErrorKind::malformed, "surfaceDistance is no distance");
+  return SurfaceDistance{distances[0], distances[1]};
+}
+
 /// Vertices and triangles of a patch that is a grid follow from its size.
 void describeGrid(const FieldReader& fields, GridKind kind, PatchDescription& patch) {
   const auto [columns, rows] = patch.implicitMeshSize;
@@ -407,6 +417,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     readImageBits(fields, geometry);
   if (row.storage == PatchStorage::bytePlanes)
     geometry.grid = gridOf(fields);
+  if (geometry.grid)
+    geometry.surfaceDistance = surfaceDistanceOf(fields);
   if (geometry.grid == GridKind::heightMap && geometry.patches.size() != 1)
     fields.fail(ErrorKind::unsupported, "a height map has several patches, which all fill its decode box");
   if (geometry.grid)

@@ -103,6 +103,17 @@ describe("the final picture equals that of plain buffers with the input", () => 
     }
   }
 
+  // Closed seams show no background, and shading goes on across them.
+  test("trefoil --as geometry-image", async () => {
+    const site = siteOfGenerated("trefoil", "--as", "geometry-image", "--grid", "320");
+    const input = patchOfInput(readPly(readFileSync(meshFile("trefoil"))));
+    const expected = await referencePicture(pageOf(site), [input]);
+    assertSamePicture("input trefoil as geometry image", await finalPicture(site), expected, {
+      mean: 0.4,
+      offShare: 0.005,
+    });
+  });
+
   const bunny = join(modelDirectory, "stanford-bunny.obj");
   for (const container of ["sig", "bg"]) {
     test(`bunny --container ${container}`, { skip: existsSync(bunny) ? false : `${bunny} is missing` }, async () => {

@@ -22,6 +22,12 @@ void resolveClassicOptions(ConvertOptions& options);
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry,
                            const EncodeOptions& options);
 
+/// Writes the images of one or several grids of `columns` columns, one grid below the other, without an index. Images
+/// are as wide as the grids, and `vertices` has whole rows: at most maxImageEdge. The result has no description: that
+/// of a grid, and where in the images it begins, the caller knows.
+EncodedPatch encodeGrids(const IndexedPatch& vertices, std::uint32_t columns, const GeometryDescription& geometry,
+                         const EncodeOptions& options);
+
 /// Reads the images of encodeClassic and X3DOM's ImageGeometry with record images of any size. Safe for untrusted
 /// bytes.
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);

@@ -8,10 +8,12 @@
 #include "containers/image_file.h"
 #include "containers/limits.h"
 #include "containers/named_attributes.h"
+#include "containers/normals.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace imgeo {
@@ -81,6 +83,36 @@ Image namedAttributeImage(const NamedAttribute& attribute, const AttributeDescri
   });
 }
 
+/// Adds the images of each property of the patch, but not of its indices.
+void addRecordImages(const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size,
+                     std::vector<RoleImage>& images) {
+  const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, geometry.lattice.bits);
+  for (std::uint32_t plane = coordBytes(Encoding::classic, geometry.lattice.bits); plane-- > 0;)
+    images.push_back({Role::coord, coordImage(patch, size, stored, plane)});
+  for (const VertexRole role : vertexRoles)
+    if (hasAttribute(patch, role))
+      for (Image& image : attributeImages(role, patch, geometry, size))
+        images.push_back({fileRoleOf(role), std::move(image)});
+  for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
+    for (std::uint32_t plane = geometry.attributes[a].bytes; plane-- > 0;)
+      images.push_back(
+          {Role::attribute,
+           namedAttributeImage(patch.namedAttributes.at(a), geometry.attributes[a], size, patch.vertexCount(), plane),
+           a});
+}
+
+/// Adds the images as files, with a reference to each.
+void addFiles(EncodedPatch& encoded, const std::vector<RoleImage>& images, const EncodeOptions& options) {
+  std::vector<EncodedImage> encodedImages(images.size());
+  parallelFor(images.size(),
+              [&](std::size_t i) { encodedImages[i] = encodeImage(images[i].image, options.images, options.effort); });
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const FileIndex file =
+        addFile(encoded, {images[i].role, extensionOf(encodedImages[i].format), std::move(encodedImages[i].bytes)});
+    encoded.references.push_back({images[i].role, file, TexelLocation{}, images[i].attribute});
+  }
+}
+
 } // namespace
 
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry,
@@ -90,36 +122,26 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize implicitMeshSize = implicitMeshSizeOf(patch, records, target);
   encoded.description.implicitMeshSize = {implicitMeshSize.columns, implicitMeshSize.rows};
-  const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, geometry.lattice.bits);
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
     images.push_back({Role::index, geometry.indexType == ElementType::uint32
                                        ? wideIndexImage(patch, implicitMeshSize)
                                        : indexImage(patch, implicitMeshSize, records)});
-  for (std::uint32_t plane = coordBytes(Encoding::classic, geometry.lattice.bits); plane-- > 0;)
-    images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
-  for (const VertexRole role : vertexRoles)
-    if (hasAttribute(patch, role))
-      for (Image& image : attributeImages(role, patch, geometry, records))
-        images.push_back({fileRoleOf(role), std::move(image)});
+  addRecordImages(patch, geometry, records, images);
   if (geometry.normalEncoding == NormalEncoding::palette && hasAttribute(patch, VertexRole::normal))
     encoded.normalError = paletteErrorOf(patch, std::ranges::find(images, Role::normal, &RoleImage::role)->image);
-  for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
-    for (std::uint32_t plane = geometry.attributes[a].bytes; plane-- > 0;)
-      images.push_back({Role::attribute,
-                        namedAttributeImage(patch.namedAttributes.at(a), geometry.attributes[a], records,
-                                            patch.vertexCount(), plane),
-                        a});
+  addFiles(encoded, images, options);
+  return encoded;
+}
 
-  std::vector<EncodedImage> encodedImages(images.size());
-  parallelFor(images.size(),
-              [&](std::size_t i) { encodedImages[i] = encodeImage(images[i].image, options.images, options.effort); });
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const FileIndex file =
-        addFile(encoded, {images[i].role, extensionOf(encodedImages[i].format), std::move(encodedImages[i].bytes)});
-    encoded.references.push_back({images[i].role, file, TexelLocation{}, images[i].attribute});
-  }
+EncodedPatch encodeGrids(const IndexedPatch& vertices, std::uint32_t columns, const GeometryDescription& geometry,
+                         const EncodeOptions& options) {
+  assert(geometry.grid && !isPair(geometry.normalEncoding) && vertices.vertexCount() % columns == 0);
+  EncodedPatch encoded;
+  std::vector<RoleImage> images;
+  addRecordImages(vertices, geometry, {columns, rowsFor(vertices.vertexCount(), columns)}, images);
+  addFiles(encoded, images, options);
   return encoded;
 }
 

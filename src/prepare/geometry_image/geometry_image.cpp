@@ -69,7 +69,7 @@ private:
 
 /// Barycentric coordinates of a point of the plane in a triangle of a disk.
 Vec3d barycentric(const DiskMesh& disk, const std::vector<Vec2d>& points, std::uint32_t triangle, Vec2d at) {
-  const Vec2d &p = points[disk.corners[3 * triangle]], &q = points[disk.corners[3 * triangle + 1]],
+  const Vec2d &p = points[disk.corners[std::size_t{3} * triangle]], &q = points[disk.corners[3 * triangle + 1]],
               &r = points[disk.corners[3 * triangle + 2]];
   const auto doubled = [](Vec2d a, Vec2d b, Vec2d c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); };
   const double area = doubled(p, q, r);

@@ -15,8 +15,6 @@
 
 namespace imgeo {
 
-namespace {
-
 EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
   return {.encoding = *options.encoding,
           .normalBits = options.normalBits,
@@ -32,6 +30,8 @@ EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
           .indexed = options.indexed,
           .images = options.images};
 }
+
+namespace {
 
 /// Keeps the only patch of a mesh for PatchFiles.
 void addSmall(EncodedMesh& mesh, Patch patch, const EncodeOptions& encoding, const FileSharing& sharing) {

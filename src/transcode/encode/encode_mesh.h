@@ -22,8 +22,12 @@ struct EncodedMesh {
   double positionError = 0;      ///< maximum error of a vertex along an axis
   double normalErrorDegrees = 0; ///< maximum error of stored normals
   bool hasNormals = false, hasColors = false;
-  std::optional<double> texCoordError; ///< maximum error of texture coordinates, if there are any
+  std::optional<double> texCoordError;    ///< maximum error of texture coordinates, if there are any
+  std::optional<ResampledMesh> resampled; ///< if it became geometry images
 };
+
+/// The options of convert that encoding needs. All defaults are filled in.
+EncodeOptions encodeOptionsFrom(const ConvertOptions& options);
 
 /// Called with the number of elements that have been written since the last call. May be called from any thread.
 using ElementsDone = std::function<void(std::size_t count)>;

@@ -39,6 +39,8 @@ void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
   report.hasColors |= encoded.hasColors;
   if (encoded.texCoordError)
     report.texCoordError = std::max(report.texCoordError.value_or(0), *encoded.texCoordError);
+  if (encoded.resampled)
+    report.resampled.push_back(*encoded.resampled);
   addAttributes(report.attributes, encoded.geometry);
 }
 

@@ -3,6 +3,7 @@
 #include "containers/encodings.h"
 #include "transcode/encode/base_files.h"
 #include "transcode/encode/encode_report.h"
+#include "transcode/encode/geometry_images.h"
 #include "transcode/encode/load_groups.h"
 #include "transcode/encode/patch_files.h"
 #include "transcode/encode/spatial_order.h"
@@ -40,6 +41,15 @@ std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<st
   return boxes;
 }
 
+EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
+  if (options.form == MeshForm::geometryImage)
+    if (std::optional<EncodedMesh> encoded = encodeGeometryImages(mesh, options, files)) {
+      done(mesh.elementCount());
+      return *std::move(encoded);
+    }
+  return encodeMesh(std::move(mesh), options, files, done);
+}
+
 } // namespace
 
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentFiles& files, ConvertReport& report,
@@ -67,7 +77,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
       tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node]);
       continue;
     }
-    EncodedMesh encoded = encodeMesh(std::move(mesh), options, files, done);
+    EncodedMesh encoded = encode(std::move(mesh), options, files, done);
     addToReport(report, encoded);
     if (encoded.base)
       baseFiles.add(std::move(encoded.base), geometry);

@@ -51,6 +51,29 @@ bool canHold(const EncodingRow& row, const ConvertOptions& options, std::size_t 
          attributeCount <= can.maxNamedAttributes;
 }
 
+/// Geometry images are SIG classic.
+void resolveGeometryImages(ConvertOptions& options) {
+  if (options.form != MeshForm::geometryImage) {
+    if (options.grid != 0)
+      refuseOption("--grid", "is the resolution of geometry images: --as geometry-image");
+    return;
+  }
+  if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
+    refuseOption("--as", "geometry images are stored in sig, profile classic");
+  options.encoding = Encoding::classic;
+  if (options.target == Target::x3dom)
+    refuseOption("--as", "X3DOM draws no geometry images");
+  if (options.primitives != Primitives::triangles || !options.indexed)
+    refuseOption("--as", "the triangles of geometry images follow from their grid: no --primitives, no --index");
+  if (options.normals != NormalEncoding::rgb)
+    refuseOption("--normals", "geometry images have rgb normals");
+  if (options.grid != 0 && options.maxError)
+    refuseOption("--max-error", "chooses the grid that --grid states");
+  if (options.grid == 0)
+    options.grid = 256;
+  requireWithin("--grid", options.grid, 4, maxGridEdge);
+}
+
 /// The first of the automatic encodings that supports the options; the last one if none does.
 Encoding automaticEncoding(const ConvertOptions& options, std::size_t attributeCount) {
   Encoding last = Encoding::classic;
@@ -142,6 +165,7 @@ bool hasStatedError(const ConvertOptions& options) {
 }
 
 ConvertOptions resolved(ConvertOptions options) {
+  resolveGeometryImages(options);
   if (!options.encoding)
     options.encoding = automaticEncoding(options, 0);
   if (options.maxError)

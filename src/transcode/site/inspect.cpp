@@ -47,6 +47,10 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& 
   info.colorBits = precision.bits[VertexRole::color];
   if (info.normalBits > 0)
     info.normalEncoding = nameOf(precision.normalEncoding);
+  if (geometry.grid)
+    info.grid = nameOf(*geometry.grid);
+  if (geometry.surfaceDistance)
+    info.surfaceDistance = geometry.surfaceDistance->largest;
   for (const AttributeDescription& attribute : geometry.attributes)
     info.attributes.push_back(attribute.name);
   return info;

@@ -12,6 +12,7 @@
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/compare_geometry_nodes.h"
 #include "transcode/verify/compare_mesh.h"
+#include "transcode/verify/compare_resampled.h"
 
 #include <algorithm>
 #include <set>
@@ -97,8 +98,13 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
           !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape, input.meshes[mesh].topology);
     }
     movedShapes.compare(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
-    if (compared.emplace(geometry, mesh).second)
-      compareMesh(reader, document.scene.geometries.at(geometry), input.meshes[mesh], manifest, report, findings);
+    if (!compared.emplace(geometry, mesh).second)
+      continue;
+    const GeometryDescription& description = document.scene.geometries.at(geometry);
+    if (description.surfaceDistance)
+      compareResampled(reader, description, input.meshes[mesh], report, findings);
+    else
+      compareMesh(reader, description, input.meshes[mesh], manifest, report, findings);
   }
   if (movedShapes.count() > 0)
     findings.add("{} of {} shapes stand elsewhere than in the input.", movedShapes.count(), siteShapes.size());

@@ -16,6 +16,8 @@ _imgeo() {
     "convert --view") COMPREPLY=($(compgen -W "auto front left back right top bottom" -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
     "convert --profile") COMPREPLY=($(compgen -W "auto compact classic" -- "$word")); return ;;
+    "convert --as") COMPREPLY=($(compgen -W "mesh geometry-image" -- "$word")); return ;;
+    "convert --grid") COMPREPLY=(); return ;;
     "convert --target") COMPREPLY=($(compgen -W "web x3dom" -- "$word")); return ;;
     "convert --x3dom-url") COMPREPLY=(); return ;;
     "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;
@@ -74,7 +76,7 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --unit --view --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

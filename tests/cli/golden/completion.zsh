@@ -33,6 +33,8 @@ _imgeo() {
       '--view[the side that is shown first; auto\: the source'\''s viewpoint, otherwise the three-quarter view that shows the most of the surface]:view:(auto front left back right top bottom)' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \
       '--profile[of sig. compact\: a coarse shape first, then patches, decoded by workers; classic\: three times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; auto\: compact, but classic with --primitives strips, --index off, --normals palette or spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep]:profile:(auto compact classic)' \
+      '--as[geometry-image\: sample surfaces anew on regular grids, one for each chart, without an index; in profile classic]:as:(mesh geometry-image)' \
+      '--grid[geometry images\: N * N texels for a mesh, 4..4096, otherwise 256]:grid: ' \
       '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
       '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
       '--primitives[how patches are drawn, those of lines as lines, line strips or points; a point cloud is always points]:primitives:(triangles strips points)' \
@@ -40,7 +42,7 @@ _imgeo() {
       '-vp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
       '-qp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
       '--position-bits[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
-      '--max-error[sig\: the fewest position bits that move no vertex farther, in units of the source or, with %, of a mesh'\''s longest edge]:max-error: ' \
+      '--max-error[sig\: the fewest position bits that move no vertex farther, in units of the source or, with %, of a mesh'\''s longest edge; geometry images\: the smallest grid whose surface is no farther off]:max-error: ' \
       '--coord-type[bg\: elements of coordinates; auto\: the fewest unsigned bytes; float32 without --position-bits\: the source'\''s numbers]:coord-type:(auto uint8 int8 uint16 int16 float32)' \
       '--layout[bg\: a file for each attribute, or one of records with all of them beside the index]:layout:(separate interleaved)' \
       '--normals[how normals are stored\: as vectors, as two numbers (compact\: always), as 256 directions a patch, or in compact not at all]:normals:(rgb octahedral spherical palette derived)' \

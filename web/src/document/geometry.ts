@@ -184,7 +184,8 @@ type ImageFields =
   | "profile"
   | "base"
   | "implicitMeshMode"
-  | "implicitMeshCount";
+  | "implicitMeshCount"
+  | "surfaceDistance";
 
 function commonFieldsOf(
   element: SceneElement,

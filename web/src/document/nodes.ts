@@ -307,6 +307,8 @@ export const nodeFields = {
     implicitMeshMode: SFString("auto"),
     /** The paper's name for implicitMeshSize. */
     implicitMeshCount: optional(SFVec2f([256, 256])),
+    /** Not used: the distance of a geometry image from the surface that it was sampled from. */
+    surfaceDistance: optional(SFVec2f([0, 0])),
     /** Live streams: the picture stands still. */
     paused: SFBool(false),
     /** Live streams: the largest number of frames per second; 0: all. */
