@@ -50,6 +50,7 @@ struct MaxError {
 enum class MeshForm : std::uint8_t {
   mesh,          ///< the source's vertices and triangles, quantised
   geometryImage, ///< surfaces that are sampled anew on regular grids (Gu, Gortler and Hoppe 2002), in SIG classic
+  heightMap,     ///< regular grids of heights, such as elevation models, as images of heights in SIG classic
 };
 
 /// The edge of the largest grid, in texels.
@@ -76,7 +77,7 @@ struct ConvertOptions {
   std::optional<Encoding> encoding{}; ///< default: compact, or classic if compact cannot hold what is asked for
   Target target = Target::web;        ///< runtime that shows the site
   std::string x3domUrl{};             ///< target x3dom: folder of x3dom.js and x3dom.css; empty: a public copy
-  MeshForm form = MeshForm::mesh;     ///< meshes, or geometry images
+  MeshForm form = MeshForm::mesh;     ///< meshes, geometry images or height maps
   std::uint32_t grid = 0; ///< geometry images: a mesh gets grid * grid texels, 4..maxGridEdge; 0: 256, or by maxError
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true;                    ///< false: vertices are repeated instead of indexed; points have no index

@@ -83,12 +83,20 @@ Image namedAttributeImage(const NamedAttribute& attribute, const AttributeDescri
   });
 }
 
+/// The image of byte `plane` of the heights of a height map.
+Image heightImage(const IndexedPatch& patch, ImageSize size, std::uint32_t plane) {
+  return imageOf(size, 1, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
+    *out = static_cast<std::uint8_t>(patch.positions[n].y >> (8 * plane));
+  });
+}
+
 /// Adds the images of each property of the patch, but not of its indices.
 void addRecordImages(const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size,
                      std::vector<RoleImage>& images) {
   const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, geometry.lattice.bits);
   for (std::uint32_t plane = coordBytes(Encoding::classic, geometry.lattice.bits); plane-- > 0;)
-    images.push_back({Role::coord, coordImage(patch, size, stored, plane)});
+    images.push_back({Role::coord, geometry.grid == GridKind::heightMap ? heightImage(patch, size, plane)
+                                                                        : coordImage(patch, size, stored, plane)});
   for (const VertexRole role : vertexRoles)
     if (hasAttribute(patch, role))
       for (Image& image : attributeImages(role, patch, geometry, size))

@@ -32,7 +32,8 @@ void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
   report.positionError = std::max(report.positionError, encoded.positionError);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
   const Lattice& lattice = encoded.geometry.lattice;
-  report.maxStep = std::max(report.maxStep, lattice.step);
+  const bool isHeightMap = encoded.geometry.grid == GridKind::heightMap; // whose columns and rows are exact
+  report.maxStep = std::max(report.maxStep, isHeightMap ? lattice.step * lattice.stretch.y : lattice.step);
   report.minPositionBits = report.minPositionBits == 0 ? lattice.bits : std::min(report.minPositionBits, lattice.bits);
   report.maxPositionBits = std::max(report.maxPositionBits, lattice.bits);
   report.hasNormals |= encoded.hasNormals;

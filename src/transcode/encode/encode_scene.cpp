@@ -4,6 +4,7 @@
 #include "transcode/encode/base_files.h"
 #include "transcode/encode/encode_report.h"
 #include "transcode/encode/geometry_images.h"
+#include "transcode/encode/height_map.h"
 #include "transcode/encode/load_groups.h"
 #include "transcode/encode/patch_files.h"
 #include "transcode/encode/spatial_order.h"
@@ -47,6 +48,11 @@ EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files
       done(mesh.elementCount());
       return *std::move(encoded);
     }
+  if (options.form == MeshForm::heightMap) {
+    EncodedMesh encoded = encodeHeightMap(mesh, options, files);
+    done(mesh.elementCount());
+    return encoded;
+  }
   return encodeMesh(std::move(mesh), options, files, done);
 }
 

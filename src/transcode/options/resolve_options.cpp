@@ -51,22 +51,29 @@ bool canHold(const EncodingRow& row, const ConvertOptions& options, std::size_t 
          attributeCount <= can.maxNamedAttributes;
 }
 
-/// Geometry images are SIG classic.
-void resolveGeometryImages(ConvertOptions& options) {
-  if (options.form != MeshForm::geometryImage) {
-    if (options.grid != 0)
-      refuseOption("--grid", "is the resolution of geometry images: --as geometry-image");
+/// Geometry images and height maps are SIG classic.
+void resolveGrids(ConvertOptions& options) {
+  const bool isGeometryImage = options.form == MeshForm::geometryImage;
+  if (!isGeometryImage && options.grid != 0)
+    refuseOption("--grid", "is the resolution of geometry images: --as geometry-image");
+  if (options.form == MeshForm::mesh)
     return;
-  }
+  const char* const form = isGeometryImage ? "geometry images" : "height maps";
   if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
-    refuseOption("--as", "geometry images are stored in sig, profile classic");
+    refuseOption("--as", fmt::format("{} are stored in sig, profile classic", form));
   options.encoding = Encoding::classic;
   if (options.target == Target::x3dom)
-    refuseOption("--as", "X3DOM draws no geometry images");
+    refuseOption("--as", fmt::format("X3DOM draws no {}", form));
   if (options.primitives != Primitives::triangles || !options.indexed)
-    refuseOption("--as", "the triangles of geometry images follow from their grid: no --primitives, no --index");
+    refuseOption("--as", fmt::format("the triangles of {} follow from their grid: no --primitives, no --index", form));
   if (options.normals != NormalEncoding::rgb)
-    refuseOption("--normals", "geometry images have rgb normals");
+    refuseOption("--normals", isGeometryImage ? "geometry images have rgb normals"
+                                              : "height maps have the normals that follow from their slope");
+  if (!isGeometryImage) {
+    if (options.positionBits != 0 || options.maxError)
+      refuseOption(options.maxError ? "--max-error" : "--position-bits", "height maps have heights of 16 bits");
+    return;
+  }
   if (options.grid != 0 && options.maxError)
     refuseOption("--max-error", "chooses the grid that --grid states");
   if (options.grid == 0)
@@ -165,7 +172,7 @@ bool hasStatedError(const ConvertOptions& options) {
 }
 
 ConvertOptions resolved(ConvertOptions options) {
-  resolveGeometryImages(options);
+  resolveGrids(options);
   if (!options.encoding)
     options.encoding = automaticEncoding(options, 0);
   if (options.maxError)

@@ -155,8 +155,10 @@ std::vector<Vec3u> quantisedAs(const GeometryDescription& geometry, const std::v
                                const Mesh& mesh, bool isForeign) {
   if (isForeign)
     return quantiseLike(patches, mesh.positions, geometry.lattice);
-  const Lattice expected = geometry.isShared ? geometry.lattice // that of all meshes in the file
-                                             : latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
+  const bool isHeightMap = geometry.grid == GridKind::heightMap;
+  const Lattice expected = geometry.isShared || isHeightMap
+                               ? geometry.lattice // of all meshes in the file; of the grid
+                               : latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
   std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
   for (Vec3u& q : quantised)
     q = pointReadBack(q, expected, geometry);
@@ -218,8 +220,15 @@ void addFindings(const ElementDifference& difference, const AttributeBounds& bou
 
 } // namespace
 
-void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& mesh,
+void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& original,
                  const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings) {
+  // Our height maps have no normals: those of a page follow from the slope.
+  std::optional<Mesh> copy;
+  if (manifest && geometry.grid == GridKind::heightMap) {
+    copy = original;
+    copy->normals.clear();
+  }
+  const Mesh& mesh = copy ? *copy : original;
   std::vector<IndexedPatch> patches = decodePatches(reader, geometry);
   if (!geometry.isShared) // else the box is that of several patches; decoding has checked that it contains each
     checkBoxes(patches, geometry, findings);

@@ -13,15 +13,16 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-/// An ASCII grid of hills with a hole of one cell.
-std::string hills(int columns, int rows) {
+/// An ASCII grid of hills, perhaps with a hole of one cell.
+std::string hills(int columns, int rows, bool hasHole = true, int digits = 2) {
   std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n"
                                  "NODATA_value -9999\n",
                                  columns, rows);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
-      text +=
-          row == 7 && column == 9 ? "-9999 " : fmt::format("{:.2f} ", 300 + 80 * std::sin(column / 5.0 + row / 7.0));
+      text += hasHole && row == 7 && column == 9
+                  ? "-9999 "
+                  : fmt::format("{:.{}f} ", 300 + 80 * std::sin(column / 5.0 + row / 7.0), digits);
   return text;
 }
 
@@ -50,6 +51,35 @@ TEST(TerrainSite, EqualsItsSourceAndKeepsItsGeoreferenceWhateverItsExaggeration)
     exportSite(directory / "site", directory / "out.ply");
     EXPECT_TRUE(verify(directory / "site", directory / "out.ply").equal);
   }
+}
+
+TEST(TerrainSite, IsAHeightMapOnRequestExactWhereHeightsAreWhole) {
+  const TemporaryDirectory directory;
+  ConvertOptions options;
+  options.pictures = false;
+  options.form = MeshForm::heightMap;
+  for (const int digits : {0, 2}) {
+    writeFile(directory / "hills.asc", asBytes(hills(60, 50, false, digits)));
+    const ConvertReport report = convert(directory / "hills.asc", directory / "site", options);
+    EXPECT_EQ(report.elements.triangles, 2u * 59 * 49);
+    EXPECT_EQ(report.encoding, Encoding::classic);
+    const SiteDocument document = openDocument(directory / "site");
+    EXPECT_NE(document.text.find("implicitMeshMode=\"heightMap\""), std::string::npos);
+    EXPECT_EQ(document.scene.geometries.at(0).patches.at(0).coord.size(), 2u);
+    const VerifyReport verified = verify(directory / "site", directory / "hills.asc");
+    EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+    EXPECT_EQ(verified.site.triangles, report.elements.triangles);
+    EXPECT_LE(verified.positionError, digits == 0 ? 0 : 160.0 / 65535);
+  }
+  writeFile(directory / "holes.asc", asBytes(hills(60, 50)));
+  try {
+    convert(directory / "holes.asc", directory / "other", options);
+    FAIL() << "a height map has a hole";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(error.message().find("its grid has holes"), std::string::npos) << error.message();
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory / "other"));
 }
 
 } // namespace
