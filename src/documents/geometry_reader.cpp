@@ -1,5 +1,6 @@
 #include "documents/geometry_reader.h"
 
+#include "base/data_url.h"
 #include "containers/encodings.h"
 #include "containers/grid.h"
 #include "containers/limits.h"
@@ -44,13 +45,15 @@ bool parseInteger(std::string_view text, std::uint32_t& value) {
 }
 
 /// Parses the ending "+S" of a url, X3DOM's stride. The ending is part of the file's name unless a '?' separates them.
-/// Any other '+' is an ordinary character.
+/// Any other '+' is an ordinary character, as it is in the base64 of a data: URL.
 Reference stridedReference(const std::string& url) {
   const std::size_t plus = url.rfind('+');
   ByteLocation location;
   if (plus == std::string::npos || !parseInteger(std::string_view(url).substr(plus + 1), location.byteStride))
     return {url, ByteLocation{}};
   const bool isQuery = plus > 0 && url[plus - 1] == '?';
+  if (isDataUrl(url))
+    return {url, ByteLocation{}};
   return {isQuery ? url.substr(0, plus - 1) : url, location};
 }
 
@@ -71,7 +74,7 @@ bool parseFragment(std::string_view fragment, ByteLocation& location) {
 /// and the stride S.
 Reference referenceOf(const FieldReader& fields, const std::string& url, Encoding encoding) {
   Reference reference{url, rowOf(encoding).location};
-  const std::size_t hash = url.rfind('#');
+  const std::size_t hash = url.rfind('#'); // base64 has none
   if (hash == std::string::npos && std::holds_alternative<ByteLocation>(reference.location))
     return stridedReference(url);
   reference.url = url.substr(0, hash);

@@ -2,6 +2,7 @@
 // Resolves the URLs in a source: to local files, or to the bytes of data: URLs.
 
 #include "base/bytes.h"
+#include "base/data_url.h"
 #include "import/import.h"
 
 #include <filesystem>
@@ -30,14 +31,5 @@ private:
   bool allowsOutside_ = false;
   std::string sourceName_;
 };
-
-/// "a%20b" -> "a b"; malformed escapes stay as they are.
-std::string percentDecoded(std::string_view text);
-
-/// Decodes base64 (RFC 4648), ignoring white space and padding. Throws Error{malformed} naming `location`.
-Bytes base64Decoded(std::string_view text, const std::string& location);
-
-/// A data: URL of this media type in base64 (RFC 2397).
-std::string dataUrlOf(ByteSpan bytes, std::string_view mediaType);
 
 } // namespace imgeo

@@ -1,5 +1,6 @@
 #include "transcode/site/site_document.h"
 
+#include "base/data_url.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "transcode/site/site_files.h"
@@ -76,7 +77,7 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
   std::vector<NamedFile> files;
   std::set<std::string> seen;
   const auto add = [&](Role role, const Reference& reference) {
-    if (seen.insert(reference.url).second)
+    if (!isDataUrl(reference.url) && seen.insert(reference.url).second)
       files.push_back({reference.url, role});
   };
   for (const GeometryDescription& geometry : scene.geometries) {
@@ -152,7 +153,9 @@ bool exists(const SiteDocument& document, const std::string& url) {
 }
 
 FetchFile fetchFrom(const SiteDocument& document) {
-  return [&document](const std::string& url) { return readFile(fileOf(document, url)); };
+  return [&document](const std::string& url) {
+    return isDataUrl(url) ? bytesOfDataUrl(url, url) : readFile(fileOf(document, url));
+  };
 }
 
 } // namespace imgeo

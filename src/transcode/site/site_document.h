@@ -36,7 +36,7 @@ struct NamedFile {
   Role role = Role::coord;
 };
 
-/// Every geometry file of a scene once, in the order of first mention.
+/// Every geometry file of a scene once, in the order of first mention, without data: URLs.
 std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
 
 /// URLs of texture images, each once, in the order of first mention, without those of other hosts.
@@ -55,7 +55,7 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document);
 /// The path of a relative URL. Throws Error{unsupported} for a URL that leads out of the document's folder.
 std::filesystem::path fileOf(const SiteDocument& document, const std::string& url);
 
-/// A function that reads the file of a URL. `document` must outlive it.
+/// A function that reads the file of a URL, or the bytes of a data: URL. `document` must outlive it.
 FetchFile fetchFrom(const SiteDocument& document);
 
 /// Whether a relative URL names an existing file in the document's folder.

@@ -1,6 +1,8 @@
 // Reads sites in the layouts that aopt and other tools wrote for X3DOM 1.7. The tests write the bytes themselves,
 // without imgeo's writers, and read them with imgeo's readers.
 
+#include "base/data_url.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/testing.h"
 #include "containers/png/png.h"
@@ -272,6 +274,23 @@ TEST_F(AoptSite, IsReadWithImagesAsImageTextures) {
                        texture("normal", "n.png") + texture("texCoord", "t.png") + "</ImageGeometry>"),
               0.5 / 65535, 0.4, 0.51 / 65535);
   expectVerified(true, true, false);
+}
+
+TEST_F(AoptSite, IsReadAndExportedFromDataUrls) {
+  Bytes coords;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  const auto url = [](const Bytes& bytes) { return dataUrlOf(bytes, "application/octet-stream"); };
+  expectEqual(readBack("<BinaryGeometry " + boxFields() + " " + draws() + " index='" + url(index) + "' coord='" +
+                       url(coords) + "'></BinaryGeometry>"),
+              0, 0, 0);
+  const SiteInfo info = inspect(directory.path());
+  EXPECT_EQ(info.elements.triangles, mesh.elementCount());
+  EXPECT_EQ(info.containerBytes, 0u);
+  EXPECT_EQ(exportSite(directory.path(), directory.path() / "out.ply").elements.triangles, mesh.elementCount());
+  expectVerified(false, false, false);
+  EXPECT_THROW(readBack("<BinaryGeometry " + boxFields() + " coord='data:;base64,*'></BinaryGeometry>"), Error);
 }
 
 TEST_F(AoptSite, EqualsItsInputAlthoughItsWriterComputedInSinglePrecision) {
