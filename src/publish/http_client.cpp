@@ -53,10 +53,9 @@ struct HttpClient::State {
   std::optional<beast::tcp_stream> stream;
 
   /// Runs one asynchronous operation to its end: only those have time limits.
-  beast::error_code finish(const beast::error_code& failure) {
+  void finish() {
     context.restart();
     context.run();
-    return failure;
   }
 
   beast::error_code connect() {
@@ -67,7 +66,7 @@ struct HttpClient::State {
     stream.emplace(context);
     stream->expires_after(timeout);
     stream->async_connect(addresses, [&](beast::error_code result, const tcp::endpoint&) { failure = result; });
-    finish(failure);
+    finish();
     if (!failure)
       stream->socket().set_option(tcp::no_delay(true), failure);
     return failure;
@@ -77,13 +76,15 @@ struct HttpClient::State {
     beast::error_code failure;
     stream->expires_after(timeout);
     http::async_write(*stream, request, [&](beast::error_code result, std::size_t) { failure = result; });
-    if (finish(failure))
+    finish();
+    if (failure)
       return failure;
     beast::flat_buffer buffer;
     http::response_parser<http::string_body> parser;
     parser.body_limit(maxAnswerBytes);
     http::async_read(*stream, buffer, parser, [&](beast::error_code result, std::size_t) { failure = result; });
-    if (finish(failure))
+    finish();
+    if (failure)
       return failure;
     answer = {parser.get().result_int(), parser.get().body()};
     if (!parser.keep_alive())
