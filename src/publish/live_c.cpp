@@ -95,7 +95,7 @@ int imgeo_publisher_set_colors(imgeo_publisher* publisher, uint32_t components) 
 int imgeo_publisher_set_values(imgeo_publisher* publisher, uint32_t components, const double* ranges, uint32_t bits) {
   return publisher->set([&] {
     publisher->options.values.clear();
-    for (uint32_t i = 0; i < components; ++i)
+    for (std::size_t i = 0; i < components; ++i)
       publisher->options.values.push_back({ranges[2 * i], ranges[2 * i + 1]});
     publisher->options.valueBits = bits;
   });
