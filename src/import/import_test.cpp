@@ -10,7 +10,7 @@ namespace {
 
 const std::string plyText = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                             "property float z\nend_header\n0 0 0\n";
-const std::string objText = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string handmadeObj = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string stlText = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
                             "endloop\nendfacet\nendsolid a\n";
 
@@ -36,7 +36,7 @@ TEST(Formats, AreNamedInTheHelp) {
 TEST(Import, RecognisesTheFormatByItsContentUnderAnyName) {
   for (const char* name : {"a.ply", "a.obj", "a.stl", "a", "a.gz", "-"}) {
     EXPECT_EQ(importBytes(asBytes(plyText), name).format, "PLY");
-    EXPECT_EQ(importBytes(asBytes(objText), name).format, "OBJ");
+    EXPECT_EQ(importBytes(asBytes(handmadeObj), name).format, "OBJ");
     EXPECT_EQ(importBytes(asBytes(stlText), name).format, "STL");
   }
 }
@@ -60,12 +60,12 @@ TEST(Import, RefusesAnEmptyFile) {
 }
 
 TEST(Import, SkipsAByteOrderMark) {
-  EXPECT_EQ(importBytes(asBytes("\xef\xbb\xbf" + objText), "a.obj").format, "OBJ");
+  EXPECT_EQ(importBytes(asBytes("\xef\xbb\xbf" + handmadeObj), "a.obj").format, "OBJ");
 }
 
 TEST(Import, ReadsTextInUtf16) {
   std::string little = "\xff\xfe", big = "\xfe\xff";
-  for (const char c : objText) {
+  for (const char c : handmadeObj) {
     little += {c, '\0'};
     big += {'\0', c};
   }

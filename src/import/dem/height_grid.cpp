@@ -131,9 +131,9 @@ void readReferenceSystem(GDALDatasetH dataset, HeightGrid& grid) {
     grid.unit = grid.isGeographic ? 3.14159265358979323846 / 180 : 1;
 }
 
-class Raster {
+class GdalRaster {
 public:
-  Raster(GDALDatasetH dataset, const std::string& name, const std::string& path)
+  GdalRaster(GDALDatasetH dataset, const std::string& name, const std::string& path)
       : dataset_(dataset), name_(name), path_(path) {}
 
   HeightGrid read() {
@@ -290,7 +290,7 @@ HeightGrid readHeightGrid(ByteSpan bytes, const std::string& name, const Referen
     throw Error(
         ErrorKind::malformed, name,
         fmt::format("is damaged or no grid of heights; GDAL, which reads these formats, says: {}", lastMessage(path)));
-  return Raster(dataset.get(), name, path).read();
+  return GdalRaster(dataset.get(), name, path).read();
 }
 
 } // namespace imgeo
