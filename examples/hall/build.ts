@@ -16,5 +16,9 @@ cpSync(join(here, "hall.css"), join(output, "hall.css"));
 const page = readFileSync(join(site, "index.html"), "utf8");
 writeFileSync(
   join(output, "index.html"),
-  walkPage(page, "A hall", "Walk with the arrow keys, or with two fingers; drag to look around. Press F to fly, W to walk."),
+  walkPage(
+    page,
+    "A hall",
+    "Walk with the arrow keys, or with two fingers; drag to look around. Press F to fly, W to walk.",
+  ),
 );

@@ -16,7 +16,7 @@ namespace imgeo::gltf {
 
 namespace {
 
-constexpr std::uint32_t unsignedShort = 5123;
+constexpr std::uint32_t defaultIndexType = 5123; ///< unsigned short
 
 /// Names of attributes that glTF 2.0 would read in another way: colours as linear, v of texture coordinates downwards.
 constexpr const char *storedColor = "_COLOR", *storedTexCoord = "_TEXCOORD";
@@ -142,7 +142,7 @@ private:
       view["byteStride"] = stride;
     result_["bufferViews"].push_back(std::move(view));
     Json to{{"bufferView", result_["bufferViews"].size() - 1},
-            {"componentType", from["componentType"].whole(attribute.empty() ? unsignedShort : 0)},
+            {"componentType", from["componentType"].whole(attribute.empty() ? defaultIndexType : 0)},
             {"count", from["count"].whole()},
             {"type", attribute.empty() ? "SCALAR" : from["type"].text()}};
     to["normalized"] = attribute == storedColor; // X3DOM would draw a byte of 255 as 255 times white

@@ -31,7 +31,7 @@ Bytes planeOf(const GridPoint& point, int plane) {
   return encodePng(image, 1);
 }
 
-Vec3d hills(double u, double v) {
+Vec3d hillPoint(double u, double v) {
   return {0.5 + 0.5 * std::sin(7 * u) * std::cos(5 * v), 0, 0};
 }
 
@@ -59,7 +59,7 @@ struct GridCase {
 };
 
 const GridCase cases[] = {
-    {"HEIGHTMAP", hills, 2 * (columns - 1) * (rows - 1), columns* rows},
+    {"HEIGHTMAP", hillPoint, 2 * (columns - 1) * (rows - 1), columns* rows},
     {"geometryImage", vase, 2 * (columns - 1) * (rows - 1) - (columns - 1), columns*(rows - 1) + 1},
     {"sculpt", vase, 2 * columns*(rows - 1) - columns, columns*(rows - 1) + 1},
 };
@@ -92,13 +92,13 @@ TEST(GridSite, IsInspectedReadExportedVerifiedAndConverted) {
 
 TEST(GridSite, HasTheHeightsAboveItsColumnsAndRows) {
   const TemporaryDirectory directory;
-  writePage(directory, "heightMap", hills, "priority='2'");
+  writePage(directory, "heightMap", hillPoint, "priority='2'");
   const Mesh mesh = readMeshes(openDocument(directory.path())).meshes.at(0);
   const Box3d box = boxOf(mesh);
   EXPECT_EQ(box.min.x, 100 - 23);
   EXPECT_EQ(box.max.z, 14);
   for (const Vec3f& p : mesh.positions) {
-    const double height = hills((p.x - 77) / 46, (p.z + 14) / 28).x;
+    const double height = hillPoint((p.x - 77) / 46, (p.z + 14) / 28).x;
     ASSERT_NEAR(p.y, 2 + 2 * height, 1e-4);
   }
 }
@@ -115,7 +115,7 @@ std::string messageOf(const std::function<void()>& action) {
 TEST(GridSite, IsRefusedIfItsSizeOrModeHasNoMeaning) {
   const TemporaryDirectory directory;
   const auto refusal = [&](const char* mode, const std::string& fields) {
-    writePage(directory, mode, hills, fields);
+    writePage(directory, mode, hillPoint, fields);
     return messageOf([&] { readMeshes(openDocument(directory.path())); });
   };
   EXPECT_EQ(refusal("volume", ""), "implicitMeshMode is none of auto, SIG, heightMap, geometryImage and sculpt");
