@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "containers/normals.h"
+#include "containers/stored.h"
 #include "containers/stored_coords.h"
 
 #include <algorithm>
@@ -56,6 +57,8 @@ void chooseTypes(GeometryDescription& geometry, const PatchedMesh& mesh, const E
   geometry.attributeTypes[VertexRole::normal] = normalTypeOf(options);
   for (const VertexRole set : texCoordRoles)
     geometry.attributeTypes[set] = fractionTypeOf(options.texCoordBits);
+  if (options.target == Target::x3dom && !hasUnitTexCoords(mesh)) // X3DOM's integers hold 0..1 alone
+    geometry.attributeTypes[VertexRole::texCoord] = ElementType::float32;
   geometry.attributeTypes[VertexRole::color] = fractionTypeOf(options.colorBits);
   assert(holdsLattice(geometry.coordType, bits));
   assert(!isPair(options.normals) || options.normalBits == 16 || byteSizeOf(geometry.coordType) == 2);

@@ -1,7 +1,6 @@
 #include "containers/bg/bg.h"
 
 #include "containers/bg/element_types.h"
-#include "containers/stored.h"
 #include "prepare/patches.h"
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace {
 constexpr std::array bgNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical};
 
 void describeBg(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
-  if (options.target == Target::x3dom && !hasUnitTexCoords(mesh)) // X3DOM's integers hold 0..1 alone
-    geometry.attributeTypes[VertexRole::texCoord] = ElementType::float32;
   geometry.indexType = indexTypeFor(mesh);
   chooseTypes(geometry, mesh, options);
 }
