@@ -35,9 +35,28 @@ PatchReader& ContainerReader::readerOf(const GeometryDescription& geometry) cons
   return *readers_.at(static_cast<std::size_t>(geometry.encoding));
 }
 
+namespace {
+
+/// Leaves out the draws of other kinds of elements; the vertices stay.
+void keepDrawsOf(Topology topology, IndexedPatch& patch) {
+  std::vector<std::uint32_t> indices;
+  std::size_t first = 0;
+  for (const Draw& draw : patch.draws) {
+    for (std::size_t n = first; n < first + draw.count && topologyOf(draw.primitive) == topology; ++n)
+      indices.push_back(patch.indices.empty() ? static_cast<std::uint32_t>(n) : patch.indices[n]);
+    first += draw.count;
+  }
+  patch.indices = std::move(indices);
+  std::erase_if(patch.draws, [&](const Draw& draw) { return topologyOf(draw.primitive) != topology; });
+}
+
+} // namespace
+
 IndexedPatch ContainerReader::decode(const PatchDescription& patch, const GeometryDescription& geometry) const {
   IndexedPatch decoded = readerOf(geometry).decode(patch, geometry);
   decoded.ccw = geometry.ccw;
+  if (geometry.topology)
+    keepDrawsOf(*geometry.topology, decoded);
   return decoded;
 }
 

@@ -98,6 +98,54 @@ bool hasNormalsInCoords(const GeometryDescription& geometry) {
          });
 }
 
+namespace {
+
+/// The kinds of elements that a geometry draws, in the order of their first draws.
+std::vector<Topology> topologiesOf(const GeometryDescription& geometry) {
+  std::vector<Topology> topologies;
+  for (const PatchDescription& patch : geometry.patches)
+    for (const Draw& draw : patch.draws)
+      if (const Topology topology = topologyOf(draw.primitive);
+          std::ranges::find(topologies, topology) == topologies.end())
+        topologies.push_back(topology);
+  return topologies;
+}
+
+/// The box around those of the patches; empty if one of them does not state its box.
+Box3d boxOfPatches(const GeometryDescription& geometry) {
+  Box3d box;
+  for (const PatchDescription& patch : geometry.patches) {
+    if (patch.box.empty())
+      return {};
+    box.add(patch.box.min);
+    box.add(patch.box.max);
+  }
+  return box;
+}
+
+} // namespace
+
+bool drawsSeveralTopologies(const GeometryDescription& geometry) {
+  return !geometry.topology && topologiesOf(geometry).size() > 1;
+}
+
+std::vector<GeometryDescription> splitByTopology(const GeometryDescription& geometry) {
+  if (!drawsSeveralTopologies(geometry))
+    return {geometry};
+  std::vector<GeometryDescription> geometries;
+  for (const Topology topology : topologiesOf(geometry)) {
+    GeometryDescription& part = geometries.emplace_back(geometry);
+    part.topology = topology;
+    const std::size_t left = std::erase_if(part.patches, [&](const PatchDescription& patch) {
+      return std::ranges::none_of(patch.draws,
+                                  [&](const Draw& draw) { return topologyOf(draw.primitive) == topology; });
+    });
+    if (left > 0)
+      part.box = boxOfPatches(part);
+  }
+  return geometries;
+}
+
 bool isUnsigned(ElementType type) {
   return type == ElementType::uint8 || type == ElementType::uint16 || type == ElementType::uint32;
 }

@@ -144,6 +144,8 @@ struct GeometryDescription {
   /// The document has one node for this and other geometries, which differ in the index of their only patch. Lattice
   /// and boxes are those of all of them.
   bool isShared = false;
+  /// Where draws have several kinds of elements, the only kind that is decoded: see splitByTopology().
+  std::optional<Topology> topology;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
 
@@ -160,6 +162,13 @@ Reference normalInCoords(const Reference& coord);
 
 /// Whether the normals of every patch are X3DOM's normalAsSphericalCoordinates.
 bool hasNormalsInCoords(const GeometryDescription& geometry);
+
+/// Whether a geometry draws triangles as well as lines, or points.
+bool drawsSeveralTopologies(const GeometryDescription& geometry);
+
+/// A geometry for each kind of element that the draws of a geometry have, in the order of the first draws, with the
+/// patches that have such draws; the geometry itself where they have one kind.
+std::vector<GeometryDescription> splitByTopology(const GeometryDescription& geometry);
 
 bool isUnsigned(ElementType type);
 /// The integer that stands for 1: 127, 255, 32767, 65535 ...; 1 for Float32.

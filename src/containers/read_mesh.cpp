@@ -18,6 +18,8 @@ namespace {
 
 /// The kind of element that all draws of a geometry have.
 Topology topologyOf(const GeometryDescription& geometry, const std::string& location) {
+  if (geometry.topology)
+    return *geometry.topology;
   std::optional<Topology> topology;
   for (const PatchDescription& patch : geometry.patches)
     for (const Draw& draw : patch.draws) {

@@ -11,7 +11,7 @@ namespace imgeo {
 /// Decodes the patches of a geometry, several at a time, into one mesh: equal lattice points become one position, also
 /// across patch borders, and equal vertices one wedge. Degenerate triangles, which join strips, are dropped. Safe for
 /// untrusted bytes. Throws Error with the file's url; with `location`, Error{unsupported} for a geometry with several
-/// kinds of elements, Error{limit} for one of more than 2^32 - 1 vertices.
+/// kinds of elements (splitByTopology), Error{limit} for one of more than 2^32 - 1 vertices.
 Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& location);
 
 } // namespace imgeo

@@ -1,6 +1,7 @@
 #include "containers/bg/bg.h"
 
 #include "containers/bg/element_types.h"
+#include "containers/stored.h"
 #include "prepare/patches.h"
 
 #include <algorithm>

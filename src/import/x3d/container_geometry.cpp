@@ -52,10 +52,11 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
   return geometries;
 }
 
-std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
-                                              std::set<std::string>& attributes) const {
+std::optional<std::vector<Mesh>> ContainerGeometries::read(std::span<const pugi::xml_node> nodes,
+                                                           const AttributeChoice& kept,
+                                                           std::set<std::string>& attributes) const {
   if (!isPatchGeometry(nodes[0].name()))
-    return readPopGeometry(source_, nodes[0], fetch_);
+    return std::vector{readPopGeometry(source_, nodes[0], fetch_)};
   GeometryDescription geometry = readGeometry(source_.documentText(), nodes[0]);
   std::vector<PatchDescription> patches = std::exchange(geometry.patches, {});
   for (const pugi::xml_node& node : nodes.subspan(1)) {
@@ -65,9 +66,12 @@ std::optional<Mesh> ContainerGeometries::read(std::span<const pugi::xml_node> no
       return {};
   }
   geometry.patches = std::move(patches);
-  Mesh mesh = readMesh(reader_, geometry, source_.locationOf(nodes[0]));
-  chooseAttributes(mesh, kept, attributes);
-  return mesh;
+  std::vector<Mesh> meshes;
+  for (const GeometryDescription& part : splitByTopology(geometry)) {
+    meshes.push_back(readMesh(reader_, part, source_.locationOf(nodes[0])));
+    chooseAttributes(meshes.back(), kept, attributes);
+  }
+  return meshes;
 }
 
 gltf::ShapeResource ContainerGeometries::readExternal(pugi::xml_node node, bool withMaterials) const {

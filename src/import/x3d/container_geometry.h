@@ -35,11 +35,12 @@ public:
       : source_(source), fetch_([&references](const std::string& url) { return references.fetch(url); }),
         reader_(fetch_) {}
 
-  /// The mesh of nodes whose patches belong together, or of one node that is no ExternalGeometry; empty where nodes
-  /// differ in more than their patches. Of the named attributes it has those in `kept`; the names of all are added to
-  /// `attributes`. Throws Error with the file and line of the node or with the url of a file.
-  std::optional<Mesh> read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
-                           std::set<std::string>& attributes) const;
+  /// The meshes, one for each kind of element, of nodes whose patches belong together, or of one node that is no
+  /// ExternalGeometry; empty where nodes differ in more than their patches. Of the named attributes it has those in
+  /// `kept`; the names of all are added to `attributes`. Throws Error with the file and line of the node or with the
+  /// url of a file.
+  std::optional<std::vector<Mesh>> read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
+                                        std::set<std::string>& attributes) const;
 
   /// The mesh of a patch of a node that several Shapes share, or why it cannot be read.
   using SharedPatch = std::variant<Mesh, Error>;

@@ -99,15 +99,15 @@ Shape ShapeReader::addShape(Mesh mesh, bool isSolid) {
 }
 
 std::optional<Shape> ShapeReader::shapeOfPatches(const std::vector<pugi::xml_node>& geometries) {
-  std::optional<Mesh> mesh;
+  std::optional<std::vector<Mesh>> meshes;
   try {
-    mesh = containers_.read(geometries, keptAttributes_, attributes_);
+    meshes = containers_.read(geometries, keptAttributes_, attributes_);
   } catch (const Error&) {
     return {}; // the Shape of the geometry that cannot be read has a warning
   }
-  if (!mesh || mesh->corners.empty())
+  if (!meshes || meshes->size() != 1 || meshes->front().corners.empty())
     return {};
-  return addShape(std::move(*mesh), source_.boolean(geometries[0], "solid", true));
+  return addShape(std::move(meshes->front()), source_.boolean(geometries[0], "solid", true));
 }
 
 template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, const Read& read) -> decltype(read()) {
@@ -130,15 +130,17 @@ template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, con
 std::vector<Shape> ShapeReader::shapesOfFiles(pugi::xml_node node) {
   if (std::string_view(node.name()) == "ExternalGeometry")
     return shapesOfResource(node, attemptFiles(node, [&] { return containers_.readExternal(node, false); }));
-  std::optional<Mesh> mesh =
+  std::optional<std::vector<Mesh>> meshes =
       attemptFiles(node, [&] { return containers_.read(std::array{node}, keptAttributes_, attributes_); });
-  if (!mesh)
+  if (!meshes)
     return {};
-  if (mesh->corners.empty()) {
+  std::vector<Shape> shapes;
+  for (Mesh& mesh : *meshes)
+    if (!mesh.corners.empty())
+      shapes.push_back(addShape(std::move(mesh), source_.boolean(node, "solid", true)));
+  if (shapes.empty())
     ++summary_.empty[node.name()];
-    return {};
-  }
-  return {addShape(std::move(*mesh), source_.boolean(node, "solid", true))};
+  return shapes;
 }
 
 std::vector<Shape> ShapeReader::shapesOfExternal(pugi::xml_node externalShape) {

@@ -2,16 +2,21 @@
 
 #include "base/error.h"
 #include "containers/read_mesh.h"
+#include "documents/mixed_geometries.h"
+
+#include <utility>
 
 namespace imgeo {
 
 Scene readMeshes(const SiteDocument& document) {
+  SceneDocument split = document.scene;
+  splitMixedGeometries(split);
   Scene scene;
-  scene.graph = document.scene.graph;
+  scene.graph = std::move(split.graph);
   std::vector<bool> isEmpty;
   const std::string location = (document.root / document.name).string();
   const ContainerReader reader(fetchFrom(document));
-  for (const GeometryDescription& geometry : document.scene.geometries) {
+  for (const GeometryDescription& geometry : split.geometries) {
     scene.meshes.push_back(readMesh(reader, geometry, location));
     isEmpty.push_back(scene.meshes.back().corners.empty());
   }

@@ -8,8 +8,8 @@ namespace imgeo {
 
 /// Decodes every geometry of a document. The patches of a geometry become one mesh: equal lattice points become one
 /// position, also across patch borders, and equal vertices one wedge. Degenerate triangles, which join strips, are
-/// dropped. Safe for untrusted bytes. Throws Error; {unsupported} for a geometry with several kinds of elements,
-/// {malformed} if nothing is drawn.
+/// dropped. A shape that draws several kinds of elements becomes several (documents/mixed_geometries.h). Safe for
+/// untrusted bytes. Throws Error; {malformed} if nothing is drawn.
 Scene readMeshes(const SiteDocument& document);
 
 } // namespace imgeo

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <initializer_list>
 #include <numbers>
 
 namespace imgeo {
@@ -60,13 +61,18 @@ protected:
     return fmt::format("position='{} {} {}' size='{} {} {}'", center.x, center.y, center.z, size.x, size.y, size.z);
   }
 
-  /// The mesh that the readers return for a page with this geometry node.
-  Mesh readBack(const std::string& node) {
+  /// The scene that the readers return for a page with a Shape of this geometry node.
+  Scene readPage(const std::string& node) const {
     const std::string page = "<!DOCTYPE html><html><body><X3D><Scene><Shape DEF='torus'><Appearance>"
                              "<Material diffuseColor='1 0 0'></Material></Appearance>" +
                              node + "</Shape></Scene></X3D></body></html>";
     writeFile(directory.path() / "index.html", asBytes(page));
-    const Scene scene = readMeshes(openDocument(directory.path()));
+    return readMeshes(openDocument(directory.path()));
+  }
+
+  /// The only mesh of that scene.
+  Mesh readBack(const std::string& node) const {
+    const Scene scene = readPage(node);
     EXPECT_EQ(testing::shapeName(scene.graph, 0), "torus");
     EXPECT_EQ(std::get<Material>(testing::appearanceOf(scene.graph, 0).material).diffuseColor, (Vec3f{1, 0, 0}));
     return scene.meshes.at(0);
@@ -119,6 +125,24 @@ protected:
     EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
     EXPECT_EQ(report.site.triangles, mesh.elementCount());
     EXPECT_LE(report.positionError, report.positionBound);
+  }
+
+  /// Expects that info, export, verify and convert find these elements in the page.
+  void expectElements(const ElementCounts& expected) const {
+    const auto expectEach = [&](const ElementCounts& found) {
+      EXPECT_EQ(found.triangles, expected.triangles);
+      EXPECT_EQ(found.lines, expected.lines);
+      EXPECT_EQ(found.points, expected.points);
+    };
+    expectEach(inspect(directory.path()).elements);
+    const TemporaryDirectory made;
+    expectEach(exportSite(directory.path(), made / "out.glb").elements);
+    convert(directory.path() / "index.html", made / "site", ConvertOptions{});
+    for (const std::filesystem::path& site : {made / "site", directory.path()}) {
+      const VerifyReport report = verify(site, directory.path() / "index.html");
+      EXPECT_TRUE(report.equal) << site << ::testing::PrintToString(report.findings);
+      expectEach(report.site);
+    }
   }
 
   /// Writes a site with Int16 coordinates relative to the center; `round` converts them to integers.
@@ -291,6 +315,89 @@ TEST_F(AoptSite, IsReadAndExportedFromDataUrls) {
   EXPECT_EQ(exportSite(directory.path(), directory.path() / "out.ply").elements.triangles, mesh.elementCount());
   expectVerified(false, false, false);
   EXPECT_THROW(readBack("<BinaryGeometry " + boxFields() + " coord='data:;base64,*'></BinaryGeometry>"), Error);
+}
+
+TEST_F(AoptSite, IsReadWithTrianglesLinesAndPointsInOneNode) {
+  Bytes coords, mixed = index;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  for (const std::uint16_t vertex : std::initializer_list<std::uint16_t>{0, 1, 2, 3, 4, 5, 6, 7})
+    appendLittle(mixed, vertex);
+  write("i.bin", mixed);
+  write("c.bin", coords);
+  const Scene scene = readPage(
+      "<BinaryGeometry " + boxFields() +
+      fmt::format(" primType='\"TRIANGLES\" \"LINESTRIP\" \"POINTS\"' vertexCount='{} 3 5'", mesh.corners.size()) +
+      " index='i.bin' coord='c.bin'></BinaryGeometry>");
+  ASSERT_EQ(scene.meshes.size(), 3u);
+  expectEqual(scene.meshes[0], 0, 0, 0);
+  EXPECT_EQ(scene.meshes[1].topology, Topology::lines);
+  EXPECT_EQ(scene.meshes[2].topology, Topology::points);
+  const auto expectPositions = [&](const Mesh& part, const std::vector<std::size_t>& wedges) {
+    ASSERT_EQ(part.corners.size(), wedges.size());
+    for (std::size_t corner = 0; corner < wedges.size(); ++corner)
+      EXPECT_EQ(part.cornerPosition(corner), Vec3f(position(wedges[corner])));
+  };
+  expectPositions(scene.meshes[1], {0, 1, 1, 2});
+  expectPositions(scene.meshes[2], {3, 4, 5, 6, 7});
+  EXPECT_EQ(scene.meshes[2].positions.size(), 5u) << "vertices of the other elements";
+  ASSERT_EQ(scene.graph.roots.size(), 1u);
+  EXPECT_EQ(scene.graph.nodes[scene.graph.roots[0]].name, "torus"); // a Group of the three shapes
+
+  expectElements({mesh.elementCount(), 2, 5});
+}
+
+TEST_F(AoptSite, IsReadWithLinesAndPointsInOneImage) {
+  Image high{3, 3, 3, Bytes(27)}, low = high;
+  for (std::size_t w = 0; w < 9; ++w)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const long stored = std::lround(65535 * (relativePosition(w)[static_cast<int>(axis)] + 0.5));
+      high.pixels[3 * w + axis] = static_cast<std::uint8_t>(stored >> 8);
+      low.pixels[3 * w + axis] = static_cast<std::uint8_t>(stored);
+    }
+  write("c0.png", encodePng(high, 1));
+  write("c1.png", encodePng(low, 1));
+  const Scene scene = readPage("<ImageGeometry " + boxFields() +
+                               " implicitMeshSize='3 3' primType='\"POINTS\" \"LINES\" \"POINTS\"' vertexCount='2 4 3'"
+                               " coord='\"c0.png\" \"c1.png\"'></ImageGeometry>");
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.meshes[0].topology, Topology::points);
+  EXPECT_EQ(scene.meshes[1].topology, Topology::lines);
+  const auto expectPositions = [&](const Mesh& part, const std::vector<std::size_t>& wedges) {
+    ASSERT_EQ(part.corners.size(), wedges.size());
+    for (std::size_t corner = 0; corner < wedges.size(); ++corner)
+      EXPECT_LT(length(Vec3d(part.cornerPosition(corner)) - position(wedges[corner])), 2e-4); // a box of 65,535 steps
+  };
+  expectPositions(scene.meshes[0], {0, 1, 6, 7, 8});
+  expectPositions(scene.meshes[1], {2, 3, 4, 5});
+  expectElements({0, 2, 5});
+}
+
+TEST_F(AoptSite, IsReadWithTrianglesAndPointsInPatchesOfOneNode) {
+  std::string patches;
+  for (const std::size_t first : {std::size_t{0}, std::size_t{30}}) {
+    Bytes coords;
+    Box3d patchBox;
+    for (std::size_t w = first; w < first + 6; ++w) {
+      patchBox.add(position(w));
+      for (int axis = 0; axis < 3; ++axis)
+        appendLittle(coords, static_cast<float>(position(w)[axis]));
+    }
+    const std::string url = fmt::format("c{}.bin", first);
+    write(url, coords);
+    const Vec3d center = patchBox.center(), size = patchBox.size();
+    patches +=
+        fmt::format("<GeometryPatch bboxCenter='{} {} {}' bboxSize='{} {} {}' coord='{}' recordCount='6' "
+                    "vertexCount='6' primType='\"{}\"'></GeometryPatch>",
+                    center.x, center.y, center.z, size.x, size.y, size.z, url, first == 0 ? "TRIANGLES" : "POINTS");
+  }
+  const Scene scene = readPage("<BinaryGeometry " + boxFields() + ">" + patches + "</BinaryGeometry>");
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.meshes[0].elementCount(), 2u);
+  EXPECT_EQ(scene.meshes[1].elementCount(), 6u);
+  EXPECT_EQ(scene.meshes[1].cornerPosition(5), Vec3f(position(35)));
+  expectElements({2, 0, 6});
 }
 
 TEST_F(AoptSite, EqualsItsInputAlthoughItsWriterComputedInSinglePrecision) {

@@ -3,6 +3,7 @@
 #include "imgeo/verify.h"
 
 #include "base/error.h"
+#include "documents/mixed_geometries.h"
 #include "scene/shape_instances.h"
 #include "scene/source_axes.h"
 #include "transcode/site/site_document.h"
@@ -118,7 +119,8 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
 VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
   VerifyReport report;
   Findings findings(report);
-  const SiteDocument document = openDocument(site);
+  SiteDocument document = openDocument(site);
+  splitMixedGeometries(document.scene);
   const std::optional<SiteManifest> manifest = manifestOf(document);
   report.isForeign = !manifest;
   const Imported imported = preparedInput(input, manifest, outside);
