@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double maxRate = 1000;
-constexpr std::size_t maxDescriptionBytes = 16 * 1024;
+constexpr std::size_t maxDescriptionBytes = std::size_t{16} * 1024;
 
 [[noreturn]] void refuse(const std::string& location, const std::string& message) {
   throw Error(ErrorKind::malformed, location, message);

@@ -43,7 +43,7 @@ std::uint8_t* writePlanes(const Frame& frame, const ComponentBits& attribute, Pr
     for (std::uint32_t plane = 0; plane < bytes; ++plane)
       writePlane(residuals, 8 * (bytes - 1 - plane), out + (std::size_t{plane} * attribute.count + i) * vertices);
   }
-  return out + bytes * attribute.count * vertices;
+  return out + std::size_t{bytes} * attribute.count * vertices;
 }
 
 /// The sum of the residuals' lengths in bits.

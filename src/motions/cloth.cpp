@@ -64,9 +64,10 @@ public:
     columns_ = grid;
     positions_.resize(current_.x.size());
     values_.resize(positions_.size());
-    for (std::size_t i = 0; i < positions_.size(); ++i)
-      current_.set(i,
-                   {static_cast<float>(i % grid) * spacing_ - edge / 2, -static_cast<float>(i / grid) * spacing_, 0});
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      const std::size_t column = i % grid, row = i / grid;
+      current_.set(i, {static_cast<float>(column) * spacing_ - edge / 2, -static_cast<float>(row) * spacing_, 0});
+    }
     box_.add({-2.25, -2.75, -2.25});
     box_.add({2.25, 1.75, 2.25});
     store();

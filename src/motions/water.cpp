@@ -17,9 +17,11 @@ public:
       : random_(seed), spacing_(poolEdge / static_cast<float>(grid - 1)), heights_(std::size_t{grid} * grid),
         speeds_(heights_.size()) {
     columns_ = grid;
-    for (std::size_t i = 0; i < heights_.size(); ++i)
-      positions_.push_back({static_cast<float>(i % grid) * spacing_ - poolEdge / 2, 0,
-                            static_cast<float>(i / grid) * spacing_ - poolEdge / 2});
+    for (std::size_t i = 0; i < heights_.size(); ++i) {
+      const std::size_t column = i % grid, row = i / grid;
+      positions_.push_back(
+          {static_cast<float>(column) * spacing_ - poolEdge / 2, 0, static_cast<float>(row) * spacing_ - poolEdge / 2});
+    }
     values_.assign(heights_.size(), 0.5F);
     box_.add({-poolEdge / 2, -maxHeight, -poolEdge / 2});
     box_.add({poolEdge / 2, maxHeight, poolEdge / 2});
