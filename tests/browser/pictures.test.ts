@@ -20,14 +20,23 @@ import { decodePng, encodePng } from "./png.ts";
 import { referenceSettingsOf, patchOfInput, referencePicture } from "./reference.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
-const cases: { mesh: GeneratedMesh; options: string[] }[] = [
+interface Case {
+  mesh: GeneratedMesh;
+  options: string[];
+  /** Whether only `make soak` runs it: each of its values stands in another case as well. */
+  isLong?: boolean;
+}
+
+const cases: Case[] = [
   ...["sig", "bg"].flatMap((container) =>
     ["triangles", "strips"].flatMap((primitives) => [
       { mesh: "trefoil" as const, options: ["--container", container, "--primitives", primitives] },
       {
         mesh: "trefoil-colors" as const,
         options: ["--container", container, "--primitives", primitives, "--patch-vertices", "1000"],
+        isLong: (container === "sig") === (primitives === "strips"),
       },
     ]),
   ),
@@ -44,10 +53,11 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   })),
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
   { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"] },
-  ...["uint8", "int8", "int16", "float32"].flatMap((type) =>
+  ...["uint8", "int8", "int16", "float32"].flatMap((type, n) =>
     ["separate", "interleaved"].map((layout) => ({
       mesh: "trefoil-colors" as const,
       options: ["--container", "bg", "--coord-type", type, "--layout", layout],
+      isLong: (n % 2 === 0) === (layout === "interleaved"),
     })),
   ),
   {
@@ -63,6 +73,7 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   ...["sig", "bg"].map((container) => ({
     mesh: "trefoil-large" as const,
     options: ["--container", container, "--patch-vertices", "100000"],
+    isLong: container === "bg",
   })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
@@ -71,14 +82,18 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "trefoil-colors", options: ["--primitives", "points"] },
   ...["sig", "bg"].flatMap((container) => [
     { mesh: "coil" as const, options: ["--container", container] },
-    { mesh: "coil" as const, options: ["--container", container, "--primitives", "strips", "--patch-vertices", "500"] },
+    {
+      mesh: "coil" as const,
+      options: ["--container", container, "--primitives", "strips", "--patch-vertices", "500"],
+      isLong: container === "bg",
+    },
   ]),
   { mesh: "coil", options: ["--primitives", "strips", "--index", "off"] },
 ];
 
 describe("the final picture equals that of plain buffers with the quantised mesh", () => {
-  for (const { mesh, options } of cases) {
-    test([mesh, ...options].join(" "), async () => {
+  for (const { mesh, options, isLong } of cases) {
+    (isLong ? soakTest : test)([mesh, ...options].join(" "), async () => {
       const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
       const expected = await referencePicture(pageOf(site), decodeSite(site));
       assertSamePicture(`quantised ${mesh} ${options.join("")}`, await finalPicture(site), expected, boundsOfQuantised);
