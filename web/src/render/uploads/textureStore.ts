@@ -40,20 +40,8 @@ export class TextureStore {
   /** Allocates an image of vertex data whose texels can be replaced, all at once, before a frame is drawn. */
   makeWritable(width: number, height: number): WritableImage {
     const texture = emptyTexture(width, height);
-    const bytes = width * height * bytesPerTexel;
-    this.#bytes += bytes;
-    const image = {
-      width,
-      height,
-      close: () => {
-        if (!this.#textures.delete(image)) return;
-        this.#bytes -= bytes;
-        texture.dispose();
-      },
-    };
-    this.#textures.set(image, texture);
     return {
-      image,
+      image: this.#add(texture, width, height),
       write: (texels) => {
         writeTexels(texture, texels);
       },
@@ -67,6 +55,11 @@ export class TextureStore {
     const { width, height } = bitmap;
     const texture = emptyTexture(width, height);
     if (sampling !== undefined) setSampling(texture, sampling);
+    const image = this.#add(texture, width, height);
+    return { image, steps: uploadStrips(new Texture(bitmap), texture, width, height, renderer) };
+  }
+
+  #add(texture: Texture, width: number, height: number): DecodedImage {
     const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
     const image = {
@@ -79,7 +72,7 @@ export class TextureStore {
       },
     };
     this.#textures.set(image, texture);
-    return { image, steps: uploadStrips(new Texture(bitmap), texture, width, height, renderer) };
+    return image;
   }
 }
 
