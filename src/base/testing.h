@@ -1,5 +1,7 @@
 #pragma once
-// For tests: a temporary directory.
+// For tests: a temporary directory, and bytes as text in base 16.
+
+#include "base/bytes.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -30,5 +32,21 @@ public:
 private:
   std::filesystem::path path_;
 };
+
+inline std::string base16Of(const Bytes& bytes) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : bytes)
+    text.append({digits[byte >> 4], digits[byte & 15]});
+  return text;
+}
+
+/// The inverse of base16Of(). Throws std::invalid_argument for other characters.
+inline Bytes bytesOfBase16(const std::string& text) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < text.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
 
 } // namespace imgeo::testing

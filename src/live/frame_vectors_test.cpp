@@ -3,6 +3,7 @@
 // error. IMGEO_REWRITE_GOLDEN=1 writes all files again; a frame that changes means a new version of the format.
 #include "base/error.h"
 #include "base/file.h"
+#include "base/testing.h"
 #include "live/frame.h"
 #include "live/frame_samples.h"
 
@@ -49,21 +50,6 @@ std::string verdictOn(const Bytes& bytes) {
   } catch (const Error& error) {
     return names.at(static_cast<std::size_t>(error.kind()));
   }
-}
-
-std::string base16Of(const Bytes& bytes) {
-  static constexpr char digits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : bytes)
-    text.append({digits[byte >> 4], digits[byte & 15]});
-  return text;
-}
-
-Bytes bytesOfBase16(const std::string& text) {
-  Bytes bytes;
-  for (std::size_t i = 0; i < text.size(); i += 2)
-    bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
-  return bytes;
 }
 
 void write(const std::string& name, const Json& json) {
@@ -172,7 +158,7 @@ void rewrite() {
   }
   Json refused = Json::array();
   for (const auto& [name, bytes] : refusedFrames())
-    refused.push_back({{"name", name}, {"frame", base16Of(bytes)}, {"verdict", verdictOn(bytes)}});
+    refused.push_back({{"name", name}, {"frame", imgeo::testing::base16Of(bytes)}, {"verdict", verdictOn(bytes)}});
   write("refused.json", refused);
 }
 
@@ -205,7 +191,7 @@ TEST_F(FrameVectors, OfDamagedFramesAreRefused) {
   const Json refused = read("refused.json");
   EXPECT_GT(refused.size(), 30u);
   for (const Json& entry : refused) {
-    const std::string verdict = verdictOn(bytesOfBase16(entry.at("frame")));
+    const std::string verdict = verdictOn(imgeo::testing::bytesOfBase16(entry.at("frame")));
     EXPECT_NE(verdict, "decoded") << entry;
     EXPECT_EQ(verdict, entry.at("verdict")) << entry;
   }

@@ -3,6 +3,7 @@
 // decoded numbers. refused.json holds whole payloads in base 16. IMGEO_REWRITE_GOLDEN=1 writes all files again; an
 // existing file that changes means a new version of the format.
 #include "base/file.h"
+#include "base/testing.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/patch_samples.h"
 #include "containers/compact/payload_image.h"
@@ -100,21 +101,6 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
   return entries;
 }
 
-std::string base16Of(const Bytes& bytes) {
-  static constexpr char digits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : bytes)
-    text.append({digits[byte >> 4], digits[byte & 15]});
-  return text;
-}
-
-Bytes bytesOfBase16(const std::string& text) {
-  Bytes bytes;
-  for (std::size_t i = 0; i < text.size(); i += 2)
-    bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
-  return bytes;
-}
-
 void rewrite() {
   Json edits = Json::array();
   std::uint32_t seed = 0;
@@ -128,7 +114,8 @@ void rewrite() {
   write("edits.json", edits);
   Json refused = Json::array();
   for (const auto& [name, payload] : testing::refusedPayloads())
-    refused.push_back({{"name", name}, {"payload", base16Of(payload)}, {"verdict", verdictOn(payload)}});
+    refused.push_back(
+        {{"name", name}, {"payload", imgeo::testing::base16Of(payload)}, {"verdict", verdictOn(payload)}});
   write("refused.json", refused);
 }
 
@@ -164,7 +151,7 @@ TEST_F(Vectors, OfInvalidPayloadsAreRefused) {
   const Json refused = read("refused.json");
   EXPECT_GT(refused.size(), 10u);
   for (const Json& entry : refused) {
-    const Json verdict = verdictOn(bytesOfBase16(entry.at("payload")));
+    const Json verdict = verdictOn(imgeo::testing::bytesOfBase16(entry.at("payload")));
     EXPECT_TRUE(verdict.is_string()) << entry;
     EXPECT_EQ(verdict, entry.at("verdict")) << entry;
   }
