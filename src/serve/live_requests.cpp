@@ -60,9 +60,13 @@ std::optional<std::uint64_t> numberOf(std::string_view text) {
                                                                                                 : std::nullopt;
 }
 
-LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t number, unsigned framesAhead) {
+/// `isShared`: whether caches may give the frame to all viewers who ask for the same URL.
+LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t number, unsigned framesAhead,
+                         bool isShared) {
   if (const auto frame = stream->frame(number)) {
-    Response response = contentResponse(frameType, frame->bytes(), "public, max-age=31536000, immutable", stream.get());
+    Response response =
+        contentResponse(frameType, frame->bytes(),
+                        fmt::format("{}, max-age=31536000, immutable", isShared ? "public" : "private"), stream.get());
     response.fields.emplace_back("Imgeo-Epoch", std::to_string(frame->epoch()));
     return response;
   }
@@ -143,7 +147,7 @@ Response methodRefusal(std::string_view allowed) {
   return response;
 }
 
-LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& names) {
+LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& names, bool isShared) {
   const auto stream = streams.find(names[1]);
   if (!stream)
     return refuse(404, "There is no such stream.", nullptr);
@@ -156,7 +160,7 @@ LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& 
   const auto number = names.size() == 4 && names[2] == "frames" ? numberOf(names[3]) : std::nullopt;
   if (!number)
     return refuse(404, "There is no such file of a stream.", nullptr);
-  return replyWithFrame(stream, *number, streams.limits().framesAhead);
+  return replyWithFrame(stream, *number, streams.limits().framesAhead, isShared);
 }
 
 Response announce(live::Streams& streams, const std::string& name, ByteSpan body) {
@@ -204,7 +208,8 @@ LiveReply replyToLive(live::Streams& streams, const RequestHead& request) {
   const std::string& token = streams.limits().viewToken;
   if (!token.empty() && !live::areEqualTokens(token, tokenOf(request)))
     return refuse(401, "The token of the viewer is missing or wrong.", nullptr);
-  return replyToViewer(streams, path->names);
+  // A token in a header is no part of the URL, under which caches keep frames.
+  return replyToViewer(streams, path->names, token.empty() || request.authorization.empty());
 }
 
 Response answerAfterWaiting(const Stream& stream) {

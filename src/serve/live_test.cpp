@@ -270,13 +270,18 @@ TEST_F(LiveServer, ShowsStreamsOnlyToViewersWithTheToken) {
   live::StreamLimits limits;
   limits.viewToken = "ticket";
   start(limits);
-  addFrame(*openStream());
+  const auto stream = openStream();
+  addFrame(*stream);
   EXPECT_TRUE(hasStatus(get("/live/cloth/latest"), 401));
   EXPECT_TRUE(hasStatus(get("/live/cloth/latest?token=ticke"), 401));
   EXPECT_TRUE(hasStatus(get("/live/cloth/latest?token=ticket"), 200));
   EXPECT_TRUE(hasStatus(get("/live/cloth/latest?a=b&token=ticket"), 200));
   EXPECT_TRUE(hasStatus(get("/live/cloth/latest", "Authorization: Bearer ticket\r\n"), 200));
   EXPECT_TRUE(hasStatus(get("/live/cloth/frame.png"), 401));
+  // Caches keep frames by their URL, which has the token or not.
+  const std::string frame = "/live/cloth/frames/" + std::to_string(stream->state().newest->number());
+  EXPECT_NE(get(frame + "?token=ticket").find("Cache-Control: public,"), std::string::npos);
+  EXPECT_NE(get(frame, "Authorization: Bearer ticket\r\n").find("Cache-Control: private,"), std::string::npos);
 }
 
 TEST_F(LiveServer, AnswersOtherMethods) {
