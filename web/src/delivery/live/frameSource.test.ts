@@ -23,11 +23,15 @@ interface Line {
   readonly isCached?: boolean;
   /** Times at which the server does not answer. */
   readonly outage?: readonly [from: number, to: number];
+  /** When the first frame of the epoch comes. Before it, the newest frame is of another epoch. */
+  readonly firstFrameAt?: number;
 }
 
 /** Follows a stream of 30 frames a second for a time, on a simulated clock; returns when each frame was displayed. */
-async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, durationMs: number) {
+async function follow(line: Line, durationMs: number) {
+  const { frameMs, isCached = false, outage = [0, 0], firstFrameAt = 0 } = line;
   let now = 0;
+  let requests = 0;
   const sleepers: { readonly at: number; readonly wake: () => void }[] = [];
   const sleep = (ms: number, signal?: AbortSignal | null) =>
     new Promise<void>((resolve, reject) => {
@@ -36,7 +40,8 @@ async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, dura
         reject(signal.reason as Error);
       });
     });
-  const newest = () => 100 + Math.floor(now / intervalMs);
+  const timeOf = (number: number) => firstFrameAt + (number - 100) * intervalMs;
+  const newest = () => Math.max(99, 100 + Math.floor((now - firstFrameAt) / intervalMs));
   let lineFreeAt = 0;
   const isOut = () => now >= outage[0] && now < outage[1];
   const answer = async (url: string, signal: AbortSignal | null | undefined): Promise<Response> => {
@@ -60,9 +65,9 @@ async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, dura
     }
     const number = Number(url.split("/").at(-1));
     if (number > newest() + 8) return new Response(null, { status: 404 });
-    while (number > newest()) await sleep((number - 100) * intervalMs - now + 0.01, signal);
+    while (number > newest()) await sleep(timeOf(number) - now + 0.01, signal);
     lineFreeAt = Math.max(lineFreeAt, now) + frameMs;
-    const headers = { "imgeo-newest": `${isCached ? number : newest()}`, "imgeo-epoch": "100" };
+    const headers = { "imgeo-newest": `${isCached ? number : newest()}`, "imgeo-epoch": number < 100 ? "50" : "100" };
     const bytes = encodeFrame(
       { ...layout, number, epoch: 100, time: 0, prediction: "planar" },
       [1, 2, 3].map((value) => [value, value, value, value]),
@@ -90,6 +95,7 @@ async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, dura
     {
       url: "http://a.example/live/test",
       fetch: async (url, init) => {
+        requests += 1;
         openRequests += 1;
         maxOpenRequests = Math.max(maxOpenRequests, openRequests);
         try {
@@ -115,7 +121,7 @@ async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, dura
     {
       onEpoch: () => undefined,
       onFrame: ({ header: { number } }, skipped) => {
-        displayed.push({ number, skipped, at: now, ageMs: now - (number - 100) * intervalMs });
+        displayed.push({ number, skipped, at: now, ageMs: now - timeOf(number) });
       },
       onOutage: (error) => {
         outages.push(error);
@@ -134,7 +140,7 @@ async function follow({ frameMs, isCached = false, outage = [0, 0] }: Line, dura
     }
   }
   source.stop();
-  return { displayed, outages, maxOpenRequests };
+  return { displayed, outages, requests, maxOpenRequests };
 }
 
 const maxAge = (frames: readonly { ageMs: number }[]) => Math.max(...frames.slice(5).map(({ ageMs }) => ageMs));
@@ -159,6 +165,13 @@ describe("a viewer", () => {
       assert.equal(skipped, (displayed.at(-1)?.number ?? 0) - (first?.number ?? 0));
     });
   }
+
+  test("that comes before the first frame of an epoch waits for it", async () => {
+    const { displayed, outages, requests } = await follow({ frameMs: 1, firstFrameAt: 500 }, 600);
+    assert.equal(displayed[0]?.number, 100);
+    assert.ok(requests < 10, `${requests} requests`);
+    assert.deepEqual(outages, []);
+  });
 
   test("reports an outage once, and goes on by itself", async () => {
     const { displayed, outages } = await follow({ frameMs: 1, outage: [1000, 4000] }, 9000);

@@ -140,7 +140,8 @@ export class FrameSource {
   async #pull(state: StreamState, signal: AbortSignal): Promise<void> {
     const lanes = new AbortController();
     const all = AbortSignal.any([signal, lanes.signal]);
-    let requested = Math.max(this.#shown, (state.number ?? state.next) - 1);
+    // Until an epoch has its first frame, the newest one is of the epoch before.
+    let requested = Math.max(this.#shown, state.epoch - 1, (state.number ?? state.next) - 1);
     // While a frame was on its way over a slow line, others have appeared.
     const takeNumber = () => (requested = Math.max(requested + 1, this.#newest.number));
     const lane = async () => {
