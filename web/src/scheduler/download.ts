@@ -1,5 +1,6 @@
 // Downloads a URL: counts the bytes as they arrive, times out when none arrive, and retries where that can help.
 
+import { pause } from "./pause.ts";
 import type { Prioritized } from "./priorityQueue.ts";
 import type { Failure } from "./retry.ts";
 import { retryDelayMs } from "./retry.ts";
@@ -181,18 +182,4 @@ function totalBytesOf(response: Response): number | undefined {
   if (response.headers.get("content-encoding") !== null) return undefined;
   const length = Number(response.headers.get("content-length") ?? NaN);
   return Number.isSafeInteger(length) && length >= 0 ? length : undefined;
-}
-
-function pause(milliseconds: number, signal: AbortSignal): Promise<void> {
-  return new Promise((resolve, reject) => {
-    const abort = () => {
-      clearTimeout(timer);
-      reject(signal.reason as Error);
-    };
-    const timer = setTimeout(() => {
-      signal.removeEventListener("abort", abort);
-      resolve();
-    }, milliseconds);
-    signal.addEventListener("abort", abort, { once: true });
-  });
 }

@@ -1,11 +1,12 @@
-// The delivery of a live stream. When the stream has stated its lattice and its vertices, a delivery of its static files
-// begins, to which the stream is one more file; frames then change the vertices of the delivered stage. Another epoch
-// gets a delivery of its own, which replaces the one before when it is whole.
+// The delivery of a live stream. When the stream has stated its lattice and its vertices, a delivery of its static
+// files begins, to which the stream is one more file; frames then change the vertices of the delivered stage. Another
+// epoch gets a delivery of its own, which replaces the one before when it is whole.
 
 import type { FrameImages } from "../../decode/frame/frameImages.ts";
 import { DecodeError } from "../../decode/decodeError.ts";
 import type { GeometryDescription, Playback } from "../../document/description.ts";
 import type { BudgetRequest } from "../../scheduler/budget.ts";
+import { pause } from "../../scheduler/pause.ts";
 import type { Stage } from "../../stage/stage.ts";
 import { asDeliveryError } from "../deliveryError.ts";
 import { streamFilesOf } from "../encodings/live/liveDelivery.ts";
@@ -248,18 +249,4 @@ class StreamDelivery implements Delivery {
 function close({ delivery, target }: EpochDelivery): void {
   delivery.cancel();
   target?.close();
-}
-
-function pause(ms: number, signal: AbortSignal): Promise<void> {
-  return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, ms);
-    signal.addEventListener(
-      "abort",
-      () => {
-        clearTimeout(timer);
-        reject(signal.reason as Error);
-      },
-      { once: true },
-    );
-  });
 }
