@@ -53,6 +53,17 @@ export interface DownloadListener {
   onBytes(loadedBytes: number, totalBytes: number | undefined): void;
 }
 
+/** What one attempt needs of the options. */
+export interface AttemptOptions extends Pick<DownloadOptions, "fetch" | "idleTimeoutMs"> {
+  /** Default: maxDownloadBytes. */
+  readonly maxBytes?: number;
+}
+
+export interface AttemptListener extends Partial<Pick<DownloadListener, "onBytes">> {
+  /** Called when the server has answered, before the body. */
+  onHeaders?(headers: Headers): void;
+}
+
 /**
  * Downloads `url` in a slot of the scheduler and passes the bytes to `take`, which keeps the slot until it resolves.
  * Each attempt takes a slot of its own; other downloads use it until the next attempt. retry.ts decides which failures
@@ -90,8 +101,8 @@ export async function downloadInSlot<Result>(
 export async function download(
   url: string,
   signal: AbortSignal,
-  options: DownloadOptions,
-  listener: Pick<DownloadListener, "onBytes">,
+  options: AttemptOptions,
+  listener: AttemptListener,
 ): Promise<Uint8Array<ArrayBuffer>> {
   const idleTimeout = new AbortController();
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -114,7 +125,8 @@ export async function download(
         response.headers.get("retry-after") ?? undefined,
       );
     }
-    return await readBody(url, response, restartTimer, listener);
+    listener.onHeaders?.(response.headers);
+    return await readBody(url, response, restartTimer, listener, options.maxBytes);
   } catch (error) {
     if (signal.aborted) throw signal.reason;
     if (idleTimeout.signal.aborted)
@@ -138,19 +150,20 @@ async function readBody(
   url: string,
   response: Response,
   onChunk: () => void,
-  { onBytes }: Pick<DownloadListener, "onBytes">,
+  listener: AttemptListener,
+  maxBytes = maxDownloadBytes,
 ): Promise<Uint8Array<ArrayBuffer>> {
   const total = totalBytesOf(response);
   const chunks: Uint8Array[] = [];
   let loaded = 0;
-  onBytes(0, total);
+  listener.onBytes?.(0, total);
   if (response.body !== null) {
     for await (const chunk of chunksOf(response.body)) {
       onChunk();
       loaded += chunk.byteLength;
-      if (loaded > maxDownloadBytes) throw new RequestError("limit", url, `more than ${maxDownloadBytes} bytes came`);
+      if (loaded > maxBytes) throw new RequestError("limit", url, `more than ${maxBytes} bytes came`);
       chunks.push(chunk);
-      onBytes(loaded, total);
+      listener.onBytes?.(loaded, total);
     }
   }
   const bytes = new Uint8Array(loaded);

@@ -4,7 +4,8 @@
 import { DecodeError } from "../../decode/decodeError.ts";
 import type { FrameImages } from "../../decode/frame/frameImages.ts";
 import { frameHeaderBytes, maxUnpackedBytes } from "../../decode/frame/frameHeader.ts";
-import { RequestError } from "../../scheduler/download.ts";
+import type { AttemptListener } from "../../scheduler/download.ts";
+import { download, RequestError } from "../../scheduler/download.ts";
 import type { StreamState } from "./streamState.ts";
 import { readStreamState } from "./streamState.ts";
 
@@ -192,10 +193,10 @@ export class FrameSource {
 
   async #requestFrame(number: number, state: StreamState, signal: AbortSignal): Promise<void> {
     const requestedAt = this.#options.now();
-    const bytes = await this.#get(`/frames/${number}`, maxFrameBytes, signal, (response) => {
-      this.#noteNewest(state, number, requestedAt, Number(response.headers.get("imgeo-newest") ?? 0));
-      const epoch = response.headers.get("imgeo-epoch");
-      if (epoch !== null && Number(epoch) !== state.epoch) throw new StateIsOld(true);
+    const bytes = await this.#get(`/frames/${number}`, maxFrameBytes, signal, {
+      onHeaders: (headers) => {
+        this.#noteNewest(state, number, requestedAt, Number(headers.get("imgeo-newest") ?? 0));
+      },
     });
     const byteLength = bytes.byteLength;
     const frame = await this.#options.decode(bytes, signal);
@@ -216,47 +217,14 @@ export class FrameSource {
     path: string,
     maxBytes: number,
     signal: AbortSignal,
-    onHeaders: (response: Response) => void = () => undefined,
+    listener: AttemptListener = {},
   ): Promise<Uint8Array<ArrayBuffer>> {
-    const [stream, query] = this.#options.url.split("?");
-    const url = `${stream ?? ""}${path}${query === undefined ? "" : `?${query}`}`;
-    const idle = new AbortController();
-    let timer = setTimeout(() => {
-      idle.abort();
-    }, idleMs);
+    const [stream = "", query] = this.#options.url.split("?");
+    const url = `${stream}${path}${query === undefined ? "" : `?${query}`}`;
     try {
-      const response = await this.#options.fetch(url, { signal: AbortSignal.any([signal, idle.signal]) });
-      if (!response.ok) {
-        await response.body?.cancel();
-        throw failureOf(url, path, response);
-      }
-      onHeaders(response);
-      const chunks: Uint8Array[] = [];
-      let length = 0;
-      const reader = response.body?.getReader();
-      for (let read = await reader?.read(); read && !read.done; read = await reader?.read()) {
-        clearTimeout(timer);
-        timer = setTimeout(() => {
-          idle.abort();
-        }, idleMs);
-        length += read.value.byteLength;
-        if (length > maxBytes) throw new RequestError("limit", url, `more than ${maxBytes} bytes came`);
-        chunks.push(read.value);
-      }
-      const bytes = new Uint8Array(length);
-      let at = 0;
-      for (const chunk of chunks) {
-        bytes.set(chunk, at);
-        at += chunk.byteLength;
-      }
-      return bytes;
+      return await download(url, signal, { fetch: this.#options.fetch, idleTimeoutMs: idleMs, maxBytes }, listener);
     } catch (error) {
-      if (signal.aborted) throw signal.reason;
-      if (idle.signal.aborted) throw new RequestError("timeout", url, `no byte came for ${idleMs / 1000} s`);
-      if (error instanceof RequestError || error instanceof DecodeError || error instanceof StateIsOld) throw error;
-      throw new RequestError("network", url, error instanceof Error ? error.message : String(error));
-    } finally {
-      clearTimeout(timer);
+      throw error instanceof RequestError ? failureOf(error, path !== "/latest") : error;
     }
   }
 }
@@ -266,11 +234,10 @@ function isAborted(signal: AbortSignal): boolean {
   return signal.aborted;
 }
 
-function failureOf(url: string, path: string, { status, statusText }: Response): Error {
-  const isFrame = path !== "/latest";
+function failureOf(error: RequestError, isFrame: boolean): Error {
+  const { status, url } = error;
   if (isFrame && (status === 404 || status === 410)) return new StateIsOld(false); // it is too new, or gone
-  if (status === 503) return new RequestError("timeout", url, "the publisher sends no frames", status);
-  return new RequestError("http", url, `the server answered ${status} ${statusText}`.trim(), status);
+  return status === 503 ? new RequestError("timeout", url, "the publisher sends no frames", status) : error;
 }
 
 function isSameLayout(a: FrameImages["header"], b: StreamState): boolean {
