@@ -37,5 +37,5 @@ export class FrameTarget implements LiveImages {
 }
 
 function texelsOf({ coord, normal, color, value }: FrameImages): readonly Texels[] {
-  return [...coord, ...[normal ?? []].flat(), ...[color ?? []].flat(), ...value].filter((texels) => texels.length > 0);
+  return [...coord, normal, color, ...value].filter((texels) => texels !== undefined);
 }
