@@ -1,5 +1,5 @@
-// Decodes a frame of a live stream to the stored integers of its vertices (docs/formats/frame.md). src/live/frame.h does
-// the same; vectors/frame-1 binds both.
+// Decodes a frame of a live stream to the stored integers of its vertices (docs/formats/frame.md). src/live/frame.h
+// does the same; vectors/frame-1 binds both.
 
 import { DecodeError } from "../decodeError.ts";
 import { inflate } from "../inflate.ts";
@@ -36,16 +36,12 @@ export async function decodeFrame(bytes: Uint8Array<ArrayBuffer>): Promise<Frame
   return { header, components };
 }
 
-async function unpack(packed: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
+function unpack(packed: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
   // The stream ends in the length that it unpacks to, so that bytes behind it are noticed.
   const view = new DataView(packed.buffer, packed.byteOffset, packed.byteLength);
   if (packed.length < 4 || view.getUint32(packed.length - 4, true) !== length)
     throw new DecodeError("malformed", "is packed from another number of bytes");
-  try {
-    return await inflate([packed], length, "gzip");
-  } catch (error) {
-    throw new DecodeError("malformed", error instanceof Error ? error.message : String(error));
-  }
+  return inflate([packed], length, "gzip");
 }
 
 /** Replaces the residuals of one component by its values. `mask`: the bits that a value has. */
