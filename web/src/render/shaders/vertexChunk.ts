@@ -227,11 +227,6 @@ vec3 readNormal(int record) {
   #elif defined(NORMAL_WORD_TEXELS)
     return unitOf(floor(wordsOf(texelOf(normalImage, ${glslFirstTexelOf("normal")}, recordTexelIndex(record))) + 0.5));
   #elif defined(NORMAL_MAX)
-    // Numbers of 16 bits, from live streams: red and green are the high bytes.
-    if (NORMAL_MAX > 255.0) {
-      vec4 bytes = 255.0 * texelOf(normalImage, 0, record);
-      return unitOf(bytes.rg * 256.0 + bytes.ba);
-    }
     ivec2 size = textureSize(normalImage, 0);
     int first = ${glslFirstTexelOf("normal")};
     return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
