@@ -4,7 +4,7 @@ import type { IUniform } from "three";
 import type { Vec3 } from "../../document/description.ts";
 import type { Operator } from "../../document/operators.ts";
 import { isOdd, maxOperators } from "../../document/operators.ts";
-import type { OperatorFrame } from "../../scene/operatorFrame.ts";
+import type { OperatorFrame } from "../../document/operatorFrame.ts";
 
 export interface OperatorUniforms extends Record<string, IUniform> {
   operatorCount: IUniform<number>;

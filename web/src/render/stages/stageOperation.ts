@@ -5,8 +5,9 @@ import { Box3, Sphere, Vector3 } from "three";
 import type { AppearanceDescription, GeometryDescription, PatchDescription } from "../../document/description.ts";
 import type { Operator } from "../../document/operators.ts";
 import { orientationOf } from "../../document/operators.ts";
-import type { OperatorFrame } from "../../scene/operatorFrame.ts";
-import { operatedBoxInFrame, operatedInFrame, operatorFrameOf } from "../../scene/operatorFrame.ts";
+import type { OperatorFrame } from "../../document/operatorFrame.ts";
+import { operatedBoxInFrame, operatedInFrame } from "../../document/operatorFrame.ts";
+import { operatorFrameOf } from "../../scene/operatorFrame.ts";
 import type { Stage } from "../../stage/stage.ts";
 import type { MaterialRequest } from "../materials/materialFactory.ts";
 

@@ -13,7 +13,7 @@ import type {
 } from "../../document/description.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { maxStoredValueOf, dequantizationOf } from "../../document/dequantization.ts";
-import type { OperatorFrame } from "../../scene/operatorFrame.ts";
+import type { OperatorFrame } from "../../document/operatorFrame.ts";
 import { operatorFrameOf } from "../../scene/operatorFrame.ts";
 import { operatorUniformsOf } from "../shaders/operatorChunk.ts";
 import { texCoordFramesOf, textureSetsOf, textureTransformsOf } from "../shaders/texCoords.ts";
