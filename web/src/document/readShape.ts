@@ -6,8 +6,8 @@ import type { Box3, Encoding, GeometryDescription, Playback, ShapeDescription } 
 import { fogDepthName } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
-import type { Vec3 } from "./fieldTypes.ts";
-import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
+import { boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
+import { boxOfGeometry } from "./geometryBox.ts";
 import type { GeometryCache, Lookup } from "./geometryCache.ts";
 import type { OperatorReader } from "./operatorReader.ts";
 import type { Operator } from "./operators.ts";
@@ -262,18 +262,4 @@ function firstOf<Result>(
     if (result !== undefined) return result;
   }
   return undefined;
-}
-
-/**
- * The union of the patches' boxes; the quantization box, which contains them all, where a patch has none; undefined
- * where the bounds depend on the vertices.
- */
-function boxOfGeometry(geometry: GeometryDescription): Box3 | undefined {
-  if (geometry.patches.some((patch) => isUnbounded(geometry, patch))) return undefined;
-  const boxes = geometry.patches.map((patch) => patch.box);
-  const known = boxes.filter((box) => box !== undefined);
-  if (known.length === 0 || known.length < boxes.length) return boxAround(geometry.position, geometry.size);
-  const along = (pick: (box: Box3) => Vec3, choose: (...values: number[]) => number): Vec3 =>
-    [0, 1, 2].map((axis) => choose(...known.map((box) => pick(box)[axis] ?? 0))) as unknown as Vec3;
-  return { min: along((box) => box.min, Math.min), max: along((box) => box.max, Math.max) };
 }

@@ -1,8 +1,9 @@
 // The box whose points operators map, in stored coordinates.
 
-import type { Box3, GeometryDescription, PatchDescription, Vec3 } from "../document/description.ts";
+import type { Box3, GeometryDescription, PatchDescription } from "../document/description.ts";
 import { dequantizationOf } from "../document/dequantization.ts";
 import { boxAround } from "../document/geometry.ts";
+import { boxOfGeometry } from "../document/geometryBox.ts";
 import type { OperatorFrame } from "../document/operatorFrame.ts";
 import { frameOfBox } from "../document/operatorFrame.ts";
 
@@ -23,11 +24,7 @@ export function operatorFrameOf(
   };
 }
 
-function shapeBoxOf({ coordType, position, size, patches }: GeometryDescription, bounds: Box3 | undefined): Box3 {
-  if (coordType !== "Float32") return boxAround(position, size);
-  const boxes = patches.flatMap(({ box }) => box ?? []);
-  if (boxes.length === 0 || boxes.length < patches.length) return bounds ?? boxAround(position, size);
-  const along = (pick: (box: Box3) => Vec3, choose: (...values: number[]) => number): Vec3 =>
-    [0, 1, 2].map((axis) => choose(...boxes.map((box) => pick(box)[axis] ?? 0))) as unknown as Vec3;
-  return { min: along((box) => box.min, Math.min), max: along((box) => box.max, Math.max) };
+function shapeBoxOf(geometry: GeometryDescription, bounds: Box3 | undefined): Box3 {
+  const decodeBox = boxAround(geometry.position, geometry.size);
+  return geometry.coordType === "Float32" ? (boxOfGeometry(geometry) ?? bounds ?? decodeBox) : decodeBox;
 }
