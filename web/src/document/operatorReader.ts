@@ -2,8 +2,9 @@
 
 import type { Box3, GeometryDescription } from "./description.ts";
 import { boxAround } from "./geometry.ts";
-import type { Operator } from "./operators.ts";
+import { boxOfGeometry } from "./geometryBox.ts";
 import { frameOfBox, operatedBoxInFrame } from "./operatorFrame.ts";
+import type { Operator } from "./operators.ts";
 import { readOperators } from "./operators.ts";
 
 export interface OperatorReader {
@@ -15,7 +16,9 @@ export interface OperatorReader {
 
 export const operatorReader: OperatorReader = { read: readOperators, boxOf };
 
-function boxOf(operators: readonly Operator[], { coordType, position, size }: GeometryDescription, box: Box3): Box3 {
+function boxOf(operators: readonly Operator[], geometry: GeometryDescription, box: Box3): Box3 {
   if (operators.length === 0) return box;
-  return operatedBoxInFrame(operators, frameOfBox(coordType === "Float32" ? box : boxAround(position, size)), box);
+  const { coordType, position, size } = geometry;
+  const frame = coordType === "Float32" ? (boxOfGeometry(geometry) ?? box) : boxAround(position, size);
+  return operatedBoxInFrame(operators, frameOfBox(frame), box);
 }

@@ -1,7 +1,10 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
+import { shapesOf } from "./description.ts";
+import { elementsOf } from "./elements.testing.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { operatedBox, operatedPoint, orientationOf, readOperators } from "./operators.ts";
+import { readScene } from "./readScene.ts";
 
 const read = (text: string) => {
   const { operators, problem } = readOperators(text);
@@ -54,6 +57,16 @@ describe("operators", () => {
       assert.deepEqual(operators, []);
       assert.match(problem ?? "", sentence);
     }
+  });
+
+  test("map the stated box of a shape of floats as they map its vertices: in the box around its geometry", () => {
+    const scene = readScene(
+      elementsOf(`<X3D><Scene><Shape bboxCenter="0.5 1 1" bboxSize="3 2 2">
+        <BinaryGeometry coordType="Float32" operators="negate(x)">
+          <GeometryPatch bboxCenter="1 1 1" bboxSize="2 2 2" primType="POINTS" vertexCount="4" coord="c.bin"/>
+        </BinaryGeometry></Shape></Scene></X3D>`),
+    );
+    assert.deepEqual(shapesOf(scene.root)[0]?.box, { min: [0, 0, 0], max: [3, 2, 2] });
   });
 
   test("map a box to one around all mapped points of it", () => {
