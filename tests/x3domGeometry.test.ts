@@ -1,5 +1,5 @@
-// Holds docs/formats/x3dom-geometry.md to the fields that X3DOM's releases declare, to the runtime and to the tool: each
-// row is fed to both readers of documents.
+// Holds docs/formats/x3dom-geometry.md to the fields that X3DOM's releases declare, to the runtime and to the tool:
+// each row is fed to both readers of documents.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -1,5 +1,5 @@
-// Tests operators on geometry: the picture is that of mapped vertices, on the GPU and with vertices that workers decode,
-// and no file is requested again.
+// Tests operators on geometry: the picture is that of mapped vertices, on the GPU and with vertices that workers
+// decode, and no file is requested again.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

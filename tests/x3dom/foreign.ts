@@ -211,7 +211,7 @@ const material = '<Material diffuseColor="0.7 0.5 0.3" specularColor="0.2 0.2 0.
 const shape = (geometry: string, appearance = material): string =>
   `<Shape><Appearance>${appearance}</Appearance>${geometry}</Shape>`;
 
-/** A PopGeometry's file: indices, then records of a position of 16 bits an axis, a normal of 8 and a byte of padding. */
+/** A PopGeometry's file: indices, then records of a position of 16 bits an axis, a normal of 8, a byte of padding. */
 function popLevel(indices: readonly number[], [from, to]: readonly [number, number]): Buffer {
   const records = bytesOf(({ relative, normal }, view, at) => {
     relative.forEach((value, axis) => {

@@ -15,8 +15,8 @@ export interface DataImage<Image extends DecodedImage = DecodedImage> {
 export type ImageDecoder<Image extends DecodedImage> = (bytes: Uint8Array<ArrayBuffer>) => Promise<Image>;
 
 /**
- * Checks and decodes a PNG or a lossless WebP. The image has the size that the header states. Rejects with DecodeError; an image that was
- * decoded is then closed.
+ * Checks and decodes a PNG or a lossless WebP. The image has the size that the header states. Rejects with DecodeError;
+ * an image that was decoded is then closed.
  */
 export async function decodeImage<Image extends DecodedImage>(
   bytes: Uint8Array<ArrayBuffer>,

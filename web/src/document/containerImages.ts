@@ -16,8 +16,8 @@ const imageFields = ["index", "coord", "normal", "texCoord", "color"] as const;
 type ImageField = (typeof imageFields)[number];
 
 /**
- * References that replace those of the node's own fields, in document order, which is the order of several images of one
- * field.
+ * References that replace those of the node's own fields, in document order, which is the order of several images of
+ * one field.
  */
 export function containerImagesOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): Partial<PatchValues> {
   const urls: Record<ImageField, string[]> = { index: [], coord: [], normal: [], texCoord: [], color: [] };

@@ -66,8 +66,8 @@ export interface PatchDescription extends Readonly<Record<VertexRole, Reference 
   /** Images: byte planes, most significant first. Typed arrays: one. */
   readonly coord: readonly Reference[];
   /**
-   * Classic only: further images of an attribute, each with the next lower byte of its numbers; one or more. For normals
-   * as vectors, for colors, and for texture coordinates, whose first image has two bytes.
+   * Classic only: further images of an attribute, each with the next lower byte of its numbers; one or more. For
+   * normals as vectors, for colors, and for texture coordinates, whose first image has two bytes.
    */
   readonly lowBytes: Readonly<Partial<Record<VertexRole, readonly Reference[]>>>;
   /** Compact only: all of the patch. */

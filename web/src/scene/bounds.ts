@@ -7,7 +7,7 @@ import type { Vec3 } from "../document/description.ts";
 /** GPUs cannot draw beyond this coordinate: squares of lengths must fit into single precision. */
 const maxCoordinate = 1e18;
 
-/** Whether a GPU can draw the content of a box. Other boxes are left out of the scene's bounds, to which the camera fits. */
+/** Whether a GPU can draw the content of a box. Other boxes are left out of the bounds to which the camera fits. */
 export function isDrawable({ min, max }: Box3): boolean {
   return [...min.toArray(), ...max.toArray()].every((edge) => Math.abs(edge) < maxCoordinate);
 }

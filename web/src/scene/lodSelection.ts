@@ -15,8 +15,8 @@ export class LodSelection {
   }
 
   /**
-   * Selects levels anew and returns the LODs whose level changes. A LOD with several instances displays the level that the
-   * nearest one needs.
+   * Selects levels anew and returns the LODs whose level changes. A LOD with several instances displays the level that
+   * the nearest one needs.
    */
   update(lods: readonly LodInstance[], viewer: Vector3): readonly SceneElement[] {
     const nearest = new Map<SceneElement, { lod: LodInstance; distance: number }>();

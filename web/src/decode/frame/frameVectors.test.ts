@@ -1,5 +1,5 @@
-// Tests the decoder with the files of vectors/frame-1, which src/live/frame_vectors_test.cpp reads as well: both decoders
-// return the same integers, and refuse the same bytes with the same kind of error.
+// Tests the decoder with the files of vectors/frame-1, which src/live/frame_vectors_test.cpp reads as well: both
+// decoders return the same integers, and refuse the same bytes with the same kind of error.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
