@@ -83,7 +83,7 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   };
 }
 
-/** The preview of a shape; undefined if the shape has no base, or is not drawn in opaque colours. */
+/** The preview of a shape; undefined if it has no base, is mapped by operators, or is not drawn in opaque colours. */
 function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | undefined {
   const { element, geometry, appearance } = shape;
   const {
