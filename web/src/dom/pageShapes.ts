@@ -22,6 +22,7 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
+import type { StageChange } from "../viewer/loadingShape.ts";
 import { LoadingShape } from "../viewer/loadingShape.ts";
 import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
@@ -36,13 +37,7 @@ export interface PageShapesListener {
 
 /** Receives what a shape loads. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
-  onStage(
-    shape: PageShape,
-    geometry: GeometryDescription,
-    patch: number,
-    stage: Stage | undefined,
-    drawn: GeometryDescription,
-  ): void;
+  onStage(shape: PageShape, change: StageChange): void;
   onLiveFrame(shape: PageShape, frame: LiveFrame): void;
   onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
@@ -81,13 +76,8 @@ export class PageShape extends LoadingShape {
     return this.#stages;
   }
 
-  protected override onStage(
-    geometry: GeometryDescription,
-    patch: number,
-    stage: Stage | undefined,
-    drawn: GeometryDescription,
-  ): void {
-    this.#listener.onStage(this, geometry, patch, stage, drawn);
+  protected override onStage(change: StageChange): void {
+    this.#listener.onStage(this, change);
   }
 
   protected override onFrame(frame: LiveFrame): void {
@@ -266,8 +256,8 @@ export class PageShapes extends LoadingShapes<PageShape> {
   protected override makeShape(described: ShapeDescription): PageShape {
     this.#isQuiet = false;
     return new PageShape(this.#deliveries, described, this.#previewed.delete(described.element), {
-      onStage: (shape, geometry, patch, stage, drawn) => {
-        this.#onStage(shape, geometry, patch, stage, drawn);
+      onStage: (shape, change) => {
+        this.#onStage(shape, change);
       },
       onLiveFrame: ({ loading }, frame) => {
         loading.displayFrame(frame);
@@ -288,13 +278,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
     });
   }
 
-  #onStage(
-    shape: PageShape,
-    geometry: GeometryDescription,
-    patch: number,
-    stage: Stage | undefined,
-    drawn: GeometryDescription,
-  ): void {
+  #onStage(shape: PageShape, { geometry, patch, stage, drawn }: StageChange): void {
     const { element, stages, loading } = shape;
     this.#renderer.setStage(element, drawn, patch, stage);
     this.#listener.onStage(stage);

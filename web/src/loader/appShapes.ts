@@ -5,7 +5,7 @@ import type { Group } from "three";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { TextureImage } from "../delivery/resourcePool.ts";
-import type { GeometryDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type { ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking/picker.ts";
@@ -16,7 +16,7 @@ import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { ShapeObject } from "../render/shapes/shapeObject.ts";
 import { isVisibleInScene } from "../render/shapes/visibility.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
-import type { Stage } from "../stage/stage.ts";
+import type { StageChange } from "../viewer/loadingShape.ts";
 import { LoadingShape } from "../viewer/loadingShape.ts";
 import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import type { LoadState } from "./sceneLod.ts";
@@ -58,12 +58,7 @@ export class AppShape extends LoadingShape {
     this.missingPatches = new Set(described.geometry?.patches.keys());
   }
 
-  protected override onStage(
-    geometry: GeometryDescription,
-    patch: number,
-    stage: Stage | undefined,
-    drawn: GeometryDescription,
-  ): void {
+  protected override onStage({ geometry, patch, stage, drawn }: StageChange): void {
     this.object.setStage(drawn, patch, stage);
     if (geometry === this.geometry) this.missingPatches.delete(patch);
     this.#listener.onChange();

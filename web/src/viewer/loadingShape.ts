@@ -35,6 +35,17 @@ interface GeometrySource {
   frame: LiveFrame | undefined;
 }
 
+/** A patch displays another stage. */
+export interface StageChange {
+  /** The shape's geometry, or the one before. */
+  readonly geometry: GeometryDescription;
+  readonly patch: number;
+  /** Undefined: none. */
+  readonly stage: Stage | undefined;
+  /** As in DeliveryListener. */
+  readonly drawn: GeometryDescription;
+}
+
 const allFrames: Playback = { paused: false, rate: 0 };
 
 export abstract class LoadingShape {
@@ -71,16 +82,7 @@ export abstract class LoadingShape {
     });
   }
 
-  /**
-   * A patch of the geometry, or of the one before, displays another stage; undefined: none. `drawn`: as in
-   * DeliveryListener.
-   */
-  protected abstract onStage(
-    geometry: GeometryDescription,
-    patch: number,
-    stage: Stage | undefined,
-    drawn: GeometryDescription,
-  ): void;
+  protected abstract onStage(change: StageChange): void;
   /** The displayed vertices of a live stream have changed. */
   protected abstract onFrame(frame: LiveFrame): void;
   /** The shape has another geometry. The stages of the one before are still displayed. */
@@ -223,7 +225,7 @@ export abstract class LoadingShape {
   #receiveStage(source: GeometrySource, patch: number, stage: Stage | undefined, drawn: GeometryDescription): void {
     if (stage === undefined) source.stages.delete(patch);
     else source.stages.set(patch, [stage, drawn]);
-    if (source === (this.#replaced ?? this.#source)) this.onStage(source.geometry, patch, stage, drawn);
+    if (source === (this.#replaced ?? this.#source)) this.onStage({ geometry: source.geometry, patch, stage, drawn });
     if (source === this.#replaced && source.stages.size === 0) this.#swap(); // all of it has been evicted
   }
 
@@ -236,7 +238,7 @@ export abstract class LoadingShape {
       before,
       Array.from(before.stages.keys()).filter((patch) => !after.stages.has(patch)),
     );
-    for (const [patch, [stage, drawn]] of after.stages) this.onStage(after.geometry, patch, stage, drawn);
+    for (const [patch, [stage, drawn]] of after.stages) this.onStage({ geometry: after.geometry, patch, stage, drawn });
     if (after.frame !== undefined) this.onFrame(after.frame);
     before.joined?.cancel();
   }
@@ -244,7 +246,7 @@ export abstract class LoadingShape {
   #clear({ geometry, stages }: GeometrySource, patches: Iterable<number>): void {
     for (const patch of patches) {
       const [, drawn = geometry] = stages.get(patch) ?? [];
-      this.onStage(geometry, patch, undefined, drawn);
+      this.onStage({ geometry, patch, stage: undefined, drawn });
     }
   }
 }
