@@ -21,12 +21,6 @@ public:
       : server_(server), name_(name), target_("/live/" + name), token_(std::move(token)),
         client_(parseServerAddress(server)), thread_([this](const std::stop_token& stop) { send(stop); }) {}
 
-  ~RemoteDestination() override {
-    thread_.request_stop();
-    changed_.notify_all();
-    thread_.join();
-  }
-
   void beginEpoch(const Description& description) override {
     const std::lock_guard lock(mutex_);
     description_ = description;
@@ -64,7 +58,7 @@ private:
   void send(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (true) {
-      changed_.wait(lock, [&] { return stop.stop_requested() || hasWork(); });
+      changed_.wait(lock, stop, [this] { return hasWork(); });
       if (stop.stop_requested() && (!hasWork() || !totals_.failure.empty()))
         break;
       try {
@@ -75,7 +69,7 @@ private:
           lock.lock();
         totals_.failure = error.what();
         isAnnounced_ = false;
-        changed_.wait_for(lock, retryDelay, [&] { return stop.stop_requested(); });
+        changed_.wait_for(lock, stop, retryDelay, [] { return false; });
       }
     }
     lock.unlock();
@@ -137,14 +131,14 @@ private:
 
   const std::string server_, name_, target_, token_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_; ///< also wakes the thread when it is to stop
   std::optional<Description> description_;
   bool isAnnounced_ = false;
   std::optional<Frame> frame_;
   std::uint64_t epoch_ = 0, next_ = 0;
   PublisherTotals totals_;
-  HttpClient client_; ///< used only by the thread
-  std::jthread thread_;
+  HttpClient client_;   ///< used only by the thread
+  std::jthread thread_; ///< the last member: its destructor stops the thread, which uses all others
 };
 
 } // namespace
