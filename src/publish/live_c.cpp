@@ -4,8 +4,8 @@
 #include "imgeo/live.h"
 
 #include <cmath>
+#include <memory>
 #include <mutex>
-#include <new>
 
 namespace {
 
@@ -63,13 +63,13 @@ struct imgeo_publisher {
 extern "C" {
 
 imgeo_publisher* imgeo_publisher_create(const char* name, uint32_t vertices, uint32_t columns, const double box[6]) {
-  imgeo_publisher* publisher = nullptr;
-  guarded([&] {
-    publisher = new imgeo_publisher;
+  std::unique_ptr<imgeo_publisher> publisher;
+  const int failure = guarded([&] {
+    publisher = std::make_unique<imgeo_publisher>();
     publisher->options.name = name;
     publisher->setTopology(vertices, columns, box);
   });
-  return publisher;
+  return failure == 0 ? publisher.release() : nullptr;
 }
 
 void imgeo_publisher_destroy(imgeo_publisher* publisher) {
