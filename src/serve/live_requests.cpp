@@ -63,6 +63,8 @@ std::optional<std::uint64_t> numberOf(std::string_view text) {
 /// `isShared`: whether caches may give the frame to all viewers who ask for the same URL.
 LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t number, unsigned framesAhead,
                          bool isShared) {
+  // The state comes first: if the frame is added after the look for it, the state is outdated and nobody waits for it.
+  const Stream::State state = stream->state();
   if (const auto frame = stream->frame(number)) {
     Response response =
         contentResponse(frameType, frame->bytes(),
@@ -70,7 +72,6 @@ LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t nu
     response.fields.emplace_back("Imgeo-Epoch", std::to_string(frame->epoch()));
     return response;
   }
-  const Stream::State state = stream->state();
   if (number < state.oldest)
     return refuse(410, "The frame is no longer in the history.", stream.get());
   if (state.hasEnded)
