@@ -210,7 +210,10 @@ LiveReply replyToLive(live::Streams& streams, const RequestHead& request) {
   if (!token.empty() && !live::areEqualTokens(token, tokenOf(request)))
     return refuse(401, "The token of the viewer is missing or wrong.", nullptr);
   // A token in a header is no part of the URL, under which caches keep frames.
-  return replyToViewer(streams, path->names, token.empty() || request.authorization.empty());
+  LiveReply reply = replyToViewer(streams, path->names, token.empty() || request.authorization.empty());
+  if (request.method == "HEAD" && std::holds_alternative<ImageSequence>(reply))
+    return methodRefusal("GET"); // the images would follow the head
+  return reply;
 }
 
 Response answerAfterWaiting(const Stream& stream) {

@@ -290,6 +290,9 @@ TEST_F(LiveServer, AnswersOtherMethods) {
   const Client head(server_->port());
   head.send("HEAD /live/cloth/frame.png HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
   EXPECT_EQ(bodyOf(head.receiveAll()), "");
+  const Client endless(server_->port());
+  endless.send("HEAD /live/cloth/stream.mpng HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  EXPECT_TRUE(hasStatus(endless.receiveAll(), 405));
   const Client preflight(server_->port());
   preflight.send("OPTIONS /live/cloth HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
   EXPECT_TRUE(hasStatus(preflight.receiveAll(), 204));
