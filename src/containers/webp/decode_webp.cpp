@@ -16,12 +16,7 @@ constexpr std::size_t formatOffset = 8, chunkOffset = 12, bitstreamOffset = 20, 
 constexpr std::uint8_t losslessSignature = 0x2f;
 
 std::string_view nameAt(ByteSpan bytes, std::size_t offset) {
-  return {reinterpret_cast<const char*>(bytes.data()) + offset, 4};
-}
-
-std::uint32_t wordAt(ByteSpan bytes, std::size_t offset) {
-  return bytes[offset] | std::uint32_t{bytes[offset + 1]} << 8 | std::uint32_t{bytes[offset + 2]} << 16 |
-         std::uint32_t{bytes[offset + 3]} << 24;
+  return asText(bytes.subspan(offset, 4));
 }
 
 /// Checks that the bytes are one whole file of the simple lossless format.
@@ -37,11 +32,11 @@ void checkFile(ByteSpan bytes, const std::string& location) {
   if (chunk != "VP8L")
     throw Error(ErrorKind::unsupported, location,
                 "is a WebP image of the extended format; images of vertex data have the simple one");
-  const std::uint64_t chunkSize = wordAt(bytes, chunkOffset + 4);
+  const std::uint64_t chunkSize = loadLittle<std::uint32_t>(&bytes[chunkOffset + 4]);
   const std::uint64_t fileSize = bitstreamOffset + chunkSize + chunkSize % 2; // chunks are padded to even sizes
   if (fileSize > bytes.size())
     throw Error(ErrorKind::truncated, location, "the WebP image ends before its data");
-  if (fileSize < bytes.size() || wordAt(bytes, 4) != fileSize - formatOffset)
+  if (fileSize < bytes.size() || loadLittle<std::uint32_t>(&bytes[4]) != fileSize - formatOffset)
     throw Error(ErrorKind::malformed, location, "the WebP image has a size that its header does not state");
 }
 
@@ -54,7 +49,7 @@ bool isWebp(ByteSpan bytes) {
 Image decodeWebp(ByteSpan bytes, const std::string& location) {
   checkFile(bytes, location);
   // 14 bits each of width - 1 and height - 1, a bit that says whether alpha is used, 3 bits of version.
-  const std::uint32_t header = wordAt(bytes, bitstreamOffset + 1);
+  const std::uint32_t header = loadLittle<std::uint32_t>(&bytes[bitstreamOffset + 1]);
   if (bytes[bitstreamOffset] != losslessSignature || header >> 29 != 0)
     throw Error(ErrorKind::malformed, location, "is no lossless WebP image that readers know");
   const std::uint32_t width = 1 + (header & 0x3fff), height = 1 + (header >> 14 & 0x3fff);
