@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string_view>
 #include <sys/resource.h>
 
@@ -70,7 +71,6 @@ void addCompanions(MemoryFiles& files, const fs::path& path, const std::string& 
       continue;
     const fs::path beside = fs::path(source).replace_extension(extension);
     try {
-      Bytes bytes;
       std::error_code ignored;
       if (!fs::is_regular_file(references.fileOf(beside.string()), ignored))
         continue;
@@ -128,7 +128,7 @@ void readReferenceSystem(GDALDatasetH dataset, HeightGrid& grid) {
     grid.inverseFlattening = gdal().getInvFlattening(system, nullptr);
   }
   if (!(grid.unit > 0) || !std::isfinite(grid.unit))
-    grid.unit = grid.isGeographic ? 3.14159265358979323846 / 180 : 1;
+    grid.unit = grid.isGeographic ? std::numbers::pi / 180 : 1;
 }
 
 class GdalRaster {
