@@ -78,7 +78,7 @@ Bytes encodeFrame(const Frame& frame);
 /// Error{truncated, malformed, unsupported, limit} with `location`.
 FrameHeader readFrameHeader(ByteSpan bytes, const std::string& location);
 
-/// Reads a frame. Safe for untrusted bytes; allocates at most 1032 bytes for each of them. Throws like
+/// Reads a frame. Safe for untrusted bytes; allocates at most 5 * 1032 bytes for each of them. Throws like
 /// readFrameHeader().
 Frame decodeFrame(ByteSpan bytes, const std::string& location);
 
