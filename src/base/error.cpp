@@ -1,5 +1,7 @@
 #include "base/error.h"
 
+#include "base/data_url.h"
+
 #include <utility>
 
 namespace imgeo {
@@ -9,7 +11,7 @@ namespace {
 /// A data: URL would fill the screen.
 std::string shortened(std::string location) {
   constexpr std::size_t maxDataUrlBytes = 60;
-  if (location.starts_with("data:") && location.size() > maxDataUrlBytes)
+  if (isDataUrl(location) && location.size() > maxDataUrlBytes)
     location.replace(maxDataUrlBytes, location.npos, "...");
   return location;
 }

@@ -52,7 +52,7 @@ fs::path References::fileOf(std::string_view url) const {
 }
 
 Bytes References::fetch(std::string_view url) const {
-  if (url.starts_with("data:"))
+  if (isDataUrl(url))
     return bytesOfDataUrl(url, sourceName_);
   const fs::path file = fileOf(url);
   std::error_code ignored;

@@ -125,7 +125,7 @@ const Bytes& Document::buffer(std::size_t index) {
     buffers_.erase(found);
     throw;
   }
-  if (!uri.empty() && !uri.starts_with("data:"))
+  if (!uri.empty() && !isDataUrl(uri))
     budget_ += found->second.size() * bytesPerSourceByte;
   return found->second;
 }

@@ -108,7 +108,7 @@ std::optional<std::size_t> MaterialReader::image(std::size_t index) {
     } else {
       image.bytes = document_.references().fetch(image.url);
     }
-    if (image.url.starts_with("data:"))
+    if (isDataUrl(image.url))
       image.url = "";
     requireImage(image.bytes, value.location());
   } catch (const Error& error) {

@@ -1,5 +1,6 @@
 #include "import/x3d/node_images.h"
 
+#include "base/data_url.h"
 #include "base/error.h"
 #include "import/source_images.h"
 #include "scene/mf_string.h"
@@ -20,7 +21,7 @@ std::optional<std::size_t> NodeImages::read(const std::vector<std::string>& urls
     if (isRemote(urls[i]))
       continue;
     try {
-      ImageFile file{urls[i].starts_with("data:") ? "" : urls[i], references_.fetch(urls[i])};
+      ImageFile file{isDataUrl(urls[i]) ? "" : urls[i], references_.fetch(urls[i])};
       requireImage(file.bytes, urls[i]);
       images_.push_back(std::move(file));
       return read_[urls[i]] = images_.size() - 1;
