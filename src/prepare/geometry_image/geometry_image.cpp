@@ -1,7 +1,6 @@
 #include "prepare/geometry_image/geometry_image.h"
 
 #include "base/error.h"
-#include "base/narrow.h"
 #include "base/parallel.h"
 #include "prepare/geometry_image/seam_curves.h"
 
@@ -248,30 +247,6 @@ std::vector<GeometryImage> geometryImages(const Mesh& mesh, std::span<const Para
   std::vector<GeometryImage> images(charts.size());
   parallelFor(charts.size(), [&](std::size_t i) { images[i] = imageOf(mesh, charts[i], borders[i], sizes[i]); });
   return images;
-}
-
-Mesh meshOf(std::span<const GeometryImage> images) {
-  Mesh mesh;
-  for (const GeometryImage& image : images) {
-    const auto first = narrow<std::uint32_t>(mesh.positions.size());
-    append(mesh, mesh.wedgePositions.size(), image, image.positions.size());
-    for (const Vec3f& position : image.positions) {
-      mesh.wedgePositions.push_back(narrow<std::uint32_t>(mesh.positions.size()));
-      mesh.positions.push_back(position);
-    }
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      const Vec3f &p = image.positions[a], &q = image.positions[b], &r = image.positions[c];
-      if (p != q && q != r && r != p)
-        mesh.corners.insert(mesh.corners.end(), {first + a, first + b, first + c});
-    };
-    for (std::uint32_t row = 0; row + 1 < image.rows; ++row)
-      for (std::uint32_t column = 0; column + 1 < image.columns; ++column) {
-        const std::uint32_t here = row * image.columns + column, below = here + image.columns;
-        add(here, below, here + 1);
-        add(below, below + 1, here + 1);
-      }
-  }
-  return mesh;
 }
 
 } // namespace imgeo

@@ -25,8 +25,4 @@ struct GeometryImage : VertexAttributes {
 std::vector<GeometryImage> geometryImages(const Mesh& mesh, std::span<const ParametrisedChart> charts,
                                           std::uint32_t gridEdge, std::uint32_t maxEdge);
 
-/// The triangles of a grid as a mesh: two for each cell, divided from its lower left to its upper right vertex, without
-/// those whose corners are not at three points.
-Mesh meshOf(std::span<const GeometryImage> images);
-
 } // namespace imgeo

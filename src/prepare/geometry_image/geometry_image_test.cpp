@@ -1,5 +1,6 @@
 #include "prepare/geometry_image/geometry_image.h"
 
+#include "base/narrow.h"
 #include "prepare/geometry_image/surface_distance.h"
 #include "prepare/normals.h"
 #include "prepare/weld.h"
@@ -88,6 +89,32 @@ Mesh seamedTorus(std::uint32_t around, std::uint32_t across) {
       testing::addTriangle(mesh, here, next + 1, here + 1);
     }
   weld(mesh);
+  return mesh;
+}
+
+/// The triangles of grids as a mesh: two for each cell, divided from its lower left to its upper right vertex, without
+/// those whose corners are not at three points.
+Mesh meshOf(std::span<const GeometryImage> images) {
+  Mesh mesh;
+  for (const GeometryImage& image : images) {
+    const auto first = narrow<std::uint32_t>(mesh.positions.size());
+    append(mesh, mesh.wedgePositions.size(), image, image.positions.size());
+    for (const Vec3f& position : image.positions) {
+      mesh.wedgePositions.push_back(narrow<std::uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back(position);
+    }
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      const Vec3f &p = image.positions[a], &q = image.positions[b], &r = image.positions[c];
+      if (p != q && q != r && r != p)
+        mesh.corners.insert(mesh.corners.end(), {first + a, first + b, first + c});
+    };
+    for (std::uint32_t row = 0; row + 1 < image.rows; ++row)
+      for (std::uint32_t column = 0; column + 1 < image.columns; ++column) {
+        const std::uint32_t here = row * image.columns + column, below = here + image.columns;
+        add(here, below, here + 1);
+        add(below, below + 1, here + 1);
+      }
+  }
   return mesh;
 }
 
