@@ -31,6 +31,22 @@ EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
           .images = options.images};
 }
 
+void noteAttributes(EncodedMesh& mesh, const VertexAttributes& vertices, const ConvertOptions& options) {
+  mesh.hasNormals |= !vertices.normals.empty();
+  mesh.hasColors |= !vertices.colors.empty();
+  for (std::size_t set = 0; set < texCoordSetCount(vertices); ++set) {
+    const Vec2<double> error = texCoordErrorBound(mesh.geometry, set, options.texCoordBits);
+    mesh.texCoordError = std::max({mesh.texCoordError.value_or(0), error.x, error.y});
+  }
+}
+
+PatchDescription writePatch(const EncodedPatch& patch, ContentFiles& files) {
+  std::vector<std::string> urls;
+  for (const EncodedFile& file : patch.files)
+    urls.push_back(files.write(file.bytes, file.extension));
+  return describeWithUrls(patch, urls);
+}
+
 namespace {
 
 /// Keeps the only patch of a mesh for PatchFiles.
@@ -43,18 +59,6 @@ void addSmall(EncodedMesh& mesh, Patch patch, const EncodeOptions& encoding, con
   mesh.positionError = positionErrorBound(mesh.geometry);
 }
 
-/// Sets which attributes any patch has, and the error of texture coordinates.
-void addAttributes(EncodedMesh& mesh, const std::vector<Patch>& patches, const ConvertOptions& options) {
-  for (const Patch& patch : patches) {
-    mesh.hasNormals |= !patch.normals.empty();
-    mesh.hasColors |= !patch.colors.empty();
-    for (std::size_t set = 0; set < texCoordSetCount(patch); ++set) {
-      const Vec2<double> error = texCoordErrorBound(mesh.geometry, set, options.texCoordBits);
-      mesh.texCoordError = std::max({mesh.texCoordError.value_or(0), error.x, error.y});
-    }
-  }
-}
-
 /// Encodes and writes all patches, several at a time. Frees each patch when its files are written.
 void encodePatches(EncodedMesh& mesh, std::vector<Patch> patches, const EncodeOptions& encoding, ContentFiles& files,
                    const ElementsDone& done) {
@@ -64,10 +68,7 @@ void encodePatches(EncodedMesh& mesh, std::vector<Patch> patches, const EncodeOp
   parallelFor(patches.size(), [&](std::size_t i) {
     const std::size_t elementCount = patches[i].elementCount();
     const EncodedPatch encoded = encodePatch(std::exchange(patches[i], {}), mesh.geometry, encoding);
-    std::vector<std::string> urls;
-    for (const EncodedFile& file : encoded.files)
-      urls.push_back(files.write(file.bytes, file.extension));
-    descriptions[i] = describeWithUrls(encoded, urls);
+    descriptions[i] = writePatch(encoded, files);
     elements[i] = encoded.elements;
     normalErrors[i] = encoded.normalError;
     done(elementCount);
@@ -92,7 +93,8 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
 
   const EncodeOptions encoding = encodeOptionsFrom(options);
   result.geometry = describe(patched, encoding);
-  addAttributes(result, patched.patches, options);
+  for (const Patch& patch : patched.patches)
+    noteAttributes(result, patch, options);
   const EncodingRow& row = rowOf(encoding.encoding);
   if (mayHaveBase && row.capabilities.base && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))

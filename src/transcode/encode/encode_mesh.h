@@ -29,6 +29,12 @@ struct EncodedMesh {
 /// The options of convert that encoding needs. All defaults are filled in.
 EncodeOptions encodeOptionsFrom(const ConvertOptions& options);
 
+/// Sets which attributes a mesh has and the error of its texture coordinates, by some of the vertices that it stores.
+void noteAttributes(EncodedMesh& mesh, const VertexAttributes& vertices, const ConvertOptions& options);
+
+/// Writes the files of a patch and returns its description with their names.
+PatchDescription writePatch(const EncodedPatch& patch, ContentFiles& files);
+
 /// Called with the number of elements that have been written since the last call. May be called from any thread.
 using ElementsDone = std::function<void(std::size_t count)>;
 

@@ -161,12 +161,10 @@ void writeStack(const SampledMesh& sampledMesh, const GridStack& stack, const Ge
   const std::uint32_t columns = sampledMesh.sizes[stack.grids[0]].x;
   const EncodedPatch encoded =
       encodeGrids(stackedVertices(sampledMesh.grids.patches, stack), columns, geometry, options);
-  std::vector<std::string> urls;
-  for (const EncodedFile& file : encoded.files)
-    urls.push_back(files.write(file.bytes, file.extension));
+  const PatchDescription written = writePatch(encoded, files);
   std::uint32_t firstTexel = 0;
   for (const std::size_t grid : stack.grids) {
-    PatchDescription patch = describeWithUrls(encoded, urls);
+    PatchDescription patch = written;
     visitReferences(patch, [&](Role, Reference& reference) { reference.location = TexelLocation{firstTexel}; });
     const std::vector<Vec3u>& positions = sampledMesh.grids.patches[grid].positions;
     patch.box = boxOf(positions, geometry);
@@ -205,14 +203,9 @@ std::optional<EncodedMesh> encodeGeometryImages(const Mesh& mesh, const ConvertO
     for (const Draw& draw : patch.draws)
       result.elements += elementsOf(draw);
   }
-  result.hasNormals = !mesh.normals.empty();
-  result.hasColors = !mesh.colors.empty();
+  noteAttributes(result, mesh, options);
   if (result.hasNormals)
     result.normalErrorDegrees = normalErrorBound(result.geometry) * (180 / std::numbers::pi);
-  for (std::size_t set = 0; set < texCoordSetCount(mesh); ++set) {
-    const Vec2<double> error = texCoordErrorBound(result.geometry, set, options.texCoordBits);
-    result.texCoordError = std::max({result.texCoordError.value_or(0), error.x, error.y});
-  }
   result.positionError = positionErrorBound(result.geometry);
   result.resampled = ResampledMesh{.name = mesh.name,
                                    .geometryImages = charts.size(),

@@ -65,22 +65,15 @@ EncodedMesh encodeHeightMap(const Mesh& mesh, const ConvertOptions& options, Con
   static_cast<VertexAttributes&>(vertices) = static_cast<const VertexAttributes&>(patch);
   vertices.positions = std::move(patch.positions);
   const EncodedPatch encoded = encodeGrids(vertices, field.columns, result.geometry, encoding);
-  std::vector<std::string> urls;
-  for (const EncodedFile& file : encoded.files)
-    urls.push_back(files.write(file.bytes, file.extension));
-  PatchDescription description = describeWithUrls(encoded, urls);
+  PatchDescription description = writePatch(encoded, files);
   description.box = boxOf(vertices.positions, result.geometry);
   description.vertexCount = narrow<std::uint32_t>(vertices.positions.size());
   description.implicitMeshSize = size;
   description.draws = {{Primitive::triangles, narrow<std::uint32_t>(3 * gridTriangleCount(GridKind::heightMap, size))}};
   result.vertices = description.vertexCount;
   result.elements.triangles = mesh.elementCount();
-  result.hasColors = !mesh.colors.empty();
+  noteAttributes(result, vertices, options);
   result.geometry.patches.push_back(std::move(description));
-  for (std::size_t set = 0; set < texCoordSetCount(mesh); ++set) {
-    const Vec2<double> error = texCoordErrorBound(result.geometry, set, options.texCoordBits);
-    result.texCoordError = std::max({result.texCoordError.value_or(0), error.x, error.y});
-  }
   result.positionError = positionErrorBound(result.geometry);
   return result;
 }
