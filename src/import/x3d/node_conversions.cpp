@@ -21,7 +21,8 @@ using namespace std::string_view_literals;
 class NodeConverter {
 public:
   explicit NodeConverter(Elements& elements)
-      : elements_(elements), surfaceShaders_(result_, [this](pugi::xml_node element) { takeOut(element); }) {}
+      : elements_(elements), definitions_(shapeDefinitionsOf(elements.root())),
+        surfaceShaders_(result_, [this](pugi::xml_node element) { takeOut(element); }) {}
 
   NodeConversions run() {
     const char* version = elements_.root().attribute("version").value();
@@ -188,7 +189,7 @@ private:
   }
 
   void convertShape(pugi::xml_node shape) {
-    if (convertUnlitGeometry(shape, [this](pugi::xml_node element) { takeOut(element); }))
+    if (convertUnlitGeometry(shape, definitions_, [this](pugi::xml_node element) { takeOut(element); }))
       ++result_.converted["Material of a geometry with lit=false as UnlitMaterial"];
   }
 
@@ -226,6 +227,7 @@ private:
   }
 
   Elements& elements_;
+  ShapeDefinitions definitions_;
   pugi::xml_node takenOut_;
   bool hasVisiblePerChild_ = false;
   NodeConversions result_;

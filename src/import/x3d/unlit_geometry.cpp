@@ -4,17 +4,36 @@
 #include "import/x3d/element_edits.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace imgeo::x3d {
 
 namespace {
 
+bool isShader(pugi::xml_node element) {
+  return std::string_view(element.name()) == "CommonSurfaceShader";
+}
+
+class DefinitionFinder final : public pugi::xml_tree_walker {
+public:
+  bool for_each(pugi::xml_node& element) override {
+    const std::string_view name = element.name();
+    if (const pugi::xml_attribute def = element.attribute("DEF");
+        def && (isContainerGeometry(name) || name == "Appearance" || isMaterialNode(name) || isShader(element)))
+      definitions.emplace(def.value(), element);
+    return true;
+  }
+
+  ShapeDefinitions definitions;
+};
+
 /// The element that `element` USEs, or itself.
-pugi::xml_node definitionOf(pugi::xml_node element) {
+pugi::xml_node definitionOf(pugi::xml_node element, const ShapeDefinitions& definitions) {
   const std::string_view name = element.attribute("USE").value();
   if (name.empty())
     return element;
-  return element.root().find_node([&](pugi::xml_node node) { return node.attribute("DEF").value() == name; });
+  const auto found = definitions.find(name);
+  return found == definitions.end() ? pugi::xml_node() : found->second;
 }
 
 bool isUnlitGeometry(pugi::xml_node node) {
@@ -40,17 +59,16 @@ void removeNames(pugi::xml_node element) {
 }
 
 /// Replaces the material of an Appearance.
-void makeUnlit(pugi::xml_node appearance, bool hasVertexColors) {
+void makeUnlit(pugi::xml_node appearance, bool hasVertexColors, const ShapeDefinitions& definitions) {
   pugi::xml_node unlit = appearance.prepend_child("UnlitMaterial");
   std::string emissiveColor = "0 0 0";
   bool isTextured = false;
   for (pugi::xml_node child : elementsOf(appearance)) {
     isTextured = isTextured || isTextureNode(child.name());
-    const bool isShader = std::string_view(child.name()) == "CommonSurfaceShader";
-    if (child == unlit || !(isShader || isMaterialNode(child.name())))
+    if (child == unlit || !(isShader(child) || isMaterialNode(child.name())))
       continue;
-    const pugi::xml_node material = definitionOf(child);
-    if (const pugi::xml_attribute given = material.attribute(isShader ? "emissiveFactor" : "emissiveColor"))
+    const pugi::xml_node material = definitionOf(child, definitions);
+    if (const pugi::xml_attribute given = material.attribute(isShader(child) ? "emissiveFactor" : "emissiveColor"))
       emissiveColor = given.value();
     if (const pugi::xml_attribute given = material.attribute("transparency"))
       setField(unlit, "transparency", given.value());
@@ -68,21 +86,28 @@ void makeUnlit(pugi::xml_node appearance, bool hasVertexColors) {
 
 } // namespace
 
-bool convertUnlitGeometry(pugi::xml_node shape, const std::function<void(pugi::xml_node)>& takeOut) {
+ShapeDefinitions shapeDefinitionsOf(pugi::xml_node root) {
+  DefinitionFinder finder;
+  root.traverse(finder);
+  return std::move(finder.definitions);
+}
+
+bool convertUnlitGeometry(pugi::xml_node shape, const ShapeDefinitions& definitions,
+                          const std::function<void(pugi::xml_node)>& takeOut) {
   const std::vector<pugi::xml_node> children = elementsOf(shape);
-  const auto geometry =
-      std::ranges::find_if(children, [](pugi::xml_node child) { return isUnlitGeometry(definitionOf(child)); });
+  const auto geometry = std::ranges::find_if(
+      children, [&](pugi::xml_node child) { return isUnlitGeometry(definitionOf(child, definitions)); });
   if (geometry == children.end())
     return false;
   pugi::xml_node appearance = shape.child("Appearance");
   if (!appearance)
     appearance = shape.prepend_child("Appearance");
-  pugi::xml_node own = shape.insert_copy_before(definitionOf(appearance), appearance);
+  pugi::xml_node own = shape.insert_copy_before(definitionOf(appearance, definitions), appearance);
   if (!own) // the USE names no Appearance
     return false;
   takeOut(appearance);
   removeNames(own);
-  makeUnlit(own, hasColors(definitionOf(*geometry)));
+  makeUnlit(own, hasColors(definitionOf(*geometry, definitions)), definitions);
   return true;
 }
 
