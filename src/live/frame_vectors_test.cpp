@@ -2,6 +2,7 @@
 // "components" are the stored integers, component by component. refused.json holds bytes in base 16 and the kind of
 // error. IMGEO_REWRITE_GOLDEN=1 writes all files again; a frame that changes means a new version of the format.
 #include "base/error.h"
+#include "base/error_testing.h"
 #include "base/file.h"
 #include "base/testing.h"
 #include "live/frame.h"
@@ -43,12 +44,11 @@ Json jsonOf(const Bytes& bytes) {
 }
 
 std::string verdictOn(const Bytes& bytes) {
-  static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
   try {
     decodeFrame(bytes, "");
     return "decoded";
   } catch (const Error& error) {
-    return names.at(static_cast<std::size_t>(error.kind()));
+    return imgeo::testing::nameOf(error.kind());
   }
 }
 

@@ -4,9 +4,9 @@
 
 #include "base/bytes.h"
 #include "base/error.h"
+#include "base/error_testing.h"
 #include "containers/compact/patch_coding.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -46,11 +46,10 @@ inline std::uint32_t sumOf(const std::vector<CompactPatch>& patches) {
 
 /// The sum of the patches that `decode` returns, or the kind of the Error that it throws.
 template <typename Decode> std::string verdictOf(Decode decode) {
-  static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
   try {
     return std::to_string(sumOf(decode()));
   } catch (const Error& error) {
-    return names.at(static_cast<std::size_t>(error.kind()));
+    return imgeo::testing::nameOf(error.kind());
   }
 }
 

@@ -2,10 +2,10 @@
 // same pixels and refuse the same files with the same kind of error. In verdicts.json `crc32` is the checksum of the
 // pixels.
 #include "base/error.h"
+#include "base/error_testing.h"
 #include "base/file.h"
 #include "containers/png/png.h"
 
-#include <array>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -23,11 +23,6 @@ Json verdicts() {
 
 Bytes pngOf(const std::string& name) {
   return readFile(folder / (name + ".png"));
-}
-
-const char* nameOf(ErrorKind kind) {
-  static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
-  return names.at(static_cast<std::size_t>(kind));
 }
 
 TEST(PngVectors, DecodeToTheirPixels) {
@@ -51,7 +46,7 @@ TEST(PngVectors, AreRefusedWithTheStatedError) {
       decodePng(pngOf(name), name);
       ADD_FAILURE() << "was read";
     } catch (const Error& error) {
-      EXPECT_EQ(expected.at("kind"), nameOf(error.kind())) << error.what();
+      EXPECT_EQ(expected.at("kind"), testing::nameOf(error.kind())) << error.what();
     }
   }
 }

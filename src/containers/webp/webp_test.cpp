@@ -1,12 +1,12 @@
 #include "containers/webp/webp.h"
 
 #include "base/error.h"
+#include "base/error_testing.h"
 #include "base/file.h"
 #include "containers/image_file.h"
 #include "containers/testing.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -117,11 +117,6 @@ TEST(Webp, IsRefusedInOtherFormatsAndBeyondTheLargestEdge) {
 
 using Json = nlohmann::ordered_json;
 
-const char* nameOfKind(ErrorKind kind) {
-  static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
-  return names.at(static_cast<std::size_t>(kind));
-}
-
 Bytes changed(Bytes file, std::size_t offset, std::initializer_list<std::uint8_t> bytes) {
   std::ranges::copy(bytes, file.begin() + static_cast<std::ptrdiff_t>(offset));
   return file;
@@ -150,7 +145,7 @@ void writeVectors(const std::filesystem::path& folder) {
   }
   const Bytes file = encodeWebp(rgba, 6);
   const auto refuse = [&](const char* name, const Bytes& bytes) {
-    add(name, bytes, {{"error", nameOfKind(refusalOf(bytes))}});
+    add(name, bytes, {{"error", testing::nameOf(refusalOf(bytes))}});
   };
   refuse("cut.webp", Bytes(file.begin(), file.end() - 9));
   refuse("extended.webp", changed(file, 12, {'V', 'P', '8', 'X'}));
@@ -174,7 +169,7 @@ TEST(WebpVectors, HaveTheirPixelsOrErrors) {
     SCOPED_TRACE(name);
     const Bytes file = readFile(folder / name);
     if (verdict.contains("error")) {
-      EXPECT_EQ(verdict["error"], nameOfKind(refusalOf(file)));
+      EXPECT_EQ(verdict["error"], testing::nameOf(refusalOf(file)));
       continue;
     }
     const Image image = decodeWebp(file, name);
