@@ -42,10 +42,19 @@ async function referenceOf(example: GridExample): Promise<Parameters<typeof asse
   ]);
 }
 
-/** In the page, before its scripts: counts what allocates memory on the GPU. */
-function countAllocations(): void {
+/** In the page, before its document: keeps frames and outages of the shape and counts what allocates GPU memory. */
+function recordStream(): void {
   const counts = { objects: 0, uploads: 0 };
-  Object.assign(window, { gpu: counts });
+  const [frames, outages] = [[] as unknown[], [] as unknown[]];
+  Object.assign(window, { gpu: counts, frames, outages });
+  const record = (type: string, callback: (event: CustomEvent<{ type: string }>) => void): void => {
+    const listener = (event: Event): void => {
+      if ((event.target as Element | null)?.localName === "shape") callback(event as CustomEvent<{ type: string }>);
+    };
+    addEventListener(type, listener, true);
+  };
+  record("frame", ({ detail }) => frames.push(detail));
+  record("error", ({ detail }) => outages.push(detail.type));
   const prototype = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
   for (const [names, count] of [
     [["createTexture", "createBuffer", "createVertexArray", "texStorage2D", "texImage2D", "bufferData"], "objects"],
@@ -90,15 +99,8 @@ test("a live stream is drawn frame by frame", async () => {
   };
   await withPage(
     site(),
-    { server: start, before: countAllocations, expectedErrors: /500|410|404|live\/sheet/ },
+    { server: start, before: recordStream, expectedErrors: /500|410|404|live\/sheet/ },
     async (view) => {
-      await view.page.evaluate(() => {
-        Object.assign(window, { frames: [], outages: [] });
-        const { frames, outages } = window as unknown as { frames: unknown[]; outages: unknown[] };
-        const shape = document.querySelector("shape")!;
-        shape.addEventListener("frame", (event) => frames.push((event as CustomEvent).detail));
-        shape.addEventListener("error", (event) => outages.push((event as CustomEvent<{ type: string }>).detail.type));
-      });
       const outages = (): Promise<string[]> =>
         view.page.evaluate(() => (window as unknown as { outages: string[] }).outages);
       const show = async (example: GridExample, name: string): Promise<void> => {
