@@ -8,8 +8,8 @@
 
 namespace imgeo::live {
 
-StoredFrame::StoredFrame(const FrameHeader& header, Bytes bytes)
-    : header_(header), bytes_(std::make_shared<const Bytes>(std::move(bytes))) {}
+StoredFrame::StoredFrame(const FrameHeader& header, Bytes bytes, double addedAt)
+    : header_(header), addedAt_(addedAt), bytes_(std::make_shared<const Bytes>(std::move(bytes))) {}
 
 std::shared_ptr<const Bytes> StoredFrame::image() const {
   std::call_once(imageOnce_, [this] { image_ = std::make_shared<const Bytes>(imageOfFrame(*bytes_, "")); });
@@ -44,7 +44,7 @@ void Stream::add(const FrameHeader& header, Bytes bytes) {
   if (header.number != next_)
     throw Error(ErrorKind::usage, name_, fmt::format("the frame has number {}, the next is {}", header.number, next_));
   historyBytes_ += bytes.size();
-  frames_.push_back(std::make_shared<const StoredFrame>(header, std::move(bytes)));
+  frames_.push_back(std::make_shared<const StoredFrame>(header, std::move(bytes), millisecondsNow()));
   while (frames_.size() > 1 && (frames_.size() > limits_.frames || historyBytes_ > limits_.bytes)) {
     historyBytes_ -= frames_.front()->bytes()->size();
     frames_.pop_front();
@@ -127,23 +127,27 @@ std::chrono::steady_clock::time_point Stream::lastChange() const {
   return lastChange_;
 }
 
-std::string Stream::latest() const {
+std::string Stream::latest(bool isTimed) const {
   const State now = state();
   std::string json = fmt::format("{{\"name\": \"{}\", \"epoch\": {}, \"next\": {}, ", name_, now.epoch, now.next);
   if (now.newest)
-    json += fmt::format("\"number\": {}, \"oldest\": {}, \"time\": {}, \"bytes\": {}, ", now.newest->number(),
-                        now.oldest, now.newest->time(), now.newest->bytes()->size());
+    json += fmt::format("\"number\": {}, \"oldest\": {}, \"time\": {}, \"added\": {:.1f}, \"bytes\": {}, ",
+                        now.newest->number(), now.oldest, now.newest->time(), now.newest->addedAt(),
+                        now.newest->bytes()->size());
   else
-    json += R"("number": null, "oldest": null, "time": null, "bytes": null, )";
+    json += R"("number": null, "oldest": null, "time": null, "added": null, "bytes": null, )";
   if (now.description)
     json += describe(*now.description) + ", ";
-  return json + fmt::format("\"ended\": {}, \"clamped\": {}, \"dropped\": {}}}\n", now.hasEnded, clamped_.load(),
-                            dropped_.load());
+  return json + fmt::format("\"ended\": {}, \"clamped\": {}, \"dropped\": {}, \"timed\": {}, \"now\": {:.1f}}}\n",
+                            now.hasEnded, clamped_.load(), dropped_.load(), isTimed, millisecondsNow());
+}
+
+double millisecondsNow() {
+  return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 std::uint64_t firstNumberNow() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+  return static_cast<std::uint64_t>(millisecondsNow());
 }
 
 } // namespace imgeo::live

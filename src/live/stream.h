@@ -16,17 +16,20 @@ namespace imgeo::live {
 /// A frame as it was published. Viewers share it for as long as they send it.
 class StoredFrame {
 public:
-  StoredFrame(const FrameHeader& header, Bytes bytes);
+  StoredFrame(const FrameHeader& header, Bytes bytes, double addedAt);
 
   std::uint64_t number() const { return header_.number; }
   std::uint64_t epoch() const { return header_.epoch; }
   double time() const { return header_.time; }
+  /// When it was added, in milliseconds of the server's clock (millisecondsNow()).
+  double addedAt() const { return addedAt_; }
   const std::shared_ptr<const Bytes>& bytes() const { return bytes_; }
   /// The positions as a PNG (frame_image.h), made at the first call.
   std::shared_ptr<const Bytes> image() const;
 
 private:
   FrameHeader header_;
+  double addedAt_;
   std::shared_ptr<const Bytes> bytes_;
   mutable std::once_flag imageOnce_;
   mutable std::shared_ptr<const Bytes> image_;
@@ -83,8 +86,9 @@ public:
   /// not called then. `call` must not throw and must not wait.
   bool callAtChange(std::uint64_t version, std::weak_ptr<const void> owner, std::function<void()> call);
 
-  /// The response to GET /live/NAME/latest.
-  std::string latest() const;
+  /// The response to GET /live/NAME/latest. `isTimed`: whether viewers shall request each frame when it is there,
+  /// because a cache between them and the server shares frames among them.
+  std::string latest(bool isTimed) const;
 
   /// When the last frame or epoch was added.
   std::chrono::steady_clock::time_point lastChange() const;
@@ -114,6 +118,9 @@ private:
   std::chrono::steady_clock::time_point lastAllowance_;
   std::atomic<std::uint64_t> clamped_{0}, dropped_{0};
 };
+
+/// The milliseconds since 1970 by the system's clock, with fractions.
+double millisecondsNow();
 
 /// The milliseconds since 1970: the first number of a stream that begins now.
 std::uint64_t firstNumberNow();

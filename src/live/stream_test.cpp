@@ -98,17 +98,17 @@ TEST(Stream, ForgetsTheCallsOfViewersWhoHaveLeft) {
 
 TEST(Stream, DescribesItselfAsJson) {
   Stream stream("s", {}, 42);
-  EXPECT_TRUE(nlohmann::json::parse(stream.latest()).at("number").is_null());
+  EXPECT_TRUE(nlohmann::json::parse(stream.latest(false)).at("number").is_null());
   Description full = description();
   full.layout.valueComponents = 2;
   full.layout.valueBits = 12;
   full.valueRange = {{0, 1}, {-1e-9, 1e30}};
   full.rate = 29.97;
   stream.beginEpoch(full);
-  const auto json = nlohmann::json::parse(stream.latest());
+  const auto json = nlohmann::json::parse(stream.latest(false));
   EXPECT_EQ(json.at("next"), 42);
   EXPECT_EQ(json.at("step").get<double>(), full.step());
-  EXPECT_EQ(readDescription(stream.latest(), ""), full) << "what it says describes the same stream";
+  EXPECT_EQ(readDescription(stream.latest(false), ""), full) << "what it says describes the same stream";
 }
 
 TEST(Streams, AreLimitedAndNamedPlainly) {

@@ -17,7 +17,8 @@ constexpr std::string_view frameType = "application/x-imgeo-frame";
 /// The fields of every response: pages of all origins may read it, and its time.
 void addCommonFields(Response& response, const Stream* stream) {
   response.fields.emplace_back("Access-Control-Allow-Origin", "*");
-  response.fields.emplace_back("Access-Control-Expose-Headers", "Imgeo-Newest, Imgeo-Next, Imgeo-Epoch, Retry-After");
+  response.fields.emplace_back("Access-Control-Expose-Headers",
+                               "Imgeo-Newest, Imgeo-Next, Imgeo-Epoch, Imgeo-Added, Retry-After");
   response.fields.emplace_back("Timing-Allow-Origin", "*");
   if (!stream)
     return;
@@ -70,6 +71,7 @@ LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t nu
         contentResponse(frameType, frame->bytes(),
                         fmt::format("{}, max-age=31536000, immutable", isShared ? "public" : "private"), stream.get());
     response.fields.emplace_back("Imgeo-Epoch", std::to_string(frame->epoch()));
+    response.fields.emplace_back("Imgeo-Added", fmt::format("{:.1f}", frame->addedAt()));
     return response;
   }
   if (number < state.oldest)
@@ -127,7 +129,7 @@ LiveReply replyToPublisher(live::Streams& streams, const RequestHead& request, c
   if (!stream)
     return refuse(404, "There is no such stream.", nullptr);
   stream->end();
-  return jsonResponse(stream->latest(), stream.get());
+  return jsonResponse(stream->latest(false), stream.get());
 }
 
 /// What browsers ask before a page of another origin may publish.
@@ -148,12 +150,13 @@ Response methodRefusal(std::string_view allowed) {
   return response;
 }
 
-LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& names, bool isShared) {
+LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& names, bool isShared,
+                        bool isFromCache) {
   const auto stream = streams.find(names[1]);
   if (!stream)
     return refuse(404, "There is no such stream.", nullptr);
   if (names.size() == 3 && names[2] == "latest")
-    return jsonResponse(stream->latest(), stream.get());
+    return jsonResponse(stream->latest(isFromCache), stream.get());
   if (names.size() == 3 && names[2] == "frame.png")
     return replyWithImage(stream);
   if (names.size() == 3 && names[2] == "stream.mpng")
@@ -168,7 +171,7 @@ Response announce(live::Streams& streams, const std::string& name, ByteSpan body
   live::Description description = live::readDescription(asText(body), name);
   const auto stream = streams.open(name);
   stream->beginEpoch(std::move(description));
-  return jsonResponse(stream->latest(), stream.get());
+  return jsonResponse(stream->latest(false), stream.get());
 }
 
 Response addFrame(live::Streams& streams, const std::string& name, Bytes body) {
@@ -210,7 +213,8 @@ LiveReply replyToLive(live::Streams& streams, const RequestHead& request) {
   if (!token.empty() && !live::areEqualTokens(token, tokenOf(request)))
     return refuse(401, "The token of the viewer is missing or wrong.", nullptr);
   // A token in a header is no part of the URL, under which caches keep frames.
-  LiveReply reply = replyToViewer(streams, path->names, token.empty() || request.authorization.empty());
+  LiveReply reply =
+      replyToViewer(streams, path->names, token.empty() || request.authorization.empty(), request.isFromCache);
   if (request.method == "HEAD" && std::holds_alternative<ImageSequence>(reply))
     return methodRefusal("GET"); // the images would follow the head
   return reply;

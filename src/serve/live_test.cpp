@@ -120,6 +120,21 @@ TEST_F(LiveServer, MakesARequestForTheNextFrameWaitForIt) {
   EXPECT_EQ(bodyOf(answers[2]), asText(*stream->frame(next + 1)->bytes()));
 }
 
+TEST_F(LiveServer, TellsViewersBehindACacheWhenFramesAppear) {
+  start();
+  const auto stream = openStream(30);
+  const double before = live::millisecondsNow();
+  addFrame(*stream);
+  const double after = live::millisecondsNow();
+  EXPECT_NE(get("/live/cloth/latest").find("\"timed\": false"), std::string::npos);
+  EXPECT_NE(get("/live/cloth/latest", "Via: 1.1 nginx\r\n").find("\"timed\": true"), std::string::npos);
+  EXPECT_NE(get("/live/cloth/latest", "CDN-Loop: example\r\n").find("\"timed\": true"), std::string::npos);
+  const std::string answer = getFrame(stream->state().newest->number());
+  const double added = std::stod(answer.substr(answer.find("Imgeo-Added: ") + 13));
+  EXPECT_GE(added, before - 0.1);
+  EXPECT_LE(added, after + 0.1);
+}
+
 TEST_F(LiveServer, AnswersOneConnectionAgainAndAgain) {
   start();
   const auto stream = openStream();

@@ -18,6 +18,7 @@ struct RequestHead {
   std::string_view method, target;
   std::string_view acceptEncoding, ifNoneMatch, ifRange, range;
   std::string_view authorization;
+  bool isFromCache = false; ///< a proxy or a content delivery network sends it: Via or CDN-Loop is there
 };
 
 struct Response {

@@ -47,6 +47,7 @@ RequestHead headOf(const http::request<http::empty_body>& request) {
   head.ifRange = view(request[http::field::if_range]);
   head.range = view(request[http::field::range]);
   head.authorization = view(request[http::field::authorization]);
+  head.isFromCache = !request[http::field::via].empty() || !request["CDN-Loop"].empty();
   return head;
 }
 

@@ -6,6 +6,8 @@ import { FrameSource } from "./frameSource.ts";
 
 const rate = 30;
 const intervalMs = 1000 / rate;
+/** By which the server's clock is ahead of the viewer's. */
+const serverClockMs = 123_456_789;
 const layout = {
   vertices: 4,
   columns: 2,
@@ -21,6 +23,8 @@ interface Line {
   readonly frameMs: number;
   /** Whether a cache has kept every response since its frame appeared. */
   readonly isCached?: boolean;
+  /** Whether the server knows of the cache, and states when frames appear. */
+  readonly isTimed?: boolean;
   /** Times at which the server does not answer. */
   readonly outage?: readonly [from: number, to: number];
   /** When the first frame of the epoch comes. Before it, the newest frame is of another epoch. */
@@ -29,9 +33,10 @@ interface Line {
 
 /** Follows a stream of 30 frames a second for a time, on a simulated clock; returns when each frame was displayed. */
 async function follow(line: Line, durationMs: number) {
-  const { frameMs, isCached = false, outage = [0, 0], firstFrameAt = 0 } = line;
+  const { frameMs, isCached = false, isTimed = false, outage = [0, 0], firstFrameAt = 0 } = line;
   let now = 0;
   let requests = 0;
+  let waits = 0;
   const sleepers: { readonly at: number; readonly wake: () => void }[] = [];
   const sleep = (ms: number, signal?: AbortSignal | null) =>
     new Promise<void>((resolve, reject) => {
@@ -60,14 +65,22 @@ async function follow(line: Line, durationMs: number) {
         origin: [0, 0, 0],
         step: 1,
         box,
+        timed: isTimed,
+        now: now + serverClockMs,
+        added: timeOf(newest()) + serverClockMs,
       };
       return new Response(JSON.stringify(state));
     }
     const number = Number(url.split("/").at(-1));
     if (number > newest() + 8) return new Response(null, { status: 404 });
+    if (number > newest()) waits += 1;
     while (number > newest()) await sleep(timeOf(number) - now + 0.01, signal);
     lineFreeAt = Math.max(lineFreeAt, now) + frameMs;
-    const headers = { "imgeo-newest": `${isCached ? number : newest()}`, "imgeo-epoch": number < 100 ? "50" : "100" };
+    const headers = {
+      "imgeo-added": `${timeOf(number) + serverClockMs}`,
+      "imgeo-newest": `${isCached ? number : newest()}`,
+      "imgeo-epoch": number < 100 ? "50" : "100",
+    };
     const bytes = encodeFrame(
       { ...layout, number, epoch: 100, time: 0, prediction: "planar" },
       [1, 2, 3].map((value) => [value, value, value, value]),
@@ -140,12 +153,26 @@ async function follow(line: Line, durationMs: number) {
     }
   }
   source.stop();
-  return { displayed, outages, requests, maxOpenRequests };
+  return { displayed, outages, requests, waits, maxOpenRequests };
 }
 
 const maxAge = (frames: readonly { ageMs: number }[]) => Math.max(...frames.slice(5).map(({ ageMs }) => ageMs));
 
 describe("a viewer", () => {
+  test("requests a frame that a cache shares when it is there", async () => {
+    const { displayed, waits } = await follow({ frameMs: 1, isTimed: true, isCached: true }, 3000);
+    assert.ok(displayed.length > 85, `${displayed.length} frames`);
+    assert.ok(displayed.every(({ skipped }) => skipped === 0));
+    assert.ok(maxAge(displayed) < 12, `age ${maxAge(displayed)} ms`);
+    assert.ok(waits <= 2, `${waits} requests came before their frames`);
+  });
+
+  test("skips frames that a cache shares on a slow line", async () => {
+    const { displayed } = await follow({ frameMs: 60, isTimed: true, isCached: true }, 6000);
+    assert.ok(displayed.length > 60, `${displayed.length} frames`);
+    assert.ok(maxAge(displayed) < 250, `age ${maxAge(displayed)} ms`);
+  });
+
   test("on a fast line displays every frame", async () => {
     const { displayed, outages, maxOpenRequests } = await follow({ frameMs: 1 }, 3000);
     assert.ok(displayed.length > 85, `${displayed.length} frames`);

@@ -6,6 +6,7 @@ import type { FrameImages } from "../../decode/frame/frameImages.ts";
 import { frameHeaderBytes, maxUnpackedBytes } from "../../decode/frame/frameHeader.ts";
 import type { AttemptListener } from "../../scheduler/download.ts";
 import { download, RequestError } from "../../scheduler/download.ts";
+import { FrameSchedule } from "./frameSchedule.ts";
 import type { StreamState } from "./streamState.ts";
 import { readStreamState } from "./streamState.ts";
 
@@ -64,6 +65,8 @@ export class FrameSource {
   #isOut = false;
   /** The newest number that is known to have existed at a time. */
   #newest = { number: 0, at: 0 };
+  /** Where a cache shares frames among viewers: when they appear. */
+  #schedule: FrameSchedule | undefined;
 
   constructor(options: FrameSourceOptions, listener: FrameSourceListener) {
     this.#options = options;
@@ -125,15 +128,23 @@ export class FrameSource {
   }
 
   async #readState(signal: AbortSignal): Promise<StreamState> {
+    const sentAt = this.#options.now();
     const bytes = await this.#get("/latest", maxStateBytes, signal);
     const state = readStreamState(new TextDecoder().decode(bytes));
     if (state.hasEnded) throw new RequestError("http", this.#options.url, "the stream has ended", 404);
     if (state.epoch !== this.#epoch) {
       this.#epoch = state.epoch;
+      this.#schedule = undefined;
       this.#shown = Math.min(this.#shown, state.epoch - 1); // a server may have lost its clock
       this.#listener.onEpoch(state);
     }
     this.#newest = { number: state.number ?? state.next - 1, at: this.#options.now() };
+    if (state.isTimed && state.rate > 0) {
+      this.#schedule ??= new FrameSchedule(state.rate);
+      this.#schedule.noteClock(state.now, sentAt, this.#newest.at);
+      if (state.number !== undefined && state.addedAt !== undefined)
+        this.#schedule.noteFrame(state.number, state.addedAt);
+    }
     return state;
   }
 
@@ -144,12 +155,14 @@ export class FrameSource {
     // Until an epoch has its first frame, the newest one is of the epoch before.
     let requested = Math.max(this.#shown, state.epoch - 1, (state.number ?? state.next) - 1);
     // While a frame was on its way over a slow line, others have appeared.
-    const takeNumber = () => (requested = Math.max(requested + 1, this.#newest.number));
+    const takeNumber = () =>
+      (requested = Math.max(requested + 1, this.#schedule?.newestAt(this.#options.now()) ?? this.#newest.number));
     const lane = async () => {
       for (;;) {
         const number = takeNumber();
+        await this.#delayUntil(this.#schedule?.requestTimeOf(number), all);
         await this.#requestFrame(number, state, all);
-        if (number + maxFramesBehind < this.#expectedNewest(state)) await this.#readStateOf(state, all);
+        if (this.#isBehind(number, state)) await this.#readStateOf(state, all);
       }
     };
     try {
@@ -165,9 +178,20 @@ export class FrameSource {
     for (;;) {
       const due = this.#options.now() + 1000 / this.#rate;
       await this.#requestFrame(takeNumber(), state, signal);
-      await this.#options.delay(Math.max(0, due - this.#options.now()), signal);
-      await this.#readStateOf(state, signal);
+      await this.#delayUntil(due, signal);
+      if (this.#schedule?.isClockOld(this.#options.now()) ?? true) await this.#readStateOf(state, signal);
     }
+  }
+
+  async #delayUntil(time: number | undefined, signal: AbortSignal): Promise<void> {
+    const ms = time === undefined ? 0 : time - this.#options.now();
+    if (ms > 0) await this.#options.delay(ms, signal);
+  }
+
+  /** Whether `latest` is to be read again after this frame, to learn the newest number or the server's time. */
+  #isBehind(number: number, state: StreamState): boolean {
+    if (this.#schedule) return this.#schedule.isClockOld(this.#options.now());
+    return number + maxFramesBehind < this.#expectedNewest(state);
   }
 
   /** Learns the newest number. */
@@ -196,6 +220,8 @@ export class FrameSource {
     const bytes = await this.#get(`/frames/${number}`, maxFrameBytes, signal, {
       onHeaders: (headers) => {
         this.#noteNewest(state, number, requestedAt, Number(headers.get("imgeo-newest") ?? 0));
+        const addedAt = headers.get("imgeo-added");
+        if (addedAt !== null) this.#schedule?.noteFrame(number, Number(addedAt));
       },
     });
     const byteLength = bytes.byteLength;

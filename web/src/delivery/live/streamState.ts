@@ -12,6 +12,12 @@ export interface StreamState extends FrameLayout {
   readonly number: number | undefined;
   /** The number that comes next. */
   readonly next: number;
+  /** When the server had the newest frame, in milliseconds of its clock; undefined before the first. */
+  readonly addedAt: number | undefined;
+  /** The server's clock when it answered. */
+  readonly now: number;
+  /** Whether a cache shares frames among viewers, who request each frame when it is there. */
+  readonly isTimed: boolean;
   /** Frames per second that the publisher announces; 0: none. */
   readonly rate: number;
   readonly hasEnded: boolean;
@@ -62,6 +68,9 @@ export function readStreamState(text: string): StreamState {
     epoch: frameNumber("epoch"),
     number: json.number === null ? undefined : frameNumber("number"),
     next: frameNumber("next"),
+    addedAt: typeof json.added === "number" ? json.added : undefined,
+    now: json.now === undefined ? 0 : number("now"),
+    isTimed: json.timed === true,
     rate: Math.max(0, number("rate")),
     hasEnded: json.ended === true,
     origin: vector("origin"),

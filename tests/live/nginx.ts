@@ -1,0 +1,137 @@
+// Runs nginx with the configuration of docs/live.md, which tests and benchmarks put in front of a server of streams.
+
+import { spawn, spawnSync } from "node:child_process";
+import { once } from "node:events";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { connect } from "node:tls";
+
+const binaries = ["/usr/sbin/nginx", "/usr/local/sbin/nginx", "/usr/local/bin/nginx"];
+
+/** The program; undefined if it is not installed. */
+export function findNginx(): string | undefined {
+  return binaries.find((path) => spawnSync(path, ["-v"]).status === 0);
+}
+
+/** The configuration as the document has it. */
+export function documentedConfiguration(): string {
+  const document = readFileSync("docs/live.md", "utf8");
+  const [, configuration] = /^```nginx\n([^]*?)^```/m.exec(document) ?? [];
+  if (configuration === undefined) throw new Error("docs/live.md has no configuration of nginx");
+  return configuration;
+}
+
+export interface RequestCounts {
+  /** Requests for frames that viewers sent. */
+  readonly frames: number;
+  /** How many of them reached the server behind nginx. */
+  readonly passed: number;
+  /** How often each status of the cache was noted: HIT, MISS ... */
+  readonly statuses: Readonly<Record<string, number>>;
+}
+
+export interface Nginx {
+  readonly port: number;
+  /** The certificate, which only these tests trust. */
+  readonly certificate: string;
+  /** Requests that have been answered since the start. */
+  counts(): RequestCounts;
+  stop(): Promise<void>;
+}
+
+async function freePort(): Promise<number> {
+  const server = createServer();
+  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  const address = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  if (address === null || typeof address === "string") throw new Error("no free port");
+  return address.port;
+}
+
+/** Replaces a part of the configuration, which must be there once. */
+function replaced(configuration: string, part: string, by: string): string {
+  if (configuration.split(part).length !== 2) throw new Error(`the configuration has not one "${part}"`);
+  return configuration.replace(part, () => by);
+}
+
+/** Starts nginx in front of the server at a local port. `change` may change the configuration. */
+export async function startNginx(
+  nginx: string,
+  serverPort: number,
+  change: (configuration: string) => string = (configuration) => configuration,
+): Promise<Nginx> {
+  const folder = mkdtempSync(join(tmpdir(), "imgeo-nginx-"));
+  const file = (name: string): string => join(folder, name);
+  const port = await freePort();
+  const made = spawnSync("openssl", [
+    ...["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2"],
+    ...["-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"],
+    ...["-keyout", file("live.key"), "-out", file("live.pem")],
+  ]);
+  if (made.status !== 0) throw new Error(`openssl: ${made.stderr.toString()}`);
+  let configuration = change(documentedConfiguration());
+  for (const [part, by] of [
+    ["listen 443 ssl", `listen 127.0.0.1:${port} ssl`],
+    ["server 127.0.0.1:8090;", `server 127.0.0.1:${serverPort};`],
+    ["/etc/ssl/certs/live.pem", file("live.pem")],
+    ["/etc/ssl/private/live.key", file("live.key")],
+    ["/var/cache/nginx/imgeo", file("cache")],
+    // What the package's own configuration states for every server, and what the tests count.
+    [
+      "http {\n",
+      `http {
+  log_format counts "$uri $upstream_cache_status $upstream_addr";
+  access_log ${file("access.log")} counts;
+  ${["client_body", "proxy", "fastcgi", "uwsgi", "scgi"].map((name) => `${name}_temp_path ${file(name)};`).join("\n  ")}
+`,
+    ],
+  ] as const)
+    configuration = replaced(configuration, part, by);
+  const asRoot = process.getuid?.() === 0 ? "user root;\n" : "";
+  writeFileSync(file("nginx.conf"), `${asRoot}daemon off;\npid ${file("pid")};\n${configuration}`);
+  const child = spawn(nginx, ["-p", folder, "-c", file("nginx.conf"), "-e", file("error.log")], { stdio: "ignore" });
+  const ended = once(child, "exit");
+  const certificate = readFileSync(file("live.pem"), "utf8");
+  for (const end = Date.now() + 10_000; !(await answers(port, certificate));) {
+    if (child.exitCode !== null || Date.now() > end)
+      throw new Error(`nginx does not start: ${readFileSync(file("error.log"), "utf8")}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  return {
+    port,
+    certificate,
+    counts: () => countsOf(readFileSync(file("access.log"), "utf8")),
+    stop: async () => {
+      child.kill("SIGTERM");
+      await ended;
+      rmSync(folder, { recursive: true });
+    },
+  };
+}
+
+function answers(port: number, certificate: string): Promise<boolean> {
+  return new Promise((resolve) => {
+    const socket = connect({ port, host: "127.0.0.1", ca: certificate }, () => {
+      socket.end();
+      resolve(true);
+    });
+    socket.once("error", () => {
+      resolve(false);
+    });
+  });
+}
+
+function countsOf(log: string): RequestCounts {
+  const statuses: Record<string, number> = {};
+  let [frames, passed] = [0, 0];
+  for (const line of log.split("\n")) {
+    const [path = "", status = "", upstream = ""] = line.split(" ");
+    if (!path.includes("/frames/")) continue;
+    frames += 1;
+    if (upstream !== "-") passed += 1;
+    statuses[status] = (statuses[status] ?? 0) + 1;
+  }
+  return { frames, passed, statuses };
+}

@@ -1,0 +1,70 @@
+// The configuration of docs/live.md in a real nginx: many viewers, one request to the server for each frame.
+
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import { createInterface } from "node:readline";
+import { setTimeout as pause } from "node:timers/promises";
+import { test } from "node:test";
+import { findNginx, startNginx } from "./live/nginx.ts";
+import { startViewer } from "./live/viewers.ts";
+
+const nginx = findNginx();
+const viewerCount = 20;
+const rate = 20;
+
+/** Starts a stream of a small cloth; resolves with its server's port. */
+async function startStream(): Promise<{ port: number; stop: () => Promise<void> }> {
+  const child = spawn(
+    "build/imgeo",
+    ["sample", "cloth", "--live", "--grid", "16", "--rate", `${rate}`, "--port", "0"],
+    { stdio: ["ignore", "pipe", "inherit"] },
+  );
+  const [line] = (await once(createInterface(child.stdout), "line")) as [string];
+  const port = Number(/:(\d+)\/live/.exec(line)?.[1]);
+  return {
+    port,
+    stop: async () => {
+      child.kill("SIGINT");
+      await once(child, "exit");
+    },
+  };
+}
+
+for (const isHttp2 of [false, true])
+  test(
+    `nginx as docs/live.md has it serves a stream to ${viewerCount} viewers over HTTP/${isHttp2 ? "2" : "1.1"} from one request a frame`,
+    { skip: nginx === undefined && "nginx is not installed" },
+    async (t) => {
+      const stream = await startStream();
+      const front = await startNginx(nginx ?? "", stream.port);
+      const url = `https://localhost:${front.port}/live/cloth`;
+      const viewers = Array.from({ length: viewerCount }, () =>
+        startViewer({ url, certificate: front.certificate, isHttp2 }),
+      );
+      // They begin at different moments; the frames are counted from then on.
+      await pause(1000);
+      const before = front.counts();
+      const [first] = viewers.map(({ shown }) => shown.at(-1) ?? 0);
+      await pause(3000);
+      const after = front.counts();
+      const frames = (viewers[0]?.shown.at(-1) ?? 0) - (first ?? 0);
+      for (const viewer of viewers) viewer.stop();
+      await front.stop();
+      await stream.stop();
+      const requests = after.frames - before.frames;
+      const passed = after.passed - before.passed;
+      const ages = viewers.flatMap(({ ages }) => ages.slice(rate)).sort((a, b) => a - b);
+      t.diagnostic(
+        `${frames} frames, ${requests} requests, ${(passed / frames).toFixed(2)} a frame reached the server; age ${ages[Math.floor(ages.length / 2)]?.toFixed(1)} ms (median), ${ages[Math.floor(0.95 * ages.length)]?.toFixed(1)} ms (19 of 20); ${JSON.stringify(after.statuses)}`,
+      );
+      assert.ok(frames > 0.8 * 3 * rate, `${frames} frames in 3 s`);
+      assert.ok(requests > 0.7 * frames * viewerCount, `${requests} requests`);
+      assert.ok(passed < requests / 4, `${passed} of ${requests} requests reached the server`);
+      for (const { shown, outages } of viewers) {
+        assert.deepEqual(outages, []);
+        assert.ok(shown.length > rate, `a viewer displayed ${shown.length} frames`);
+        assert.ok(shown.every((number, n) => n === 0 || number > (shown[n - 1] ?? 0)));
+      }
+    },
+  );
