@@ -5,6 +5,7 @@ import { describe, test } from "node:test";
 import { center, touch } from "./gestures.ts";
 import { settle, withPage, type View } from "./harness.ts";
 import { siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 
 /** Distance of the camera from the center of the scene, a sphere of radius 1. */
@@ -31,7 +32,7 @@ describe("an approach", () => {
     },
   };
   for (const [name, approach] of Object.entries(approaches)) {
-    test(`${name} ends before the surface`, async () => {
+    (name === "by the wheel" ? test : soakTest)(`${name} ends before the surface`, async () => {
       await withPage(siteOfGenerated("sphere"), { hasTouch: name === "by two fingers" }, async (view) => {
         await view.promise("complete");
         await approach(view);

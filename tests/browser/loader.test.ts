@@ -17,6 +17,7 @@ import { referenceSettingsOf, patchOfInput } from "./reference.ts";
 import { gate } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const bundles = { "app.js": "tests/browser/loaderPage.ts", "worker.js": "web/src/workers/worker.ts" };
 const directory = join(outputDirectory, "loader");
@@ -70,6 +71,8 @@ interface Case {
   options: string[];
   lights?: AppRequest["light"][];
   keepsVertices?: boolean;
+  /** Whether only `make soak` runs it. */
+  isLong?: boolean;
 }
 
 const cases: Case[] = [
@@ -82,40 +85,43 @@ const cases: Case[] = [
   { mesh: "trefoil", options: ["--profile", "compact"], lights: ["directional", "point"] },
   { mesh: "trefoil", options: ["--container", "bg", "--normals", "spherical"], lights: ["directional", "point"] },
   { mesh: "trefoil-colors", options: ["--profile", "classic"] },
-  { mesh: "trefoil-colors", options: ["--container", "bg"] },
-  { mesh: "points", options: ["--profile", "classic"] },
+  { mesh: "trefoil-colors", options: ["--container", "bg"], isLong: true },
+  { mesh: "points", options: ["--profile", "classic"], isLong: true },
   { mesh: "coil", options: ["--profile", "compact"] },
-  { mesh: "coil", options: ["--profile", "classic"] },
+  { mesh: "coil", options: ["--profile", "classic"], isLong: true },
 ];
 
 describe("a scene in a three.js app has the same picture as plain buffers", () => {
-  for (const { mesh, options, lights = ["directional" as const], keepsVertices = false } of cases) {
-    test([mesh, ...options, ...(keepsVertices ? ["keeping vertices"] : [])].join(" "), async () => {
-      const site = siteOfGenerated(mesh, ...options);
-      await withApp(site, {}, async ({ page, server }) => {
-        await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keepsVertices);
-        const { diffuseColor, shininess } = referenceSettingsOf(pageOf(site)).material;
-        await page.evaluate(
-          ([mesh, material]) => {
-            window.app.setPlain(mesh, material);
-          },
-          [plainOf(mesh), { diffuseColor, shininess }] as const,
-        );
-        await page.evaluate(() => window.app.load());
-        for (const light of lights) {
-          const expected = await draw(page, light, "plain");
-          const name = `loader ${mesh} ${options.join("")} ${keepsVertices ? "kept " : ""}${light}`;
-          // Shadow edges may differ by a texel of the shadow map.
-          assertSamePicture(name, await draw(page, light, "scene"), expected, { mean: 0.06, offShare: 0.001 });
-          const [empty, unshadowed] = [await draw(page, light, "nothing"), await draw(page, light, "plain", false)];
-          assert.ok(difference(expected, empty).mean > 0.5, "the reference is empty");
-          if (mesh.startsWith("trefoil"))
-            assert.ok(difference(expected, unshadowed).mean > 1, "the reference has no shadow");
-        }
-        const usesWorker = keepsVertices || options.includes("compact");
-        assert.equal(server.requestsOf(/^\/worker\.js$/).length > 0, usesWorker);
-      });
-    });
+  for (const { mesh, options, lights = ["directional" as const], keepsVertices = false, isLong } of cases) {
+    (isLong === true ? soakTest : test)(
+      [mesh, ...options, ...(keepsVertices ? ["keeping vertices"] : [])].join(" "),
+      async () => {
+        const site = siteOfGenerated(mesh, ...options);
+        await withApp(site, {}, async ({ page, server }) => {
+          await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keepsVertices);
+          const { diffuseColor, shininess } = referenceSettingsOf(pageOf(site)).material;
+          await page.evaluate(
+            ([mesh, material]) => {
+              window.app.setPlain(mesh, material);
+            },
+            [plainOf(mesh), { diffuseColor, shininess }] as const,
+          );
+          await page.evaluate(() => window.app.load());
+          for (const light of lights) {
+            const expected = await draw(page, light, "plain");
+            const name = `loader ${mesh} ${options.join("")} ${keepsVertices ? "kept " : ""}${light}`;
+            // Shadow edges may differ by a texel of the shadow map.
+            assertSamePicture(name, await draw(page, light, "scene"), expected, { mean: 0.06, offShare: 0.001 });
+            const [empty, unshadowed] = [await draw(page, light, "nothing"), await draw(page, light, "plain", false)];
+            assert.ok(difference(expected, empty).mean > 0.5, "the reference is empty");
+            if (mesh.startsWith("trefoil"))
+              assert.ok(difference(expected, unshadowed).mean > 1, "the reference has no shadow");
+          }
+          const usesWorker = keepsVertices || options.includes("compact");
+          assert.equal(server.requestsOf(/^\/worker\.js$/).length > 0, usesWorker);
+        });
+      },
+    );
   }
 });
 

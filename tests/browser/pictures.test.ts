@@ -25,14 +25,18 @@ import { soakTest } from "./soak.ts";
 interface Case {
   mesh: GeneratedMesh;
   options: string[];
-  /** Whether only `make soak` runs it: each of its values stands in another case as well. */
+  /** Whether only `make soak` runs it: each of its values stands in another case as well, here or in cpuDecoding.test.ts. */
   isLong?: boolean;
 }
 
 const cases: Case[] = [
   ...["sig", "bg"].flatMap((container) =>
     ["triangles", "strips"].flatMap((primitives) => [
-      { mesh: "trefoil" as const, options: ["--container", container, "--primitives", primitives] },
+      {
+        mesh: "trefoil" as const,
+        options: ["--container", container, "--primitives", primitives],
+        isLong: (container === "sig") === (primitives === "triangles"),
+      },
       {
         mesh: "trefoil-colors" as const,
         options: ["--container", container, "--primitives", primitives, "--patch-vertices", "1000"],
@@ -40,19 +44,21 @@ const cases: Case[] = [
       },
     ]),
   ),
-  { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
+  { mesh: "trefoil-plain", options: ["--position-bits", "12"], isLong: true },
   { mesh: "trefoil-plain", options: ["--position-bits", "24"] },
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"] },
   ...["octahedral", "spherical", "palette"].map((normals) => ({
     mesh: "trefoil" as const,
     options: ["--normals", normals, "--patch-vertices", "1000"],
+    isLong: normals !== "spherical",
   })),
   ...["octahedral", "spherical"].map((normals) => ({
     mesh: "trefoil-colors" as const,
     options: ["--container", "bg", "--normals", normals],
+    isLong: true,
   })),
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
-  { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"] },
+  { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"], isLong: true },
   ...["uint8", "int8", "int16", "float32"].flatMap((type, n) =>
     ["separate", "interleaved"].map((layout) => ({
       mesh: "trefoil-colors" as const,
@@ -75,17 +81,17 @@ const cases: Case[] = [
     options: ["--container", container, "--patch-vertices", "100000"],
     isLong: container === "bg",
   })),
-  { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
+  { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"], isLong: true },
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
-  { mesh: "points", options: [] },
-  { mesh: "points", options: ["--container", "bg"] },
+  { mesh: "points", options: [], isLong: true },
+  { mesh: "points", options: ["--container", "bg"], isLong: true },
   { mesh: "trefoil-colors", options: ["--primitives", "points"] },
   ...["sig", "bg"].flatMap((container) => [
-    { mesh: "coil" as const, options: ["--container", container] },
+    { mesh: "coil" as const, options: ["--container", container], isLong: container === "bg" },
     {
       mesh: "coil" as const,
       options: ["--container", container, "--primitives", "strips", "--patch-vertices", "500"],
-      isLong: container === "bg",
+      isLong: container === "sig",
     },
   ]),
   { mesh: "coil", options: ["--primitives", "strips", "--index", "off"] },
@@ -108,7 +114,8 @@ describe("the final picture equals that of plain buffers with the input", () => 
       ["--profile", "classic"],
       ["--container", "bg"],
     ]) {
-      test([mesh, ...options].join(" "), async () => {
+      const sample = mesh === "trefoil-colors" || (mesh === "trefoil-plain" && options.includes("compact"));
+      (sample ? test : soakTest)([mesh, ...options].join(" "), async () => {
         const site = siteOfGenerated(mesh, ...options);
         const input = patchOfInput(readPly(readFileSync(meshFile(mesh))));
         const expected = await referencePicture(pageOf(site), [input]);
