@@ -1,0 +1,237 @@
+// The event graph of a document: its nodes that send events, and its ROUTEs. Read again where the document changes; a
+// node keeps its state as long as its element is in the document.
+
+import type { AnimatedElement } from "./elements.ts";
+import { attributeIn, attributeNameIn, labelOf } from "./elements.ts";
+import type { EventGraph } from "./eventGraph.ts";
+import type { Behaviour, FieldSpecification } from "./eventNode.ts";
+import { EventNode } from "./eventNode.ts";
+import type { FieldType, Value } from "./fieldTypes.ts";
+import { fieldTypeOf, mayRoute } from "./fieldTypes.ts";
+import { nodeTypeOf } from "./nodeTypes.ts";
+import { listTypeOf } from "./sceneFields.ts";
+
+/** The value that a field of a drawn node has received. */
+export interface FieldChange {
+  readonly element: AnimatedElement;
+  /** X3D's name. */
+  readonly field: string;
+  /** The name of the element's attribute. */
+  readonly attribute: string;
+  readonly type: FieldType;
+  value: Value;
+  /** Whether the value has not been handed on since it arrived. */
+  isPending: boolean;
+}
+
+export type DrawnFieldOf = (
+  element: AnimatedElement,
+  field: string,
+) => { readonly name: string; readonly type: string } | undefined;
+
+export interface DocumentGraphOptions {
+  /** A field of a node that is drawn, by a name in any case; undefined where the runtime does not read it. */
+  readonly drawnFieldOf: DrawnFieldOf;
+  /** A field of a drawn node has received a value for the first time since the last frame. */
+  readonly onChange: (change: FieldChange) => void;
+  readonly warn: (message: string) => void;
+}
+
+const drawn: Behaviour = { receive: () => undefined };
+
+export class DocumentGraph {
+  readonly #root: AnimatedElement;
+  readonly #graph: EventGraph;
+  readonly #options: DocumentGraphOptions;
+  /** Nodes with behaviour, in document order. */
+  #nodes: ReadonlyMap<AnimatedElement, EventNode> = new Map();
+  /** Nodes without behaviour at which routes end or begin. */
+  readonly #drawnNodes = new Map<AnimatedElement, EventNode>();
+  #elements: ReadonlyMap<EventNode, AnimatedElement> = new Map();
+  #routeCount = 0;
+
+  constructor(root: AnimatedElement, graph: EventGraph, options: DocumentGraphOptions) {
+    this.#root = root;
+    this.#graph = graph;
+    this.#options = options;
+  }
+
+  /** Nodes with behaviour by their elements, in document order. */
+  get nodes(): ReadonlyMap<AnimatedElement, EventNode> {
+    return this.#nodes;
+  }
+
+  get routeCount(): number {
+    return this.#routeCount;
+  }
+
+  /** The node of an element, with behaviour or with routes; undefined for others. */
+  nodeOf(element: AnimatedElement): EventNode | undefined {
+    return this.#nodes.get(element) ?? this.#drawnNodes.get(element);
+  }
+
+  /** The element of a node with behaviour. */
+  elementOf(node: EventNode): AnimatedElement | undefined {
+    return this.#elements.get(node);
+  }
+
+  /** Reads nodes and routes again. */
+  read(): void {
+    const before = this.#nodes;
+    const nodes = new Map<AnimatedElement, EventNode>();
+    const routes: AnimatedElement[] = [];
+    const named = new Map<string, AnimatedElement>();
+    const visit = (element: AnimatedElement): void => {
+      const name = attributeIn(element, "DEF");
+      if (name !== undefined && !named.has(name)) named.set(name, element);
+      if (element.localName.toLowerCase() === "route") routes.push(element);
+      else if (attributeIn(element, "USE") === undefined) {
+        const node = before.get(element) ?? this.#makeNode(element);
+        if (node) nodes.set(element, node);
+      }
+      for (const child of Array.from(element.children)) visit(child);
+    };
+    visit(this.#root);
+    for (const node of [...nodes.values(), ...this.#drawnNodes.values()]) node.clearRoutes();
+    this.#drawnNodes.clear();
+    this.#nodes = nodes;
+    this.#elements = new Map(Array.from(nodes, ([element, node]) => [node, element]));
+    this.#routeCount = 0;
+    const known = new Set<string>();
+    for (const route of routes) this.#addRoute(route, named, known);
+  }
+
+  /** A script has set or removed an attribute. Returns whether a node has taken it as an event. */
+  attributeChanged(element: AnimatedElement, attribute: string, time: number): boolean {
+    const node = this.nodeOf(element);
+    const field = node && inputOf(node, attribute);
+    const specification = field === undefined ? undefined : node?.specificationOf(field);
+    if (!node || field === undefined || !specification || specification.access === "outputOnly") return false;
+    const text = element.getAttribute(attribute);
+    const value = text === null ? specification.defaultValue : specification.type.parse(text);
+    if (value === undefined) {
+      if (text !== null && text.trim() !== "")
+        this.#options.warn(
+          `${node.name} ${attribute}="${shortened(text)}" is no ${specification.type.name} and has no effect`,
+        );
+      return false;
+    }
+    this.#graph.run(time, () => {
+      if (this.#drawnNodes.get(element) === node) node.send(field, value);
+      else node.receive(field, value, time);
+    });
+    return true;
+  }
+
+  #makeNode(element: AnimatedElement): EventNode | undefined {
+    const found = nodeTypeOf(element.localName);
+    if (!found) return undefined;
+    const { name, type } = found;
+    const node = new EventNode(labelOf(element, name), type.fields, this.#graph, type.makeBehaviour);
+    for (const [field, { type: fieldType, access }] of type.fields) {
+      if (access === "outputOnly" || access === "inputOnly") continue;
+      const text = attributeIn(element, field);
+      if (text === undefined) continue;
+      const value = fieldType.parse(text);
+      if (value !== undefined) node.initialize(field, value);
+      else this.#options.warn(`${node.name} ${field}="${shortened(text)}" is no ${fieldType.name}: its default counts`);
+    }
+    return node;
+  }
+
+  #addRoute(route: AnimatedElement, named: ReadonlyMap<string, AnimatedElement>, known: Set<string>): void {
+    const [fromNode = "", fromField = "", toNode = "", toField = ""] = [
+      "fromNode",
+      "fromField",
+      "toNode",
+      "toField",
+    ].map((name) => attributeIn(route, name)?.trim());
+    const label = `ROUTE ${fromNode}.${fromField} TO ${toNode}.${toField}`;
+    if (known.has(label)) return; // X3D: a second one has no effect
+    known.add(label);
+    const [source, target] = [named.get(fromNode), named.get(toNode)];
+    const missing = source === undefined ? fromNode : toNode;
+    if (source === undefined || target === undefined) {
+      this.#options.warn(`${label}: no node has DEF="${missing}"; the route has no effect`);
+      return;
+    }
+    const from = this.#portOf(source, fromField, "output");
+    const to = this.#portOf(target, toField, "input");
+    if (from === undefined || to === undefined) {
+      const [element, field, kind] = from === undefined ? [source, fromField, "output"] : [target, toField, "input"];
+      this.#options.warn(`${label}: ${labelOf(element)} has no ${kind} ${field}; the route has no effect`);
+      return;
+    }
+    const [given, expected] = [from.specification.type, to.specification.type];
+    if (!mayRoute(given, expected)) {
+      this.#options.warn(`${label}: ${given.name} is no ${expected.name}; the route has no effect`);
+      return;
+    }
+    from.node.addRoute(from.field, { node: to.node, field: to.field });
+    this.#routeCount += 1;
+  }
+
+  #portOf(
+    element: AnimatedElement,
+    name: string,
+    direction: "input" | "output",
+  ): { node: EventNode; field: string; specification: FieldSpecification } | undefined {
+    const node = this.#nodes.get(element) ?? this.#drawnNodeWith(element, name);
+    const field = node && (direction === "input" ? inputOf(node, name) : outputOf(node, name));
+    const specification = field === undefined ? undefined : node?.specificationOf(field);
+    return node && field !== undefined && specification ? { node, field, specification } : undefined;
+  }
+
+  /** The node of an element that is drawn, with the field that a route names. */
+  #drawnNodeWith(element: AnimatedElement, name: string): EventNode | undefined {
+    let node = this.#drawnNodes.get(element);
+    for (const candidate of namesOf(name)) {
+      if (node?.specificationOf(candidate)) return node;
+      const read = this.#options.drawnFieldOf(element, candidate);
+      const field = read?.name ?? candidate;
+      const type = fieldTypeOf(listTypeOf(element.localName, candidate) ?? read?.type ?? "");
+      if (!type) continue;
+      if (!node) {
+        node = new EventNode(labelOf(element), new Map(), this.#graph, () => drawn);
+        this.#drawnNodes.set(element, node);
+      }
+      const attribute = attributeNameIn(element, field) ?? field;
+      const change: FieldChange = { element, field, attribute, type, value: "", isPending: false };
+      node.addField(candidate, { type, access: "inputOutput", defaultValue: undefined }, (value) => {
+        change.value = value;
+        if (change.isPending) return;
+        change.isPending = true;
+        this.#options.onChange(change);
+      });
+      return node;
+    }
+    return node;
+  }
+}
+
+/** A field's name as ROUTEs and scripts write it: `translation`, `set_translation`, `translation_changed`. */
+function namesOf(name: string): string[] {
+  const stripped = name.replace(/^set_/i, "").replace(/_changed$/i, "");
+  return Array.from(new Set([name, stripped]));
+}
+
+function fieldIn(node: EventNode, names: readonly string[], excluded: string): string | undefined {
+  for (const name of names) {
+    const lower = name.toLowerCase();
+    for (const field of node.fieldNames)
+      if (field.toLowerCase() === lower && node.specificationOf(field)?.access !== excluded) return field;
+  }
+  return undefined;
+}
+
+function inputOf(node: EventNode, name: string): string | undefined {
+  return fieldIn(node, [...namesOf(name), `set_${namesOf(name).at(-1) ?? ""}`], "outputOnly");
+}
+
+function outputOf(node: EventNode, name: string): string | undefined {
+  return fieldIn(node, [...namesOf(name), `${namesOf(name).at(-1) ?? ""}_changed`], "inputOnly");
+}
+
+function shortened(text: string): string {
+  return text.length > 40 ? `${text.slice(0, 40)}…` : text;
+}

@@ -1,0 +1,146 @@
+// A node that receives and sends events: its fields with their values, and the routes that begin at them.
+
+import type { FieldType, Value } from "./fieldTypes.ts";
+
+/** X3D's access types (ISO/IEC 19775-1, 4.4.2.2). An attribute sets the first value of fields that are not outputs. */
+export type Access = "inputOnly" | "outputOnly" | "inputOutput" | "initializeOnly";
+
+export interface FieldSpecification {
+  readonly type: FieldType;
+  readonly access: Access;
+  /** Undefined for fields that have no value before their first event. */
+  readonly defaultValue: Value | undefined;
+}
+
+export type FieldSpecifications = ReadonlyMap<string, FieldSpecification>;
+
+/** Where a route ends. */
+export interface Destination {
+  readonly node: EventNode;
+  readonly field: string;
+}
+
+/** A field of a node, and what has happened to it. */
+interface Field {
+  readonly specification: FieldSpecification;
+  value: Value | undefined;
+  readonly routes: Destination[];
+  /** The last cascade in which it has sent an event. */
+  cascade: number;
+  /** Called with the value of each event that arrives. */
+  readonly onValue: ((value: Value) => void) | undefined;
+}
+
+/** What a kind of node does with events. */
+export interface Behaviour {
+  /**
+   * An event has arrived, or a script has set the field. The values of inputOutput fields are set, and sent, before.
+   * `time`: of the cascade, in seconds.
+   */
+  receive(field: string, value: Value, time: number): void;
+  /** Called in every frame in which clocks run, for behaviours that depend on time alone. */
+  tick?(time: number): void;
+  /** The earliest time at which `tick` may do something: undefined where it never does without an event. */
+  nextTick?(time: number): number | undefined;
+}
+
+/** What nodes send their events through. */
+export interface EventSink {
+  /** The number of the present cascade. */
+  readonly cascade: number;
+  /** A node has sent an event. */
+  sent(node: EventNode, field: string, value: Value, routes: readonly Destination[]): void;
+  /** One sentence without subject: what is wrong with the node. */
+  warn(node: EventNode, message: string): void;
+}
+
+export class EventNode {
+  /** The node's name in messages, such as `PositionInterpolator DEF="move"`. */
+  readonly name: string;
+  readonly #fields = new Map<string, Field>();
+  readonly #sink: EventSink;
+  readonly behaviour: Behaviour;
+
+  constructor(
+    name: string,
+    specifications: FieldSpecifications,
+    sink: EventSink,
+    makeBehaviour: (node: EventNode) => Behaviour,
+  ) {
+    this.name = name;
+    this.#sink = sink;
+    for (const [field, specification] of specifications) this.addField(field, specification);
+    this.behaviour = makeBehaviour(this);
+  }
+
+  /** `onValue` is called with the value of each event that arrives at the field. */
+  addField(field: string, specification: FieldSpecification, onValue?: (value: Value) => void): void {
+    this.#fields.set(field, { specification, value: specification.defaultValue, routes: [], cascade: -1, onValue });
+  }
+
+  specificationOf(field: string): FieldSpecification | undefined {
+    return this.#fields.get(field)?.specification;
+  }
+
+  get fieldNames(): IterableIterator<string> {
+    return this.#fields.keys();
+  }
+
+  /** The value of a field, or of its last event. */
+  valueOf(field: string): Value | undefined {
+    return this.#fields.get(field)?.value;
+  }
+
+  numberOf(field: string): number {
+    return this.valueOf(field) as number;
+  }
+
+  isTrue(field: string): boolean {
+    return this.valueOf(field) === true;
+  }
+
+  numbersOf(field: string): readonly number[] {
+    return this.valueOf(field) as readonly number[];
+  }
+
+  /** Sets a value without an event. */
+  initialize(field: string, value: Value): void {
+    const known = this.#fields.get(field);
+    if (known) known.value = value;
+  }
+
+  addRoute(field: string, destination: Destination): void {
+    this.#fields.get(field)?.routes.push(destination);
+  }
+
+  /** Removes all routes that begin at the node. */
+  clearRoutes(): void {
+    for (const { routes } of this.#fields.values()) routes.length = 0;
+  }
+
+  /** An event arrives at an input. */
+  receive(field: string, value: Value, time: number): void {
+    const known = this.#fields.get(field);
+    if (known === undefined) return;
+    if (known.specification.access === "inputOutput") this.send(field, value);
+    else known.value = value;
+    known.onValue?.(value);
+    this.behaviour.receive(field, value, time);
+  }
+
+  /**
+   * Sends an event from an output. A field sends one event in a cascade at most, so that routes in circles end
+   * (ISO/IEC 19775-1, 4.4.8.4).
+   */
+  send(field: string, value: Value): void {
+    const known = this.#fields.get(field);
+    if (known === undefined || known.cascade === this.#sink.cascade) return;
+    known.cascade = this.#sink.cascade;
+    known.value = value;
+    this.#sink.sent(this, field, value, known.routes);
+  }
+
+  warn(message: string): void {
+    this.#sink.warn(this, message);
+  }
+}

@@ -1,0 +1,223 @@
+// Plays a document's animation: runs its clocks, sends what happens outside into the event graph, and hands on what
+// changes, once for each frame.
+
+import type { DrawnFieldOf, FieldChange } from "./documentGraph.ts";
+import { DocumentGraph } from "./documentGraph.ts";
+import type { AnimatedElement } from "./elements.ts";
+import { EventGraph } from "./eventGraph.ts";
+import type { EventNode } from "./eventNode.ts";
+import type { Value } from "./fieldTypes.ts";
+import { isOfType } from "./fieldTypes.ts";
+import { nodeTypeOf } from "./nodeTypes.ts";
+import { TimeSensor } from "./timeSensor.ts";
+
+/** Where the player gets its time from. */
+export interface Clock {
+  /** Seconds since 1970, as X3D's SFTime. */
+  now(): number;
+  /** Calls back once before the next frame, or after `delay` seconds. Returns a function that cancels the call. */
+  schedule(callback: () => void, delay: number): () => void;
+}
+
+export interface PlayerHost {
+  readonly drawnFieldOf: DrawnFieldOf;
+  /** Fields of drawn nodes have received values: one entry for each field. */
+  apply(changes: readonly FieldChange[]): void;
+  /** A field of a node with behaviour has received a value from an event; its attribute follows. */
+  writeAttribute(element: AnimatedElement, field: string, text: string): void;
+  /** A node with behaviour has sent an event. */
+  onEvent(element: AnimatedElement, field: string, value: Value): void;
+  /** One sentence. */
+  warn(message: string): void;
+}
+
+/** A longer wait is one of several shorter ones, since timers count milliseconds in 32 bits. */
+const maxDelay = 1e6;
+
+export class AnimationPlayer {
+  readonly #clock: Clock;
+  readonly #host: PlayerHost;
+  readonly #graph: EventGraph;
+  readonly #document: DocumentGraph;
+  readonly #pending: FieldChange[] = [];
+  /** How much the scene's time is behind the clock's, in seconds: the time for which it has been paused. */
+  #lag = 0;
+  #pausedAt: number | undefined;
+  #mayStartByItself: boolean;
+  #cancelTick: (() => void) | undefined;
+  /** Fields of nodes with behaviour whose attributes are out of date. */
+  readonly #outdated = new Map<EventNode, Set<string>>();
+  #isDisposed = false;
+
+  /** `mayStartByItself`: whether clocks run that no event has started. */
+  constructor(root: AnimatedElement, clock: Clock, host: PlayerHost, mayStartByItself = true) {
+    this.#clock = clock;
+    this.#host = host;
+    this.#mayStartByItself = mayStartByItself;
+    this.#graph = new EventGraph({
+      onEvent: (node, field, value) => {
+        this.#onEvent(node, field, value);
+      },
+      onWarning: (node, message) => {
+        host.warn(`${node.name} ${message}`);
+      },
+    });
+    this.#document = new DocumentGraph(root, this.#graph, {
+      drawnFieldOf: host.drawnFieldOf,
+      onChange: (change) => {
+        this.#pending.push(change);
+      },
+      warn: (message) => {
+        host.warn(message);
+      },
+    });
+  }
+
+  /** Seconds since 1970, without the time for which the scene has been paused. */
+  get time(): number {
+    return (this.#pausedAt ?? this.#clock.now()) - this.#lag;
+  }
+
+  /** The nodes with behaviour by their elements, in document order. */
+  get nodes(): ReadonlyMap<AnimatedElement, EventNode> {
+    return this.#document.nodes;
+  }
+
+  /** Whether a clock runs, so that the next frame may differ. */
+  get isMoving(): boolean {
+    return this.#cancelTick !== undefined && this.#pausedAt === undefined;
+  }
+
+  /** Reads nodes and routes, for the first time or again. */
+  read(): void {
+    this.#document.read();
+    this.#applyMotionRule();
+    this.#tickSoon();
+  }
+
+  set isPaused(isPaused: boolean) {
+    if (isPaused === (this.#pausedAt !== undefined)) return;
+    if (isPaused) {
+      this.#pausedAt = this.#clock.now();
+      this.#cancelTick?.();
+      this.#cancelTick = undefined;
+      return;
+    }
+    this.#lag += this.#clock.now() - (this.#pausedAt ?? 0);
+    this.#pausedAt = undefined;
+    this.#tickSoon();
+  }
+
+  set mayStartByItself(mayStart: boolean) {
+    if (mayStart === this.#mayStartByItself) return;
+    this.#mayStartByItself = mayStart;
+    this.#applyMotionRule();
+    this.#tickSoon();
+  }
+
+  /** A script has set or removed an attribute. Returns whether a node has taken it as an event. */
+  attributeChanged(element: AnimatedElement, attribute: string): boolean {
+    const isEvent = this.#document.attributeChanged(element, attribute, this.time);
+    if (isEvent) this.flush();
+    return isEvent;
+  }
+
+  /** Sends events from outside, such as a sensor's, with the present time. What they change is handed on at once. */
+  run(begin: (time: number) => void): void {
+    const { time } = this;
+    this.#graph.run(time, () => {
+      begin(time);
+    });
+    this.flush();
+  }
+
+  /** The value of a field, or of its last event; undefined where there is none. */
+  valueOf(element: AnimatedElement, field: string): Value | undefined {
+    return this.#document.nodeOf(element)?.valueOf(field);
+  }
+
+  /** Sends a value to a field, as an event. Returns false where there is no such field, or the value is of another type. */
+  setValue(element: AnimatedElement, field: string, value: unknown): boolean {
+    const node = this.#document.nodeOf(element);
+    const specification = node?.specificationOf(field);
+    if (!node || !specification || specification.access === "outputOnly" || !isOfType(value, specification.type))
+      return false;
+    this.run((time) => {
+      node.receive(field, value, time);
+    });
+    return true;
+  }
+
+  /** Hands on what has changed, and plans the next frame. */
+  flush(): void {
+    for (const [node, fields] of this.#outdated) {
+      const element = this.#document.elementOf(node);
+      for (const field of fields) {
+        const value = node.valueOf(field);
+        const type = node.specificationOf(field)?.type;
+        if (element && type && value !== undefined) this.#host.writeAttribute(element, field, type.format(value));
+      }
+    }
+    this.#outdated.clear();
+    if (this.#pending.length > 0) {
+      const changes = this.#pending.splice(0);
+      for (const change of changes) change.isPending = false;
+      this.#host.apply(changes);
+    }
+    this.#tickSoon();
+  }
+
+  dispose(): void {
+    this.#isDisposed = true;
+    this.#cancelTick?.();
+  }
+
+  #onEvent(node: EventNode, field: string, value: Value): void {
+    const element = this.#document.elementOf(node);
+    if (element === undefined) return;
+    this.#host.onEvent(element, field, value);
+    if (node.specificationOf(field)?.access !== "inputOutput") return;
+    const fields = this.#outdated.get(node);
+    if (fields) fields.add(field);
+    else this.#outdated.set(node, new Set([field]));
+  }
+
+  #applyMotionRule(): void {
+    for (const { behaviour } of this.#document.nodes.values())
+      if (behaviour instanceof TimeSensor) behaviour.mayStartByItself = this.#mayStartByItself;
+  }
+
+  /** Plans the next tick for the time at which a node needs it. */
+  #tickSoon(): void {
+    this.#cancelTick?.();
+    this.#cancelTick = undefined;
+    if (this.#isDisposed || this.#pausedAt !== undefined) return;
+    const { time } = this;
+    let next = Infinity;
+    for (const { behaviour } of this.#document.nodes.values())
+      next = Math.min(next, behaviour.nextTick?.(time) ?? Infinity);
+    if (next < Infinity)
+      this.#cancelTick = this.#clock.schedule(
+        () => {
+          this.#tick();
+        },
+        Math.min(maxDelay, Math.max(0, next - time)),
+      );
+  }
+
+  #tick(): void {
+    this.#cancelTick = undefined;
+    const { time } = this;
+    for (const { behaviour } of this.#document.nodes.values())
+      if (behaviour.tick)
+        this.#graph.run(time, () => {
+          behaviour.tick?.(time);
+        });
+    this.flush();
+  }
+}
+
+/** Whether an element sends events, by its name. */
+export function hasBehaviour(element: AnimatedElement): boolean {
+  return nodeTypeOf(element.localName) !== undefined;
+}
