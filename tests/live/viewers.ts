@@ -38,7 +38,7 @@ export function startViewer({ url, certificate, isHttp2 }: ViewerOptions): Viewe
         if (added !== null) addedAt.set(Number(/\d+$/.exec(target as string)?.[0]), Number(added));
         return response;
       },
-      decode: frameImages,
+      decode: async (bytes) => ({ header: (await frameImages(bytes)).header, display: () => undefined }),
       now: () => performance.now(),
       delay: (ms, signal) => pause(ms, undefined, { signal }),
     },

@@ -9,8 +9,9 @@ import {
   classicValues,
   classicWords,
 } from "./classic/classicArrays.ts";
-import { classicGrid } from "./classic/classicGrid.ts";
+import { classicGrid, gridIndex } from "./classic/classicGrid.ts";
 import { compactBases, compactPatches } from "./compact/jobs.ts";
+import { frameArrays } from "./frame/frameArrays.ts";
 import { frameImages } from "./frame/frameImages.ts";
 
 export const jobs = {
@@ -25,6 +26,8 @@ export const jobs = {
   compactPatches,
   compactBases,
   frameImages,
+  frameArrays,
+  gridIndex,
 } as const;
 
 export type JobName = keyof typeof jobs;

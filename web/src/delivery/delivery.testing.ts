@@ -72,6 +72,9 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     makeWritableImage: () => {
       throw new Error("no streams here");
     },
+    makeWritableArray: () => {
+      throw new Error("no streams here");
+    },
     makeTextureImage: (png) => {
       textureImages.open += 1;
       return Promise.resolve({

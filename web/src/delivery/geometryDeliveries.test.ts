@@ -41,6 +41,9 @@ function deliveriesOf() {
       makeWritableImage: () => {
         throw new Error("no streams here");
       },
+      makeWritableArray: () => {
+        throw new Error("no streams here");
+      },
       makeTextureImage: () => Promise.reject(new Error("no texture images here")),
       storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
       download: {

@@ -258,7 +258,7 @@ class GeometryDelivery implements Delivery {
   #recordStoredBytes({ builder, files }: PatchState, tracked: TrackedFile, content: Content): void {
     this.#storedBytes = undefined;
     if (content.kind === "live") {
-      tracked.storedBytes = content.images.byteLength;
+      tracked.storedBytes = content.vertices.byteLength;
     } else if (content.kind === "image") {
       tracked.storedBytes = content.image.width * content.image.height * bytesPerTexel;
     } else if (builder.isDivisible && files.every(isSeparate)) {

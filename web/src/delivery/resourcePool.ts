@@ -6,6 +6,8 @@ import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
+import type { GpuValues, GpuVertices, NormalFormat, WritableArray } from "../stage/stage.ts";
+import type { ElementArray, IndexArray } from "../stage/vertexArray.ts";
 import type { InputOf, JobName, OutputOf, RunJob } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { ByteSemaphore } from "../scheduler/byteSemaphore.ts";
@@ -19,13 +21,13 @@ export type Content =
   | ({ readonly kind: "image" } & DataImage)
   | ({ readonly kind: "textureImage" } & TextureImage)
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> }
-  | { readonly kind: "live"; readonly images: LiveImages }
+  | { readonly kind: "live"; readonly vertices: LiveVertices }
   | { readonly kind: "patches"; readonly patches: readonly PatchBuffers[] }
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
  * The form that a file is decoded to: a texture, its own bytes, or either, as the GPU allows; a texture image; or all
- * patches or base meshes that it holds, which a job decodes; or images that frames of a live stream fill (live/).
+ * patches or base meshes that it holds, which a job decodes; or what frames of a live stream fill (live/).
  */
 export type ContentTarget =
   | { readonly kind: "live" }
@@ -34,14 +36,36 @@ export type ContentTarget =
   | { readonly kind: "patches"; readonly job: FileJob<PatchBuffers[]> }
   | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> };
 
-/** The images that frames of a live stream fill. */
+/** The images or arrays that frames of a live stream fill. */
+export type LiveVertices = LiveImages | LiveArrays;
+
 export interface LiveImages {
+  readonly kind: "images";
   readonly coord: readonly DecodedImage[];
   readonly normal: DecodedImage | undefined;
   readonly color: DecodedImage | undefined;
   readonly value: readonly DecodedImage[];
   /** On the GPU. */
   readonly byteLength: number;
+}
+
+export interface LiveArrays {
+  readonly kind: "arrays";
+  readonly vertexCount: number;
+  /** Size of the image that the coordinates would have, whose columns and rows an index may name. */
+  readonly width: number;
+  readonly height: number;
+  readonly coord: GpuVertices;
+  readonly normal: GpuVertices | undefined;
+  readonly normalFormat: NormalFormat;
+  readonly color: GpuVertices | undefined;
+  readonly value: GpuValues | undefined;
+  readonly byteLength: number;
+  /**
+   * Makes `normal` follow from these triangles, in the displayed frame and all later ones. Rejects with the signal's
+   * reason.
+   */
+  deriveNormals(index: IndexArray, signal: AbortSignal): Promise<void>;
 }
 
 /** The jobs that turn the bytes of a file into an Output. */
@@ -106,6 +130,8 @@ export interface DeliveryOptions {
   readonly makeTextureImage: MakeTextureImage;
   /** Allocates an image on the GPU. */
   readonly makeWritableImage: (width: number, height: number) => WritableImage;
+  /** Stores vertices, which may change. */
+  readonly makeWritableArray: (array: ElementArray) => WritableArray;
   readonly download: DownloadOptions;
   /** Makes a URL of the document absolute. */
   readonly resolve: (url: string) => string;
@@ -156,6 +182,10 @@ export class ResourcePool {
 
   makeWritableImage(width: number, height: number): WritableImage {
     return this.#options.makeWritableImage(width, height);
+  }
+
+  makeWritableArray(array: ElementArray): WritableArray {
+    return this.#options.makeWritableArray(array);
   }
 
   /** Whether shaders read textures exactly. */

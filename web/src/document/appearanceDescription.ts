@@ -105,6 +105,8 @@ export interface LineDescription {
 export interface ColorMapDescription {
   readonly colors: readonly Vec3[];
   readonly range: Vec2;
+  /** Whether the live stream that has the values states the range (attributes.ts, withStreamedRange). */
+  readonly isRangeStreamed?: boolean;
 }
 
 export interface AppearanceDescription {

@@ -2,12 +2,14 @@
 // that colors a shape, whose values a color map maps to colors; otherwise it is the depth in fog.
 
 import type {
+  AppearanceDescription,
   AttributeDescription,
   ColorMapDescription,
   Encoding,
   GeometryDescription,
   Reference,
   ValueUse,
+  Vec2,
 } from "./description.ts";
 import { fogDepthName } from "./description.ts";
 import { encodingFormats } from "./encodings.ts";
@@ -65,7 +67,7 @@ export function withValues(
 }
 
 /** The range of an attribute's values; for several components the range of their length. */
-function rangeOf({ components, min, size }: AttributeDescription): readonly [number, number] {
+export function rangeOf({ components, min, size }: Pick<AttributeDescription, "components" | "min" | "size">): Vec2 {
   const low = min[0] ?? 0;
   if (components === 1) return [low, low + (size[0] ?? 0)];
   return [0, Math.hypot(...min.map((lowest, c) => Math.max(Math.abs(lowest), Math.abs(lowest + (size[c] ?? 0)))))];
@@ -85,5 +87,17 @@ export function colorMapOf(
   }
   if (geometry.attributes.some(({ name }) => name === fogDepthName && name !== values.colorBy))
     warnings.push({ element, message: `colorBy="${values.colorBy}": its fog depends on the distance from the viewer` });
-  return { colors: values.colorMap, range: values.colorRange ?? rangeOf(geometry.value) };
+  const colors = values.colorMap;
+  if (values.colorRange !== undefined) return { colors, range: values.colorRange };
+  return { colors, range: rangeOf(geometry.value), ...(geometry.encoding === "live" && { isRangeStreamed: true }) };
+}
+
+/** The appearance of a geometry with streamed values: without a stated `colorRange` the stream states the range. */
+export function withStreamedRange(
+  appearance: AppearanceDescription,
+  { value }: Pick<GeometryDescription, "value">,
+): AppearanceDescription {
+  const { colorMap } = appearance;
+  if (colorMap?.isRangeStreamed !== true || value?.streamedRange === undefined) return appearance;
+  return { ...appearance, colorMap: { ...colorMap, range: value.streamedRange } };
 }

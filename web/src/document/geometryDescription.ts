@@ -91,6 +91,8 @@ export interface AttributeDescription {
   /** By component: the range that stored integers are quantized over, or that floats lie in. */
   readonly min: readonly number[];
   readonly size: readonly number[];
+  /** For values from a live stream: the range that it states; for several components, that of their length. */
+  readonly streamedRange?: Vec2;
 }
 
 /** The use of the attribute whose values shaders read: they color the vertices, or are their depths in fog. */

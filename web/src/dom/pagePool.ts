@@ -32,6 +32,7 @@ export function makePagePool(
     runOnMainThread: (name, input, signal) => workers.runOnMainThread(name, input, signal),
     makeTextureImage: (bytes, sampling, signal) => uploads.makeTextureImage(bytes, sampling, signal),
     makeWritableImage: (width, height) => renderer.makeWritableImage(width, height),
+    makeWritableArray: (array) => renderer.makeWritableArray(array),
     storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
     download: defaultDownloadOptions,
     prefetchedBases: takePrefetchedBases,

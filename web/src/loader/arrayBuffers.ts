@@ -1,16 +1,17 @@
 // Vertex and index arrays for three.js apps. They stay in JavaScript, as in three.js' own
 // attributes, so that any renderer can upload them, and restored contexts get them back.
 
-import type { BufferGeometry } from "three";
-import { BufferAttribute, InterleavedBuffer } from "three";
+import type { BufferGeometry, Usage } from "three";
+import { BufferAttribute, DynamicDrawUsage, InterleavedBuffer, StaticDrawUsage } from "three";
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
-import type { GpuArray } from "../stage/stage.ts";
+import type { GpuArray, WritableArray } from "../stage/stage.ts";
 import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 
 interface StoredArray {
   readonly array: ElementArray;
+  readonly usage: Usage;
   /** One three.js buffer per element type and stride. */
   readonly records: Map<string, InterleavedBuffer>;
 }
@@ -18,21 +19,34 @@ interface StoredArray {
 export class ArrayBuffers implements BufferProvider {
   readonly #arrays = new WeakMap<GpuArray, StoredArray>();
 
-  store(array: ElementArray): GpuArray {
+  store(array: ElementArray, usage: Usage = StaticDrawUsage): GpuArray {
     const gpuArray = {
       byteLength: array.byteLength,
       close: () => {
         this.#arrays.delete(gpuArray);
       },
     };
-    this.#arrays.set(gpuArray, { array, records: new Map() });
+    this.#arrays.set(gpuArray, { array, usage, records: new Map() });
     return gpuArray;
   }
 
+  /** Stores vertices, which change in place. */
+  makeWritable(array: ElementArray): WritableArray {
+    const bytes = this.store(array.slice(), DynamicDrawUsage);
+    return {
+      bytes,
+      write: (elements) => {
+        const stored = this.#arrays.get(bytes);
+        stored?.array.set(elements);
+        for (const buffer of stored?.records.values() ?? []) buffer.needsUpdate = true;
+      },
+    };
+  }
+
   recordsOf(gpuArray: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
-    const { records } = this.#arrayOf(gpuArray);
+    const { records, usage } = this.#arrayOf(gpuArray);
     const key = `${type} ${stride}`;
-    const buffer = records.get(key) ?? new InterleavedBuffer(this.#viewOf(gpuArray, type), stride);
+    const buffer = records.get(key) ?? new InterleavedBuffer(this.#viewOf(gpuArray, type), stride).setUsage(usage);
     records.set(key, buffer);
     return buffer;
   }

@@ -81,6 +81,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       runJob,
       makeTextureImage: (bytes, sampling, signal) => textures.makeTextureImage(bytes, sampling, signal),
       makeWritableImage: (width, height) => textures.makeWritableImage(width, height),
+      makeWritableArray: (array) => buffers.makeWritable(array),
       storeBytes: async (array, _, signal) => {
         await uploadThrottle.waitForFrame(array.byteLength, signal);
         return buffers.store(array);

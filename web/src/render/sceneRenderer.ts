@@ -16,7 +16,7 @@ import {
 } from "three";
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
-import type { ArrayUse, Stage } from "../stage/stage.ts";
+import type { ArrayUse, Stage, WritableArray } from "../stage/stage.ts";
 import type {
   AnchorDescription,
   CubeMapRole,
@@ -286,6 +286,18 @@ export class SceneRenderer {
       image: writable.image,
       write: (texels) => {
         writable.write(texels);
+        this.requestFrame();
+      },
+    };
+  }
+
+  /** Vertices that change; writing them draws a frame. */
+  makeWritableArray(array: ElementArray): WritableArray {
+    const writable = this.#buffers.makeWritable(array);
+    return {
+      bytes: writable.bytes,
+      write: (elements) => {
+        writable.write(elements);
         this.requestFrame();
       },
     };

@@ -2,7 +2,7 @@
 // without knowing the encoding: it replaces the previous stage of a patch by the next.
 
 import type { ByVertexRole } from "./attributeRows.ts";
-import type { Bounds, VertexArray } from "./vertexArray.ts";
+import type { Bounds, ElementArray, VertexArray } from "./vertexArray.ts";
 import type { ElementType } from "./elementType.ts";
 import type { DecodedImage } from "./decodedImage.ts";
 
@@ -106,6 +106,13 @@ export interface GpuArray {
   readonly byteLength: number;
   /** Frees the memory. */
   close(): void;
+}
+
+/** Vertices that change. */
+export interface WritableArray {
+  readonly bytes: GpuArray;
+  /** Replaces all elements, by as many of the same type, before the next frame. */
+  write(array: ElementArray): void;
 }
 
 /** WebGL must know the use beforehand: a buffer holds either vertices or indices. */

@@ -2,6 +2,7 @@
 // without an index (render/shaders/vertexChunk.ts) to arrays for buffers.
 
 import { makeIndex } from "../indexArray.ts";
+import { gridNormals } from "../vertexNormals.ts";
 import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { CoordJob } from "./classicArrays.ts";
 import { sumsOf } from "./classicArrays.ts";
@@ -24,8 +25,6 @@ export interface GridArrays {
   readonly normal: VertexArray;
 }
 
-type Vector = [number, number, number];
-
 /** Decodes the coordinates of a grid, and computes its index and normals. */
 export async function classicGrid({ grid, ccw, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
   const { columns, rows } = grid;
@@ -47,7 +46,7 @@ export async function classicGrid({ grid, ccw, maxStored, step, ...job }: GridJo
   return {
     index: gridIndex(grid),
     coord: { array, components: 3, stride: 3, offset: 0 },
-    normal: { array: slopeNormals(array, grid, step, ccw ? 1 : -1), components: 3, stride: 3, offset: 0 },
+    normal: { array: gridNormals({ array, stride: 3 }, grid, step, ccw ? 1 : -1), components: 3, stride: 3, offset: 0 },
   };
 }
 
@@ -66,41 +65,4 @@ export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
     }
   }
   return index;
-}
-
-/** Normals of the surface, from central differences. */
-function slopeNormals(
-  points: Float32Array,
-  { kind, columns, rows }: Grid,
-  step: readonly number[],
-  side: 1 | -1,
-): Float32Array<ArrayBuffer> {
-  const isClosed = kind === "sculpt";
-  const normals = new Float32Array(points.length);
-  const at = (row: number, column: number, axis: number) => points[3 * (row * columns + column) + axis] ?? 0;
-  const normalAt = (row: number, column: number): Vector => {
-    const left = isClosed ? (column + columns - 1) % columns : Math.max(column - 1, 0);
-    const right = isClosed ? (column + 1) % columns : Math.min(column + 1, columns - 1);
-    const [above, below] = [Math.max(row - 1, 0), Math.min(row + 1, rows - 1)];
-    const across = [0, 1, 2].map((axis) => at(row, right, axis) - at(row, left, axis)) as Vector;
-    const down = [0, 1, 2].map((axis) => at(below, column, axis) - at(above, column, axis)) as Vector;
-    return cross(down, across).map((component, axis) => (side * component) / (step[axis] ?? 1)) as Vector;
-  };
-  for (let row = 0; row < rows; ++row) {
-    for (let column = 0; column < columns; ++column) {
-      let normal = normalAt(row, column);
-      // At a pole all points of a row coincide; the normals are then those of the next row.
-      if (normal.every((component) => component === 0)) normal = normalAt(row === 0 ? 1 : row - 1, column);
-      const length = Math.hypot(...normal) || 1;
-      normals.set(
-        normal.map((component) => component / length),
-        3 * (row * columns + column),
-      );
-    }
-  }
-  return normals;
-}
-
-function cross(a: Vector, b: Vector): Vector {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }

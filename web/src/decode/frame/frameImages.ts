@@ -5,6 +5,7 @@ import { DecodeError } from "../decodeError.ts";
 import { decodeFrame } from "./frame.ts";
 import type { ComponentRun, FrameHeader, FrameLayout } from "./frameHeader.ts";
 import { componentRunsOf } from "./frameHeader.ts";
+import { normalWords } from "./normalWords.ts";
 
 /** Texels of four bytes, row by row. Vertex n is texel n; texels behind the last vertex are 0. */
 export type Texels = Uint8Array<ArrayBuffer>;
@@ -63,13 +64,12 @@ function planes(components: readonly Uint32Array[], bits: number, texelBytes: nu
   });
 }
 
-/** Numbers 0 … 2^bits − 2 are spread over those of 16 bits. */
 function pairTexels(components: readonly Uint32Array[], bits: number, texelBytes: number): Texels {
   const texels = new Uint8Array(texelBytes);
-  const max = 2 ** bits - 2;
   components.forEach((values, channel) => {
-    for (let vertex = 0; vertex < values.length; ++vertex) {
-      const word = Math.round((Math.min(values[vertex] ?? 0, max) * (2 ** 16 - 2)) / max);
+    const words = normalWords(values, bits);
+    for (let vertex = 0; vertex < words.length; ++vertex) {
+      const word = words[vertex] ?? 0;
       texels[4 * vertex + channel] = word >>> 8;
       texels[4 * vertex + 2 + channel] = word;
     }

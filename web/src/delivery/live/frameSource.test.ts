@@ -118,16 +118,7 @@ async function follow(line: Line, durationMs: number) {
         }
       },
       // Unpacking would take real time, which the simulated clock does not know.
-      decode: (bytes) =>
-        Promise.resolve({
-          header: readFrameHeader(bytes),
-          width: 2,
-          height: 2,
-          coord: [],
-          normal: undefined,
-          color: undefined,
-          value: [],
-        }),
+      decode: (bytes) => Promise.resolve({ header: readFrameHeader(bytes), display: () => undefined }),
       now: () => now,
       delay: sleep,
     },

@@ -2,11 +2,12 @@
 // skipped and never queued, and whatever fails is tried again.
 
 import { DecodeError } from "../../decode/decodeError.ts";
-import type { FrameImages } from "../../decode/frame/frameImages.ts";
+import type { FrameHeader } from "../../decode/frame/frameHeader.ts";
 import { frameHeaderBytes, maxUnpackedBytes } from "../../decode/frame/frameHeader.ts";
 import type { AttemptListener } from "../../scheduler/download.ts";
 import { download, RequestError } from "../../scheduler/download.ts";
 import { FrameSchedule } from "./frameSchedule.ts";
+import type { DecodedFrame } from "./frameTarget.ts";
 import type { StreamState } from "./streamState.ts";
 import { readStreamState } from "./streamState.ts";
 
@@ -15,7 +16,7 @@ export interface FrameSourceOptions {
   readonly url: string;
   readonly fetch: typeof fetch;
   /** Decodes a frame in a worker. Rejects with DecodeError, or with the signal's reason. */
-  readonly decode: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<FrameImages>;
+  readonly decode: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<DecodedFrame>;
   /** Milliseconds of a clock that never runs backwards. */
   readonly now: () => number;
   /** Resolves after the given time, or rejects with the signal's reason. */
@@ -26,7 +27,7 @@ export interface FrameSourceListener {
   /** Called before the first frame and before that of another epoch. */
   onEpoch(state: StreamState): void;
   /** A frame newer than all before. `skipped`: the number of frames between it and the one before. */
-  onFrame(frame: FrameImages, skipped: number, byteLength: number): void;
+  onFrame(frame: DecodedFrame, skipped: number, byteLength: number): void;
   /** No frame can be had. Called once until the next frame; the source tries on by itself. */
   onOutage(error: Error): void;
 }
@@ -266,7 +267,7 @@ function failureOf(error: RequestError, isFrame: boolean): Error {
   return status === 503 ? new RequestError("timeout", url, "the publisher sends no frames", status) : error;
 }
 
-function isSameLayout(a: FrameImages["header"], b: StreamState): boolean {
+function isSameLayout(a: FrameHeader, b: StreamState): boolean {
   return (
     a.vertices === b.vertices &&
     a.columns === b.columns &&

@@ -1,38 +1,47 @@
-// The images on the GPU that frames of one epoch fill, each frame in place of the one before.
+// Images on the GPU that frames of one epoch fill, for shaders that read vertices from images.
 
 import type { FrameImages, Texels } from "../../decode/frame/frameImages.ts";
 import type { WritableImage } from "../../stage/decodedImage.ts";
 import type { LiveImages } from "../resourcePool.ts";
 import { bytesPerTexel } from "../patchFiles.ts";
+import type { DecodedFrame, FrameTarget, TargetTools } from "./frameTarget.ts";
 
-export class FrameTarget implements LiveImages {
-  readonly #all: readonly WritableImage[];
-  readonly coord: LiveImages["coord"];
-  readonly normal: LiveImages["normal"];
-  readonly color: LiveImages["color"];
-  readonly value: LiveImages["value"];
-  readonly byteLength: number;
+export class ImageTarget implements FrameTarget {
+  readonly #tools: TargetTools;
+  #all: readonly WritableImage[] = [];
+  vertices: LiveImages | undefined;
 
-  /** Allocates images for frames like this one, with its vertices. */
-  constructor(frame: FrameImages, makeImage: (width: number, height: number) => WritableImage) {
-    const { width, height } = frame;
-    this.#all = texelsOf(frame).map(() => makeImage(width, height));
-    const images = this.#all.map(({ image }) => image);
-    this.byteLength = images.length * width * height * bytesPerTexel;
-    this.coord = images.splice(0, frame.coord.length);
-    this.normal = frame.normal && images.shift();
-    this.color = frame.color && images.shift();
-    this.value = images;
-    this.write(frame);
+  constructor(tools: TargetTools) {
+    this.#tools = tools;
   }
 
-  /** Replaces all vertices before the next frame of the page. */
-  write(frame: FrameImages): void {
-    texelsOf(frame).forEach((texels, index) => this.#all[index]?.write(texels));
+  async decode(bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DecodedFrame> {
+    const frame = await this.#tools.runJob("frameImages", bytes, signal);
+    return {
+      header: frame.header,
+      display: () => {
+        if (this.vertices === undefined) this.#allocate(frame);
+        texelsOf(frame).forEach((texels, index) => this.#all[index]?.write(texels));
+      },
+    };
   }
 
   close(): void {
     for (const { image } of this.#all) image.close();
+  }
+
+  #allocate(frame: FrameImages): void {
+    const { width, height } = frame;
+    this.#all = texelsOf(frame).map(() => this.#tools.makeWritableImage(width, height));
+    const images = this.#all.map(({ image }) => image);
+    this.vertices = {
+      kind: "images",
+      byteLength: images.length * width * height * bytesPerTexel,
+      coord: images.splice(0, frame.coord.length),
+      normal: frame.normal && images.shift(),
+      color: frame.color && images.shift(),
+      value: images,
+    };
   }
 }
 

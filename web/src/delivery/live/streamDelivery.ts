@@ -2,8 +2,6 @@
 // files begins, to which the stream is one more file; frames then change the vertices of the delivered stage. Another
 // epoch gets a delivery of its own, which replaces the one before when it is whole.
 
-import type { FrameImages } from "../../decode/frame/frameImages.ts";
-import { DecodeError } from "../../decode/decodeError.ts";
 import type { GeometryDescription, Playback } from "../../document/description.ts";
 import type { BudgetRequest } from "../../scheduler/budget.ts";
 import { pause } from "../../scheduler/pause.ts";
@@ -15,17 +13,19 @@ import { deliverGeometry } from "../geometryDelivery.ts";
 import type { Transfer } from "../progress.ts";
 import type { Content, ResourceHandle, ResourcePool, ResourceRequest } from "../resourcePool.ts";
 import { FrameSource } from "./frameSource.ts";
-import { FrameTarget } from "./liveImages.ts";
+import type { DecodedFrame, FrameTarget } from "./frameTarget.ts";
+import { ArrayTarget } from "./liveArrays.ts";
+import { ImageTarget } from "./liveImages.ts";
 import type { StreamState } from "./streamState.ts";
-import { withStreamState } from "./streamGeometry.ts";
+import { gridNormalsOf, withStreamState } from "./streamGeometry.ts";
 
 /** The delivery of the frames of one epoch. */
 interface EpochDelivery {
   readonly geometry: GeometryDescription;
   readonly delivery: Delivery;
-  /** Resolves with the images of the first frame. */
+  /** Resolves with the vertices of the first frame. */
   readonly content: PromiseWithResolvers<Content>;
-  target: FrameTarget | undefined;
+  readonly target: FrameTarget;
   stage: Stage | undefined;
   /** The newest frame, while the listener does not know that it is displayed. */
   frame: LiveFrame | undefined;
@@ -48,7 +48,8 @@ class StreamDelivery implements Delivery {
   #priorityOf: FilePriority = () => undefined;
   /** Whether the shape is visible. */
   #isNeeded = false;
-  #isSupported = false;
+  /** Whether shaders read images exactly; undefined while this is not known. */
+  #readsTextures: boolean | undefined;
   #isPaused = false;
   #isCancelled = false;
 
@@ -62,7 +63,7 @@ class StreamDelivery implements Delivery {
       {
         url: pool.resolve(url),
         fetch: pool.fetch,
-        decode: (bytes, signal) => pool.runJob("frameImages", bytes, signal),
+        decode: (bytes, signal) => this.#decode(bytes, signal),
         now: () => performance.now(),
         delay: pause,
       },
@@ -110,7 +111,7 @@ class StreamDelivery implements Delivery {
     if (this.#isNeeded && this.#transfer.tries === 0) {
       this.#transfer.tries = 1;
       this.#transfer.state = "loading";
-      void this.#checkSupport();
+      void this.#prepare();
     }
     this.#followNeeds();
     this.#newest?.delivery.request(priorityOf, granted);
@@ -134,29 +135,38 @@ class StreamDelivery implements Delivery {
 
   /** Frames are requested while the shape is visible; if it is paused, until the first one is displayed. */
   #followNeeds(): void {
-    const isRunning = this.#isSupported && this.#isNeeded && !(this.#isPaused && this.#displayed !== undefined);
+    const isReady = this.#readsTextures !== undefined && !this.#isCancelled;
+    const isRunning = isReady && this.#isNeeded && !(this.#isPaused && this.#displayed !== undefined);
     if (isRunning) this.#source.start();
     else this.#source.stop();
   }
 
-  async #checkSupport(): Promise<void> {
-    const { decode, ccw } = this.#geometry;
-    this.#isSupported = decode !== "cpu" && ccw && (await this.#pool.readsTextures());
-    if (this.#isCancelled) return;
-    if (this.#isSupported) this.#followNeeds();
-    else
-      this.#onOutage(new DecodeError("unsupported", 'is drawn only where the GPU reads images, and with ccw="true"'));
+  async #prepare(): Promise<void> {
+    this.#readsTextures = await this.#pool.readsTextures();
+    this.#followNeeds();
+  }
+
+  /** A frame of the newest epoch. */
+  #decode(bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DecodedFrame> {
+    const epoch = this.#newest;
+    if (epoch === undefined) throw new RangeError("a frame before its epoch");
+    return epoch.target.decode(bytes, signal);
   }
 
   #onEpoch(state: StreamState): void {
     if (this.#next) close(this.#next);
-    const geometry = withStreamState(this.#geometry, state);
+    const { maxTextureSize } = this.#pool;
+    const readsTextures = this.#readsTextures === true;
+    const geometry = withStreamState(this.#geometry, state, { readsTextures, maxTextureSize });
     const content = Promise.withResolvers<Content>();
     content.promise.catch(() => undefined); // there may be nobody who waits for it
     const epoch: EpochDelivery = {
       geometry,
       content,
-      target: undefined,
+      target:
+        geometry.decode === "gpu"
+          ? new ImageTarget(this.#pool)
+          : new ArrayTarget(this.#pool, gridNormalsOf(geometry, state)),
       stage: undefined,
       frame: undefined,
       delivery: deliverGeometry(geometry, this.#poolWith(content.promise), {
@@ -178,7 +188,7 @@ class StreamDelivery implements Delivery {
     epoch.delivery.request(this.#priorityOf);
   }
 
-  #onFrame(frame: FrameImages, skipped: number, byteLength: number): void {
+  #onFrame(frame: DecodedFrame, skipped: number, byteLength: number): void {
     const epoch = this.#newest;
     if (epoch === undefined) return;
     const { number, time } = frame.header;
@@ -187,12 +197,9 @@ class StreamDelivery implements Delivery {
       this.#transfer.state = "ready";
       this.#transfer.error = undefined;
     }
-    if (epoch.target !== undefined) {
-      epoch.target.write(frame);
-    } else {
-      epoch.target = new FrameTarget(frame, (width, height) => this.#pool.makeWritableImage(width, height));
-      epoch.content.resolve({ kind: "live", images: epoch.target });
-    }
+    frame.display();
+    const { vertices } = epoch.target;
+    if (vertices !== undefined) epoch.content.resolve({ kind: "live", vertices });
     epoch.frame = { number, time, skipped: skipped + (epoch.frame ? epoch.frame.skipped + 1 : 0) };
     if (epoch === this.#displayed) this.#reportFrame(epoch);
   }
@@ -248,5 +255,5 @@ class StreamDelivery implements Delivery {
 
 function close({ delivery, target }: EpochDelivery): void {
   delivery.cancel();
-  target?.close();
+  target.close();
 }

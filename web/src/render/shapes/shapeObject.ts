@@ -4,6 +4,7 @@ import type { Texture } from "three";
 import { Vector3 } from "three";
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
+import { withStreamedRange } from "../../document/attributes.ts";
 import { deepEqual } from "../../document/deepEqual.ts";
 import type {
   AppearanceDescription,
@@ -239,7 +240,11 @@ export class ShapeObject {
         this.#drawnOf(displayed.stage, patch) === displayed.drawn &&
         this.#drawModeOf(displayed.stage) === displayed.drawMode &&
         orientationOf(this.#appearance.operators ?? []) === displayed.orientation;
-      if (isSame) displayed.draws.applyAppearance(this.#appearance, new Map(this.#surfaceTextures));
+      if (isSame)
+        displayed.draws.applyAppearance(
+          withStreamedRange(this.#appearance, displayed.geometry),
+          new Map(this.#surfaceTextures),
+        );
       else this.setStage(displayed.geometry, patchIndex, displayed.stage);
     }
   }
@@ -264,7 +269,7 @@ export class ShapeObject {
       ...context,
       geometry,
       patch,
-      appearance: this.#appearance,
+      appearance: withStreamedRange(this.#appearance, geometry),
       surfaceTextures: new Map(this.#surfaceTextures),
     };
     const draws =

@@ -9,7 +9,7 @@ import { GLBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import type { ElementType } from "../../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf, glTypeOf } from "../../stage/elementType.ts";
-import type { ArrayUse, GpuArray } from "../../stage/stage.ts";
+import type { ArrayUse, GpuArray, WritableArray } from "../../stage/stage.ts";
 import type { BufferProvider, BufferUpload } from "./bufferProvider.ts";
 
 const bytesPerStep = 2 ** 18;
@@ -38,25 +38,26 @@ export class BufferStore implements BufferProvider {
   }
 
   begin(array: ElementArray, use: ArrayUse): BufferUpload {
+    const { byteLength } = array;
+    if (byteLength <= maxBytesKept)
+      return { bytes: this.#add(byteLength, { array, use }), steps: deferredUpload(byteLength) };
+    const buffer = this.#gl.createBuffer();
+    return { bytes: this.#add(byteLength, buffer), steps: uploadPieces(this.#gl, buffer, array, use) };
+  }
+
+  /** Stores vertices that can be replaced, all at once, before a frame is drawn. */
+  makeWritable(array: ElementArray): WritableArray {
     const gl = this.#gl;
     const { byteLength } = array;
-    this.#bytes += byteLength;
-    const bytes = {
-      byteLength,
-      close: () => {
-        const held = this.#buffers.get(bytes);
-        if (!this.#buffers.delete(bytes)) return;
-        this.#bytes -= byteLength;
-        if (held instanceof WebGLBuffer) gl.deleteBuffer(held);
-      },
-    };
-    if (byteLength <= maxBytesKept) {
-      this.#buffers.set(bytes, { array, use });
-      return { bytes, steps: deferredUpload(byteLength) };
-    }
     const buffer = gl.createBuffer();
-    this.#buffers.set(bytes, buffer);
-    return { bytes, steps: uploadPieces(gl, buffer, array, use) };
+    const bytes = this.#add(byteLength, buffer);
+    allocate(gl, buffer, byteLength, "vertices", gl.DYNAMIC_DRAW);
+    const write = (elements: ElementArray): void => {
+      if (elements.byteLength !== byteLength) throw new RangeError("another number of elements");
+      if (this.#buffers.has(bytes)) uploadPiece(gl, buffer, 0, elements);
+    };
+    write(array);
+    return { bytes, write };
   }
 
   recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer {
@@ -114,6 +115,21 @@ export class BufferStore implements BufferProvider {
     geometry.dispose();
   }
 
+  #add(byteLength: number, held: WebGLBuffer | KeptArray): GpuArray {
+    this.#bytes += byteLength;
+    const bytes = {
+      byteLength,
+      close: () => {
+        const held = this.#buffers.get(bytes);
+        if (!this.#buffers.delete(bytes)) return;
+        this.#bytes -= byteLength;
+        if (held instanceof WebGLBuffer) this.#gl.deleteBuffer(held);
+      },
+    };
+    this.#buffers.set(bytes, held);
+    return bytes;
+  }
+
   #bufferOf(bytes: GpuArray): WebGLBuffer {
     const held = this.#heldOf(bytes);
     if (held instanceof WebGLBuffer) return held;
@@ -145,24 +161,34 @@ function* uploadPieces(
   const all = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   for (let first = 0; first < all.length || first === 0; first += bytesPerStep) {
     const piece = all.subarray(first, first + bytesPerStep);
-    if (first === 0) allocate(gl, buffer, all.length, use);
-    gl.bindBuffer(gl.COPY_WRITE_BUFFER, buffer);
-    gl.bufferSubData(gl.COPY_WRITE_BUFFER, first, piece);
-    gl.bindBuffer(gl.COPY_WRITE_BUFFER, null);
+    if (first === 0) allocate(gl, buffer, all.length, use, gl.STATIC_DRAW);
+    uploadPiece(gl, buffer, first, piece);
     yield piece.length;
   }
+}
+
+function uploadPiece(gl: WebGL2RenderingContext, buffer: WebGLBuffer, first: number, piece: ElementArray): void {
+  gl.bindBuffer(gl.COPY_WRITE_BUFFER, buffer);
+  gl.bufferSubData(gl.COPY_WRITE_BUFFER, first, piece);
+  gl.bindBuffer(gl.COPY_WRITE_BUFFER, null);
 }
 
 /**
  * The first target that a buffer is bound to fixes its use. A bound vertex array object records index buffers, so
  * three.js' own is unbound meanwhile.
  */
-function allocate(gl: WebGL2RenderingContext, buffer: WebGLBuffer, byteLength: number, use: ArrayUse): void {
+function allocate(
+  gl: WebGL2RenderingContext,
+  buffer: WebGLBuffer,
+  byteLength: number,
+  use: ArrayUse,
+  hint: GLenum,
+): void {
   const target = use === "index" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
   const vertexArray = gl.getParameter(gl.VERTEX_ARRAY_BINDING) as WebGLVertexArrayObject | null;
   gl.bindVertexArray(null);
   gl.bindBuffer(target, buffer);
-  gl.bufferData(target, byteLength, gl.STATIC_DRAW);
+  gl.bufferData(target, byteLength, hint);
   gl.bindBuffer(target, null);
   gl.bindVertexArray(vertexArray);
 }

@@ -1,5 +1,5 @@
 // Stages of SIG classic without the GPU's texture units: workers decode each image to an array, and the stages read
-// buffers.
+// buffers. Coordinates may come from a live stream, which fills buffers of its own.
 
 import type { VertexRole } from "../../../stage/attributeRows.ts";
 import { vertexRoles, withTexCoordRoles } from "../../../stage/attributeRows.ts";
@@ -19,7 +19,7 @@ import { ArrayUploads } from "../../arrayUploads.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
 import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
-import type { Content } from "../../resourcePool.ts";
+import type { Content, LiveArrays, LiveVertices } from "../../resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
@@ -68,7 +68,7 @@ class AvailableArrays {
   coordPlanes: (ImageFile | undefined)[] = [];
   /** The undecoded index image, until the first coordinate image is available. */
   waitingIndex: ImageFile | undefined;
-  coordHeader: ImageHeader | undefined;
+  coordHeader: Pick<ImageHeader, "width" | "height"> | undefined;
   coord: GpuVertices | undefined;
   coordPlaneCount = 0;
   indexedDraws: IndexedDraws | undefined;
@@ -82,6 +82,8 @@ class AvailableArrays {
   /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
   value: GpuVertices | undefined;
+  /** In place of all of these, as far as a live stream has them. The stream owns them. */
+  streamed: LiveArrays | undefined;
 }
 
 export function bufferStageBuilder(
@@ -108,6 +110,10 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   async accept(file: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
+    if (content.kind === "live") {
+      await this.#acceptStream(content.vertices, signal);
+      return;
+    }
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
     const available = this.#available;
     const image = { bytes: content.bytes, firstTexel: firstTexelOf(file.reference) };
@@ -135,7 +141,7 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   get storedBytes(): number {
-    return this.#uploads.byteLength;
+    return this.#uploads.byteLength + (this.#available.streamed?.byteLength ?? 0);
   }
 
   drop(): void {
@@ -154,12 +160,16 @@ class BufferStageBuilder implements StageBuilder {
 
   stage(): BufferStage | undefined {
     const available = this.#available;
-    const { coord, attributes, value } = available;
+    const { attributes, streamed } = available;
+    const coord = streamed?.coord ?? available.coord;
     if (coord === undefined) return undefined;
-    const normalFormat =
+    const storedFormat =
       attributes.normal && this.#patch.lowBytes.normal === undefined
         ? normalFormatOf(this.#geometry)
         : ({ kind: "vector" } as const);
+    const value = streamed
+      ? this.#geometry.value && streamed.value
+      : available.value && { ...available.value, maxStored: undefined };
     const attained = attainedStageName(this.#patch, {
       index: available.indexedDraws,
       attributes,
@@ -180,10 +190,28 @@ class BufferStageBuilder implements StageBuilder {
       index,
       draws,
       coord,
-      attributes: { ...attributes, normal: attributes.normal ?? available.slopeNormals },
-      normalFormat,
-      value: value && { ...value, maxStored: undefined },
+      attributes: {
+        ...attributes,
+        normal: streamed?.normal ?? attributes.normal ?? available.slopeNormals,
+        color: streamed?.color ?? attributes.color,
+      },
+      normalFormat: streamed?.normal ? streamed.normalFormat : storedFormat,
+      value,
+      ...(streamed && { bounds: this.#patch.box }),
     };
+  }
+
+  /** The first frame of a live stream has arrived. */
+  async #acceptStream(vertices: LiveVertices, signal: AbortSignal): Promise<void> {
+    if (vertices.kind !== "arrays") throw new DecodeError("malformed", "is in images");
+    const available = this.#available;
+    const { grid } = this.#patch;
+    const gridIndex = grid && (await this.#run("gridIndex", grid, signal));
+    available.indexedDraws ??= await this.#drawsWithoutFile(available, gridIndex, signal);
+    available.streamed = vertices;
+    available.coordPlaneCount = this.#patch.coord.length;
+    available.coordHeader = vertices;
+    await this.#decodeIndex(available, signal);
   }
 
   /** Decodes the byte planes from the most significant on, as far as they are available. */
@@ -317,7 +345,9 @@ class BufferStageBuilder implements StageBuilder {
         },
         signal,
       );
-      available.indexedDraws = { index: await this.#uploads.storeIndex(drawn.index, signal), draws: drawn.draws };
+      const indexedDraws = { index: await this.#uploads.storeIndex(drawn.index, signal), draws: drawn.draws };
+      await this.#deriveNormals(available, drawn.index, drawn.draws, signal);
+      available.indexedDraws = indexedDraws;
     } catch (error) {
       if (signal.aborted) {
         available.waitingIndex = file; // the coordinates were aborted, not the index
@@ -328,10 +358,38 @@ class BufferStageBuilder implements StageBuilder {
     }
   }
 
-  #layout({ width, height }: ImageHeader, { firstTexel }: { firstTexel: number } = { firstTexel: 0 }): RecordLayout {
+  /** Makes the normals of a live surface, where it has none, follow from its triangles. */
+  async #deriveNormals(
+    { streamed }: AvailableArrays,
+    index: IndexArray,
+    draws: readonly DrawRange[],
+    signal: AbortSignal,
+  ): Promise<void> {
+    const isSurface = draws.every(({ primitive }) => primitive === "triangles");
+    if (streamed === undefined || streamed.normal || this.#patch.normal || !isSurface) return;
+    await streamed.deriveNormals(trianglesOf(index, draws), signal);
+  }
+
+  #layout(
+    { width, height }: Pick<ImageHeader, "width" | "height">,
+    { firstTexel }: { firstTexel: number } = { firstTexel: 0 },
+  ): RecordLayout {
     const { index, grid, vertexCount, implicitWidth } = this.#patch;
     if (grid !== undefined) return { count: vertexCount, rowLength: implicitWidth };
     if (index === undefined) return { count: cornerCountOf(this.#patch), rowLength: implicitWidth };
     return { count: vertexCount || width * height - firstTexel, rowLength: 0 };
   }
+}
+
+/** The triangles of all draws one after the other, without corners that complete none. */
+function trianglesOf(index: IndexArray, draws: readonly DrawRange[]): IndexArray {
+  if (draws.every(({ count }) => count % 3 === 0)) return index;
+  const triangles = draws.map(({ first, count }) => index.subarray(first, first + count - (count % 3)));
+  const all = new Uint32Array(triangles.reduce((sum, { length }) => sum + length, 0));
+  let at = 0;
+  for (const corners of triangles) {
+    all.set(corners, at);
+    at += corners.length;
+  }
+  return all;
 }

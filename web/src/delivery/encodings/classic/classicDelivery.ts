@@ -40,7 +40,11 @@ function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, 
 function targetOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): ContentTarget {
   if (!isDrawnFromImages(geometry, patch)) return { kind: "bytes" };
   if (geometry.decode === "gpu") return { kind: "texture" };
+  return { kind: imageEdgeOf(patch) > maxTextureSize ? "bytes" : "either" };
+}
+
+/** The longest edge of the images of a patch, in texels. */
+export function imageEdgeOf(patch: PatchDescription): number {
   const texelCount = patch.grid ? patch.vertexCount : cornerCountOf(patch);
-  const edge = Math.max(patch.implicitWidth, Math.ceil(texelCount / patch.implicitWidth));
-  return { kind: edge > maxTextureSize ? "bytes" : "either" };
+  return Math.max(patch.implicitWidth, Math.ceil(texelCount / patch.implicitWidth));
 }

@@ -1,5 +1,6 @@
-// Delivery of live streams: images of SIG classic for what is static (index, texture coordinates …), and images that
-// frames fill for coordinates and whatever else the stream has.
+// Delivery of live streams: images of SIG classic for what is static (index, texture coordinates …), and images or
+// buffers that frames fill for coordinates and whatever else the stream has. `decode` of the geometry states which:
+// live/streamGeometry.ts decides.
 
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
 import type { TextureStage } from "../../../stage/stage.ts";
@@ -9,6 +10,7 @@ import type { PatchFile } from "../../patchFiles.ts";
 import type { LiveImages } from "../../resourcePool.ts";
 import type { StageBuilder } from "../../stageBuilder.ts";
 import { classicDelivery } from "../classic/classicDelivery.ts";
+import { bufferStageBuilder } from "../classic/classicBufferStage.ts";
 import { textureStageBuilder } from "../classic/classicStage.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
 
@@ -17,10 +19,10 @@ export const liveDelivery: EncodingDelivery = {
     ...streamFilesOf(patch),
     ...classicDelivery
       .patchFilesOf(geometry, patch, maxTextureSize)
-      .filter(({ role }) => role !== "coord" && role !== "value")
-      .map((file) => ({ ...file, target: { kind: "texture" } as const })),
+      .filter(({ role }) => role !== "coord" && role !== "value"),
   ],
-  stageBuilder: (geometry, patch) => liveStageBuilder(geometry, patch),
+  stageBuilder: (geometry, patch, _, tools) =>
+    geometry.decode === "gpu" ? imageStageBuilder(geometry, patch) : bufferStageBuilder(geometry, patch, tools),
   needsWorkers: () => true,
 };
 
@@ -34,7 +36,7 @@ export function streamFilesOf({ coord: [reference], vertexCount, coord }: PatchD
   ];
 }
 
-function liveStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+function imageStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   const builder = textureStageBuilder(geometry, patch);
   let live: LiveImages | undefined;
   const fileOf = (role: PatchFile["role"], plane: number): PatchFile => ({
@@ -60,8 +62,9 @@ function liveStageBuilder(geometry: GeometryDescription, patch: PatchDescription
     ...builder,
     accept(file, content, signal) {
       if (file.role !== "coord") return builder.accept(file, content, signal);
-      if (content.kind !== "live") throw new DecodeError("malformed", "is no live stream");
-      live = content.images;
+      if (content.kind !== "live" || content.vertices.kind !== "images")
+        throw new DecodeError("malformed", "is no live stream in images");
+      live = content.vertices;
       const accept = (role: PatchFile["role"], plane: number, image: LiveImages["coord"][number]) =>
         builder.accept(fileOf(role, plane), { kind: "image", image, channels: 4 }, signal);
       for (const [plane, image] of live.coord.entries()) void accept("coord", plane, image);
