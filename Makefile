@@ -39,7 +39,8 @@ hall: build ## serve a hall of 4 million triangles to walk through [PORT=8080]
 terrain: build ## serve an elevation model, coloured by height [PORT=8080]
 	@scripts/demo --terrain
 
-test: dependencies ## run every test: C++, TypeScript and the browser
+test: ## run every test: C++, TypeScript and the browser
+	@scripts/dependencies --test
 	@scripts/test
 
 check: dependencies ## check the types and the style of the TypeScript
