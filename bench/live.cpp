@@ -1,87 +1,21 @@
-// Bytes and times of live frames beside images of the same integers, for motions of different kinds. Prints a Markdown
-// table. Usage: build/bench/live MODEL...: the first model, encoded and decoded again, is bent for the last row.
+// Bytes and times of live frames beside other codings of the same integers, for motions of different kinds: images
+// (PNG as stream.mpng has it, and at effort 5; lossless WebP), lossless video (VP9), and predictions that frames do not
+// have. Prints a Markdown table. Usage: build/bench/live MODEL...: the first model, encoded and decoded again, is bent.
 
 #include "base/file.h"
-#include "bench/process.h"
-#include "containers/png/png.h"
+#include "bench/live_motions.h"
+#include "bench/live_rivals.h"
 #include "images/encode_image.h"
-#include "imgeo/convert.h"
-#include "imgeo/site.h"
-#include "live/frame.h"
 #include "live/frame_image.h"
 #include "live/quantise.h"
-#include "motions/motion.h"
-#include "motions/random.h"
 
 #include <ctime>
-#include <fmt/format.h>
 
 namespace {
 
 using namespace imgeo;
 
-/// Positions without any order.
-class Noise final : public Motion {
-public:
-  explicit Noise(std::uint32_t grid) : random_(1) {
-    columns_ = grid;
-    positions_.resize(std::size_t{grid} * grid);
-    box_.add({-1, -1, -1});
-    box_.add({1, 1, 1});
-    advance(1);
-  }
-  void advance(double) override {
-    for (Vec3f& position : positions_)
-      position = {2 * random_.unit() - 1, 2 * random_.unit() - 1, 2 * random_.unit() - 1};
-  }
-
-private:
-  Random random_;
-};
-
-/// A mesh whose vertices keep their order and turn about the y axis, the more the higher they are.
-class Bending final : public Motion {
-public:
-  explicit Bending(std::vector<Vec3f> rest) : rest_(std::move(rest)) {
-    positions_ = rest_;
-    Box3d box;
-    for (const Vec3f position : rest_)
-      box.add(Vec3d(position));
-    center_ = Vec3f(box.center());
-    const double radius = box.longestEdge();
-    box_.add(box.center() + Vec3d{-radius, -radius, -radius});
-    box_.add(box.center() + Vec3d{radius, radius, radius});
-    size_ = static_cast<float>(radius);
-  }
-  void advance(double seconds) override {
-    time_ += static_cast<float>(seconds);
-    for (std::size_t i = 0; i < rest_.size(); ++i) {
-      const Vec3f p = rest_[i] - center_;
-      const float angle = 0.8F * std::sin(2 * time_ + 3 * p.y / size_);
-      positions_[i] = center_ + Vec3f{p.x * std::cos(angle) - p.z * std::sin(angle), p.y,
-                                      p.x * std::sin(angle) + p.z * std::cos(angle)};
-    }
-  }
-
-private:
-  std::vector<Vec3f> rest_;
-  Vec3f center_;
-  float size_ = 1, time_ = 0;
-};
-
-/// The vertices of a model in the order in which imgeo encodes them.
-std::unique_ptr<Motion> makeBending(const std::string& model, const std::filesystem::path& folder) {
-  ConvertOptions options;
-  options.pictures = false;
-  options.encoding = Encoding::compact;
-  convert(model, folder / "site", options);
-  std::vector<Vec3f> positions;
-  for (const SiteMesh& mesh : readSiteMeshes(folder / "site").meshes)
-    for (const auto& position : mesh.positions)
-      positions.push_back(
-          {static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2])});
-  return std::make_unique<Bending>(std::move(positions));
-}
+constexpr double interval = 1.0 / 30;
 
 /// Milliseconds of this thread on a processor.
 double threadMilliseconds() {
@@ -107,23 +41,30 @@ Raster rasterOf(const Image& image) {
   return raster;
 }
 
-void measure(const std::string& name, Motion& motion, std::size_t frames) {
+live::Frame frameOf(const Motion& motion, const live::Description& description) {
+  live::Frame frame;
+  const live::Arrays arrays{{&motion.positions().front().x, 3 * motion.positions().size()}, {}, {}, {}};
+  live::quantise(arrays, description, frame);
+  return frame;
+}
+
+void measure(const std::string& name, Motion& motion, std::size_t frames, const std::filesystem::path& folder) {
   live::Description description;
-  const Box3d& box = motion.box();
   description.layout.vertices = static_cast<std::uint32_t>(motion.positions().size());
   description.layout.columns = motion.columns();
-  description.box = box;
-  double quantiseMs = 0, encodeMs = 0, decodeMs = 0, pngMs = 0;
-  std::uint64_t bytes = 0, linearBytes = 0, previousBytes = 0, pngBytes = 0, smallPngBytes = 0, webpBytes = 0,
-                clamped = 0;
+  description.box = motion.box();
+  const auto* mesh = dynamic_cast<const MeshMotion*>(&motion);
+  const auto parallelograms =
+      mesh ? parallelogramsOf(mesh->indices(), description.layout.vertices) : std::vector<Parallelogram>();
   const char* predictions[] = {"none", "previous", "linear", "planar"};
+  double quantiseMs = 0, encodeMs = 0, decodeMs = 0, pngMs = 0, webpMs = 0;
+  std::uint64_t bytes = 0, pngBytes = 0, smallPngBytes = 0, webpBytes = 0, meshBytes = 0, timeBytes = 0, keyBytes = 0;
   live::Prediction prediction{};
+  std::vector<Bytes> images;
+  live::Frame before = frameOf(motion, description), key;
   for (std::size_t i = 0; i < frames; ++i) {
-    for (int step = 0; step < 5; ++step)
-      motion.advance(1.0 / 30);
-    live::Frame frame;
-    const live::Arrays arrays{{&motion.positions().front().x, 3 * motion.positions().size()}, {}, {}, {}};
-    clamped += timed(quantiseMs, [&] { return quantise(arrays, description, frame); });
+    motion.advance(interval);
+    const live::Frame frame = timed(quantiseMs, [&] { return frameOf(motion, description); });
     prediction = live::choosePrediction(frame);
     const Bytes encoded = timed(encodeMs, [&] { return encodeFrame(frame); });
     if (timed(decodeMs, [&] { return live::decodeFrame(encoded, ""); }) != frame) {
@@ -131,22 +72,39 @@ void measure(const std::string& name, Motion& motion, std::size_t frames) {
       std::exit(1);
     }
     bytes += encoded.size();
-    linearBytes += encodeFrame(frame, live::Prediction::linear).size();
-    previousBytes += encodeFrame(frame, live::Prediction::previous).size();
-    const Bytes png = timed(pngMs, [&] { return live::imageOfFrame(encoded, ""); });
-    pngBytes += png.size();
-    const Image image = decodePng(png, "");
+    if (mesh)
+      meshBytes += bytesAlongTriangles(frame, parallelograms);
+    // A key frame each second.
+    if (i % 30 == 0)
+      key = frame;
+    keyBytes += i % 30 == 0 ? encoded.size() : std::min(bytesAfter(frame, key), encoded.size());
+    timeBytes += i % 30 == 0 ? encoded.size() : std::min(bytesAfter(frame, before), encoded.size());
+    images.push_back(timed(pngMs, [&] { return live::imageOfFrame(encoded, ""); }));
+    pngBytes += images.back().size();
+    const Image image = decodePng(images.back(), "");
     smallPngBytes += encodePng(image, 5).size();
-    webpBytes += encodeLosslessWebp(rasterOf(image)).size();
+    const Raster raster = rasterOf(image);
+    webpBytes += timed(webpMs, [&] { return encodeLosslessWebp(raster); }).size();
+    before = frame;
   }
-  const auto ratio = [&](std::uint64_t other) { return static_cast<double>(bytes) / static_cast<double>(other); };
-  const auto mean = [&](double sum) { return sum / static_cast<double>(frames); };
+  const auto video = encodeVideo(images, folder);
+  const auto count = static_cast<double>(frames);
+  const auto ratio = [&](double other) {
+    return other > 0 ? fmt::format("{:.2f}", static_cast<double>(bytes) / other) : "–";
+  };
   fmt::print(
-      "| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} |\n",
+      "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.0f} | {} "
+      "|\n",
       name, description.layout.vertices, predictions[static_cast<std::size_t>(prediction)], bytes / frames,
-      ratio(frames * 6 * std::uint64_t{description.layout.vertices}), ratio(pngBytes), ratio(smallPngBytes),
-      ratio(webpBytes), ratio(linearBytes), ratio(previousBytes), mean(quantiseMs), mean(encodeMs), mean(decodeMs),
-      clamped);
+      ratio(6 * count * description.layout.vertices), ratio(static_cast<double>(pngBytes)),
+      ratio(static_cast<double>(smallPngBytes)), ratio(static_cast<double>(webpBytes)),
+      ratio(video ? count * video->bytes : 0),
+      mesh ? fmt::format("{:.2f}", static_cast<double>(meshBytes) / static_cast<double>(bytes)) : "–",
+      fmt::format("{:.2f}", static_cast<double>(timeBytes) / static_cast<double>(bytes)),
+      fmt::format("{:.2f}", static_cast<double>(keyBytes) / static_cast<double>(bytes)), quantiseMs / count,
+      encodeMs / count, decodeMs / count, pngMs / count, webpMs / count,
+      video ? fmt::format("{:.1f} / {:.1f}", video->encodeMs, video->decodeMs) : "–");
+  std::fflush(stdout);
 }
 
 } // namespace
@@ -154,15 +112,19 @@ void measure(const std::string& name, Motion& motion, std::size_t frames) {
 int main(int count, char** words) {
   return runInFolder(count, words, "live", [](const std::vector<std::string>& models, const auto& folder) {
     fmt::print(
-        "| motion | vertices | prediction | bytes | of raw | of PNG, fast | of PNG, effort 5 | of WebP | of linear | "
-        "of previous | quantise, ms | encode, ms | decode, ms | clamped "
-        "|\n|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+        "| motion | vertices | prediction | bytes | of raw | of PNG, fast | of PNG, effort 5 | of WebP | of VP9 | "
+        "along triangles | from the frame before | from a key frame | quantise, ms | encode, ms | decode, ms | PNG, ms "
+        "| WebP, ms "
+        "| VP9, encode / decode, ms "
+        "|\n|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const std::uint32_t grid : {64u, 128u, 256u})
-      measure(fmt::format("cloth {} x {}", grid, grid), *makeCloth(grid, 1), 40);
-    measure("water 128 x 128", *makeWater(128, 1), 40);
-    measure("turning scanner", *makeTurntable(128, 1), 40);
+      measure(fmt::format("cloth {} x {}", grid, grid), *makeCloth(grid, 1), grid > 128 ? 30 : 60, folder);
+    measure("water 128 x 128", *makeWater(128, 1), 60, folder);
+    measure("turning scanner", *makeTurntable(128, 1), 60, folder);
+    Walker walker;
+    measure("walking figure", walker, 60, folder);
     Noise noise(128);
-    measure("noise", noise, 20);
-    measure("bent model", *makeBending(models.front(), folder), 5);
+    measure("noise", noise, 20, folder);
+    measure("bent model", *makeBending(models.front(), folder), 5, folder);
   });
 }

@@ -88,10 +88,13 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
     }
     const std::string names = (flag.positional ? flag.name : "") + (flag.positional && flag.hasLongName() ? "," : "") +
                               (flag.hasLongName() ? "--" + flag.name : "");
+    const auto check = [&flag](const std::string& value) { return faultOf(flag, value); };
+    if (flag.repeatable) {
+      app.add_option(names, arguments.lists[flag.name])->check(check);
+      continue;
+    }
     arguments.values[flag.name] = flag.defaultValue;
-    app.add_option(names, arguments.values[flag.name])->check([&flag](const std::string& value) {
-      return faultOf(flag, value);
-    });
+    app.add_option(names, arguments.values[flag.name])->check(check);
   }
   std::ranges::reverse(words); // CLI11 reads them in reverse order
   try {
@@ -104,7 +107,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
   if (arguments.has("help"))
     return arguments;
   for (const Flag& flag : command.flags)
-    if (flag.required && arguments.values[flag.name].empty())
+    if (flag.required && !flag.repeatable && arguments.values[flag.name].empty())
       refuse(&command, fmt::format("{} is missing: imgeo {} {}",
                                    flag.positional ? flag.valueName : fmt::format("--{} {}", flag.name, flag.valueName),
                                    command.name, command.usage));

@@ -15,9 +15,11 @@ struct Arguments {
   const Command* command = nullptr; ///< nullptr: `imgeo` alone with --help or --version
   std::map<std::string, std::string> values;
   std::map<std::string, bool> switches;
+  std::map<std::string, std::vector<std::string>> lists{}; ///< of repeatable flags
 
   const std::string& text(const std::string& name) const { return values.at(name); }
   std::int64_t integer(const std::string& name) const { return std::stoll(values.at(name)); }
+  const std::vector<std::string>& list(const std::string& name) const { return lists.at(name); }
   bool has(const std::string& name) const { return switches.at(name); }
 };
 

@@ -328,28 +328,41 @@ Command serveCommand() {
 }
 
 Command publishCommand() {
-  const auto required = [](Flag flag) {
-    flag.required = true;
-    return flag;
-  };
+  Flag input = positional("input", "FILE", ValueKind::file,
+                          "frames, one file after the other; otherwise standard input has them");
+  input.required = false;
+  input.repeatable = true;
+  Flag box = textFlag("box", "NUMBERS", "the smallest x,y,z and the largest; others are clamped");
+  box.required = true;
   Flag name = textFlag("name", "NAME", "the stream's name: /live/NAME");
   name.defaultValue = "stream";
   return {.name = "publish",
-          .usage = "--vertices N|CxR --box X,Y,Z,X,Y,Z [options] < FRAMES",
-          .summary = "publish frames of vertices from a pipe as a live stream",
-          .text = "Reads frames of 32-bit floats, little-endian, from standard input: x y z of all vertices, then the "
-                  "normals, the colours and the values of all of them, where the stream has them.",
-          .flags = {required(textFlag("vertices", "N|CxR", "the vertices, or columns and rows of their grid")),
-                    required(textFlag("box", "NUMBERS", "the smallest x,y,z and the largest; others are clamped")),
-                    name, integer("bits", {}, 8, 24, "16", "bits of a coordinate"),
+          .usage = "--box X,Y,Z,X,Y,Z [options] [FILE...]",
+          .summary = "publish frames of a pipe or of files as a live stream",
+          .text =
+              "Frames are PLY files, in text or binary, one behind the other (in text with a line for each vertex), "
+              "or 32-bit floats, little-endian: x y z of all vertices, then the normals, the colours and the "
+              "values of all of them, where the stream has them.",
+          .flags = {input,
+                    textFlag("vertices", "N|CxR",
+                             "the vertices, or columns and rows of their grid; of PLY files as many as the first has"),
+                    box,
+                    name,
+                    integer("bits", {}, 8, 24, "16", "bits of a coordinate"),
                     integer("normals", {}, 0, 16, "0", "bits of a normal's number, 8..16; 0: there are no normals"),
                     integer("colors", {}, 0, 4, "0", "components of a colour, 3 or 4 from 0 to 1; 0: none"),
                     textFlag("values", "NUMBERS", "the smallest and the largest value of each component"),
-                    integer("rate", {}, 0, 1000, "0", "frames per second; faster ones are dropped. 0: no limit"),
+                    textFlag("attribute", "NAME", "of PLY files: the property that has the values"),
+                    integer("rate", {}, 0, 1000, "0",
+                            "frames per second; faster ones are dropped. 0: no limit, 30 for files"),
+                    {.name = "loop", .help = "begin again after the last file"},
                     textFlag("to", "URL", "the server to publish to; otherwise this command is the server"),
                     textFlag("token", "TOKEN", "with --to: the server's token; otherwise the variable IMGEO_TOKEN"),
-                    portFlag("8090"), hostFlag(), helpFlag()},
+                    portFlag("8090"),
+                    hostFlag(),
+                    helpFlag()},
           .examples = {"./simulation | imgeo publish --vertices 128x128 --box -1,-1,-1,1,1,1 --rate 30",
+                       "imgeo publish walk-*.ply --box -1,0,-1,1,2,1 --rate 24 --loop",
                        "./scanner | imgeo publish --vertices 50000 --box -40,-3,-40,40,20,40 --name street "
                        "--to http://example.org:8080 --token secret"}};
 }

@@ -21,6 +21,7 @@ struct Flag {
   std::vector<std::string> choices{}; ///< ValueKind::choice
   std::int64_t min = 0, max = 0;      ///< ValueKind::integer
   bool positional = false;            ///< may be given without its name
+  bool repeatable = false;            ///< any number of values may be given
   bool required = false;
 
   bool takesValue() const { return valueKind != ValueKind::none; }

@@ -1,21 +1,26 @@
-// `imgeo publish`: frames of floats from a pipe become a live stream.
+// `imgeo publish`: frames of vertices from a pipe or from files become a live stream.
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/frame_input.h"
 #include "cli/interruption.h"
 #include "cli/live_options.h"
 #include "cli/terminal.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <optional>
+#include <thread>
 
 namespace imgeo::cli {
 
 namespace {
+
+/// Frames of files that are published per second where --rate does not say.
+constexpr double fileRate = 30;
 
 [[noreturn]] void refuse(const std::string& message) {
   throw Error(ErrorKind::usage, "", message);
@@ -54,7 +59,8 @@ live::Topology topologyOf(const std::string& text) {
 live::PublisherOptions streamOptionsOf(const Arguments& arguments) {
   live::PublisherOptions options;
   options.name = arguments.text("name");
-  options.topology = topologyOf(arguments.text("vertices"));
+  if (!arguments.text("vertices").empty())
+    options.topology = topologyOf(arguments.text("vertices"));
   const std::vector<double> box = numbersOf(arguments.text("box"), "box");
   if (box.size() != 6)
     refuse("--box has six numbers: the smallest x,y,z and the largest");
@@ -75,43 +81,6 @@ live::PublisherOptions streamOptionsOf(const Arguments& arguments) {
   return options;
 }
 
-/// Reads the floats of a frame from standard input, little-endian. False where the input ends before the first.
-bool readFrame(std::vector<float>& frame, std::uint64_t number) {
-  const std::size_t count = std::fread(frame.data(), sizeof(float), frame.size(), stdin);
-  if (std::ferror(stdin))
-    throw Error(ErrorKind::io, "standard input", "cannot be read");
-  if (count == 0)
-    return false;
-  if (count < frame.size())
-    throw Error(ErrorKind::truncated, "standard input",
-                fmt::format("ends within frame {}: it has {} floats instead of {}", number, count, frame.size()));
-  static_assert(std::endian::native == std::endian::little);
-  return true;
-}
-
-/// Cuts the arrays of a frame: positions, normals, colours and values follow one another.
-class FrameReader {
-public:
-  explicit FrameReader(const live::PublisherOptions& options)
-      : vertices_(options.topology.vertices), components_{3, options.normals > 0 ? std::size_t{3} : 0, options.colors,
-                                                          options.values.size()} {}
-
-  std::size_t floats() const { return vertices_ * (components_[0] + components_[1] + components_[2] + components_[3]); }
-
-  live::PublishReport publish(live::Publisher& publisher, std::span<const float> frame) const {
-    std::array<std::span<const float>, 4> arrays;
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-      arrays[i] = frame.first(vertices_ * components_[i]);
-      frame = frame.subspan(arrays[i].size());
-    }
-    return publisher.publish(arrays[0], arrays[1], arrays[2], arrays[3]);
-  }
-
-private:
-  std::size_t vertices_;
-  std::array<std::size_t, 4> components_;
-};
-
 /// Says on standard error why frames do not arrive, once for each reason.
 void reportFailure(const std::string& failure, std::string& reported) {
   if (!failure.empty() && failure != reported)
@@ -119,26 +88,93 @@ void reportFailure(const std::string& failure, std::string& reported) {
   reported = failure;
 }
 
+/// What the options say of frames.
+FrameContent contentOf(const live::PublisherOptions& options, const Arguments& arguments) {
+  return {options.topology.vertices, options.normals > 0, options.colors,
+          static_cast<std::uint32_t>(options.values.size()), arguments.text("attribute")};
+}
+
+/// Publishes frames of one input after another.
+class FramePublisher {
+public:
+  FramePublisher(const live::PublisherOptions& options, FrameContent content)
+      : options_(options), content_(std::move(content)) {
+    // PLY files tell the number of vertices.
+    if (content_.vertices > 0)
+      begin();
+  }
+
+  /// Publishes all frames of an input, `rate` of them a second; 0: as they come.
+  void publish(const std::string& file, double rate) {
+    FrameInput input(file);
+    FrameArrays frame;
+    const std::uint64_t first = read_;
+    while (input.read(content_, frame, read_)) {
+      throwIfInterrupted();
+      if (!publisher_)
+        begin();
+      if (rate > 0)
+        waitUntilDue(rate);
+      publisher_->publish(frame.positions, frame.normals, frame.colors, frame.values);
+      ++read_;
+      reportFailure(publisher_->totals().failure, reported_);
+    }
+    if (read_ == first && file != "-")
+      throw Error(ErrorKind::truncated, file, "there is no frame");
+  }
+
+  void reportTotals() const {
+    const live::PublisherTotals totals = publisher_ ? publisher_->totals() : live::PublisherTotals();
+    fmt::print("{} frames, {} dropped, {} values clamped\n", grouped(read_), grouped(totals.dropped),
+               grouped(totals.clamped));
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void begin() {
+    if (options_.topology.vertices == 0)
+      options_.topology = live::Topology::order(content_.vertices);
+    publisher_.emplace(options_);
+    fmt::print("{} (Ctrl-C stops it)\n", publisher_->url());
+    std::fflush(stdout);
+  }
+
+  void waitUntilDue(double rate) {
+    due_ = std::max(due_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate)),
+                    Clock::now());
+    std::this_thread::sleep_until(due_);
+  }
+
+  live::PublisherOptions options_;
+  FrameContent content_;
+  std::optional<live::Publisher> publisher_;
+  std::uint64_t read_ = 0;
+  std::string reported_;
+  Clock::time_point due_;
+};
+
 } // namespace
 
 int runPublish(const Arguments& arguments) {
   handleSignals();
-  const live::PublisherOptions options = streamOptionsOf(arguments);
-  const FrameReader reader(options);
-  live::Publisher publisher(options);
-  fmt::print("{} (Ctrl-C stops it)\n", publisher.url());
-  std::fflush(stdout);
-  std::vector<float> frame(reader.floats());
-  std::string reported;
-  std::uint64_t read = 0;
-  for (; readFrame(frame, read); ++read) {
-    throwIfInterrupted();
-    reader.publish(publisher, frame);
-    reportFailure(publisher.totals().failure, reported);
-  }
-  const live::PublisherTotals totals = publisher.totals();
-  fmt::print("{} frames, {} dropped, {} values clamped\n", grouped(read), grouped(totals.dropped),
-             grouped(totals.clamped));
+  live::PublisherOptions options = streamOptionsOf(arguments);
+  const std::vector<std::string>& files = arguments.list("input");
+  if (options.values.empty() != arguments.text("attribute").empty() && !arguments.text("attribute").empty())
+    refuse("--attribute needs --values, the smallest and the largest value");
+  if (arguments.has("loop") && files.empty())
+    refuse("--loop repeats files, and none is given");
+  // Files are all there at once; their frames come as the stream's rate says.
+  if (!files.empty() && options.rate == 0)
+    options.rate = fileRate;
+  FramePublisher publisher(options, contentOf(options, arguments));
+  if (files.empty())
+    publisher.publish("-", 0);
+  do
+    for (const std::string& file : files)
+      publisher.publish(file, options.rate);
+  while (arguments.has("loop"));
+  publisher.reportTotals();
   return 0;
 }
 

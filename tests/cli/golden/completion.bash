@@ -69,6 +69,7 @@ _imgeo() {
     "publish --normals") COMPREPLY=(); return ;;
     "publish --colors") COMPREPLY=(); return ;;
     "publish --values") COMPREPLY=(); return ;;
+    "publish --attribute") COMPREPLY=(); return ;;
     "publish --rate") COMPREPLY=(); return ;;
     "publish --to") COMPREPLY=(); return ;;
     "publish --token") COMPREPLY=(); return ;;
@@ -82,7 +83,7 @@ _imgeo() {
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --rate --to --token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --attribute --rate --loop --to --token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;
     manual) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
   esac

@@ -8,7 +8,7 @@ _imgeo() {
     'export:write the mesh that a site holds as PLY, OBJ or GLB'
     'sample:write a generated scene or publish a moving one'
     'serve:serve a directory over HTTP until Ctrl-C'
-    'publish:publish frames of vertices from a pipe as a live stream'
+    'publish:publish frames of a pipe or of files as a live stream'
     'completion:print a completion script for bash, zsh or fish'
     'manual:print the manual page'
   )
@@ -130,20 +130,23 @@ _imgeo() {
       '--help[print this help]' \
       ':site:_files -/' ;;
     publish) _arguments \
-      '--vertices[the vertices, or columns and rows of their grid]:vertices: ' \
+      '--vertices[the vertices, or columns and rows of their grid; of PLY files as many as the first has]:vertices: ' \
       '--box[the smallest x,y,z and the largest; others are clamped]:box: ' \
       '--name[the stream'\''s name\: /live/NAME]:name: ' \
       '--bits[bits of a coordinate]:bits: ' \
       '--normals[bits of a normal'\''s number, 8..16; 0\: there are no normals]:normals: ' \
       '--colors[components of a colour, 3 or 4 from 0 to 1; 0\: none]:colors: ' \
       '--values[the smallest and the largest value of each component]:values: ' \
-      '--rate[frames per second; faster ones are dropped. 0\: no limit]:rate: ' \
+      '--attribute[of PLY files\: the property that has the values]:attribute: ' \
+      '--rate[frames per second; faster ones are dropped. 0\: no limit, 30 for files]:rate: ' \
+      '--loop[begin again after the last file]' \
       '--to[the server to publish to; otherwise this command is the server]:to: ' \
       '--token[with --to\: the server'\''s token; otherwise the variable IMGEO_TOKEN]:token: ' \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
       '-h[print this help]' \
-      '--help[print this help]' ;;
+      '--help[print this help]' \
+      ':input:_files' ;;
     completion) _arguments \
       '-h[print this help]' \
       '--help[print this help]' \
