@@ -72,6 +72,16 @@ template <typename Visit> void visitFieldsOf(const SpotLight*, auto& light, Visi
   visit("global", light.global);
 }
 
+template <typename Visit> void visitFieldsOf(const TimeSensor*, auto& sensor, Visit&& visit) {
+  visit("cycleInterval", sensor.cycleInterval, Written::always);
+  visit("enabled", sensor.enabled);
+  visit("loop", sensor.loop);
+  visit("startTime", sensor.startTime);
+  visit("stopTime", sensor.stopTime);
+  visit("pauseTime", sensor.pauseTime);
+  visit("resumeTime", sensor.resumeTime);
+}
+
 template <typename Visit> void visitFieldsOf(const Material*, auto& material, Visit&& visit) {
   visit("diffuseColor", material.diffuseColor, Written::always);
   visit("specularColor", material.specularColor);

@@ -1,6 +1,7 @@
 #include "documents/documents.h"
 
 #include "containers/encodings.h"
+#include "documents/animation_element.h"
 #include "documents/appearance_reader.h"
 #include "documents/field_reader.h"
 #include "documents/geometry_reader.h"
@@ -21,8 +22,9 @@ namespace {
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
 constexpr std::size_t maxDepth = 256;               // of nested elements, and of nodes through their USEs
 
-constexpr std::array nodeNames{"Shape",      "Group",    "Transform", "Viewpoint", "OrthoViewpoint", "DirectionalLight",
-                               "PointLight", "SpotLight"};
+constexpr std::array nodeNames{"Shape",      "Group",          "Transform",
+                               "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
+                               "PointLight", "SpotLight",      "TimeSensor"};
 
 /// Whether a url is that of a document that `convert` has written: "0123456789abcdef.x3d".
 bool isNamedByContent(std::string_view url) {
@@ -49,6 +51,7 @@ public:
       }
     if (!found)
       fail(x3d, ErrorKind::malformed, "there is no Scene in the X3D element");
+    addRoutes();
     return std::move(document_);
   }
 
@@ -87,7 +90,11 @@ private:
       return readInline(fields);
     } else if (isGeometryNode(fields.node().name())) {
       readSharedGeometry(fields);
-    } else if (std::ranges::any_of(nodeNames, is)) {
+    } else if (is("ROUTE")) {
+      ++document_.otherElements["ROUTE"];
+      routes_.push_back(
+          {fields.text("fromNode"), fields.text("fromField"), fields.text("toNode"), fields.text("toField")});
+    } else if (std::ranges::any_of(nodeNames, is) || interpolatorKindOf(fields.node().name())) {
       const std::string use = fields.text("USE");
       return use.empty() ? readNodeElement(fields, depth) : usedNode(fields, use);
     } else if (const std::string use = fields.text("USE"); !use.empty()) {
@@ -139,6 +146,10 @@ private:
       return add(fields, readOrthoViewpoint(fields));
     if (is("Group") || is("Transform"))
       return readGrouping(fields, depth);
+    if (is("TimeSensor"))
+      return add(fields, readNode<TimeSensor>(fields));
+    if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(fields.node().name()))
+      return add(fields, readInterpolator(*kind, fields));
     return readLight(fields);
   }
 
@@ -226,6 +237,14 @@ private:
     if (equalIgnoringCase(fields.node().name(), "PointLight"))
       return add(fields, readNode<PointLight>(fields));
     return add(fields, readNode<SpotLight>(fields));
+  }
+
+  /// Adds the routes between nodes that the scene holds.
+  void addRoutes() {
+    for (const auto& [fromNode, fromField, toNode, toField] : routes_)
+      if (const auto from = defined_.find(fromNode), to = defined_.find(toNode);
+          from != defined_.end() && to != defined_.end())
+        document_.graph.routes.push_back({from->second, fromField, to->second, toField});
   }
 
   /// Adds the images that fields of an element name, such as the pictures of a Background; a file for each field
@@ -336,6 +355,10 @@ private:
   std::vector<bool> isJoinable_;               ///< by geometry: it is its own only patch, and has no DEF
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
   std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry is inline in the document, or missing
+  struct RouteText {
+    std::string fromNode, fromField, toNode, toField;
+  };
+  std::vector<RouteText> routes_;
   std::map<std::string, Shape> definedGeometries_;
   struct SharedGeometry {
     GeometryDescription geometry; ///< with patch 0

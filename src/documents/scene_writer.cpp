@@ -1,6 +1,7 @@
 #include "documents/scene_writer.h"
 
 #include "containers/encodings.h"
+#include "documents/animation_element.h"
 #include "documents/appearance_element.h"
 #include "documents/geometry_element.h"
 #include "documents/node_fields_writer.h"
@@ -39,6 +40,12 @@ Element contentElement(const PointLight& light, const Attributes& names) {
 }
 Element contentElement(const SpotLight& light, const Attributes& names) {
   return nodeElement("SpotLight", light, names);
+}
+Element contentElement(const TimeSensor& sensor, const Attributes& names) {
+  return nodeElement("TimeSensor", sensor, names);
+}
+Element contentElement(const Interpolator& interpolator, const Attributes& names) {
+  return interpolatorElement(interpolator, names);
 }
 
 /// The requested DEF: `fallback` for an element without a name that is used more than once.
@@ -91,6 +98,9 @@ void SceneWriter::chooseNames() {
   const std::vector<std::size_t> order = nodesOfDocument(graph, roots_);
   for (const std::size_t root : roots_)
     ++nodeUses[root];
+  for (const Route& route : graph.routes)
+    for (const std::size_t end : {route.fromNode, route.toNode})
+      ++nodeUses[end]; // so that it has a DEF
   for (const std::size_t index : order) {
     if (!inlinesDocument(graph.nodes[index]))
       for (const std::size_t child : graph.nodes[index].children)
@@ -184,9 +194,17 @@ std::string SceneWriter::write() {
   writeSharedGeometries();
   for (const std::size_t root : roots_)
     writeNode(root);
+  writeRoutes();
   writer_.close(scene);
   writer_.close(x3d);
   return writer_.text();
+}
+
+/// Writes the routes between nodes of this document. They stand behind all nodes, as HTML parsers and X3DOM need it.
+void SceneWriter::writeRoutes() {
+  for (const Route& route : document_.graph.routes)
+    if (nodeNames_.isWritten(route.fromNode) && nodeNames_.isWritten(route.toNode))
+      writer_.leaf(routeElement(route, nodeNames_[route.fromNode], nodeNames_[route.toNode]));
 }
 
 void SceneWriter::writeExtras(const Node& node) {

@@ -50,6 +50,8 @@ protected:
     std::string& operator[](std::size_t index) { return names_[index]; }
     /// Returns an element's DEF at the first call and its USE at later ones; nothing for an element without a name.
     Attributes defOrUse(std::size_t index);
+    /// Whether defOrUse() has been called for an element with a name.
+    bool isWritten(std::size_t index) const { return written_[index]; }
 
   private:
     std::vector<std::string> names_;
@@ -74,6 +76,7 @@ private:
   void writeAppearanceOf(const Shape& shape);
   void writeGeometryOf(const Shape& shape);
   void writeSharedGeometries();
+  void writeRoutes();
   std::pair<std::string, bool> sharedKeyOf(const Shape& shape) const;
   std::optional<Attributes> boxInGeometry(const GeometryDescription& geometry) const;
 

@@ -110,6 +110,11 @@ std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_
     shiftAll(document.head.header, firstNode);
     graph.inlined.push_back(std::move(document));
   }
+  for (Route& route : more.routes) {
+    route.fromNode += firstNode;
+    route.toNode += firstNode;
+    graph.routes.push_back(std::move(route));
+  }
   shiftAll(more.roots, firstNode);
   shiftAll(more.head.header, firstNode);
   return std::move(more.roots);

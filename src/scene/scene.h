@@ -5,6 +5,7 @@
 // Nodes refer to one another by index. A node may be the child of several others (instancing): documents write it once
 // with a DEF, and a USE for each further parent. The graph has no cycles.
 
+#include "scene/animation.h"
 #include "scene/appearance.h"
 #include "scene/lights.h"
 #include "scene/mesh.h"
@@ -61,7 +62,7 @@ struct GenericNode {
 };
 
 using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight, PointLight,
-                                 SpotLight, GenericNode>;
+                                 SpotLight, TimeSensor, Interpolator, GenericNode>;
 
 struct Node {
   std::string name; ///< becomes its DEF; if several nodes have the same name, a number is appended to the later ones
@@ -98,6 +99,7 @@ struct SceneGraph {
   std::vector<std::string> info; ///< X3D WorldInfo: author and rights of the source
   std::vector<Node> nodes;
   std::vector<std::size_t> roots;       ///< indices into `nodes`, in document order
+  std::vector<Route> routes;            ///< in the order in which documents write them
   DocumentHead head;                    ///< for X3D sources
   std::vector<InlinedDocument> inlined; ///< each is referred to by Inlines of one document only
   std::vector<Appearance> appearances;

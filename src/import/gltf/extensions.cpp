@@ -11,7 +11,7 @@ using enum ExtensionTreatment;
 using enum ExtensionStatus;
 
 // Clauses that several extensions share.
-constexpr std::string_view noAnimation = "animations are not carried over", noSound = "pages play no sound",
+constexpr std::string_view noAnimation = "only transforms of nodes are animated", noSound = "pages play no sound",
                            noPhysics = "pages simulate no physics", noBehaviour = "pages run no behaviour of the file",
                            noVideo = "pages play no media that change with time",
                            noSurroundings = "surroundings that light the model are left out",

@@ -109,12 +109,13 @@ void addInfo(const Value& asset, SceneGraph& graph) {
 }
 
 void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const MaterialOmissions& materials,
-                 const NodeOmissions& nodes, std::vector<std::string>& warnings) {
+                 const NodeOmissions& nodes, const AnimationOmissions& animations, std::vector<std::string>& warnings) {
   const auto add = [&](std::size_t count, const char* singular, const char* plural, const char* why = "") {
     if (count > 0)
       warnings.push_back(fmt::format("{} not carried over{}.", counted(count, singular, plural), why));
   };
-  add(root["animations"].size(), "animation is", "animations are");
+  add(animations.otherPaths, "animated property is", "animated properties are",
+      ": only transforms of nodes are animated");
   add(nodes.skins, "skin is", "skins are", ": skinned meshes stay as they were modelled");
   add(primitives.morphTargets, "mesh has morph targets, which are", "meshes have morph targets, which are");
   add(nodes.otherScenes, "further scene is", "further scenes are");
@@ -126,6 +127,7 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
       ": X3D's cannot scale before it rotates");
   std::ranges::copy(materials.images, std::back_inserter(warnings));
   std::ranges::copy(nodes.damage, std::back_inserter(warnings));
+  std::ranges::copy(animations.damage, std::back_inserter(warnings));
   warnOfNormals(warnings, primitives.unusableNormals);
 }
 
@@ -152,9 +154,12 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   // A file of which nothing is left fails with the cause: a missing .bin, an index out of range.
   if (nodes.firstDamage && !nodes.hasShapes())
     throw Error(*nodes.firstDamage);
+  AnimationReader animations(document, imported.scene.graph, options.strict);
+  animations.read(nodes.sceneNodes());
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
-  addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, imported.warnings);
+  addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, animations.omissions,
+              imported.warnings);
   return imported;
 }
 

@@ -139,6 +139,9 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   Node node;
   node.name = value["name"].text();
   node.content = contentOf(value);
+  const bool isMoved = moved_.contains(index);
+  if (isMoved && !std::holds_alternative<Transform>(node.content))
+    node.content = Transform{};
   if (const Transform* transform = std::get_if<Transform>(&node.content))
     scale *= std::cbrt(std::abs(affineOf(*transform).determinant()));
   node.extras = extrasOf(value);
@@ -163,7 +166,10 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   if (node.name.empty() && node.extras.empty() && node.fields.empty() && node.children.size() == 1 &&
       std::holds_alternative<Group>(node.content))
     return node.children[0];
-  return addNode(scene_.graph, std::move(node));
+  const std::size_t added = addNode(scene_.graph, std::move(node));
+  if (isMoved)
+    sceneNodes_[index] = added;
+  return added;
 }
 
 /// Adds the node's mesh, or its instances by EXT_mesh_gpu_instancing.

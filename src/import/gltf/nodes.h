@@ -1,6 +1,7 @@
 #pragma once
 // Turns glTF's scenes, nodes, meshes, cameras and lights into a scene graph.
 
+#include "import/gltf/animations.h"
 #include "import/gltf/materials.h"
 #include "import/gltf/primitive.h"
 
@@ -14,10 +15,14 @@ struct NodeOmissions {
 class NodeReader {
 public:
   NodeReader(Document& document, Scene& scene, PrimitiveReader& primitives, MaterialReader& materials, bool isStrict)
-      : document_(document), scene_(scene), primitives_(primitives), materials_(materials), isStrict_(isStrict) {}
+      : document_(document), scene_(scene), primitives_(primitives), materials_(materials), isStrict_(isStrict),
+        moved_(movedNodes(document)) {}
 
   /// Reads the document's scene; without scenes, all nodes that are no node's child; without nodes, all meshes.
   void readScene();
+
+  /// The node of the scene for each node of the document that an animation moves.
+  const std::map<std::size_t, std::size_t>& sceneNodes() const { return sceneNodes_; }
 
   /// Whether the scene has a shape.
   bool hasShapes() const { return !scene_.meshes.empty(); }
@@ -50,6 +55,8 @@ private:
   PrimitiveReader& primitives_;
   MaterialReader& materials_;
   bool isStrict_;
+  std::set<std::size_t> moved_; ///< nodes of the document that an animation moves
+  std::map<std::size_t, std::size_t> sceneNodes_;
   std::vector<bool> visited_;
   std::map<std::size_t, std::optional<std::size_t>> meshNodes_;
   std::map<std::string, std::size_t> meshes_; ///< mesh index by a primitive's JSON without material and extras

@@ -23,6 +23,12 @@ void members(auto& archive, auto& v, const Viewpoint*) {
 void members(auto& archive, auto& v, const OrthoViewpoint*) {
   archive(v.description, v.position, v.orientation, v.min, v.max, v.centerOfRotation);
 }
+void members(auto& archive, auto& v, const Interpolator*) {
+  archive(v.kind, v.keys, v.values);
+}
+void members(auto& archive, auto& v, const Route*) {
+  archive(v.fromNode, v.fromField, v.toNode, v.toField);
+}
 void members(auto& archive, auto& v, const Node*) {
   archive(v.name, v.content, v.children, v.extras, v.fields);
 }
@@ -58,7 +64,7 @@ void members(auto& archive, auto& v, const InlinedDocument*) {
   archive(v.url, v.head);
 }
 void members(auto& archive, auto& v, const SceneGraph*) {
-  archive(v.title, v.info, v.nodes, v.roots, v.head, v.inlined, v.appearances, v.textures, v.images, v.background,
+  archive(v.title, v.info, v.nodes, v.roots, v.routes, v.head, v.inlined, v.appearances, v.textures, v.images, v.background,
           v.headlight, v.isComplete);
 }
 void members(auto& archive, auto& v, const Imported*) {

@@ -10,7 +10,7 @@
 namespace imgeo::x3d {
 
 enum class NodeTreatment : std::uint8_t {
-  drawn,     ///< pages draw it, or it is a part of what they draw
+  drawn,     ///< pages draw or play it, or it is a part of what they draw
   converted, ///< convert writes another node, which pages draw
   kept,      ///< stays in the document, without effect
   dropped,   ///< is left out with its children

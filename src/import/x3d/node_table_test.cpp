@@ -52,7 +52,7 @@ std::string page() {
       "[nodes.md](nodes.md) "
       "describes the fields of the nodes that pages read.\n\n"
       "| treatment | nodes of X3D 4.0 | meaning |\n|---|--:|---|\n"
-      "| drawn | {} | pages draw it, or it is a part of what they draw; a note says of what it is not all |\n"
+      "| drawn | {} | pages draw or play it, or it is a part of what they draw; a note says of what it is not all |\n"
       "| converted | {} | `convert` writes what the note says, which pages draw; the summary has a line |\n"
       "| kept | {} | stays in the document, but in geometry that becomes images or arrays, without effect; where there "
       "is a note, the summary has a line with it |\n"

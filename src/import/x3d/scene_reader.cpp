@@ -4,6 +4,7 @@
 #include "import/x3d/faults.h"
 #include "import/x3d/inlines.h"
 #include "import/x3d/node_images.h"
+#include "import/x3d/routes.h"
 #include "import/x3d/shape_reader.h"
 #include "import/x3d/shared_patches.h"
 #include "import/x3d/summary.h"
@@ -39,9 +40,9 @@ std::vector<FieldText> fieldsOf(pugi::xml_node element, std::initializer_list<st
 class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
-      : faults_(source, options.strict, imported_.warnings, summary_), source_(source),
+      : faults_(source, options.strict, imported_.warnings, summary_), source_(source), routes_(source, faults_),
         images_(references, imported_.scene.graph.images),
-        shapes_(source, references, options, imported_, summary_, faults_),
+        shapes_(source, references, options, imported_, summary_, faults_, routes_),
         inlines_(references, options, imported_.scene, imported_.warnings) {}
 
   Imported read() {
@@ -61,6 +62,12 @@ public:
       else if (child.type() == pugi::node_comment)
         addTo(graph.roots, child);
     addTitle();
+    graph.routes = routes_.read(defined_, [&](pugi::xml_node node) {
+      for (; node && node != source_.root(); node = node.parent())
+        if (isLeftOut(node.name()) || routes_.isMalformed(node))
+          return true;
+      return false;
+    });
     shapes_.finish();
     summary_.addTo(imported_.warnings);
     return std::move(imported_);
@@ -75,27 +82,21 @@ private:
   std::optional<std::size_t> readElement(pugi::xml_node element) {
     if (element.type() == pugi::node_comment)
       return addNode(imported_.scene.graph, {"", GenericNode{commentElement, element.value(), {}}, {}, ""});
-    if (element.type() != pugi::node_element || isRouteOfLeftOut(element) || isContainerGeometry(element.name()))
+    if (element.type() != pugi::node_element || isContainerGeometry(element.name()))
       return {}; // a geometry of files is left out where it does not become a mesh
+    if (std::string_view(element.name()) == "ROUTE") {
+      routes_.note(element);
+      return {};
+    }
     if (const pugi::xml_attribute use = element.attribute("USE"))
       return resolveUse(element, use.value());
     if (isLeftOut(element.name())) {
       faults_.leaveOut(element);
       return {};
     }
+    if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(element.name()))
+      return readInterpolator(*kind, element);
     return define(element, readNode(element));
-  }
-
-  /// Whether a ROUTE connects a node that is left out, alone or within another.
-  bool isRouteOfLeftOut(pugi::xml_node element) const {
-    if (std::string_view(element.name()) != "ROUTE")
-      return false;
-    return std::ranges::any_of(std::array{"fromNode", "toNode"}, [&](const char* end) {
-      pugi::xml_node node = source_.defined(element.attribute(end).value());
-      while (node && node != source_.root() && !isLeftOut(node.name()))
-        node = node.parent();
-      return node && node != source_.root();
-    });
   }
 
   std::size_t define(pugi::xml_node element, std::size_t node) {
@@ -110,8 +111,8 @@ private:
     if (const auto found = defined_.find(name); found != defined_.end())
       return found->second;
     const pugi::xml_node target = source_.resolved(element);
-    if (target && isLeftOut(target.name()))
-      return {}; // the summary already names its DEF
+    if (target && (isLeftOut(target.name()) || routes_.isMalformed(target)))
+      return {}; // a warning already names it
     const bool isEnclosing = reading_.contains(target.internal_object());
     if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
       return define(target, readNode(target));
@@ -119,6 +120,18 @@ private:
       source_.fail(element, ErrorKind::malformed,
                    fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "a node that contains it" : "no DEF"));
     });
+  }
+
+  std::optional<std::size_t> readInterpolator(InterpolatorKind kind, pugi::xml_node element) {
+    std::optional<Interpolator> interpolator = routes_.interpolator(kind, element);
+    if (!interpolator)
+      return {};
+    Node node;
+    node.content = *std::move(interpolator);
+    node.fields = fieldsOf(element);
+    addChildren(element, node, {});
+    summary_.noteKept(element.name());
+    return define(element, addNode(imported_.scene.graph, std::move(node)));
   }
 
   std::size_t readNode(pugi::xml_node element) {
@@ -147,6 +160,9 @@ private:
     } else if (name == "Group") {
       node.content = Group{};
       node.fields = fieldsOf(element);
+    } else if (name == "TimeSensor") {
+      node.fields = fieldsOf(element);
+      node.content = routes_.timeSensor(element, node.fields);
     } else {
       node.content = genericNodeOf(element);
       // `preview` and `patch` name parts of the site that is converted.
@@ -347,6 +363,7 @@ private:
   Summary summary_;
   Faults faults_;
   const Source& source_;
+  Routes routes_;
   NodeImages images_;
   ShapeReader shapes_;
   Inlines inlines_;

@@ -24,9 +24,10 @@ constexpr std::size_t maxShortTextBytes = 512 << 10;
 } // namespace
 
 ShapeReader::ShapeReader(const Source& source, const References& references, const ImportOptions& options,
-                         Imported& imported, Summary& summary, Faults& faults)
-    : source_(source), imported_(imported), summary_(summary), faults_(faults), inlineBytes_(options.inlineBytes),
-      keptAttributes_(options.attributes), mappings_(options.attributes), containers_(source, references),
+                         Imported& imported, Summary& summary, Faults& faults, const Routes& routes)
+    : source_(source), imported_(imported), summary_(summary), faults_(faults), routes_(routes),
+      inlineBytes_(options.inlineBytes), keptAttributes_(options.attributes), mappings_(options.attributes),
+      containers_(source, references),
       sharedPatches_(source, containers_, keptAttributes_, attributes_,
                      [this](Mesh mesh, bool isSolid) { return addShape(std::move(mesh), isSolid); }) {
   addTextureMappings();
@@ -41,9 +42,9 @@ void ShapeReader::finish() {
   sharedPatches_.addTo(imported_.warnings);
 }
 
-/// Whether a geometry stays in the document because it is short and pages draw it from there.
+/// Whether a geometry stays in the document because pages draw it from there and it is short, or routes connect it.
 bool ShapeReader::staysInline(pugi::xml_node node) const {
-  return isDrawnInPages(node.name()) && geometryTextBytesOf(source_, node) <= inlineBytes_;
+  return isDrawnInPages(node.name()) && (routes_.connects(node) || geometryTextBytesOf(source_, node) <= inlineBytes_);
 }
 
 /// Adds the `mapping` of every texture of the document: the values of materials' fields such as normalTextureMapping.

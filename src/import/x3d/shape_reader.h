@@ -5,6 +5,7 @@
 #include "import/references.h"
 #include "import/x3d/container_geometry.h"
 #include "import/x3d/faults.h"
+#include "import/x3d/routes.h"
 #include "import/x3d/shared_patches.h"
 #include "import/x3d/source.h"
 #include "import/x3d/summary.h"
@@ -21,7 +22,7 @@ class ShapeReader {
 public:
   /// Adds meshes, attributes and warnings to `imported`. Everything must outlive this.
   ShapeReader(const Source& source, const References& references, const ImportOptions& options, Imported& imported,
-              Summary& summary, Faults& faults);
+              Summary& summary, Faults& faults, const Routes& routes);
 
   /// The shapes of a geometry node: one, or one for each kind of element of a container that draws several. They have
   /// the same meshes in all its USEs. Empty for geometry that stays in the document, which is read too, to report its
@@ -56,6 +57,7 @@ private:
   Imported& imported_;
   Summary& summary_;
   Faults& faults_;
+  const Routes& routes_;
   std::size_t inlineBytes_;
   const AttributeChoice& keptAttributes_;
   AttributeChoice mappings_; ///< keptAttributes_ and the sets of texture coordinates that textures use

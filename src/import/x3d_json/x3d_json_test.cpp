@@ -81,7 +81,8 @@ TEST(X3dJson, ReadsHeadRoutesAndScripts) {
   ASSERT_EQ(graph.head.header.size(), 3u);
   EXPECT_EQ(graph.nodes[graph.head.header[0]].fields,
             (std::vector<FieldText>{{"name", "creator"}, {"content", "somebody"}}));
-  EXPECT_EQ(graph.roots.size(), 3u);
+  EXPECT_EQ(graph.roots.size(), 2u);
+  EXPECT_EQ(graph.routes, (std::vector<Route>{{graph.roots[0], "time", graph.roots[1], "startTime"}}));
   EXPECT_EQ(imported.warnings.at(0), "Script (1) left out, since pages run no scripts; it is at a.json:5:5.");
 }
 

@@ -1,0 +1,151 @@
+#include "import/gltf/animations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+namespace imgeo::gltf {
+
+namespace {
+
+/// The field that a channel's path names; empty for weights, pointers, and paths of later versions.
+std::optional<AnimatedField> fieldOfPath(const std::string& path) {
+  if (path == "translation")
+    return AnimatedField::translation;
+  if (path == "rotation")
+    return AnimatedField::rotation;
+  if (path == "scale")
+    return AnimatedField::scale;
+  return std::nullopt;
+}
+
+KeyInterpolation interpolationOf(const Value& sampler) {
+  const std::string name = sampler["interpolation"].text("LINEAR");
+  if (name == "LINEAR")
+    return KeyInterpolation::linear;
+  if (name == "STEP")
+    return KeyInterpolation::step;
+  if (name != "CUBICSPLINE")
+    sampler["interpolation"].fail(ErrorKind::malformed, "is none of LINEAR, STEP and CUBICSPLINE");
+  return KeyInterpolation::cubicSpline;
+}
+
+} // namespace
+
+std::set<std::size_t> movedNodes(Document& document) {
+  std::set<std::size_t> moved;
+  const Value animations = document.array("animations"), nodes = document.array("nodes");
+  for (std::size_t a = 0; a < animations.size(); ++a)
+    for (std::size_t c = 0; c < animations[a]["channels"].size(); ++c) {
+      const Value target = animations[a]["channels"][c]["target"];
+      if (!target["path"].json().is_string() || !fieldOfPath(target["path"].text()) ||
+          !target["node"].json().is_number_unsigned())
+        continue;
+      if (const std::uint64_t node = target["node"].whole(); node < nodes.size() && !nodes[node].has("matrix"))
+        moved.insert(node);
+    }
+  return moved;
+}
+
+template <typename Read> void AnimationReader::attempt(const Read& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    if (isStrict_ || error.kind() == ErrorKind::limit)
+      throw;
+    omissions.damage.push_back(fmt::format("Left out: {}.", error.what()));
+  }
+}
+
+void AnimationReader::read(const std::map<std::size_t, std::size_t>& nodes) {
+  const Value animations = document_.array("animations");
+  for (std::size_t i = 0; i < animations.size(); ++i)
+    attempt([&] { readAnimation(animations[i], nodes); });
+}
+
+void AnimationReader::readAnimation(const Value& animation, const std::map<std::size_t, std::size_t>& nodes) {
+  const Value channels = animation["channels"], samplers = animation["samplers"];
+  struct ChannelKeys {
+    Channel channel;
+    const AnimationKeys* keys;
+  };
+  std::vector<ChannelKeys> read;
+  std::map<std::pair<std::size_t, AnimatedField>, AnimationKeys> keys;
+  double seconds = 0;
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    attempt([&] {
+      const std::optional<Channel> channel = channelOf(channels[i], samplers, nodes);
+      if (!channel)
+        return;
+      const std::pair key{channel->sampler, channel->field};
+      auto found = keys.find(key);
+      if (found == keys.end())
+        found = keys.emplace(key, keysOf(samplers[channel->sampler], channel->field)).first;
+      seconds = std::max<double>(seconds, found->second.seconds.back());
+      read.push_back({*channel, &found->second});
+    });
+  if (read.empty())
+    return;
+  builder_.begin(animation["name"].text(), seconds);
+  for (const auto& [channel, channelKeys] : read)
+    builder_.animate(channel.node, channel.field, *channelKeys, channelKeys);
+}
+
+std::optional<AnimationReader::Channel> AnimationReader::channelOf(const Value& channel, const Value& samplers,
+                                                                   const std::map<std::size_t, std::size_t>& nodes) {
+  const Value target = channel["target"];
+  const std::optional<AnimatedField> field = fieldOfPath(target["path"].text());
+  if (!field) {
+    ++omissions.otherPaths;
+    return {};
+  }
+  const std::optional<std::size_t> node = target.index("node", document_.array("nodes"));
+  if (!node) // the extension that says what else is animated is not known
+    return {};
+  if (document_.array("nodes")[*node].has("matrix"))
+    target["node"].fail(ErrorKind::malformed, "names a node with a matrix, which cannot be animated");
+  const std::optional<std::size_t> sampler = channel.index("sampler", samplers);
+  if (!sampler)
+    channel["sampler"].fail(ErrorKind::malformed, "is missing");
+  const auto found = nodes.find(*node);
+  if (found == nodes.end()) // it is in another scene of the file, or left out
+    return {};
+  return Channel{found->second, *sampler, *field};
+}
+
+AnimationKeys AnimationReader::keysOf(const Value& sampler, AnimatedField field) {
+  const auto accessorOf = [&](const char* name) {
+    const std::optional<std::size_t> index = sampler.index(name, document_.array("accessors"));
+    if (!index)
+      sampler[name].fail(ErrorKind::malformed, "is missing");
+    return document_.accessor(*index);
+  };
+  const Accessor input = accessorOf("input"), output = accessorOf("output");
+  AnimationKeys keys;
+  keys.interpolation = interpolationOf(sampler);
+  keys.components = field == AnimatedField::rotation ? 4 : 3;
+  const std::size_t perKey = keys.interpolation == KeyInterpolation::cubicSpline ? 3 : 1;
+  if (input.components() != 1 || input.count() == 0)
+    sampler["input"].fail(ErrorKind::malformed, "holds no times");
+  if (output.components() != keys.components || output.count() != perKey * input.count())
+    sampler["output"].fail(ErrorKind::malformed, fmt::format("holds {} values of {} numbers for {} keys",
+                                                             output.count(), output.components(), input.count()));
+  document_.spend(sampler, (input.count() + output.count() * keys.components) * 4);
+  for (std::size_t i = 0; i < input.count(); ++i) {
+    const double seconds = input.real(i, 0);
+    if (!std::isfinite(seconds) || seconds < 0 || (i > 0 && seconds <= keys.seconds.back()))
+      sampler["input"].fail(ErrorKind::malformed, fmt::format("time {} is not later than the one before", i));
+    keys.seconds.push_back(static_cast<float>(seconds));
+  }
+  for (std::size_t i = 0; i < output.count(); ++i)
+    for (std::uint32_t c = 0; c < output.components(); ++c) {
+      const double number = output.real(i, c);
+      if (!std::isfinite(number))
+        sampler["output"].fail(ErrorKind::malformed, fmt::format("value {} is not finite", i));
+      keys.values.push_back(static_cast<float>(number));
+    }
+  return keys;
+}
+
+} // namespace imgeo::gltf

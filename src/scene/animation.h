@@ -1,0 +1,66 @@
+#pragma once
+// Animation of a scene, as X3D has it (ISO/IEC 19775-1, chapters 8 and 19, and 4.4.8): a TimeSensor counts, routes take
+// its fraction to interpolators, and their values to the fields of other nodes.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace imgeo {
+
+/// X3D TimeSensor. Times are in seconds.
+struct TimeSensor {
+  double cycleInterval = 1; ///< above 0
+  bool enabled = true;
+  bool loop = false;
+  double startTime = 0, stopTime = 0, pauseTime = 0, resumeTime = 0;
+  friend bool operator==(const TimeSensor&, const TimeSensor&) = default;
+};
+
+/// The interpolators of X3D that are linear between their keys.
+enum class InterpolatorKind : std::uint8_t {
+  color,
+  coordinate,
+  coordinate2D,
+  normal,
+  orientation,
+  position,
+  position2D,
+  scalar
+};
+
+struct Interpolator {
+  InterpolatorKind kind = InterpolatorKind::position;
+  std::vector<float> keys; ///< fractions, in ascending order; equal ones are steps
+  /// componentsOf(kind) numbers for each key; for the kinds with isList() any multiple of them. An orientation is an
+  /// axis and an angle in radians.
+  std::vector<float> values;
+  friend bool operator==(const Interpolator&, const Interpolator&) = default;
+};
+
+/// X3D ROUTE: events of a field of one node set a field of another. Nodes are indices into SceneGraph::nodes.
+struct Route {
+  std::size_t fromNode = 0;
+  std::string fromField;
+  std::size_t toNode = 0;
+  std::string toField;
+  friend bool operator==(const Route&, const Route&) = default;
+};
+
+/// "PositionInterpolator" …
+const char* nodeNameOf(InterpolatorKind kind);
+/// The kind of an element, whose letters may be in another case; empty for another element.
+std::optional<InterpolatorKind> interpolatorKindOf(std::string_view element);
+
+/// Numbers of one value: 1 to 4.
+std::size_t componentsOf(InterpolatorKind kind);
+/// Whether each key has a list of values: for coordinates and normals.
+bool isList(InterpolatorKind kind);
+
+/// What is wrong with an interpolator: "its keys are not in ascending order"; "" for one that is well formed or empty.
+std::string faultOf(const Interpolator& interpolator);
+
+} // namespace imgeo
