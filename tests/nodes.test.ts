@@ -5,6 +5,7 @@ import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import type { Field } from "../web/src/document/fieldTypes.ts";
+import { nodeTypes } from "../web/src/animation/nodeTypes.ts";
 import { nodeFields } from "../web/src/document/nodes.ts";
 
 const root = join(import.meta.dirname, "..");
@@ -50,7 +51,24 @@ function documentedFields(node: string): Map<string, Row> {
   return new Map(shared.flatMap(({ table }) => [...table]));
 }
 
-const runtime: Readonly<Record<string, Readonly<Record<string, Field<unknown>>>>> = nodeFields;
+/** The fields of nodes that send events, without fields that only take or send them. */
+function eventNodeFields(): Record<string, Record<string, Field<unknown>>> {
+  return Object.fromEntries(
+    Object.entries(nodeTypes).map(([node, { fields }]) => [
+      node,
+      Object.fromEntries(
+        [...fields]
+          .filter(([, { access }]) => access === "inputOutput" || access === "initializeOnly")
+          .map(([name, { type, defaultValue }]) => [name, { type, defaultValue }]),
+      ),
+    ]),
+  );
+}
+
+const runtime: Readonly<Record<string, Readonly<Record<string, Field<unknown>>>>> = {
+  ...nodeFields,
+  ...eventNodeFields(),
+};
 
 /** Headings of nodes that convert makes meshes of, and that pages do not read. */
 const convertedNodes = ["NURBS curves and surfaces"];
@@ -67,6 +85,9 @@ const notInRuntimeTable: Readonly<Record<string, readonly string[]>> = {
     "MetadataString.name",
     "MetadataString.value",
   ],
+  "read by web/src/animation/documentGraph.ts": ["fromNode", "fromField", "toNode", "toField"].map(
+    (field) => `ROUTE.${field}`,
+  ),
   "read as an attribute by web/src/document/appearance.ts": ["PixelTexture.containerField", "TextureTransform.mapping"],
 };
 

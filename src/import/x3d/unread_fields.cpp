@@ -74,17 +74,20 @@ constexpr auto unreadFieldTable = std::to_array<UnreadField>({
     {"PixelTexture", "description", "", nothing},
     {"PointLight", "shadowIntensity", "1", nothing},
     {"PointLight", "shadows", "false", noShadows},
+    {"ProximitySensor", "description", "", nothing},
     {"Shape", "castShadow", "true", nothing},
     {"Shape", "pointerEvents", "true", nothing},
     {"SpecularMaterialExtension", "specularStrength", "1", "the field is read by glTF's name, specular"},
     {"SpotLight", "shadowIntensity", "1", nothing},
     {"SpotLight", "shadows", "false", noShadows},
+    {"SquadOrientationInterpolator", "closed", "false", nothing},
     {"TextureCoordinateGenerator", "parameter", "", "each mode of texture coordinates has its default parameters"},
     {"TextureProperties", "borderColor", "0 0 0 0", noBorder},
     {"TextureProperties", "borderWidth", "0", noBorder},
     {"TextureProperties", "boundaryModeR", "REPEAT", nothing},
     {"TextureProperties", "textureCompression", "DEFAULT", nothing},
     {"TextureProperties", "texturePriority", "0", nothing},
+    {"TimeSensor", "description", "", nothing},
     {"TwoSidedMaterial", "backAmbientIntensity", "0.2", nothing},
     {"TwoSidedMaterial", "backDiffuseColor", "0.8 0.8 0.8", nothing},
     {"TwoSidedMaterial", "backEmissiveColor", "0 0 0", nothing},
@@ -103,6 +106,7 @@ constexpr auto unreadFieldTable = std::to_array<UnreadField>({
     {"ViewpointGroup", "displayed", "true", nothing},
     {"ViewpointGroup", "retainUserOffsets", "false", movedCamera},
     {"ViewpointGroup", "size", "0 0 0", nothing},
+    {"VisibilitySensor", "description", "", nothing},
 });
 
 bool isBoolean(std::string_view text) {
