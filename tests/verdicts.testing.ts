@@ -44,7 +44,12 @@ export function writeMutants(directory: string, corpus: string, count: number, s
   }
 }
 
-function damaged(bytes: Uint8Array<ArrayBuffer>, other: Uint8Array, random: TestRandom): Uint8Array<ArrayBuffer> {
+/** A copy with a byte changed, moved, or cut off, or with the end of another file. */
+export function damaged(
+  bytes: Uint8Array<ArrayBuffer>,
+  other: Uint8Array,
+  random: TestRandom,
+): Uint8Array<ArrayBuffer> {
   if (bytes.length === 0) return bytes;
   // Half of the positions are among the first 64 bytes, where headers are.
   const at = random.below(random.below(2) === 0 ? Math.min(bytes.length, 64) : bytes.length);

@@ -215,5 +215,75 @@ test("a live stream is drawn from buffers as from images, and with normals of it
     const example = await publishSeveral(10);
     await show(triangles(example), "live: an index");
     await pickMiddle(example);
+
+    // A script that changes the files of a geometry: they take turns with the GPU memory of those before the last.
+    const filesOf = (n: number): { example: GridExample; urls: string[] } => {
+      const example = wave(100 + n);
+      const urls = [...example.files.values()].map((file, plane) => {
+        server.put(`/sheet/${n}-${plane}.png`, file);
+        return `sheet/${n}-${plane}.png`;
+      });
+      return { example, urls };
+    };
+    const grid = wave(0);
+    const image = {
+      index: undefined,
+      indexType: undefined,
+      primType: undefined,
+      vertexCount: undefined,
+      implicitMeshMode: "geometryImage",
+      implicitMeshSize: `${grid.columns} ${grid.rows}`,
+      position: "0 0 0",
+      size: "3 3 3",
+    };
+    const showImages = async (n: number): Promise<GridExample> => {
+      const { example, urls } = filesOf(n);
+      await setGeometry({ ...image, coord: urls.map((url) => `"${url}"`).join(" ") });
+      await view.promise("complete", "shape");
+      return example;
+    };
+    const binary = (n: number): { example: GridExample; url: string } => {
+      const example = wave(200 + n);
+      const { positions, normals, triangles } = plainOf(example);
+      server.put(
+        `/sheet/${n}.bin`,
+        Buffer.concat([positions, normals!, triangles].map(({ buffer }) => Buffer.from(buffer))),
+      );
+      return { example, url: `sheet/${n}.bin` };
+    };
+    const showBinary = async (n: number): Promise<GridExample> => {
+      const { example, url } = binary(n);
+      const bytes = 12 * grid.columns * grid.rows;
+      await setGeometry({
+        coord: url,
+        coordType: "Float32",
+        normal: `${url}#${bytes}`,
+        normalType: "Float32",
+        index: `${url}#${2 * bytes}`,
+        indexType: "Uint32",
+        primType: "TRIANGLES",
+        vertexCount: `${first.triangles.length}`,
+      });
+      await view.promise("complete", "shape");
+      return example;
+    };
+    /** Changes the files several times. The first changes allocate the two sets of objects. */
+    const changeSeveral = async (name: string, change: (n: number) => Promise<GridExample>): Promise<void> => {
+      for (let n = 0; n < 3; ++n) await change(n);
+      await view.picture();
+      const before = await gpuCalls(view);
+      for (let n = 3; n < 9; ++n) await change(n);
+      const example = await change(9);
+      await show(plainOf(example), `changed files: ${name}`);
+      assert.equal((await gpuCalls(view)).objects, before.objects, `${name}: changes allocate memory on the GPU`);
+    };
+    await changeSeveral("images", showImages);
+    await setGeometry({ decode: "cpu" });
+    await view.promise("complete", "shape");
+    await changeSeveral("images in workers", showImages);
+    await view.page.evaluate(() => {
+      document.querySelector("imagegeometry")!.outerHTML = '<BinaryGeometry solid="false"></BinaryGeometry>';
+    });
+    await changeSeveral("typed arrays", showBinary);
   });
 });

@@ -135,7 +135,7 @@ export async function withLivePage(
       },
       async setGeometry(attributes) {
         await view.page.evaluate((changes) => {
-          const geometry = document.querySelector("imagegeometry")!;
+          const geometry = document.querySelector("imagegeometry, binarygeometry")!;
           for (const [name, value] of Object.entries(changes))
             if (value === undefined) geometry.removeAttribute(name);
             else geometry.setAttribute(name, value);

@@ -41,6 +41,7 @@ interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
   onLiveFrame(shape: PageShape, frame: LiveFrame): void;
   onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
+  onGeometryReplaced(): void;
   onRemoved(shape: PageShape): void;
 }
 
@@ -85,6 +86,7 @@ export class PageShape extends LoadingShape {
   }
 
   protected override onGeometryReplaced(): void {
+    this.#listener.onGeometryReplaced();
     this.#loading.abandon();
     this.#stages = noStages(this.geometry);
     this.#loading = new LoadingEvents(this.element as Element, () => this.transfers);
@@ -271,6 +273,9 @@ export class PageShapes extends LoadingShapes<PageShape> {
       },
       onSettled: (shape) => {
         this.#settle(shape);
+      },
+      onGeometryReplaced: () => {
+        this.#renderer.expectReplacements();
       },
       onRemoved: (shape) => {
         this.#incomplete.delete(shape);

@@ -17,6 +17,7 @@ interface StoredArray {
 }
 
 export class ArrayBuffers implements BufferProvider {
+  readonly ownsBuffers = false; // three.js makes a buffer for each attribute, and frees it with the geometry
   readonly #arrays = new WeakMap<GpuArray, StoredArray>();
 
   store(array: ElementArray, usage: Usage = StaticDrawUsage): GpuArray {
@@ -32,12 +33,13 @@ export class ArrayBuffers implements BufferProvider {
 
   /** Stores vertices, which change in place. */
   makeWritable(array: ElementArray): WritableArray {
-    const bytes = this.store(array.slice(), DynamicDrawUsage);
+    const bytes = Object.assign(this.store(array.slice(), DynamicDrawUsage), { version: 0 });
     return {
       bytes,
       write: (elements) => {
         const stored = this.#arrays.get(bytes);
         stored?.array.set(elements);
+        bytes.version += 1;
         for (const buffer of stored?.records.values() ?? []) buffer.needsUpdate = true;
       },
     };

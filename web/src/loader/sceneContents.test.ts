@@ -19,6 +19,7 @@ function appOf(markup: string, files: Record<string, Answer>) {
   const { pool, requested, aborted, arrayOf } = siteOf(files);
   const viewOf = (bytes: GpuArray, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
   const buffers: BufferProvider = {
+    ownsBuffers: true,
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
     indexAttributeOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),
     read: (bytes, type, first, count = Infinity) => viewOf(bytes, type).slice(first, first + count),

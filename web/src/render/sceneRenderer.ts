@@ -279,6 +279,18 @@ export class SceneRenderer {
     return this.#textures.begin(bitmap, this.#renderer, sampling);
   }
 
+  /** Geometries are being replaced: the GPU memory of those before is kept for a while for others of the same size. */
+  expectReplacements(): void {
+    this.#textures.expectReplacements();
+    this.#buffers.expectReplacements();
+  }
+
+  /** Frees GPU memory that is kept for others. */
+  freeSpares(): void {
+    this.#textures.freeSpares();
+    this.#buffers.freeSpares();
+  }
+
   /** An image of vertex data; writing its texels draws a frame. */
   makeWritableImage(width: number, height: number): WritableImage {
     const writable = this.#textures.makeWritable(width, height);
@@ -415,6 +427,7 @@ export class SceneRenderer {
     this.#cubeMaps.dispose();
     this.#generatedCubeMaps.dispose();
     this.#background.dispose();
+    this.freeSpares();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

@@ -104,6 +104,8 @@ export interface ValuePlanes {
 /** A typed array that the renderer has: on the GPU without a copy in JavaScript, or not uploaded yet. */
 export interface GpuArray {
   readonly byteLength: number;
+  /** How many times its elements have been replaced; absent: they do not change. */
+  readonly version?: number;
   /** Frees the memory. */
   close(): void;
 }

@@ -31,6 +31,7 @@ const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
 const arrays = new WeakMap<GpuArray, ElementArray>();
 
 const buffers: BufferProvider = {
+  ownsBuffers: true,
   recordsOf: (bytes, type, stride) => new InterleavedBuffer(new (arrayTypeOf(type))(bytes.byteLength), stride),
   indexAttributeOf: () => new BufferAttribute(new Uint16Array(3), 1),
   read: (bytes, _, first, count = Infinity) => (arrays.get(bytes) ?? new Uint8Array()).subarray(first, first + count),

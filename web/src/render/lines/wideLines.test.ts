@@ -17,6 +17,7 @@ function stored(array: ElementArray): GpuArray {
 }
 
 const buffers: BufferProvider = {
+  ownsBuffers: true,
   recordsOf: () => assert.fail(),
   indexAttributeOf: () => assert.fail(),
   dispose: () => undefined,

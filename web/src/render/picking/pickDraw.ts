@@ -51,7 +51,7 @@ export class PickDraw {
   readonly #stage: BufferStage | undefined;
   readonly #options: PickDrawOptions;
   #acquired: { readonly resources: PickResources; readonly material: PickMaterial } | undefined;
-  #contents: BufferContents | undefined;
+  #contents: (BufferContents & { readonly version: number | undefined }) | undefined;
   #isDisposed = false;
 
   constructor(stage: Stage, range: DrawRange, options: PickDrawOptions) {
@@ -100,13 +100,15 @@ export class PickDraw {
     return object;
   }
 
-  /** Index and coordinates of the draw, read back once until `forgetContents`; undefined for vertices from images. */
+  /** Index and coordinates of the draw, read back once until `forgetContents`, or until they change; undefined for vertices from images. */
   contents(): BufferContents | undefined {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;
     const { first, count } = this.range;
     const { buffers } = this.#options;
+    if (this.#contents?.version !== coord.bytes.version) this.#contents = undefined;
     this.#contents ??= {
+      version: coord.bytes.version,
       index: index && (buffers.read(index.bytes, index.type, first, count) as IndexArray),
       coord: buffers.read(coord.bytes, coord.type, 0),
       coordStride: coord.stride,

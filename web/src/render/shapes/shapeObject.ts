@@ -255,11 +255,16 @@ export class ShapeObject {
     if (patch === undefined) throw new RangeError(`no patch ${patchIndex}`);
     const before = this.#patches.get(patchIndex);
     if (stage === undefined) this.#patches.delete(patchIndex);
-    else this.#patches.set(patchIndex, this.#display(geometry, patch, stage));
-    before?.draws.dispose();
+    else this.#patches.set(patchIndex, this.#display(geometry, patch, stage, before));
+    if (before !== undefined && this.#patches.get(patchIndex)?.draws !== before.draws) before.draws.dispose();
   }
 
-  #display(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): DisplayedPatch {
+  #display(
+    geometry: GeometryDescription,
+    patch: PatchDescription,
+    stage: Stage,
+    before: DisplayedPatch | undefined,
+  ): DisplayedPatch {
     this.#generateCubeMap();
     const { batches, ...context } = this.#context;
     const { batching } = context.materialFactory;
@@ -272,13 +277,17 @@ export class ShapeObject {
       appearance: withStreamedRange(this.#appearance, geometry),
       surfaceTextures: new Map(this.#surfaceTextures),
     };
+    const orientation = orientationOf(this.#appearance.operators ?? []);
+    const displayed = { geometry, stage, drawn, drawMode, orientation };
+    const isSame = before?.drawMode === drawMode && before.orientation === orientation && before.drawn !== drawn;
+    if (isSame && before.draws.replaceStage?.(drawn, patchContext) === true)
+      return { ...displayed, draws: before.draws };
     const draws =
       batches === undefined || batching === undefined || drawMode === "alone"
         ? makePatchDraws(drawn, patchContext)
         : new BatchedStage(drawn, patchContext, { batches, batching, isMerged: drawMode === "merged" });
     for (const group of this.#groups.keys()) draws.addInstance(group);
-    const orientation = orientationOf(this.#appearance.operators ?? []);
-    return { geometry, stage, drawn, drawMode, orientation, draws };
+    return { ...displayed, draws };
   }
 
   /** The same object for the same stage, unless the drawing of points or lines changes. */

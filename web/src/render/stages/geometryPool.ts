@@ -30,6 +30,23 @@ export class GeometryPool {
     return entry.geometries;
   }
 
+  /**
+   * Makes the geometries of a stage those of another stage of the same layout. False, and without effect, where several
+   * shapes have acquired the stage, or where three.js would keep the buffers of the one before.
+   */
+  replace(before: Stage, after: Stage): boolean {
+    const entry = this.#entries.get(before);
+    if (entry?.users !== 1 || this.#entries.has(after) || after.draws.some(isWide)) return false;
+    if (after.kind === "buffers") {
+      if (!this.#buffers.ownsBuffers) return false;
+      const setVertices = vertexSetter(after, this.#buffers);
+      for (const geometry of entry.geometries) setVertices(geometry);
+    }
+    this.#entries.delete(before);
+    this.#entries.set(after, entry);
+    return true;
+  }
+
   release(stage: Stage): void {
     const entry = this.#entries.get(stage);
     if (entry === undefined) return;
@@ -55,6 +72,17 @@ function isWide({ isWide = false }: DrawRange): boolean {
 }
 
 function inBuffers(stage: BufferStage, buffers: BufferProvider): (range: DrawRange) => BufferGeometry {
+  const setVertices = vertexSetter(stage, buffers);
+  return ({ first, count }) => {
+    const geometry = new BufferGeometry();
+    setVertices(geometry);
+    geometry.setDrawRange(first, count);
+    return geometry;
+  };
+}
+
+/** The function that sets attributes and index of a geometry, which all geometries of the stage share. */
+function vertexSetter(stage: BufferStage, buffers: BufferProvider): (geometry: BufferGeometry) => void {
   const attributes = vertexAttributesOf(stage).map(
     ({ name, vertices: { bytes, type, components, stride, offset }, isNormalized }) => ({
       name,
@@ -67,12 +95,9 @@ function inBuffers(stage: BufferStage, buffers: BufferProvider): (range: DrawRan
     }),
   );
   const index = stage.index && buffers.indexAttributeOf(stage.index.bytes, stage.index.type);
-  return ({ first, count }) => {
-    const geometry = new BufferGeometry();
+  return (geometry) => {
     for (const { name, attribute } of attributes) geometry.setAttribute(name, attribute);
     geometry.setIndex(index ?? null);
-    geometry.setDrawRange(first, count);
-    return geometry;
   };
 }
 

@@ -1,6 +1,6 @@
 // Makes three.js objects from a stage: one per draw and instance.
 
-import type { BufferGeometry, Material, Matrix4 } from "three";
+import type { BufferGeometry, IUniform, Material, Matrix4, Side } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { EffectScope } from "../../scene/effectScope.ts";
@@ -12,6 +12,8 @@ import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
+import { vertexAttributesOf } from "../attributes/vertexAttributes.ts";
+import type { VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { PatchContext } from "./patchContext.ts";
 import { setAppearanceUniforms, uniformsOf } from "./stageUniforms.ts";
 import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.ts";
@@ -33,37 +35,41 @@ export interface PatchDraws {
   /** Removes an instance. */
   removeInstance(group: ShapeGroup): void;
   applyAppearance(appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): void;
+  /**
+   * Draws another stage with the objects of this one. False, and without effect, unless both are drawn by the same
+   * materials from vertices of the same layout; absent: never.
+   */
+  replaceStage?(stage: Stage, context: PatchContext): boolean;
   /** Removes it from the scene and frees what only this stage uses. */
   dispose(): void;
 }
 
+/** A stage that is drawn, and what follows from its description. */
+interface DrawnStage {
+  readonly stage: Stage;
+  readonly context: PatchContext;
+  readonly bounds: ReturnType<typeof boundsOf>;
+  readonly operation: StageOperation;
+  readonly shapeFromStored: Matrix4;
+}
+
+function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
+  const { geometry, patch, appearance } = context;
+  const bounds = boundsOf(geometry, patch, stage);
+  const operation = new StageOperation(geometry, patch, stage, bounds);
+  operation.follow(appearance);
+  return { stage, context, bounds, operation, shapeFromStored: shapeFromStoredOf(geometry, patch) };
+}
+
 /** Draws each draw of the stage by one object per instance. */
 export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
-  const { geometry, patch, materialFactory, buffers } = context;
-  const { box, sphere } = boundsOf(geometry, patch, stage);
-  const operation = new StageOperation(geometry, patch, stage, { box, sphere });
-  operation.follow(context.appearance);
-  const shapeFromStored = shapeFromStoredOf(geometry, patch);
+  const { materialFactory, buffers, geometries } = context;
+  let drawn = drawnStageOf(stage, context);
   const uniforms = uniformsOf(stage, context);
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
-  const draws = context.geometries.acquire(stage).flatMap((bufferGeometry, drawIndex) => {
-    const range = stage.draws[drawIndex];
-    if (range === undefined || range.count === 0) return [];
-    bufferGeometry.boundingBox = box;
-    bufferGeometry.boundingSphere = sphere;
-    const request = {
-      ...materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared),
-      ...facesOf(geometry, context.appearance),
-    };
-    const side = sideOf(request);
-    const materials = new MaterialPerEffectScope((effectScope) =>
-      materialFactory.makeMaterial(
-        { ...request, uniforms: { ...request.uniforms, effectScope } },
-        displayed.appearance,
-        applicableTextures(stage, displayed.appearance, displayed.surfaceTextures),
-      ),
-    );
-    const pick = new PickDraw(stage, range, {
+  const pickOf = (range: DrawRange, bufferGeometry: BufferGeometry, side: Side) => {
+    const { operation, shapeFromStored, stage } = drawn;
+    return new PickDraw(stage, range, {
       buffers,
       operation,
       shapeFromStored,
@@ -73,7 +79,21 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         release: () => undefined,
       }),
     });
-    return [{ range, bufferGeometry, materials, request, pick }];
+  };
+  const draws = geometries.acquire(stage).flatMap((bufferGeometry, drawIndex) => {
+    const range = stage.draws[drawIndex];
+    if (range === undefined || range.count === 0) return [];
+    setBounds(bufferGeometry, drawn);
+    const request = requestOf(drawn, range, uniforms.of(range));
+    const side = sideOf(request);
+    const materials = new MaterialPerEffectScope((effectScope) =>
+      materialFactory.makeMaterial(
+        { ...request, uniforms: { ...request.uniforms, effectScope } },
+        displayed.appearance,
+        applicableTextures(drawn.stage, displayed.appearance, displayed.surfaceTextures),
+      ),
+    );
+    return [{ range, bufferGeometry, materials, request, side, pick: pickOf(range, bufferGeometry, side) }];
   });
   const objects = new Map<ShapeGroup, DrawnObject[]>();
   const removeInstance = (group: ShapeGroup) => {
@@ -81,13 +101,15 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     objects.delete(group);
   };
   return {
-    picks: draws.map(({ pick }) => pick),
+    get picks() {
+      return draws.map(({ pick }) => pick);
+    },
     addInstance(group) {
       const added = draws.map(({ range, bufferGeometry, materials, request }) => {
         const material = materials.of(group);
-        const object = objectWithMatrix(range, bufferGeometry, material, shapeFromStored);
+        const object = objectWithMatrix(range, bufferGeometry, material, drawn.shapeFromStored);
         materialFactory.prepareObject(object, request, material);
-        operation.setBounds(object);
+        drawn.operation.setBounds(object);
         return object;
       });
       if (added.length > 0) group.add(...added);
@@ -106,7 +128,8 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     removeInstance,
     applyAppearance(appearance, surfaceTextures) {
       displayed = { appearance, surfaceTextures };
-      setAppearanceUniforms(uniforms.common, geometry, appearance, operation.frame);
+      const { context, operation, stage } = drawn;
+      setAppearanceUniforms(uniforms.common, context.geometry, appearance, operation.frame);
       operation.follow(appearance);
       for (const object of Array.from(objects.values()).flat()) operation.setBounds(object);
       for (const { materials, pick } of draws) {
@@ -120,15 +143,63 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         pick.releaseResources();
       }
     },
+    replaceStage(stage, context) {
+      const next = drawnStageOf(stage, context);
+      if (layoutOf(next) !== layoutOf(drawn) || !geometries.replace(drawn.stage, stage)) return false;
+      drawn = next;
+      displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
+      const nextUniforms = uniformsOf(stage, context);
+      for (const draw of draws) {
+        setBounds(draw.bufferGeometry, next);
+        const own = draw.request.uniforms as Record<string, IUniform | undefined>;
+        for (const [name, { value }] of Object.entries<IUniform<unknown>>(nextUniforms.of(draw.range))) {
+          const uniform = own[name];
+          if (uniform !== undefined) uniform.value = value;
+        }
+        draw.pick.dispose();
+        draw.pick = pickOf(draw.range, draw.bufferGeometry, draw.side);
+      }
+      for (const object of Array.from(objects.values()).flat()) {
+        object.matrix.copy(next.shapeFromStored);
+        object.matrixWorldNeedsUpdate = true;
+        next.operation.setBounds(object);
+      }
+      return true;
+    },
     dispose() {
       for (const group of Array.from(objects.keys())) removeInstance(group);
       for (const { materials, pick } of draws) {
         for (const material of materials.all) material.dispose();
         pick.dispose();
       }
-      context.geometries.release(stage);
+      geometries.release(drawn.stage);
     },
   };
+}
+
+function requestOf<Uniforms extends Partial<VertexUniforms>>(
+  { stage, context: { geometry, appearance, shared } }: DrawnStage,
+  range: DrawRange,
+  uniforms: Uniforms,
+) {
+  return { ...materialRequestOf(stage, range, geometry, uniforms, shared), ...facesOf(geometry, appearance) };
+}
+
+function setBounds(geometry: BufferGeometry, { bounds: { box, sphere } }: DrawnStage): void {
+  geometry.boundingBox = box;
+  geometry.boundingSphere = sphere;
+}
+
+/** A text that is equal for stages that the same materials draw from vertices of the same layout. */
+function layoutOf(drawn: DrawnStage): string {
+  const { stage } = drawn;
+  const requests = stage.draws.map((range) => ({ ...requestOf(drawn, range, {}), shared: undefined }));
+  if (stage.kind === "textures") return JSON.stringify([stage.draws, requests]);
+  const attributes = vertexAttributesOf(stage).map(({ name, isNormalized, vertices }) => {
+    const { type, components, stride, offset } = vertices;
+    return [name, isNormalized, type, components, stride, offset];
+  });
+  return JSON.stringify([stage.draws, requests, stage.index?.type, attributes]);
 }
 
 /** The materials of a draw, one per effect scope of its instances. */

@@ -16,6 +16,11 @@ export interface BufferUpload {
 
 /** Access to stored arrays. All methods but `dispose` throw RangeError if an array is unknown or closed. */
 export interface BufferProvider {
+  /**
+   * Whether buffers on the GPU belong to stored arrays, so that the attributes of a geometry can be exchanged; otherwise
+   * they belong to geometries.
+   */
+  readonly ownsBuffers: boolean;
   /** Records of `stride` elements, as three.js' InterleavedBuffer. */
   recordsOf(bytes: GpuArray, type: ElementType, stride: number): InterleavedBuffer;
   /** The whole array, as the index of a geometry. */

@@ -10,6 +10,7 @@ import type { ElementArray } from "../../stage/vertexArray.ts";
 import type { ElementType } from "../../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf, glTypeOf } from "../../stage/elementType.ts";
 import type { ArrayUse, GpuArray, WritableArray } from "../../stage/stage.ts";
+import { SpareMemory } from "./spareMemory.ts";
 import type { BufferProvider, BufferUpload } from "./bufferProvider.ts";
 
 const bytesPerStep = 2 ** 18;
@@ -24,8 +25,12 @@ interface KeptArray {
 }
 
 export class BufferStore implements BufferProvider {
+  readonly ownsBuffers = true;
   readonly #gl: WebGL2RenderingContext;
   readonly #buffers = new WeakMap<GpuArray, WebGLBuffer | KeptArray>();
+  readonly #spare = new SpareMemory<WebGLBuffer>((buffer) => {
+    this.#gl.deleteBuffer(buffer);
+  });
   #bytes = 0;
 
   constructor(gl: WebGL2RenderingContext) {
@@ -37,24 +42,35 @@ export class BufferStore implements BufferProvider {
     return this.#bytes;
   }
 
+  /** Arrays are being replaced: their memory is kept for a while for others of the same size. */
+  expectReplacements(): void {
+    this.#spare.expectReplacements();
+  }
+
+  /** Frees memory that is kept for others. */
+  freeSpares(): void {
+    this.#spare.clear();
+  }
+
   begin(array: ElementArray, use: ArrayUse): BufferUpload {
     const { byteLength } = array;
     if (byteLength <= maxBytesKept)
-      return { bytes: this.#add(byteLength, { array, use }), steps: deferredUpload(byteLength) };
-    const buffer = this.#gl.createBuffer();
-    return { bytes: this.#add(byteLength, buffer), steps: uploadPieces(this.#gl, buffer, array, use) };
+      return { bytes: this.#add(byteLength, use, { array, use }), steps: deferredUpload(byteLength) };
+    const buffer = this.#allocate(byteLength, use);
+    return { bytes: this.#add(byteLength, use, buffer), steps: uploadPieces(this.#gl, buffer, array) };
   }
 
   /** Stores vertices that can be replaced, all at once, before a frame is drawn. */
   makeWritable(array: ElementArray): WritableArray {
     const gl = this.#gl;
     const { byteLength } = array;
-    const buffer = gl.createBuffer();
-    const bytes = this.#add(byteLength, buffer);
-    allocate(gl, buffer, byteLength, "vertices", gl.DYNAMIC_DRAW);
+    const buffer = this.#allocate(byteLength, "vertices");
+    const bytes = Object.assign(this.#add(byteLength, "vertices", buffer), { version: 0 });
     const write = (elements: ElementArray): void => {
       if (elements.byteLength !== byteLength) throw new RangeError("another number of elements");
-      if (this.#buffers.has(bytes)) uploadPiece(gl, buffer, 0, elements);
+      if (!this.#buffers.has(bytes)) return;
+      uploadPiece(gl, buffer, 0, elements);
+      bytes.version += 1;
     };
     write(array);
     return { bytes, write };
@@ -115,7 +131,16 @@ export class BufferStore implements BufferProvider {
     geometry.dispose();
   }
 
-  #add(byteLength: number, held: WebGLBuffer | KeptArray): GpuArray {
+  /** A buffer of this size, whose contents are undefined. */
+  #allocate(byteLength: number, use: ArrayUse): WebGLBuffer {
+    const spare = this.#spare.take(spareKeyOf(byteLength, use));
+    if (spare !== undefined) return spare;
+    const buffer = this.#gl.createBuffer();
+    allocate(this.#gl, buffer, byteLength, use);
+    return buffer;
+  }
+
+  #add(byteLength: number, use: ArrayUse, held: WebGLBuffer | KeptArray): GpuArray {
     this.#bytes += byteLength;
     const bytes = {
       byteLength,
@@ -123,7 +148,7 @@ export class BufferStore implements BufferProvider {
         const held = this.#buffers.get(bytes);
         if (!this.#buffers.delete(bytes)) return;
         this.#bytes -= byteLength;
-        if (held instanceof WebGLBuffer) this.#gl.deleteBuffer(held);
+        if (held instanceof WebGLBuffer) this.#spare.release(spareKeyOf(byteLength, use), held);
       },
     };
     this.#buffers.set(bytes, held);
@@ -133,8 +158,9 @@ export class BufferStore implements BufferProvider {
   #bufferOf(bytes: GpuArray): WebGLBuffer {
     const held = this.#heldOf(bytes);
     if (held instanceof WebGLBuffer) return held;
-    const buffer = this.#gl.createBuffer();
-    for (const steps = uploadPieces(this.#gl, buffer, held.array, held.use); steps.next().done !== true;);
+    const { array, use } = held;
+    const buffer = this.#allocate(array.byteLength, use);
+    for (const steps = uploadPieces(this.#gl, buffer, array); steps.next().done !== true;);
     this.#buffers.set(bytes, buffer);
     return buffer;
   }
@@ -144,6 +170,10 @@ export class BufferStore implements BufferProvider {
     if (held === undefined) throw new RangeError("the array is closed");
     return held;
   }
+}
+
+function spareKeyOf(byteLength: number, use: ArrayUse): string {
+  return `${use} ${byteLength}`;
 }
 
 /** Accounts for the step that is taken later, when a draw needs the buffer. */
@@ -156,12 +186,10 @@ function* uploadPieces(
   gl: WebGL2RenderingContext,
   buffer: WebGLBuffer,
   array: ElementArray,
-  use: ArrayUse,
 ): Generator<number, void, void> {
   const all = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   for (let first = 0; first < all.length || first === 0; first += bytesPerStep) {
     const piece = all.subarray(first, first + bytesPerStep);
-    if (first === 0) allocate(gl, buffer, all.length, use, gl.STATIC_DRAW);
     uploadPiece(gl, buffer, first, piece);
     yield piece.length;
   }
@@ -177,18 +205,12 @@ function uploadPiece(gl: WebGL2RenderingContext, buffer: WebGLBuffer, first: num
  * The first target that a buffer is bound to fixes its use. A bound vertex array object records index buffers, so
  * three.js' own is unbound meanwhile.
  */
-function allocate(
-  gl: WebGL2RenderingContext,
-  buffer: WebGLBuffer,
-  byteLength: number,
-  use: ArrayUse,
-  hint: GLenum,
-): void {
+function allocate(gl: WebGL2RenderingContext, buffer: WebGLBuffer, byteLength: number, use: ArrayUse): void {
   const target = use === "index" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
   const vertexArray = gl.getParameter(gl.VERTEX_ARRAY_BINDING) as WebGLVertexArrayObject | null;
   gl.bindVertexArray(null);
   gl.bindBuffer(target, buffer);
-  gl.bufferData(target, byteLength, hint);
+  gl.bufferData(target, byteLength, gl.STATIC_DRAW);
   gl.bindBuffer(target, null);
   gl.bindVertexArray(vertexArray);
 }

@@ -4,6 +4,7 @@
 import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
 import type { DecodedImage, WritableImage } from "../../stage/decodedImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
+import { SpareMemory } from "./spareMemory.ts";
 import { setDataSampling, setSampling } from "./textureSampling.ts";
 
 /** An image that is being uploaded. */
@@ -23,11 +24,24 @@ const bytesPerStep = 2 ** 18;
 
 export class TextureStore {
   readonly #textures = new WeakMap<DecodedImage, Texture>();
+  readonly #spare = new SpareMemory<Texture>((texture) => {
+    texture.dispose();
+  });
   #bytes = 0;
 
   /** Total size of all textures that are not closed. */
   get bytes(): number {
     return this.#bytes;
+  }
+
+  /** Images of vertex data are being replaced: their memory is kept for a while for others of the same size. */
+  expectReplacements(): void {
+    this.#spare.expectReplacements();
+  }
+
+  /** Frees memory that is kept for others. */
+  freeSpares(): void {
+    this.#spare.clear();
   }
 
   /** The texture of an image. Throws RangeError if the image is not from this store, or is closed. */
@@ -53,13 +67,15 @@ export class TextureStore {
    */
   begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
-    const texture = emptyTexture(width, height);
+    const spare = sampling === undefined ? this.#spare.take(sizeKeyOf(width, height)) : undefined;
+    const texture = spare ?? emptyTexture(width, height);
     if (sampling !== undefined) setSampling(texture, sampling);
-    const image = this.#add(texture, width, height);
+    const image = this.#add(texture, width, height, sampling === undefined);
     return { image, steps: uploadStrips(new Texture(bitmap), texture, width, height, renderer) };
   }
 
-  #add(texture: Texture, width: number, height: number): DecodedImage {
+  /** `isReusable`: after it is closed, the texture may become that of another image of this size. */
+  #add(texture: Texture, width: number, height: number, isReusable = false): DecodedImage {
     const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
     const image = {
@@ -68,12 +84,17 @@ export class TextureStore {
       close: () => {
         if (!this.#textures.delete(image)) return;
         this.#bytes -= bytes;
-        texture.dispose();
+        if (isReusable) this.#spare.release(sizeKeyOf(width, height), texture);
+        else texture.dispose();
       },
     };
     this.#textures.set(image, texture);
     return image;
   }
+}
+
+function sizeKeyOf(width: number, height: number): string {
+  return `${width} ${height}`;
 }
 
 /** Uploads `source` into `target` strip by strip; the last strip generates the mipmaps. */
