@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
 import { withPage, type View } from "./harness.ts";
 import { encodePng, type Picture } from "./png.ts";
+import { referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
@@ -160,4 +161,52 @@ test("X3DOM's forms are drawn as the same vertices in the document are, and a fo
     savePicture("X3DOM forms", picture);
     assertSamePicture("X3DOM forms", picture, expected, boundsOfQuantised);
   });
+});
+
+/** A plate of two triangles, a zigzag of lines and four points, in units of 1/255 of the box -1 … 1. */
+const mixedRecords = [
+  ...[20, 110].flatMap((x) => [20, 110].map((y) => [x, y, x])),
+  ...[0, 1, 2, 3].map((n) => [140 + 30 * n, n % 2 === 0 ? 30 : 120, 90]),
+  ...[0, 1, 2, 3].map((n) => [30 + 65 * n, 170 + 20 * (n % 2), 200]),
+];
+const mixedNormals = mixedRecords.map((_, n) => [100 + 10 * n, 230 - 15 * n, 220]);
+const mixedIndices = { triangles: [0, 2, 1, 1, 2, 3], lines: [4, 5, 5, 6, 6, 7], points: [8, 9, 10, 11] };
+const mixedIndex = [...mixedIndices.triangles, ...mixedIndices.lines, ...mixedIndices.points];
+const inBox = (records: readonly (readonly number[])[]): number[] => records.flat().map((byte) => (2 * byte) / 255 - 1);
+
+files.set("/form/mixed.png", imageOf(mixedRecords));
+files.set("/form/mixedNormal.png", imageOf(mixedNormals));
+// X3DOM's index: the share of the image's width at which the record is.
+files.set("/form/mixedIndex.png", imageOf(mixedIndex.map((n) => [Math.round((256 * n) / mixedRecords.length), 0, 0])));
+files.set("/form/mixed.bin", Buffer.from(Float32Array.from(inBox(mixedRecords)).buffer));
+files.set("/form/mixedNormal.bin", Buffer.from(Float32Array.from(inBox(mixedNormals)).buffer));
+files.set("/form/mixedIndex.bin", Buffer.from(Uint16Array.from(mixedIndex).buffer));
+
+test("triangles, lines and points of one node, in arrays and in images, are drawn as three.js draws them", async () => {
+  const attributes = `position="0 0 0" size="2 2 2" primType='"TRIANGLES" "LINES" "POINTS"' vertexCount="6 6 4"`;
+  const texture = (field: string, name: string): string =>
+    `<ImageTexture containerField="${field}" url="form/${name}.png"></ImageTexture>`;
+  const nodes = [
+    `<BinaryGeometry ${attributes} index="form/mixedIndex.bin" coord="form/mixed.bin" normal="form/mixedNormal.bin"></BinaryGeometry>`,
+    `<ImageGeometry ${attributes} implicitMeshSize="${mixedIndex.length} 1">${texture("index", "mixedIndex")}${texture("coord", "mixed")}${texture("normal", "mixedNormal")}</ImageGeometry>`,
+  ];
+  const offsets = [-1.2, 1.2];
+  const material = '<Appearance><Material diffuseColor="0.8 0.6 0.3"></Material></Appearance>';
+  const shapes = nodes.map(
+    (node, n) =>
+      `<Transform translation="${offsets[n]} 0 0"><Shape bboxSize="2 2 2">${material}${node}</Shape></Transform>`,
+  );
+  const html = pageWith(() => "").replace("</Scene>", `${shapes.join("\n")}</Scene>`);
+  const picture = await pictureOf(html);
+  savePicture("mixed primitives", picture);
+  const none = new Uint32Array(0);
+  const patches = offsets.flatMap((offset) =>
+    Object.entries(mixedIndices).map(([kind, indices]) => ({
+      positions: Float32Array.from(inBox(mixedRecords), (value, n) => (n % 3 === 0 ? value + offset : value)),
+      normals: Float32Array.from(inBox(mixedNormals)),
+      ...{ triangles: none, lines: none, points: none, [kind]: Uint32Array.from(indices) },
+    })),
+  );
+  const expected = await referencePicture(html, patches);
+  assertSamePicture("mixed primitives", picture, expected, boundsOfQuantised);
 });

@@ -22,7 +22,7 @@ const texture = encodePng({
   data: Uint8Array.from(Array.from({ length: 256 }, (_, i) => [16 * (i % 16), i - (i % 16), 60]).flat()),
 });
 
-/** A container with the mesh twice: "plain", and "textured" with texture coordinates. */
+/** A container with the mesh three times: "plain", "textured" with texture coordinates, and "glowing", the scene. */
 function container(): Buffer {
   const floats = [mesh.positions, mesh.normals ?? assert.fail(), mesh.texCoords ?? assert.fail()];
   const body = Buffer.concat([
@@ -61,8 +61,21 @@ function container(): Buffer {
           type: "SCALAR",
         },
       },
+      // X3DOM lights every material, though glTF's CONSTANT is not lit, and all others also by a light of its own. Light
+      // does not change colours of 0 and 1.
+      materials: {
+        glow: {
+          extensions: {
+            KHR_materials_common: { technique: "CONSTANT", values: { emission: [1, 0, 1, 1], specular: [0, 0, 0, 1] } },
+          },
+        },
+      },
+      scene: "all",
+      scenes: { all: { nodes: ["root"] } },
+      nodes: { root: { meshes: ["glowing"] } },
       meshes: {
         plain: { primitives: [{ attributes, indices: "triangles", mode: 4 }] },
+        glowing: { primitives: [{ attributes, indices: "triangles", mode: 4, material: "glow" }] },
         textured: {
           primitives: [{ attributes: { ...attributes, TEXCOORD_0: "texCoords" }, indices: "triangles", mode: 4 }],
         },
@@ -73,7 +86,7 @@ function container(): Buffer {
   return Buffer.concat([Buffer.from(header.buffer), json, body]);
 }
 
-test("a page with ExternalGeometry is drawn by X3DOM as its conversion is by the runtime", async () => {
+test("a page with ExternalGeometry and ExternalShape is drawn by X3DOM as its conversion is by the runtime", async () => {
   const folder = join(outputDirectory, "containers");
   mkdirSync(folder, { recursive: true });
   const file = container();
@@ -90,8 +103,9 @@ test("a page with ExternalGeometry is drawn by X3DOM as its conversion is by the
     ${name === "textured" ? '<ImageTexture url="colors.png"></ImageTexture>' : ""}</Appearance>
     <ExternalGeometry url="knots.glb#${name}"></ExternalGeometry></Shape></Transform>`;
   const scene = `<NavigationInfo headlight="true"></NavigationInfo>
-    <Viewpoint position="0 0 ${4 * width}" fieldOfView="0.6"></Viewpoint><Background skyColor="1 1 1"></Background>
-    ${shape(-0.6 * width, "plain")}${shape(0.6 * width, "textured")}`;
+    <Viewpoint position="0 0 ${4.6 * width}" fieldOfView="0.6"></Viewpoint><Background skyColor="1 1 1"></Background>
+    ${shape(-1.1 * width, "plain")}${shape(0, "textured")}
+    <Transform translation="${1.1 * width} 0 0"><ExternalShape url="knots.glb"></ExternalShape></Transform>`;
   const page = `<!doctype html><html><head><meta charset="utf-8"><title>Old</title>
     <script src="x3dom/x3dom.js"></script><link rel="stylesheet" href="x3dom/x3dom.css">
     <style>html, body { margin: 0 } x3d { display: block; width: 640px; height: 480px; border: 0 }</style></head>
@@ -102,7 +116,7 @@ test("a page with ExternalGeometry is drawn by X3DOM as its conversion is by the
   const expected = await pictureOf(folder, "sig", inX3dom, { "/knots.glb": file, "/colors.png": texture });
   savePicture("containers, X3DOM", expected);
   const site = siteOf(join(folder, "containers.html"), "--strict");
-  assert.equal(readFileSync(join(site, "index.html"), "utf8").match(/<imagegeometry/gi)?.length, 2);
+  assert.equal(readFileSync(join(site, "index.html"), "utf8").match(/<imagegeometry/gi)?.length, 3);
   let actual: Picture | undefined;
   await withPage(site, {}, async (view) => {
     await view.promise("complete");

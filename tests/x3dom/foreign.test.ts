@@ -9,7 +9,7 @@ import { difference, savePicture } from "../browser/compare.ts";
 import { withPage } from "../browser/harness.ts";
 import type { Picture } from "../browser/png.ts";
 import { pageOf, siteOf } from "../browser/sites.ts";
-import { cellOf, emptyCell, layouts, sceneOf, writeForeignSite, type Layout } from "./foreign.ts";
+import { cellOf, emptyCell, foreignSize, layouts, sceneOf, writeForeignSite, type Layout } from "./foreign.ts";
 import { pictureOf, type Container } from "./releases.ts";
 
 /**
@@ -35,6 +35,7 @@ async function ourPictureOf(site: string, html: string, folder: string, expected
     site,
     {
       path: "old.html",
+      size: foreignSize,
       ...(expectedErrors ? { expectedErrors } : {}),
       server(server) {
         for (const name of readdirSync(folder)) server.put(`/${name}`, readFileSync(join(folder, name)));
@@ -62,7 +63,7 @@ test("sites of X3DOM's own tools are drawn as X3DOM draws them, as they are and 
   const faults: string[] = [];
   for (const release of releases) {
     const isShown = (layout: Layout): boolean => layout.releases.includes(release);
-    const expected = await pictureOf(folder, release, pageOfX3dom(sceneOf(isShown)));
+    const expected = await pictureOf(folder, release, pageOfX3dom(sceneOf(isShown)), {}, foreignSize);
     savePicture(`foreign-x3dom-${release}`, expected);
     layouts.forEach((layout, index) => {
       if (!isShown(layout)) return;

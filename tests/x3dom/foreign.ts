@@ -21,9 +21,11 @@ export interface Layout {
 
 /** Columns and rows of the shapes on the picture. */
 const columns = 4;
-const rows = 3;
+const rows = 4;
 const cell = 1.8;
 const distance = 20;
+/** Of the picture in pixels: no byte of a coordinate is too fine to be visible. */
+export const foreignSize = { width: 640, height: 640 };
 
 const half = { x: 0.85, y: 0.8, z: 0.6 };
 
@@ -148,6 +150,15 @@ const strip = Array.from({ length: stripTriangles }, (_, triangle) => {
 }).flat();
 files.set("draws.bin", typedArray(Uint16Array.from([...strip, ...mesh.triangles.slice(3 * stripTriangles)])));
 const soup = Array.from(mesh.triangles);
+// Three draws: a third of the mesh as triangles, the edges of the second third as lines, and vertices of the last.
+const third = 3 * Math.floor(soup.length / 9);
+const edges = Array.from({ length: third / 3 }, (_, triangle) => {
+  const [a = 0, b = 0, c = 0] = soup.slice(third + 3 * triangle, third + 3 * triangle + 3);
+  return [a, b, b, c, c, a];
+}).flat();
+const mixed = [...soup.slice(0, third), ...edges, ...soup.slice(2 * third)];
+const mixedDraws = `primType='"TRIANGLES" "LINES" "POINTS"' vertexCount="${third} ${edges.length} ${soup.length - 2 * third}"`;
+files.set("mixed.bin", typedArray(Uint16Array.from(mixed)));
 const corners = (values: Float32Array): Float32Array =>
   Float32Array.from(soup.flatMap((vertex) => Array.from(values.slice(3 * vertex, 3 * vertex + 3))));
 files.set("soup.bin", typedArray(corners(Float32Array.from(mesh.positions))));
@@ -163,15 +174,15 @@ function image(texels: readonly (readonly number[])[], height: number): Buffer {
 }
 
 const recordRows = 2 ** Math.ceil(Math.log2(vertexCount / 256));
-const indexRows = 2 ** Math.ceil(Math.log2(soup.length / 256));
+const rowsOf = (indices: readonly number[]): number => 2 ** Math.ceil(Math.log2(indices.length / 256));
 const stored = ({ relative }: Vertex): number[] => relative.map((value) => Math.round(65535 * (value + 0.5)));
-files.set(
-  "index.png",
+const indexImage = (indices: readonly number[]): Buffer =>
   image(
-    soup.map((record) => [record % 256, Math.floor(record / 256) * (256 / recordRows), 0]),
-    indexRows,
-  ),
-);
+    indices.map((record) => [record % 256, Math.floor(record / 256) * (256 / recordRows), 0]),
+    rowsOf(indices),
+  );
+files.set("index.png", indexImage(soup));
+files.set("mixed.png", indexImage(mixed));
 files.set(
   "coord0.png",
   image(
@@ -204,7 +215,7 @@ files.set(
 const texture = (role: string, url: string): string =>
   `<ImageTexture containerField="${role}" url="${url}"><TextureProperties boundaryModeS="CLAMP_TO_EDGE" boundaryModeT="CLAMP_TO_EDGE" magnificationFilter="NEAREST" minificationFilter="NEAREST"></TextureProperties></ImageTexture>`;
 const images = (attributes: string, ...textures: readonly string[]): string =>
-  `<ImageGeometry ${box} implicitMeshSize="256 ${indexRows}" useGeoCache="false" ${attributes}>${textures.join("")}</ImageGeometry>`;
+  `<ImageGeometry ${box} implicitMeshSize="256 ${rowsOf(attributes.includes("LINES") ? mixed : soup)}" useGeoCache="false" ${attributes}>${textures.join("")}</ImageGeometry>`;
 const arrays = (attributes: string): string => `<BinaryGeometry ${box} ${attributes}></BinaryGeometry>`;
 const triangles = `primType='"TRIANGLES"' vertexCount="${soup.length}"`;
 const material = '<Material diffuseColor="0.7 0.5 0.3" specularColor="0.2 0.2 0.2"></Material>';
@@ -352,6 +363,44 @@ export const layouts: readonly Layout[] = [
       '<Material emissiveColor="1 1 1"></Material>',
     ),
   },
+  {
+    name: "BinaryGeometry with normalPerVertex false",
+    releases: both,
+    markup: shape(
+      arrays(
+        `primType='"TRIANGLES"' vertexCount="${soup.length}" coord="soup.bin" normal="soupNormal.bin" normalPerVertex="false"`,
+      ),
+    ),
+  },
+  {
+    name: "BinaryGeometry with normals, not lit",
+    releases: both,
+    markup: shape(
+      arrays(`${triangles} index="index.bin" coord="position.bin" normal="normal.bin" lit="false"`),
+      '<Material diffuseColor="1 0 0" emissiveColor="0.2 0.5 0.9"></Material>',
+    ),
+  },
+  // Not lit: X3DOM lights lines and points from one side, imgeo from both.
+  {
+    name: "BinaryGeometry of triangles, lines and points, not lit",
+    releases: both,
+    markup: shape(
+      arrays(`${mixedDraws} lit="false" index="mixed.bin" coord="position.bin" color="color.bin+4" colorType="Uint8"`),
+    ),
+  },
+  {
+    name: "ImageGeometry of triangles, lines and points, not lit",
+    releases: ["sig"],
+    markup: shape(
+      images(
+        `${mixedDraws} lit="false"`,
+        texture("index", "mixed.png"),
+        texture("coord", "coord0.png"),
+        texture("coord", "coord1.png"),
+        texture("color", "color.png"),
+      ),
+    ),
+  },
 ];
 
 /** The X3D element that shows the layouts for which `isShown` is true. */
@@ -363,7 +412,7 @@ export function sceneOf(isShown: (layout: Layout) => boolean): string {
   });
   const angle = 2 * Math.atan((rows * cell) / 2 / distance);
   return (
-    `<X3D width="640px" height="480px" showStat="false" showLog="false"><Scene>` +
+    `<X3D width="${foreignSize.width}px" height="${foreignSize.height}px" showStat="false" showLog="false"><Scene>` +
     `<Background skyColor="0.1 0.1 0.15"></Background><NavigationInfo></NavigationInfo>` +
     `<Viewpoint position="0 0 ${distance}" fieldOfView="${angle}"></Viewpoint>${shapes.join("\n")}</Scene></X3D>`
   );

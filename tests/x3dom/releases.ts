@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { withPage, type View } from "../browser/harness.ts";
+import { pictureSize, withPage, type View } from "../browser/harness.ts";
 import { repository } from "../browser/paths.ts";
 import type { Picture } from "../browser/png.ts";
 
@@ -28,12 +28,14 @@ async function withX3dom(
   container: Container,
   html: string,
   bodies: Record<string, Buffer | string>,
+  size: { width: number; height: number },
   use: (view: View) => Promise<void>,
 ): Promise<void> {
   await withPage(
     site,
     {
       path: "page.html",
+      size,
       server(server) {
         // X3DOM's style sheet contains a data URL, and its code uses eval.
         server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
@@ -54,9 +56,10 @@ export async function pictureOf(
   container: Container,
   html: string,
   bodies: Record<string, Buffer | string> = {},
+  size = pictureSize,
 ): Promise<Picture> {
   const pictures: Picture[] = [];
-  await withX3dom(site, container, html, bodies, async (view) => {
+  await withX3dom(site, container, html, bodies, size, async (view) => {
     await loaded(view.page);
     pictures.push(await view.picture());
   });
@@ -70,15 +73,29 @@ interface X3domElement extends Element {
   runtime?: { canvas: { doc: { downloadCount: number; needRender: boolean } } };
 }
 
+/** X3DOM's node of an element, with meshes when its file has been read. */
+interface ExternalShapeElement extends Element {
+  _x3domNode?: { meshes?: unknown[] };
+}
+
 /** Waits until every image and array has loaded and has been drawn; throws after three minutes. */
 async function loaded(page: Page): Promise<void> {
   await page.waitForFunction(
     () => {
       const doc = document.querySelector<X3domElement>("x3d")?.runtime?.canvas.doc;
       // An ExternalGeometry sets the count to 0, and then it falls below with each image that is still loading.
-      const isIdle = doc !== undefined && doc.downloadCount <= 0 && !doc.needRender;
-      const state = window as unknown as { idleFrames?: number };
+      const hasCounted = doc !== undefined && doc.downloadCount <= 0 && !doc.needRender;
+      // An ExternalShape does not count its download.
+      const shapes = Array.from(document.querySelectorAll<ExternalShapeElement>("ExternalShape"));
+      const isIdle = hasCounted && shapes.every((shape) => shape._x3domNode?.meshes !== undefined);
+      const state = window as unknown as { idleFrames?: number; hasAskedForFrame?: boolean };
       state.idleFrames = isIdle ? (state.idleFrames ?? 0) + 1 : 0;
+      // The first frame with an ExternalShape compiles its materials; X3DOM does not ask for the next, which draws it.
+      if (isIdle && shapes.length > 0 && state.hasAskedForFrame !== true) {
+        state.hasAskedForFrame = true;
+        state.idleFrames = 0;
+        doc.needRender = true;
+      }
       return state.idleFrames > 5;
     },
     undefined,
