@@ -126,16 +126,28 @@ Response respondWithFile(const Site& site, const RequestHead& request, const Req
   return response;
 }
 
+/// The answer where there is no file: 404. Browsers ask for /favicon.ico where a page names no icon, as pages of live
+/// streams and those of `convert --no-pictures` do, and report a 404 as an error: 204 means that there is none.
+Response absentFile(const RequestPath& path) {
+  if (formatRequestPath(path) != "/favicon.ico")
+    return plainResponse(404, "There is no such file.");
+  Response response;
+  response.status = 204;
+  response.fields.emplace_back("Cache-Control", "no-cache");
+  response.fields.emplace_back("Content-Length", "0");
+  return response;
+}
+
 Response respondToGet(const Site& site, const RequestHead& request) {
   const std::optional<RequestPath> path = parseRequestTarget(request.target);
   if (!path)
     return plainResponse(400, "The path is malformed.");
   if (site.root.empty())
-    return plainResponse(404, "There is no such file.");
+    return absentFile(*path);
   auto found = openBelow(site.root, *path);
   if (const Absence* absence = std::get_if<Absence>(&found)) {
     if (*absence == Absence::notFound)
-      return plainResponse(404, "There is no such file.");
+      return absentFile(*path);
     // Made from the decoded names: a target such as "//host" must not become a link to another host.
     return redirectTo(formatRequestPath({path->names, true}));
   }

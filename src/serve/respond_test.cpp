@@ -77,6 +77,13 @@ TEST_F(Respond, AMissingFileIsNotFound) {
     EXPECT_EQ(get(target).status, 404u) << target;
 }
 
+TEST_F(Respond, AMissingIconIsNoError) {
+  EXPECT_EQ(get("/favicon.ico").status, 204u);
+  EXPECT_EQ(get("/sub/favicon.ico").status, 404u);
+  writeFile(root() / "favicon.ico", asBytes("icon"));
+  EXPECT_EQ(bodyOf(get("/favicon.ico")), "icon");
+}
+
 TEST_F(Respond, NothingOutsideTheSiteIsServed) {
   writeFile(directory_.path() / "secret", asBytes("secret"));
   std::filesystem::create_symlink(directory_.path() / "secret", root() / "link");
