@@ -101,7 +101,10 @@ function foldersIn(metafile: Metafile): Set<string> {
   return new Set(Array.from(modulesIn(metafile), (path) => path.split("/")[0] ?? ""));
 }
 
-/** A fresh Vite project of an app: its files in a folder of its own beside the installed package. Returns the text of each file that Vite builds. */
+/**
+ * A fresh Vite project of an app: its files in a folder of its own beside the installed package. Returns the text of each
+ * file that Vite builds.
+ */
 function viteBuild(name: string, source: string): Map<string, string> {
   const project = join(app, name);
   mkdirSync(project);

@@ -9,7 +9,10 @@ import type { BenchPage } from "./pages.ts";
 import { mainTasksOf, traceCategories, type Task, type TraceEvent } from "./trace.ts";
 
 export interface Tasks {
-  /** The task with the longest processor time, of all tasks and of those that load and draw the model (not starting scripts). */
+  /**
+   * The task with the longest processor time, of all tasks and of those that load and draw the model (not starting
+   * scripts).
+   */
   longest: Task;
   longestOfLoading: Task;
   /** Maximum duration of a task in milliseconds. */

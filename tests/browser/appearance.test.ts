@@ -10,7 +10,7 @@ import { savePicture } from "./compare.ts";
 import { pictureSize, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import { encodePng, type Picture } from "./png.ts";
-import { sceneOf, shapeIn } from "./scenes.ts";
+import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate } from "./server.ts";
 import { siteOf } from "./sites.ts";
 
@@ -286,7 +286,7 @@ function texturedScene(): { directory: string; all: Case[] } {
   const all = cases();
   const shapes = all.map(({ site, appearance, alphaMode = "AUTO", change = (shape) => shape }, n) => {
     const [x, y] = positionOf(n);
-    const shape = change(shapeIn(site, `q${n}`)).replace(
+    const shape = change(shapeInFolder(site, `q${n}`)).replace(
       /<Appearance[\s\S]*<\/Appearance>/i,
       `<Appearance alphaMode="${alphaMode}">${appearance}</Appearance>`,
     );
@@ -370,13 +370,13 @@ describe("a texture", () => {
 
   test("that fails is missing from its shape only; without a texture its coordinates are not fetched", async () => {
     const site = siteOf(quad(1), "--profile", "classic");
-    const plain = sceneOf("untextured", { q: site }, viewpoint(distance) + shapeIn(site, "q"));
+    const plain = sceneOf("untextured", { q: site }, viewpoint(distance) + shapeInFolder(site, "q"));
     let without = 0;
     await withPage(plain, {}, async (view) => {
       await view.promise("complete");
       without = view.server.requestsOf(/geometry/).length;
     });
-    const shape = shapeIn(site, "q").replace(
+    const shape = shapeInFolder(site, "q").replace(
       /<Appearance[\s\S]*<\/Appearance>/i,
       `<Appearance>${white}${image()}</Appearance>`,
     );
@@ -400,7 +400,7 @@ describe("points", () => {
 
   async function withPoints(properties: string, check: (view: View, picture: Picture) => Promise<void>): Promise<void> {
     const site = cloud();
-    const shape = shapeIn(site, "cloud").replace(
+    const shape = shapeInFolder(site, "cloud").replace(
       /<Appearance[\s\S]*<\/Appearance>/i,
       `<Appearance><Material diffuseColor="1 1 1" ambientIntensity="0"></Material>${properties}</Appearance>`,
     );

@@ -131,7 +131,8 @@ test("shapes coloured by values and wide lines are batched in a scene of many sh
     await view.promise("complete");
     const first = await view.picture();
     savePicture("batched-appearances", first);
-    // Clear, buffers with values, images with values, lines, dashed lines, transparent lines, lines in images, and mirrored lines in images.
+    // Clear, buffers with values, images with values, lines, dashed lines, transparent lines, lines in images, and
+    // mirrored lines in images.
     const maxDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
     assert.ok((await drawsOfFrame(view)) <= maxDraws, `${await drawsOfFrame(view)} draws`);
     await view.page.evaluate(() => {

@@ -10,7 +10,7 @@ import { withPage, type View } from "./harness.ts";
 import { writePly } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { type Picture } from "./png.ts";
-import { sceneOf, shapeIn } from "./scenes.ts";
+import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { siteOf } from "./sites.ts";
 
 type Pair = [number, number];
@@ -80,7 +80,7 @@ const positionOf = (n: number): Pair => [2.2 * (n % perRow) - 3.3, 2.2 - 2.2 * M
 
 function zigzags(sites: readonly string[]): string {
   const shapes = sites.map((site, n) =>
-    shapeIn(site, `z${n}`)
+    shapeInFolder(site, `z${n}`)
       .replaceAll(/(["'])geometry\//g, `$1z${n}/geometry/`)
       .replace(/<Appearance[\s\S]*<\/Appearance>/i, wide),
   );

@@ -5,7 +5,7 @@ import { describe, test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
 import { settle, withPage, type View } from "./harness.ts";
 import type { Picture } from "./png.ts";
-import { sceneOf, shapeIn } from "./scenes.ts";
+import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 interface Memory {
@@ -131,7 +131,7 @@ describe("a budget", () => {
   /** Two knots far apart, and a viewpoint in front of each. */
   const scene = (site: string, attributes: string): string => {
     const at = (x: number): string =>
-      `<Transform translation="${x} 0 0">${shapeIn(site, "knot", `id="at${x}"`).replaceAll("knot/", `knot${x}/`)}</Transform>`;
+      `<Transform translation="${x} 0 0">${shapeInFolder(site, "knot", `id="at${x}"`).replaceAll("knot/", `knot${x}/`)}</Transform>`;
     const point = (x: number): string => `<Viewpoint description="at ${x}" position="${x} 0 12"></Viewpoint>`;
     return sceneOf(
       `budget-${attributes.replaceAll(/\W+/g, "-")}`,

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
 import { finalPicture, settle, until, withPage, type View } from "./harness.ts";
-import { sceneOf, shapeIn } from "./scenes.ts";
+import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate, startServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
@@ -80,8 +80,8 @@ test("a host that refuses other origins affects only shapes with files on it, an
     // The browser displays such an <img>, but gives its pixels to nobody.
     const ofImage = `<imagegeometry vertexcount="3"><img containerfield="coord" src="${other.origin}${file}"></imagegeometry>`;
     const scene =
-      shapeIn(site(), "good", 'id="good"') +
-      shapeIn(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin) +
+      shapeInFolder(site(), "good", 'id="good"') +
+      shapeInFolder(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin) +
       `<shape id="image" bboxsize="1 1 1">${ofImage}</shape>`;
     const options = {
       isCrossOrigin: true,
@@ -169,7 +169,7 @@ describe("a lost WebGL context", () => {
 test("thousands of shapes are all displayed except one whose files are missing, and the page follows the keyboard", async () => {
   const side = isSoak ? 100 : 50;
   const small = siteOfGenerated("sphere-small", "--profile", "classic");
-  const [whole, broken] = [shapeIn(small, "small", 'id="NAME"'), shapeIn(small, "missing", 'id="NAME"')];
+  const [whole, broken] = [shapeInFolder(small, "small", 'id="NAME"'), shapeInFolder(small, "missing", 'id="NAME"')];
   const shapes = Array.from({ length: side * side }, (_, n) => {
     const shape = (n === 1234 ? broken : whole).replace("NAME", `s${n}`);
     return `<Transform translation="${2.5 * (n % side) - 125} ${2.5 * Math.floor(n / side) - 125} 0">${shape}</Transform>`;

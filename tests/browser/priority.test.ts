@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { describe, test } from "node:test";
 import { settle, until, withPage, type View } from "./harness.ts";
-import { ranksIn, sceneOf, shapeIn } from "./scenes.ts";
+import { ranksIn, sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
@@ -14,8 +14,8 @@ const ball = (): string => siteOfGenerated("sphere", "--profile", "classic", "--
 /** The knot on the left and the ball on the right, about 6 and 2 wide. */
 function twoShapes(viewpoint: string, { knotAttributes = "", ballAttributes = "", x3dAttributes = "" } = {}): string {
   const scene = `<Viewpoint ${viewpoint}></Viewpoint>
-    <Transform translation="-30 0 0">${shapeIn(knot(), "knot", `id="knot" ${knotAttributes}`)}</Transform>
-    <Transform translation="30 0 0">${shapeIn(ball(), "ball", `id="ball" ${ballAttributes}`)}</Transform>`;
+    <Transform translation="-30 0 0">${shapeInFolder(knot(), "knot", `id="knot" ${knotAttributes}`)}</Transform>
+    <Transform translation="30 0 0">${shapeInFolder(ball(), "ball", `id="ball" ${ballAttributes}`)}</Transform>`;
   const name = createHash("sha256")
     .update(scene + x3dAttributes)
     .digest("hex")

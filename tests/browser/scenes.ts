@@ -8,7 +8,7 @@ import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf } from "./sites.ts";
 
 /** The Shape of a site with its files in `folder`; `attributes` go into its tag. */
-export function shapeIn(site: string, folder: string, attributes = ""): string {
+export function shapeInFolder(site: string, folder: string, attributes = ""): string {
   const html = pageOf(site);
   const shape = /<Shape[\s\S]*<\/Shape>/i.exec(html)?.[0].replace(/<Shape/i, () => `<Shape ${attributes}`);
   assert.ok(shape);

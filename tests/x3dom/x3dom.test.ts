@@ -74,7 +74,9 @@ function cubeAround(mesh: PlainMesh): Cube {
   };
 }
 
-/** The cube that the document states in few digits; it differs from the mesh's own by less than a thousandth of a step. */
+/**
+ * The cube that the document states in few digits; it differs from the mesh's own by less than a thousandth of a step.
+ */
 function statedCube(site: string): Cube {
   const [, node = ""] = /<(?:Binary|Image)Geometry([^>]*)>/.exec(pageOf(site)) ?? [];
   const numbersOf = (name: string): number[] =>

@@ -61,7 +61,7 @@ private:
     }
     const Transform* transform = std::get_if<Transform>(&node.content);
     const Affine3d worldFromNode = transform ? worldFromParent * affineOf(*transform) : worldFromParent;
-    const std::optional<std::size_t> choice = generic ? choiceOf(node, *generic) : std::nullopt;
+    const std::optional<std::size_t> choice = generic ? visibleChildOf(node, *generic) : std::nullopt;
     std::size_t count = 0;
     for (const std::size_t child : node.children) {
       if (instances.size() > maxInstances || !isWhole)
@@ -72,7 +72,7 @@ private:
   }
 
   /// The only visible child of an LOD or Switch; beyond the children: none.
-  static std::optional<std::size_t> choiceOf(const Node& node, const GenericNode& generic) {
+  static std::optional<std::size_t> visibleChildOf(const Node& node, const GenericNode& generic) {
     if (generic.element == "LOD")
       return 0;
     if (generic.element != "Switch")

@@ -16,5 +16,5 @@ export const bgDelivery: EncodingDelivery = {
     });
   },
   stageBuilder: (geometry, patch, _, tools) => bgStageBuilder(geometry, patch, tools),
-  needsWorkers: ({ decode }) => decode === "cpu",
+  needsWorkers: () => false,
 };
