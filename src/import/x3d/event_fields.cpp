@@ -33,7 +33,7 @@ constexpr Row commonRows[] = {
     {"", "isOver", {"SFBool", outputOnly}},
 };
 
-constexpr Row nodeRows[] = {
+constexpr Row fieldRows[] = {
     {"BooleanFilter", "set_boolean", {"SFBool", inputOnly}},
     {"BooleanFilter", "inputFalse", {"SFBool", outputOnly}},
     {"BooleanFilter", "inputNegate", {"SFBool", outputOnly}},
@@ -224,7 +224,7 @@ std::optional<EventField> eventField(std::string_view element, std::string_view 
   if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(element))
     if (const std::optional<EventField> found = interpolatorField(*kind, field))
       return found;
-  if (const std::optional<EventField> found = find(nodeRows, element, field))
+  if (const std::optional<EventField> found = find(fieldRows, element, field))
     return found;
   if (interpolatorKindOf(element) || std::ranges::find(completeNodes, element) != completeNodes.end())
     return find(commonRows, "", field);
