@@ -216,6 +216,27 @@ test("a live stream is drawn from buffers as from images, and with normals of it
     await show(triangles(example), "live: an index");
     await pickMiddle(example);
 
+    // Each frame is displayed or counted, over all these forms of the stream.
+    const frames = await displayed(view, stream);
+    const counted = frames.slice(1).reduce((sum, { skipped }) => sum + skipped + 1, 0);
+    assert.equal(counted, stream.number - frames[0]!.number);
+
+    // A page that nobody sees requests no frames, and goes on with the newest.
+    const setHidden = (isHidden: boolean): Promise<void> =>
+      view.page.evaluate((value) => {
+        Object.defineProperty(document, "hidden", { configurable: true, get: () => value });
+        document.dispatchEvent(new Event("visibilitychange"));
+      }, isHidden);
+    await setHidden(true);
+    await until("no request is open", () => server.requestsOf(/frames/).every(({ state }) => state !== "waiting"));
+    const requestCount = server.requestsOf(/live/).length;
+    for (let n = 0; n < 5; ++n) stream.publish(wave(50 + n));
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    assert.equal(server.requestsOf(/live/).length, requestCount, "a hidden page sends requests");
+    await setHidden(false);
+    const revealed = await displayed(view, stream);
+    assert.equal(revealed.at(-1)!.skipped, 4);
+
     // A script that changes the files of a geometry: they take turns with the GPU memory of those before the last.
     const filesOf = (n: number): { example: GridExample; urls: string[] } => {
       const example = wave(100 + n);

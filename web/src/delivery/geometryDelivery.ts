@@ -30,13 +30,11 @@ export interface DeliveryListener {
   onSettled(): void;
 }
 
-/** A displayed frame of a live stream. */
+/** A frame of a live stream, as the stream's publisher numbers it. */
 export interface LiveFrame {
   readonly number: number;
   /** Seconds of the publisher's clock. */
   readonly time: number;
-  /** Number of frames between this one and the one before. */
-  readonly skipped: number;
 }
 
 /** The priority of a file; undefined: it is not needed now. */

@@ -4,7 +4,7 @@
 
 import type { StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
-import type { LiveFrame } from "../delivery/geometryDelivery.ts";
+import type { DisplayedFrame } from "../viewer/loadingShape.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress } from "../delivery/progress.ts";
 
@@ -65,7 +65,7 @@ export class LoadingEvents {
   #error: Error | undefined;
   readonly #errors: ErrorDetail[] = [];
   /** The frame of a live stream that the next frame of the page displays. */
-  #frame: LiveFrame | undefined;
+  #frame: DisplayedFrame | undefined;
 
   /**
    * Sets new promises and an empty list of errors on the element. `previewStage`: the stage that a preview displays,
@@ -120,9 +120,14 @@ export class LoadingEvents {
   }
 
   /** Call it when the next frame will display this frame of a live stream. Those in between count as skipped. */
-  displayFrame(frame: LiveFrame): void {
+  displayFrame(frame: DisplayedFrame): void {
     const skipped = frame.skipped + (this.#frame === undefined ? 0 : this.#frame.skipped + 1);
     this.#frame = { ...frame, skipped };
+  }
+
+  /** The frame of which no event has told yet. */
+  get waitingFrame(): DisplayedFrame | undefined {
+    return this.#frame;
   }
 
   updateProgress(progress: Progress): void {

@@ -2,7 +2,6 @@
 // and sends the events and settles the promises of their elements.
 
 import { DeliveryError } from "../delivery/deliveryError.ts";
-import type { LiveFrame } from "../delivery/geometryDelivery.ts";
 import { needsWorkers } from "../delivery/encodings/encodings.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
@@ -22,7 +21,7 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
-import type { StageChange } from "../viewer/loadingShape.ts";
+import type { DisplayedFrame, StageChange } from "../viewer/loadingShape.ts";
 import { LoadingShape } from "../viewer/loadingShape.ts";
 import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
@@ -38,7 +37,7 @@ export interface PageShapesListener {
 /** Receives what a shape loads. */
 interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
   onStage(shape: PageShape, change: StageChange): void;
-  onLiveFrame(shape: PageShape, frame: LiveFrame): void;
+  onLiveFrame(shape: PageShape, frame: DisplayedFrame): void;
   onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
   onGeometryReplaced(): void;
@@ -81,15 +80,17 @@ export class PageShape extends LoadingShape {
     this.#listener.onStage(this, change);
   }
 
-  protected override onFrame(frame: LiveFrame): void {
+  protected override onFrame(frame: DisplayedFrame): void {
     this.#listener.onLiveFrame(this, frame);
   }
 
   protected override onGeometryReplaced(): void {
     this.#listener.onGeometryReplaced();
+    const { waitingFrame } = this.#loading;
     this.#loading.abandon();
     this.#stages = noStages(this.geometry);
     this.#loading = new LoadingEvents(this.element as Element, () => this.transfers);
+    if (waitingFrame !== undefined) this.#loading.displayFrame(waitingFrame);
     if (this.geometry === undefined) this.#loading.settle();
   }
 

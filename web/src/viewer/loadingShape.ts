@@ -35,6 +35,12 @@ interface GeometrySource {
   frame: LiveFrame | undefined;
 }
 
+/** A frame of a live stream that the shape displays. */
+export interface DisplayedFrame extends LiveFrame {
+  /** Number of frames between this one and the one before, of the same stream. */
+  readonly skipped: number;
+}
+
 /** A patch displays another stage. */
 export interface StageChange {
   /** The shape's geometry, or the one before. */
@@ -59,6 +65,8 @@ export abstract class LoadingShape {
   #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
   #playback: Playback = allFrames;
+  /** The frame that was displayed last, and the address of its stream. */
+  #lastFrame: { readonly stream: string | undefined; readonly number: number } | undefined;
   /** Why the geometry is not drawn, until this has been reported; empty: nothing to report. */
   #problem: string;
 
@@ -84,7 +92,7 @@ export abstract class LoadingShape {
 
   protected abstract onStage(change: StageChange): void;
   /** The displayed vertices of a live stream have changed. */
-  protected abstract onFrame(frame: LiveFrame): void;
+  protected abstract onFrame(frame: DisplayedFrame): void;
   /** The shape has another geometry. The stages of the one before are still displayed. */
   protected abstract onGeometryReplaced(): void;
   /** A texture has another image; undefined: none. The image before is not used after this call. */
@@ -162,7 +170,7 @@ export abstract class LoadingShape {
           this.#receiveStage(source, patch, stage, drawn);
         },
         onFrame: (frame) => {
-          if (source === (this.#replaced ?? this.#source)) this.onFrame(frame);
+          if (source === (this.#replaced ?? this.#source)) this.#displayFrame(source, frame);
           else source.frame = frame;
         },
         onError: (error) => {
@@ -239,8 +247,20 @@ export abstract class LoadingShape {
       Array.from(before.stages.keys()).filter((patch) => !after.stages.has(patch)),
     );
     for (const [patch, [stage, drawn]] of after.stages) this.onStage({ geometry: after.geometry, patch, stage, drawn });
-    if (after.frame !== undefined) this.onFrame(after.frame);
+    if (after.frame !== undefined) this.#displayFrame(after, after.frame);
     before.joined?.cancel();
+  }
+
+  /**
+   * Frames are numbered consecutively, so that none is missed in the count, whichever delivery of a stream they come
+   * from: another form of the same stream has another delivery.
+   */
+  #displayFrame({ geometry }: GeometrySource, frame: LiveFrame): void {
+    const stream = geometry.patches[0]?.coord[0]?.url;
+    const last = this.#lastFrame?.stream === stream ? this.#lastFrame?.number : undefined;
+    if (frame.number === last) return;
+    this.#lastFrame = { stream, number: frame.number };
+    this.onFrame({ ...frame, skipped: last === undefined ? 0 : Math.max(0, frame.number - last - 1) });
   }
 
   #clear({ geometry, stages }: GeometrySource, patches: Iterable<number>): void {

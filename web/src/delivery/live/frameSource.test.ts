@@ -27,6 +27,8 @@ interface Line {
   readonly isTimed?: boolean;
   /** Times at which the server does not answer. */
   readonly outage?: readonly [from: number, to: number];
+  /** FrameSource.setRate. */
+  readonly maxRate?: number;
   /** When the first frame of the epoch comes. Before it, the newest frame is of another epoch. */
   readonly firstFrameAt?: number;
 }
@@ -132,6 +134,7 @@ async function follow(line: Line, durationMs: number) {
       },
     },
   );
+  source.setRate(line.maxRate ?? 0);
   source.start();
   while (now < durationMs) {
     // Real work, such as decoding, takes no simulated time.
@@ -196,5 +199,14 @@ describe("a viewer", () => {
     assert.equal(outages.length, 1);
     assert.ok(displayed.some(({ at }) => at < 1000) && displayed.some(({ at }) => at > 4000));
     assert.ok(!displayed.some(({ at }) => at > 1100 && at < 4000));
+  });
+
+  test("displays at most the frames that it wants, each the newest one", async () => {
+    const { displayed, outages } = await follow({ frameMs: 1, maxRate: 5 }, 4000);
+    assert.ok(displayed.length >= 16 && displayed.length <= 21, `${displayed.length} frames in 4 s`);
+    assert.ok(maxAge(displayed) < 2 * intervalMs, `age ${maxAge(displayed)} ms`);
+    const skipped = displayed.slice(1).reduce((sum, frame) => sum + frame.skipped + 1, 0);
+    assert.equal(skipped, (displayed.at(-1)?.number ?? 0) - (displayed[0]?.number ?? 0));
+    assert.deepEqual(outages, []);
   });
 });

@@ -14,6 +14,7 @@ import type { Transfer } from "../progress.ts";
 import type { Content, ResourceHandle, ResourcePool, ResourceRequest } from "../resourcePool.ts";
 import { FrameSource } from "./frameSource.ts";
 import type { DecodedFrame, FrameTarget } from "./frameTarget.ts";
+import { isPageHidden, onPageVisibility } from "./pageVisibility.ts";
 import { ArrayTarget } from "./liveArrays.ts";
 import { ImageTarget } from "./liveImages.ts";
 import type { StreamState } from "./streamState.ts";
@@ -52,6 +53,9 @@ class StreamDelivery implements Delivery {
   #readsTextures: boolean | undefined;
   #isPaused = false;
   #isCancelled = false;
+  readonly #stopListening = onPageVisibility(() => {
+    this.#followNeeds();
+  });
 
   constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
     this.#geometry = geometry;
@@ -71,8 +75,8 @@ class StreamDelivery implements Delivery {
         onEpoch: (state) => {
           this.#onEpoch(state);
         },
-        onFrame: (frame, skipped, byteLength) => {
-          this.#onFrame(frame, skipped, byteLength);
+        onFrame: (frame, _, byteLength) => {
+          this.#onFrame(frame, byteLength);
         },
         onOutage: (error) => {
           this.#onOutage(error);
@@ -125,6 +129,7 @@ class StreamDelivery implements Delivery {
 
   cancel(): void {
     this.#isCancelled = true;
+    this.#stopListening();
     this.#source.stop();
     for (const epoch of [this.#displayed, this.#next]) if (epoch) close(epoch);
   }
@@ -133,10 +138,11 @@ class StreamDelivery implements Delivery {
     return this.#next ?? this.#displayed;
   }
 
-  /** Frames are requested while the shape is visible; if it is paused, until the first one is displayed. */
+  /** Frames are requested while shape and page are visible; if not, or if it is paused, until one is displayed. */
   #followNeeds(): void {
     const isReady = this.#readsTextures !== undefined && !this.#isCancelled;
-    const isRunning = isReady && this.#isNeeded && !(this.#isPaused && this.#displayed !== undefined);
+    const isResting = this.#isPaused || isPageHidden();
+    const isRunning = isReady && this.#isNeeded && !(isResting && this.#displayed !== undefined);
     if (isRunning) this.#source.start();
     else this.#source.stop();
   }
@@ -188,7 +194,7 @@ class StreamDelivery implements Delivery {
     epoch.delivery.request(this.#priorityOf);
   }
 
-  #onFrame(frame: DecodedFrame, skipped: number, byteLength: number): void {
+  #onFrame(frame: DecodedFrame, byteLength: number): void {
     const epoch = this.#newest;
     if (epoch === undefined) return;
     const { number, time } = frame.header;
@@ -200,7 +206,7 @@ class StreamDelivery implements Delivery {
     frame.display();
     const { vertices } = epoch.target;
     if (vertices !== undefined) epoch.content.resolve({ kind: "live", vertices });
-    epoch.frame = { number, time, skipped: skipped + (epoch.frame ? epoch.frame.skipped + 1 : 0) };
+    epoch.frame = { number, time };
     if (epoch === this.#displayed) this.#reportFrame(epoch);
   }
 
