@@ -12,6 +12,7 @@ extern "C" {
 extern const char imgeoPageBegin[], imgeoPageEnd[];
 extern const char imgeoSharedBegin[], imgeoSharedEnd[];
 extern const char imgeoSceneBegin[], imgeoSceneEnd[];
+extern const char imgeoAnimationBegin[], imgeoAnimationEnd[];
 extern const char imgeoWorkerBegin[], imgeoWorkerEnd[];
 }
 
@@ -40,16 +41,20 @@ RuntimeModules<std::string_view> bundledRuntime() {
   return {{imgeoPageBegin, imgeoPageEnd},
           {imgeoSharedBegin, imgeoSharedEnd},
           {imgeoSceneBegin, imgeoSceneEnd},
+          {imgeoAnimationBegin, imgeoAnimationEnd},
           {imgeoWorkerBegin, imgeoWorkerEnd}};
 }
 
 Runtime runtimeOfSite() {
   // The names are those of web/bundle.ts and of web/src/workers/pageWorkers.ts.
-  const auto [page, shared, scene, worker] = bundledRuntime();
+  const auto [page, shared, scene, animation, worker] = bundledRuntime();
   Runtime site;
   site.worker = siteFile("imgeo-worker", worker, {});
   site.shared = siteFile("imgeo-shared", shared, {});
-  site.scene = siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-worker.js", &site.worker}});
+  site.animation = siteFile("imgeo-animation", animation, {});
+  site.scene = siteFile(
+      "imgeo-scene", scene,
+      {{"imgeo-shared.js", &site.shared}, {"imgeo-animation.js", &site.animation}, {"imgeo-worker.js", &site.worker}});
   site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
   return site;
 }

@@ -8,10 +8,11 @@ namespace imgeo {
 
 /// One value for each ES module of the runtime.
 template <typename Module> struct RuntimeModules {
-  Module page;   ///< the page loads it first: draws the preview and loads the others
-  Module shared; ///< used by `page` and `scene`
-  Module scene;  ///< three.js and all else
-  Module worker; ///< runs in workers
+  Module page;      ///< the page loads it first: draws the preview and loads the others
+  Module shared;    ///< used by `page` and `scene`
+  Module scene;     ///< three.js and all else
+  Module animation; ///< loaded by `scene` where the document has nodes that send events
+  Module worker;    ///< runs in workers
 };
 
 /// The modules as they were bundled into web/dist when the tool was built.

@@ -6,5 +6,6 @@
     BUNDLE(imgeoPageBegin, imgeoPageEnd, IMGEO_PAGE_MODULE)
     BUNDLE(imgeoSharedBegin, imgeoSharedEnd, IMGEO_SHARED_MODULE)
     BUNDLE(imgeoSceneBegin, imgeoSceneEnd, IMGEO_SCENE_MODULE)
+    BUNDLE(imgeoAnimationBegin, imgeoAnimationEnd, IMGEO_ANIMATION_MODULE)
     BUNDLE(imgeoWorkerBegin, imgeoWorkerEnd, IMGEO_WORKER_MODULE)
     .section .note.GNU-stack,"",%progbits

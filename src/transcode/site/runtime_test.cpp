@@ -13,23 +13,26 @@ TEST(Runtime, IsLinkedIntoTheLibraryByteForByte) {
     EXPECT_FALSE(module.empty());
     EXPECT_EQ(bundled, asText(module)) << path;
   };
-  const auto [page, shared, scene, worker] = bundledRuntime();
+  const auto [page, shared, scene, animation, worker] = bundledRuntime();
   expectSame(page, IMGEO_PAGE_MODULE);
   expectSame(shared, IMGEO_SHARED_MODULE);
   expectSame(scene, IMGEO_SCENE_MODULE);
+  expectSame(animation, IMGEO_ANIMATION_MODULE);
   expectSame(worker, IMGEO_WORKER_MODULE);
 }
 
 TEST(Runtime, ModulesOfASiteAreNamedByTheirContentAndImportEachOtherByTheseNames) {
-  const auto [page, shared, scene, worker] = runtimeOfSite();
+  const auto [page, shared, scene, animation, worker] = runtimeOfSite();
   const auto expectNamed = [](const RuntimeFile& file, const std::string& stem) {
     EXPECT_EQ(file.name, stem + "-" + contentName(asBytes(file.text)) + ".js");
   };
   expectNamed(page, "imgeo");
   expectNamed(shared, "imgeo-shared");
   expectNamed(scene, "imgeo-scene");
+  expectNamed(animation, "imgeo-animation");
   expectNamed(worker, "imgeo-worker");
   EXPECT_EQ(shared.text, bundledRuntime().shared);
+  EXPECT_EQ(animation.text, bundledRuntime().animation);
   EXPECT_EQ(worker.text, bundledRuntime().worker);
   const auto names = [](const RuntimeFile& file, const RuntimeFile& other) {
     return file.text.find("\"./" + other.name + "\"") != std::string::npos;
@@ -37,9 +40,11 @@ TEST(Runtime, ModulesOfASiteAreNamedByTheirContentAndImportEachOtherByTheseNames
   EXPECT_TRUE(names(page, shared));
   EXPECT_TRUE(names(page, scene));
   EXPECT_TRUE(names(scene, shared));
+  EXPECT_TRUE(names(scene, animation));
   EXPECT_TRUE(names(scene, worker));
-  for (const RuntimeFile* file : {&page, &shared, &scene, &worker}) {
-    for (const char* bundled : {"imgeo.js", "imgeo-shared.js", "imgeo-scene.js", "imgeo-worker.js"}) {
+  for (const RuntimeFile* file : {&page, &shared, &scene, &animation, &worker}) {
+    for (const char* bundled :
+         {"imgeo.js", "imgeo-shared.js", "imgeo-scene.js", "imgeo-animation.js", "imgeo-worker.js"}) {
       EXPECT_EQ(file->text.find(bundled), std::string::npos) << file->name << " names " << bundled;
     }
   }

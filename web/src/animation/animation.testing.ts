@@ -137,7 +137,7 @@ export function play(markup: string, mayStartByItself = true): TestScene {
       writeAttribute(element, field, text) {
         element.setAttribute(field, text);
       },
-      onEvent(element, field, value) {
+      onEvent(element, field, _, value) {
         events.push(`${nameOf(element)}.${field} ${String(value)}`);
       },
       warn: (message) => warnings.push(message),

@@ -48,7 +48,6 @@ export class DocumentGraph {
   /** Nodes without behaviour at which routes end or begin. */
   readonly #drawnNodes = new Map<AnimatedElement, EventNode>();
   #elements: ReadonlyMap<EventNode, AnimatedElement> = new Map();
-  #routeCount = 0;
 
   constructor(root: AnimatedElement, graph: EventGraph, options: DocumentGraphOptions) {
     this.#root = root;
@@ -61,8 +60,9 @@ export class DocumentGraph {
     return this.#nodes;
   }
 
-  get routeCount(): number {
-    return this.#routeCount;
+  /** The elements with behaviour or with routes. */
+  get elements(): Iterable<AnimatedElement> {
+    return [...this.#nodes.keys(), ...this.#drawnNodes.keys()];
   }
 
   /** The node of an element, with behaviour or with routes; undefined for others. */
@@ -96,7 +96,6 @@ export class DocumentGraph {
     this.#drawnNodes.clear();
     this.#nodes = nodes;
     this.#elements = new Map(Array.from(nodes, ([element, node]) => [node, element]));
-    this.#routeCount = 0;
     const known = new Set<string>();
     for (const route of routes) this.#addRoute(route, named, known);
   }
@@ -168,7 +167,6 @@ export class DocumentGraph {
       return;
     }
     from.node.addRoute(from.field, { node: to.node, field: to.field });
-    this.#routeCount += 1;
   }
 
   #portOf(
@@ -222,6 +220,11 @@ function fieldIn(node: EventNode, names: readonly string[], excluded: string): s
       if (field.toLowerCase() === lower && node.specificationOf(field)?.access !== excluded) return field;
   }
   return undefined;
+}
+
+/** A node's field by a name as ROUTEs and scripts write it. */
+export function fieldNamed(node: EventNode, name: string): string | undefined {
+  return inputOf(node, name) ?? outputOf(node, name);
 }
 
 function inputOf(node: EventNode, name: string): string | undefined {

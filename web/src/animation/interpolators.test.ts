@@ -9,7 +9,7 @@ function valuesOf(markup: string, fractions: readonly number[]): (Value | undefi
   return fractions.map((fraction) => {
     scene.set("it", "set_fraction", String(fraction));
     const it = scene.root.named("it");
-    return scene.player.valueOf(it, it.localName === "EaseInEaseOut" ? "modifiedFraction_changed" : "value_changed");
+    return scene.player.fieldOf(it, it.localName === "EaseInEaseOut" ? "modifiedFraction" : "value_changed")?.value;
   });
 }
 

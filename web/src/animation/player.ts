@@ -2,13 +2,12 @@
 // changes, once for each frame.
 
 import type { DrawnFieldOf, FieldChange } from "./documentGraph.ts";
-import { DocumentGraph } from "./documentGraph.ts";
+import { DocumentGraph, fieldNamed } from "./documentGraph.ts";
 import type { AnimatedElement } from "./elements.ts";
 import { EventGraph } from "./eventGraph.ts";
 import type { EventNode } from "./eventNode.ts";
-import type { Value } from "./fieldTypes.ts";
+import type { FieldType, Value } from "./fieldTypes.ts";
 import { isOfType } from "./fieldTypes.ts";
-import { nodeTypeOf } from "./nodeTypes.ts";
 import { TimeSensor } from "./timeSensor.ts";
 
 /** Where the player gets its time from. */
@@ -26,7 +25,7 @@ export interface PlayerHost {
   /** A field of a node with behaviour has received a value from an event; its attribute follows. */
   writeAttribute(element: AnimatedElement, field: string, text: string): void;
   /** A node with behaviour has sent an event. */
-  onEvent(element: AnimatedElement, field: string, value: Value): void;
+  onEvent(element: AnimatedElement, field: string, type: FieldType, value: Value): void;
   /** One sentence. */
   warn(message: string): void;
 }
@@ -131,9 +130,23 @@ export class AnimationPlayer {
     this.flush();
   }
 
-  /** The value of a field, or of its last event; undefined where there is none. */
-  valueOf(element: AnimatedElement, field: string): Value | undefined {
-    return this.#document.nodeOf(element)?.valueOf(field);
+  /** All elements with behaviour or with routes. */
+  get elements(): Iterable<AnimatedElement> {
+    return this.#document.elements;
+  }
+
+  /**
+   * A field by a name as scripts write it, with its value or that of its last event; undefined where there is no such
+   * field.
+   */
+  fieldOf(
+    element: AnimatedElement,
+    name: string,
+  ): { readonly field: string; readonly type: FieldType; readonly value: Value | undefined } | undefined {
+    const node = this.#document.nodeOf(element);
+    const field = node && fieldNamed(node, name);
+    const type = field === undefined ? undefined : node?.specificationOf(field)?.type;
+    return field !== undefined && type ? { field, type, value: node?.valueOf(field) } : undefined;
   }
 
   /** Sends a value to a field, as an event. Returns false where there is no such field, or the value is of another type. */
@@ -175,8 +188,9 @@ export class AnimationPlayer {
   #onEvent(node: EventNode, field: string, value: Value): void {
     const element = this.#document.elementOf(node);
     if (element === undefined) return;
-    this.#host.onEvent(element, field, value);
-    if (node.specificationOf(field)?.access !== "inputOutput") return;
+    const specification = node.specificationOf(field);
+    if (specification) this.#host.onEvent(element, field, specification.type, value);
+    if (specification?.access !== "inputOutput") return;
     const fields = this.#outdated.get(node);
     if (fields) fields.add(field);
     else this.#outdated.set(node, new Set([field]));
@@ -215,9 +229,4 @@ export class AnimationPlayer {
         });
     this.flush();
   }
-}
-
-/** Whether an element sends events, by its name. */
-export function hasBehaviour(element: AnimatedElement): boolean {
-  return nodeTypeOf(element.localName) !== undefined;
 }

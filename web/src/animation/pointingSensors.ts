@@ -17,6 +17,8 @@ export interface PointedAt {
 }
 
 export abstract class PointingSensor implements Behaviour {
+  /** Whether it follows the pointer while a button is down, so that the camera must not. */
+  readonly isDragged: boolean = true;
   protected readonly node: EventNode;
 
   constructor(node: EventNode) {
@@ -63,6 +65,8 @@ export abstract class PointingSensor implements Behaviour {
 }
 
 class TouchSensor extends PointingSensor {
+  override readonly isDragged = false;
+
   override over(at: PointedAt | undefined): void {
     super.over(at);
     if (at === undefined) return;

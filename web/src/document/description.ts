@@ -73,6 +73,8 @@ export interface GroupDescription {
   readonly box: Box3 | undefined;
   /** Undefined for a plain Group. */
   readonly transform: TransformDescription | undefined;
+  /** The identity of a Transform: of a USEd one, the element that is USEd. */
+  readonly transformElement?: SceneElement;
   /** Present for a LOD, whose levels are the children, one of them visible. */
   readonly lod?: LodDescription;
   /** The identity of an Inline that names a document. */

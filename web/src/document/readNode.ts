@@ -65,7 +65,7 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
     }
     case "transform": {
       const transform = readFields(node, nodeFields.Transform, warnings);
-      return groupReader(node, transform, context, { transform });
+      return groupReader(node, transform, context, { transform, transformElement: node });
     }
     case "switch":
       return switchReader(node, context);
@@ -182,7 +182,7 @@ function inheritedByChildren(fields: GroupFields, inherited: Inherited): Inherit
 }
 
 /** Optional properties of groups. */
-type GroupTraits = Partial<Pick<GroupDescription, "transform" | "billboardAxis" | "anchor">>;
+type GroupTraits = Partial<Pick<GroupDescription, "transform" | "transformElement" | "billboardAxis" | "anchor">>;
 
 function groupOf(
   fields: GroupFields,

@@ -30,6 +30,9 @@ import { PageInlines } from "./pageInlines.ts";
 import { absoluteUrlOf, makePagePool } from "./pagePool.ts";
 import type { PageShape } from "./pageShapes.ts";
 import { displayedStageOf, PageShapes } from "./pageShapes.ts";
+import type { AnimatedValues } from "./sceneAnimation.ts";
+import { SceneAnimation } from "./sceneAnimation.ts";
+import { sceneSpaceOf } from "./sceneSpace.ts";
 import { ShapeVisibility } from "./shapeVisibility.ts";
 
 /** Nested LODs whose levels are chosen at once; deeper ones are chosen after the next frame. */
@@ -83,6 +86,9 @@ export class PageViewer {
   #isLoading = false;
   #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
   #hasAnchors = false;
+  readonly #animation: SceneAnimation;
+  /** Whether animation has moved the scene, so that its bounds no longer say what the camera is to frame. */
+  #hasMoved = false;
   readonly #shapeVisibility = new ShapeVisibility();
   /** Nesting depth of calls of `core.read`: LODs of the scene that one call has read cause the next. */
   #nestedReads = 0;
@@ -174,14 +180,48 @@ export class PageViewer {
     this.#observer = new MutationObserver((allRecords) => {
       const records = allRecords.filter(({ target }) => isSceneNode(target, x3d));
       if (records.length === 0) return;
-      const { reader } = this.#core;
-      for (const { target, type } of records) {
-        if (type === "childList") reader.rearrange(target as Element);
-        else reader.touch(target as Element);
-      }
-      this.#core.read();
-      for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
+      this.#follow(this.#animation.follow(records));
     });
+    this.#animation = new SceneAnimation(x3d, {
+      display: (values, isFrame) => {
+        this.#displayValues(values, isFrame);
+      },
+      withoutReports: (write) => {
+        this.#writeUnobserved(write);
+      },
+      ...sceneSpaceOf(x3d, canvas, this.renderer, this.cameraController),
+      warn: (message) => {
+        this.#core.log.warn(message);
+      },
+    });
+  }
+
+  /** Reads what a script has changed. */
+  #follow(records: readonly MutationRecord[]): void {
+    if (records.length === 0) return;
+    const { reader } = this.#core;
+    for (const { target, type } of records) {
+      if (type === "childList") reader.rearrange(target as Element);
+      else reader.touch(target as Element);
+    }
+    this.#core.read();
+    for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
+  }
+
+  /** Displays values that animation has written into attributes. */
+  #displayValues({ transforms, others }: AnimatedValues, isFrame: boolean): void {
+    for (const { element } of others) this.#core.reader.touch(element);
+    if (others.length > 0) this.#core.read();
+    if (transforms.size > 0)
+      this.#core.move(transforms.keys(), () => {
+        const { changes, ...built } = this.renderer.move(transforms);
+        this.#hasMoved = true;
+        if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
+        if (this.#displayed) this.cameraController.followMoves(this.#displayed);
+        return changes;
+      });
+    for (const { element, attribute } of others) this.#followBind(element, attribute);
+    if (isFrame) this.renderer.draw();
   }
 
   /** Follows the document from now on. */
@@ -205,8 +245,30 @@ export class PageViewer {
     watchNetworkProtocol(signal, (protocol) => {
       this.#scheduler.slotCount = slotCountFor(protocol);
     });
-    this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
+    this.#observe();
     this.#core.read();
+    this.#animation.start();
+  }
+
+  #observe(): void {
+    this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
+  }
+
+  /** Changes the document without a report of the observer, which would cost more than the change. */
+  #writeUnobserved(write: () => void): void {
+    const earlier = this.#observer.takeRecords().filter(({ target }) => isSceneNode(target, this.#x3d));
+    this.#observer.disconnect();
+    try {
+      write();
+    } finally {
+      this.#observe();
+    }
+    this.#follow(this.#animation.follow(earlier));
+  }
+
+  /** `isPaused`: animation stands. `mayStartByItself`: clocks run that no event has started. */
+  setMotion(isPaused: boolean, mayStartByItself: boolean): void {
+    this.#animation.setMotion(isPaused, mayStartByItself);
   }
 
   /** Requests files from now on. */
@@ -262,6 +324,7 @@ export class PageViewer {
   dispose(): void {
     this.#listeners.abort();
     this.#observer.disconnect();
+    this.#animation.dispose();
     this.#core.dispose();
     this.#progress.cancel();
     this.#loading.abandon();
@@ -308,11 +371,9 @@ export class PageViewer {
     if (built.anchors.length > 0 || this.#hasAnchors) this.#listener.onAnchors(built.anchors);
     this.#hasAnchors = built.anchors.length > 0;
     this.#displayed = { ...built, navigation: scene.navigation };
-    const isSame =
-      before?.sphere === built.sphere &&
-      before.navigation === scene.navigation &&
-      isSameList(before.viewpoints, built.viewpoints);
-    if (!isSame) this.cameraController.setScene(this.#displayed);
+    const isSame = before?.navigation === scene.navigation && isSameList(before.viewpoints, built.viewpoints);
+    if (!isSame || (before.sphere !== built.sphere && !this.#hasMoved)) this.cameraController.setScene(this.#displayed);
+    else if (before.sphere !== built.sphere) this.cameraController.followMoves(this.#displayed);
     return changes;
   }
 
@@ -415,6 +476,7 @@ export class PageViewer {
 
   #onFrame(): void {
     this.#listener.onFrame();
+    this.#animation.onFrame();
     if (!this.#isLoading) return;
     if (!this.#shapes.isQuiet || !this.#inlines.isQuiet || !this.#loading.isEnded) this.#sendEvents();
     this.#followLods();

@@ -153,6 +153,7 @@ export class ViewController {
       ({ matches }) => {
         cameraController.isInstant = matches;
         this.#updateRotation();
+        this.#updateMotion();
       },
       { signal },
     );
@@ -320,6 +321,7 @@ export class ViewController {
     renderer.setExposure(settings.exposure);
     renderer.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
+    this.#updateMotion();
     this.poster.reveal = settings.reveal;
     this.#updateDescription();
     this.#updateRotation();
@@ -338,6 +340,12 @@ export class ViewController {
       !this.#reducedMotion.matches;
     if (!shouldRotate) autoRotation.stop();
     else if (autoRotation.isStopped) autoRotation.start(true);
+  }
+
+  /** Stops the document's clocks with `paused`; those that start by themselves, if the user prefers reduced motion. */
+  #updateMotion(): void {
+    const { paused } = this.#settings;
+    this.viewer.setMotion(paused === true, paused === false || !this.#reducedMotion.matches);
   }
 
   /**

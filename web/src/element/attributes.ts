@@ -117,6 +117,8 @@ export const viewAttributes = {
   "disable-zoom": attribute(flag, false),
   "disable-pan": attribute(flag, false),
   "draw-as": attribute(oneOf("surface", "points"), "surface"),
+  /** Absent: animation runs, and what starts by itself does so unless the user prefers reduced motion. */
+  paused: automatic(flag),
   exposure: attribute(number, 1),
   budget: attribute(megabytes, 1e9),
 } as const;

@@ -134,6 +134,12 @@ export class CameraController {
     this.#onNavigation();
   }
 
+  /** The scene has moved: the camera follows the bound viewpoint, but without one it does not frame the scene anew. */
+  followMoves(scene: NavigatedScene): void {
+    this.#scene = scene;
+    if (this.bound !== undefined) this.#updateHome(false);
+  }
+
   /** The description of the viewpoint that the camera is at. */
   get viewpointName(): string | undefined {
     const instance = this.viewpoints.find(({ element }) => element === this.bound);

@@ -11,6 +11,7 @@ import {
   PerspectiveCamera,
   Scene,
   Vector2,
+  Vector3,
   Vector4,
   WebGLRenderer,
 } from "three";
@@ -26,6 +27,7 @@ import type {
   SceneDescription,
   ShapeDescription,
   TextureRole,
+  TransformDescription,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { BackgroundInstance } from "../scene/instances.ts";
@@ -206,6 +208,14 @@ export class SceneRenderer {
     };
   }
 
+  /** The ray from the last frame's camera through a point of the canvas, -1 … 1 from the left and from the bottom. */
+  rayAt(x: number, y: number): { origin: [number, number, number]; direction: [number, number, number] } {
+    const camera = this.#drawnCamera;
+    const origin = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+    const direction = new Vector3(x, y, 0.5).unproject(camera).sub(origin).normalize();
+    return { origin: origin.toArray(), direction: direction.toArray() };
+  }
+
   /** Replaces the scene. GPU resources of shapes that it no longer has are freed. */
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
@@ -215,6 +225,23 @@ export class SceneRenderer {
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
     return built;
+  }
+
+  /**
+   * Gives Transforms of the scene other values, without a description of the whole scene. The next description must have
+   * these values.
+   */
+  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): BuiltScene {
+    const built = this.#shapes.move(transforms);
+    this.#background.follow(built.backgrounds);
+    this.#environment.follow(built.environmentLights);
+    this.requestFrame();
+    return built;
+  }
+
+  /** The transform from the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
+  sceneFromTransform(element: SceneElement): Matrix4 | undefined {
+    return this.#shapes.sceneFromTransform(element);
   }
 
   /** The bound background; undefined where the scene has none. */

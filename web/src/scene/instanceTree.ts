@@ -4,13 +4,16 @@
 
 import { Matrix4, Vector3, Vector4 } from "three";
 import { deepEqual } from "../document/deepEqual.ts";
-import type { GroupDescription, NodeDescription, Vec4 } from "../document/description.ts";
+import type { GroupDescription, NodeDescription, TransformDescription, Vec4 } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
 import { boxOfAllRotations, isDrawable, transformedBox } from "./bounds.ts";
 import { EffectScope, sceneScope } from "./effectScope.ts";
 import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
 import { emptySummary, NodeInstance } from "./nodeInstance.ts";
 import { mergeSummaries } from "./subtreeSummary.ts";
 import { lengthScaleOf, matrixOf } from "./transforms.ts";
+
+const none: readonly never[] = [];
 
 /** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
@@ -23,6 +26,8 @@ export interface InstanceTreeListener {
 export class InstanceTree {
   readonly root: NodeInstance;
   readonly #listener: InstanceTreeListener | undefined;
+  /** The instances of each Transform. */
+  readonly #transforms = new Map<SceneElement, Set<NodeInstance>>();
 
   constructor(listener?: InstanceTreeListener) {
     this.#listener = listener;
@@ -43,6 +48,57 @@ export class InstanceTree {
     return this;
   }
 
+  /** An instance of a Transform; undefined where the scene has none. */
+  transformOf(element: SceneElement): NodeInstance | undefined {
+    return this.#transforms.get(element)?.values().next().value;
+  }
+
+  /**
+   * Gives Transforms other values, without a description of the whole scene, which `update` needs much longer for. The
+   * next description that `update` gets must have these values.
+   */
+  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): void {
+    const moved = new Set<NodeInstance>();
+    const around = new Set<NodeInstance>();
+    for (const [element, values] of transforms) {
+      for (const node of this.#transforms.get(element) ?? []) {
+        const { description } = node;
+        if (description.kind !== "group" || !description.transform) continue;
+        node.description = { ...description, transform: { ...description.transform, ...values } };
+        moved.add(node);
+        for (let at = node.parent; at !== undefined && !around.has(at); at = at.parent) around.add(at);
+      }
+    }
+    this.#moveIn(this.root, moved, around);
+  }
+
+  /** Moves nodes at or below `node`. `around`: their ancestors. */
+  #moveIn(node: NodeInstance, moved: ReadonlySet<NodeInstance>, around: ReadonlySet<NodeInstance>): void {
+    if (moved.has(node)) {
+      if (node.inherited) this.#moveNode(node, node.inherited);
+      return;
+    }
+    if (!around.has(node)) return;
+    for (const child of node.children) this.#moveIn(child, moved, around);
+    if (node.description.kind === "group" && node.inherited)
+      node.summary = groupSummary(node, node.description, node.inherited);
+  }
+
+  /** The node's own transform or one around it has changed. */
+  #moveNode(node: NodeInstance, inherited: InheritedState): void {
+    const { description } = node;
+    node.inherited = inherited;
+    setFrame(node, inherited.sceneFromNode);
+    this.#listener?.onChange(node, true, description);
+    if (description.kind !== "group") {
+      node.summary = leafSummary(node, inherited);
+      return;
+    }
+    const childState = childStateOf(node, description, inherited);
+    for (const child of node.children) this.#moveNode(child, childState);
+    node.summary = groupSummary(node, description, inherited);
+  }
+
   #updateNode(node: NodeInstance, description: NodeDescription, inherited: InheritedState): void {
     const { description: previous, inherited: previouslyInherited } = node;
     if (previous === description && previouslyInherited !== undefined && isSameState(previouslyInherited, inherited))
@@ -51,8 +107,9 @@ export class InstanceTree {
       previouslyInherited?.sceneFromNode !== inherited.sceneFromNode ||
       !deepEqual(transformOf(previous), transformOf(description));
     node.description = description;
+    this.#indexTransform(node, previous, description);
     node.inherited = inherited;
-    if (hasMoved) node.sceneFromNode = childFrameOf(inherited.sceneFromNode, description);
+    if (hasMoved) setFrame(node, inherited.sceneFromNode);
     node.effectScope = effectScopeOf(node, inherited.effectScope);
     if (previouslyInherited === undefined) this.#listener?.onEnter(node);
     else this.#listener?.onChange(node, hasMoved, previous);
@@ -60,41 +117,76 @@ export class InstanceTree {
       description.kind === "group" ? this.#updateChildren(node, description, inherited) : leafSummary(node, inherited);
   }
 
-  #updateChildren(
-    node: NodeInstance,
-    group: GroupDescription,
-    { isVisible, isUnbounded, effectScope: scopeAround }: InheritedState,
-  ): SubtreeSummary {
-    const { sceneFromNode } = node;
-    const isGroupVisible = isVisible && group.visible;
-    node.box = isGroupVisible && group.box ? transformedBox(sceneFromNode, group.box) : undefined;
-    const childState: InheritedState = {
-      sceneFromNode,
-      isVisible: isGroupVisible,
-      isUnbounded: isUnbounded && node.box === undefined,
-      effectScope: node.effectScope,
-    };
+  #updateChildren(node: NodeInstance, group: GroupDescription, inherited: InheritedState): SubtreeSummary {
+    const childState = childStateOf(node, group, inherited);
     const { kept, removed } = matchChildren(node, group.children);
     for (const child of removed) this.#leave(child);
     node.children = kept;
     kept.forEach((child, index) => {
       this.#updateNode(child, group.children[index] ?? child.description, childState);
     });
-    const summary = mergeSummaries(kept, {
-      box: isUnbounded && node.box && isDrawable(node.box) ? node.box : undefined,
-      boundedGroups: node.box ? [node] : [],
-      anchors: group.anchor && isGroupVisible ? [group.anchor] : [],
-      billboards: group.billboardAxis ? [node] : [],
-      effectScopes: node.effectScope === scopeAround ? [] : [node.effectScope],
-      lods: group.lod && isGroupVisible ? [{ ...group.lod, sceneFromLod: sceneFromNode }] : [],
-    });
-    return group.billboardAxis ? rotatingSummary(summary, sceneFromNode) : summary;
+    return groupSummary(node, group, inherited);
+  }
+
+  #indexTransform(node: NodeInstance, previous: NodeDescription, description: NodeDescription): void {
+    const before = previous.kind === "group" && node.inherited ? previous.transformElement : undefined;
+    const now = description.kind === "group" ? description.transformElement : undefined;
+    if (before === now) return;
+    if (before) this.#forgetTransform(before, node);
+    if (!now) return;
+    const instances = this.#transforms.get(now);
+    if (instances) instances.add(node);
+    else this.#transforms.set(now, new Set([node]));
+  }
+
+  #forgetTransform(element: SceneElement, node: NodeInstance): void {
+    const instances = this.#transforms.get(element);
+    instances?.delete(node);
+    if (instances?.size === 0) this.#transforms.delete(element);
   }
 
   #leave(node: NodeInstance): void {
     this.#listener?.onLeave(node);
+    if (node.description.kind === "group" && node.description.transformElement)
+      this.#forgetTransform(node.description.transformElement, node);
     for (const child of node.children) this.#leave(child);
   }
+}
+
+/** Sets the group's own box, and returns what its children inherit. */
+function childStateOf(
+  node: NodeInstance,
+  group: GroupDescription,
+  { isVisible, isUnbounded }: InheritedState,
+): InheritedState {
+  const { sceneFromNode } = node;
+  const isGroupVisible = isVisible && group.visible;
+  node.box = isGroupVisible && group.box ? transformedBox(sceneFromNode, group.box) : undefined;
+  return {
+    sceneFromNode,
+    isVisible: isGroupVisible,
+    isUnbounded: isUnbounded && node.box === undefined,
+    effectScope: node.effectScope,
+  };
+}
+
+/** The summary of a group whose children are up to date. */
+function groupSummary(
+  node: NodeInstance,
+  group: GroupDescription,
+  { isVisible, isUnbounded, effectScope: scopeAround }: InheritedState,
+): SubtreeSummary {
+  const { sceneFromNode, box } = node;
+  const isGroupVisible = isVisible && group.visible;
+  const summary = mergeSummaries(node.children, {
+    box: isUnbounded && box && isDrawable(box) ? box : undefined,
+    boundedGroups: box ? [node] : none,
+    anchors: group.anchor && isGroupVisible ? [group.anchor] : none,
+    billboards: group.billboardAxis ? [node] : none,
+    effectScopes: node.effectScope === scopeAround ? none : [node.effectScope],
+    lods: group.lod && isGroupVisible ? [{ ...group.lod, sceneFromLod: sceneFromNode }] : none,
+  });
+  return group.billboardAxis ? rotatingSummary(summary, sceneFromNode) : summary;
 }
 
 function isSameState(a: InheritedState, b: InheritedState): boolean {
@@ -120,12 +212,15 @@ function transformOf(description: NodeDescription): unknown {
   return description.kind === "group" ? (description.transform ?? description.billboardAxis) : undefined;
 }
 
-function childFrameOf(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
-  if (description.kind !== "group") return sceneFromParent;
-  if (description.transform) return sceneFromParent.clone().multiply(matrixOf(description.transform));
+function setFrame(node: NodeInstance, sceneFromParent: Matrix4): void {
+  const { description } = node;
+  node.parentFromNode =
+    description.kind === "group" && description.transform ? matrixOf(description.transform) : undefined;
+  if (node.parentFromNode) node.sceneFromNode = new Matrix4().multiplyMatrices(sceneFromParent, node.parentFromNode);
   // The renderer rotates a billboard for each view. Its own matrix makes its descendants count as moved when it begins
   // or ceases to be one.
-  return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent;
+  else if (description.kind === "group" && description.billboardAxis) node.sceneFromNode = sceneFromParent.clone();
+  else node.sceneFromNode = sceneFromParent;
 }
 
 function leafSummary(

@@ -80,6 +80,8 @@ export class NodeInstance {
    * place.
    */
   sceneFromNode = new Matrix4();
+  /** The matrix of a Transform; undefined for other nodes. */
+  parentFromNode: Matrix4 | undefined;
   children: readonly NodeInstance[] = [];
   /** Bounds in scene coordinates, for visible groups whose description has a box. */
   box: Box3 | undefined;

@@ -23,6 +23,8 @@ export function mergeSummaries(
   children: readonly NodeInstance[],
   own: Pick<SubtreeSummary, "box" | "lods" | "boundedGroups" | "anchors" | "billboards" | "effectScopes">,
 ): SubtreeSummary {
+  const [only] = children;
+  if (only !== undefined && children.length === 1 && isEmpty(own)) return only.summary; // a Transform around a shape
   let union: Box3 | undefined;
   const lights = new ConcatenatedList<LightInstance>(),
     environmentLights = new ConcatenatedList<EnvironmentLightInstance>(),
@@ -67,6 +69,20 @@ export function mergeSummaries(
     billboards: billboards.all,
     effectScopes: effectScopes.all,
   };
+}
+
+function isEmpty({
+  box,
+  lods,
+  boundedGroups,
+  anchors,
+  billboards,
+  effectScopes,
+}: Parameters<typeof mergeSummaries>[1]): boolean {
+  return (
+    box === undefined &&
+    lods.length + boundedGroups.length + anchors.length + billboards.length + effectScopes.length === 0
+  );
 }
 
 /** Concatenates lists; copies none of them while only one has items. */

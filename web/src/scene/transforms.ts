@@ -18,6 +18,9 @@ export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDes
 /** The matrix of an X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
 export function matrixOf(transform: TransformDescription): Matrix4 {
   const { translation, center, rotation, scaleOrientation, scale } = transform;
+  if (isZero(center) && scaleOrientation[3] === 0) {
+    return new Matrix4().compose(new Vector3(...translation), quaternionOf(rotation), new Vector3(...scale));
+  }
   const rotationMatrix = rotationOf(rotation);
   const scaleAxes = rotationOf(scaleOrientation);
   const translate = (vector: readonly [number, number, number], sign: number) =>
@@ -31,11 +34,18 @@ export function matrixOf(transform: TransformDescription): Matrix4 {
     .multiply(translate(center, -1));
 }
 
-/** The identity for an axis without length. */
-export function rotationOf([x, y, z, angle]: Rotation): Matrix4 {
+function isZero([x, y, z]: readonly [number, number, number]): boolean {
+  return x === 0 && y === 0 && z === 0;
+}
+
+function quaternionOf([x, y, z, angle]: Rotation): Quaternion {
   const axis = new Vector3(x, y, z);
-  if (axis.lengthSq() === 0) return new Matrix4();
-  return new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(axis.normalize(), angle));
+  return axis.lengthSq() === 0 ? new Quaternion() : new Quaternion().setFromAxisAngle(axis.normalize(), angle);
+}
+
+/** The identity for an axis without length. */
+export function rotationOf(rotation: Rotation): Matrix4 {
+  return new Matrix4().makeRotationFromQuaternion(quaternionOf(rotation));
 }
 
 /** The rotation of a matrix, without its translation and scale; the identity where it flattens. */

@@ -7,6 +7,8 @@ import { filePriorityFor, texturePriorityFor } from "../delivery/filePriority.ts
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import { requestWithinBudget, storedBytesOf } from "../delivery/requestWithinBudget.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
+import type { ShapeInstance } from "../scene/instances.ts";
+import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";
@@ -36,6 +38,8 @@ export class DeliveryControl {
   #maxBytes = Infinity;
   /** GPU memory of all deliveries at the last requests. */
   #storedBytes = 0;
+  /** Instances that have moved since the last requests. */
+  readonly #moved = new Map<NodeInstance, ShapeInstance | undefined>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStarted = false;
 
@@ -52,8 +56,17 @@ export class DeliveryControl {
     if (isSame && isSameView(this.#options.view(), this.#view)) return;
     if (chunkPriority !== this.#chunkPriority) this.#weights = chunkWeightsOf(chunkPriority, onProblem);
     this.#chunkPriority = chunkPriority;
+    this.#followMoved();
     this.#instances.follow(instances);
     this.request();
+  }
+
+  /** Schedules new requests for instances that have moved: what moves all the time must not cause them in each frame. */
+  followMoves({ instances }: Pick<SceneChanges, "instances">): void {
+    for (const [node, instance] of instances) this.#moved.set(node, instance);
+    this.#timer ??= setTimeout(() => {
+      this.request();
+    }, cameraIntervalMs);
   }
 
   /** Sets the GPU memory that deliveries may take. */
@@ -88,6 +101,7 @@ export class DeliveryControl {
     this.#cancelTimer();
     if (!this.#isStarted) return;
     const { deliveries, view, sceneTextures, onRequests } = this.#options;
+    this.#followMoved();
     this.#view = view();
     const viewState = viewStateOf(this.#view, this.#weights);
     requestWithinBudget(
@@ -106,6 +120,11 @@ export class DeliveryControl {
     this.#isStarted = false;
     const noPriority = () => undefined;
     requestWithinBudget(this.#options.deliveries, () => noPriority, noPriority);
+  }
+
+  #followMoved(): void {
+    this.#instances.follow(this.#moved);
+    this.#moved.clear();
   }
 
   #cancelTimer(): void {

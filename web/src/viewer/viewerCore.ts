@@ -155,6 +155,15 @@ export class ViewerCore<Shape extends LoadingShape> {
     this.#host.onScene();
   }
 
+  /**
+   * Moves Transforms whose attributes have been written: displays them without reading the document, which happens when
+   * something else changes. `display` moves them on the screen.
+   */
+  move(elements: Iterable<SceneElement>, display: () => Pick<SceneChanges, "instances">): void {
+    for (const element of elements) this.reader.touch(element);
+    this.control.followMoves(display());
+  }
+
   /** Requests files from now on. */
   load(): void {
     this.#isLoading = true;

@@ -41,6 +41,9 @@ export class Batches {
   /** Numbers that stand for stages in the keys of batches. */
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
+  readonly #invertedRoot = new Matrix4();
+  readonly #inverseOfRoot = new Matrix4();
+  readonly #rootFromStored = new Matrix4();
 
   constructor(materialFactory: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
     this.#materialFactory = materialFactory;
@@ -143,8 +146,13 @@ export class Batches {
     this.#empty.clear();
   }
 
+  /** Batches move rarely, their members often. */
   get #rootFromScene(): Matrix4 {
-    return this.root.matrixWorld.clone().invert();
+    if (!this.#invertedRoot.equals(this.root.matrixWorld)) {
+      this.#invertedRoot.copy(this.root.matrixWorld);
+      this.#inverseOfRoot.copy(this.root.matrixWorld).invert();
+    }
+    return this.#inverseOfRoot;
   }
 
   #updateRecordIn(rootFromScene: Matrix4, member: Member): void {
@@ -163,7 +171,9 @@ export class Batches {
       instanceIndex,
       sphere,
     } = member;
-    const rootFromStored = new Matrix4().multiplyMatrices(rootFromScene, group.matrixWorld).multiply(shapeFromStored);
+    const rootFromStored = this.#rootFromStored
+      .multiplyMatrices(rootFromScene, group.matrixWorld)
+      .multiply(shapeFromStored);
     const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;
     member.isVisible = group.visible;
     member.isMirrored = rootFromStored.determinant() < 0;

@@ -1,7 +1,7 @@
 // Mirrors a scene's instance tree (scene/) in three.js groups. Groups own nothing on the GPU; the
 // listener adds drawn objects to the groups of shapes.
 
-import type { Camera, Object3D } from "three";
+import type { Camera, Matrix4, Object3D } from "three";
 import { Box3, Group, Vector3 } from "three";
 import { deepEqual } from "../../document/deepEqual.ts";
 import type {
@@ -9,7 +9,9 @@ import type {
   GroupDescription,
   NodeDescription,
   ShapeDescription,
+  TransformDescription,
 } from "../../document/description.ts";
+import type { SceneElement } from "../../document/element.ts";
 import type {
   BackgroundInstance,
   ClipPlaneInstance,
@@ -23,7 +25,6 @@ import type {
 import { bindableOf } from "../../scene/bindable.ts";
 import { billboardRotation } from "../../scene/billboard.ts";
 import { numberEffectScopes } from "../../scene/effectScope.ts";
-import { matrixOf } from "../../scene/transforms.ts";
 import type { InstanceTreeListener } from "../../scene/instanceTree.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
@@ -116,6 +117,12 @@ export class SceneGroups implements InstanceTreeListener {
     return this.#tree.root.summary.anchors;
   }
 
+  /** Whether the scene has lights, clip planes, fogs or EnvironmentLights, whose uniforms depend on transforms. */
+  get hasEffects(): boolean {
+    const { lights, clipPlanes, fogs, localFogs, environmentLights } = this.#tree.root.summary;
+    return [lights, clipPlanes, fogs, localFogs, environmentLights].some((list) => list.length > 0);
+  }
+
   /** The innermost Anchor around the group of a shape. */
   anchorAround(group: Object3D): AnchorDescription | undefined {
     for (let at: Object3D | null = group; at !== null; at = at.parent) {
@@ -134,7 +141,23 @@ export class SceneGroups implements InstanceTreeListener {
    * called for an instance whose scope just has another number.
    */
   follow(root: GroupDescription): boolean {
-    const { summary } = this.#tree.update(root).root;
+    this.#tree.update(root);
+    return this.#followSummary();
+  }
+
+  /** Gives Transforms other values: see `InstanceTree.move`. Returns whether effect scopes have been renumbered. */
+  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): boolean {
+    this.#tree.move(transforms);
+    return this.#followSummary();
+  }
+
+  /** The transform from the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
+  sceneFromTransform(element: SceneElement): Matrix4 | undefined {
+    return this.#tree.transformOf(element)?.sceneFromNode;
+  }
+
+  #followSummary(): boolean {
+    const { summary } = this.#tree.root;
     this.#boundedGroups = summary.boundedGroups.flatMap((node) => {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
@@ -197,7 +220,7 @@ export class SceneGroups implements InstanceTreeListener {
     const { description } = node;
     const group = this.#groups.get(node);
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
-    this.#applyDescription(description, group, hasMoved);
+    this.#applyDescription(node, description, group, hasMoved);
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup) shapeGroup.effectScope = node.effectScope;
     if (shapeGroup && description.kind === "shape" && before.kind === "shape")
@@ -217,24 +240,34 @@ export class SceneGroups implements InstanceTreeListener {
     this.#groups.set(node, group);
     const parent = node.parent === undefined ? this.root : this.#groups.get(node.parent);
     parent?.add(group);
-    this.#applyDescription(description, group, true);
+    this.#applyDescription(node, description, group, true);
   }
 
-  #applyDescription(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+  #applyDescription(
+    node: NodeInstance,
+    description: GroupDescription | ShapeDescription,
+    group: Object3D,
+    hasMoved: boolean,
+  ): void {
     if (description.kind === "group" && description.anchor) this.#anchors.set(group, description.anchor);
     else this.#anchors.delete(group);
-    applyDescription(description, group, hasMoved);
+    applyDescription(node, description, group, hasMoved);
   }
 }
 
-function applyDescription(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+function applyDescription(
+  { parentFromNode }: NodeInstance,
+  description: GroupDescription | ShapeDescription,
+  group: Object3D,
+  hasMoved: boolean,
+): void {
   group.visible = description.visible;
   if (!hasMoved) return;
   if (description.kind === "shape") {
     group.updateMatrixWorld(true);
     return;
   }
-  if (description.transform) group.matrix.copy(matrixOf(description.transform));
+  if (parentFromNode) group.matrix.copy(parentFromNode);
   else group.matrix.identity();
   // Groups below this one are visited next, so only its own world matrix is updated.
   if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);

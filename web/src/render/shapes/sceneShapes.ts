@@ -1,6 +1,6 @@
 // Holds the drawn shapes of a scene by their elements, with their groups and bounds.
 
-import type { Camera, Object3D, Sphere } from "three";
+import type { Camera, Matrix4, Object3D, Sphere } from "three";
 import { Box3, Material, Vector3 } from "three";
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
@@ -11,6 +11,7 @@ import type {
   SceneDescription,
   ShapeDescription,
   TextureRole,
+  TransformDescription,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import type {
@@ -131,7 +132,24 @@ export class SceneShapes {
     const areEffectScopesRenumbered = this.#graph.follow(description.root);
     this.#boundFogs.follow(this.#graph.fogs);
     this.#setEffects();
-    const changes = this.#applyChanges();
+    return this.#built(this.#applyChanges(), areEffectScopesRenumbered);
+  }
+
+  /** Gives Transforms other values: see `InstanceTree.move`. Only instances have changed in the scene that it returns. */
+  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): BuiltScene {
+    const areEffectScopesRenumbered = this.#graph.move(transforms);
+    if (areEffectScopesRenumbered || this.#graph.hasEffects) this.#setEffects();
+    const { instances } = this.#changes;
+    this.#changes = new ShapeChangeRecorder();
+    return this.#built({ shapes: new Map(), removed: [], instances }, areEffectScopesRenumbered);
+  }
+
+  /** The transform from the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
+  sceneFromTransform(element: SceneElement): Matrix4 | undefined {
+    return this.#graph.sceneFromTransform(element);
+  }
+
+  #built(changes: SceneChanges, areEffectScopesRenumbered: boolean): BuiltScene {
     if (areEffectScopesRenumbered) this.#batches.updateAllRecords();
     const { box, boundedGroups, viewpoints, backgrounds, environmentLights, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;

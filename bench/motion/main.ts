@@ -1,0 +1,114 @@
+// Measures what a frame of a scene of 1,000 moving Transforms costs on the page's main thread before it is drawn: one
+// TimeSensor, 1,000 interpolators, 2,000 ROUTEs, 1,000 attributes and matrices. Prints a Markdown table with the
+// processor time of the thread, mean of many frames, and the median and the minimum of their durations, which other
+// processes lengthen; beside a script that writes the same attributes.
+//
+//   scripts/bench motion
+
+import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { launchChromium } from "../../tests/browser/chromium.ts";
+import { startServer } from "../../tests/browser/server.ts";
+import { goUntilComplete } from "../completePage.ts";
+
+const count = 1000;
+const rounds = 200;
+const timeout = 120_000;
+
+type Kind = "PositionInterpolator" | "OrientationInterpolator";
+
+/** `count` Transforms, each with a shape of its own or with one that all share. */
+function sceneText(kind: Kind, isShared: boolean): string {
+  const shapes = Array.from({ length: count }, (_, n) => {
+    const [x, y] = [2 * (n % 40), 2 * Math.floor(n / 40)];
+    const shape =
+      isShared && n > 0
+        ? '<Shape USE="box"></Shape>'
+        : `<Shape${n === 0 ? ' DEF="box"' : ""}><Appearance><Material diffuseColor="${(n % 7) / 7} 0.5 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
+    const values =
+      kind === "PositionInterpolator"
+        ? `${x} ${y} 0  ${x} ${y} ${1 + (n % 3)}  ${x} ${y} 0`
+        : `0 1 0 0  0 1 0 ${1 + (n % 3)}  0 1 0 0`;
+    const [field, still] =
+      kind === "PositionInterpolator" ? ["translation", ""] : ["rotation", ` translation="${x} ${y} 0"`];
+    return `<Transform DEF="t${n}"${still}>${shape}</Transform><${kind} DEF="i${n}" key="0 0.5 1" keyValue="${values}"></${kind}>
+<ROUTE fromNode="clock" fromField="fraction_changed" toNode="i${n}" toField="set_fraction"></ROUTE>
+<ROUTE fromNode="i${n}" fromField="value_changed" toNode="t${n}" toField="${field}"></ROUTE>`;
+  });
+  return `<X3D style="width:64px;height:48px;display:block" paused><Scene><Viewpoint position="40 25 90"></Viewpoint>
+<TimeSensor DEF="clock"></TimeSensor>${shapes.join("\n")}</Scene></X3D>`;
+}
+
+/** Self-contained functions that the page calls repeatedly. */
+const frames: Record<string, (round: number) => void> = {
+  "ROUTEs from one TimeSensor": (round) => {
+    document.querySelector("timesensor")!.setAttribute("set_fraction", String((round % 97) / 97));
+  },
+  "a script that writes 1,000 attributes": (round) => {
+    document.querySelectorAll("transform").forEach((transform, n) => {
+      transform.setAttribute("translation", `${2 * (n % 40)} ${2 * Math.floor(n / 40)} ${(round % 97) / 97}`);
+    });
+  },
+};
+
+/** Self-contained. MutationObservers run before continuations of promises that resolve after the change. */
+async function timesIn(change: (round: number) => void, length: number): Promise<number[]> {
+  const times: number[] = [];
+  for (let round = 0; round < length; ++round) {
+    await new Promise((resolve) => {
+      setTimeout(resolve, 20);
+    });
+    const begun = performance.now();
+    change(round);
+    await Promise.resolve();
+    times.push(performance.now() - begun);
+  }
+  return times;
+}
+
+async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
+  const run = (length: number): Promise<number[]> =>
+    page.evaluate<number[]>(`(${timesIn.toString()})(${change.toString()}, ${length})`);
+  await run(rounds / 4); // until the code has been compiled
+  const session = await page.context().newCDPSession(page);
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
+  const scriptSeconds = async (): Promise<number> => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    return metrics.find((metric) => metric.name === "ScriptDuration")?.value ?? NaN;
+  };
+  const before = await scriptSeconds();
+  const sorted = (await run(rounds)).sort((a, b) => a - b);
+  const processor = (1000 * ((await scriptSeconds()) - before)) / rounds;
+  const cells = [processor, sorted[Math.floor(sorted.length / 2)]!, sorted[0]!];
+  return `| ${name} | ${cells.map((milliseconds) => `${milliseconds.toFixed(2)} ms`).join(" | ")} |`;
+}
+
+const directory = mkdtempSync(join(tmpdir(), "imgeo-motion-"));
+for (const name of readdirSync("web/dist")) cpSync(join("web/dist", name), join(directory, name));
+const scenes: Record<string, string> = {
+  "positions, own shapes": sceneText("PositionInterpolator", false),
+  "positions, one shape": sceneText("PositionInterpolator", true),
+  "rotations, own shapes": sceneText("OrientationInterpolator", false),
+};
+const server = await startServer(directory);
+const browser = await launchChromium();
+try {
+  console.log(`| ${count} moving Transforms | processor time | median | minimum |\n|---|--:|--:|--:|`);
+  for (const [scene, text] of Object.entries(scenes)) {
+    writeFileSync(
+      join(directory, "index.html"),
+      `<!DOCTYPE html><title>motion</title><script type="module" src="imgeo.js"></script>${text}`,
+    );
+    const page = await browser.newPage();
+    await goUntilComplete(page, server.origin, timeout);
+    await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
+    for (const [name, change] of Object.entries(frames)) console.log(await row(page, `${scene}: ${name}`, change));
+    await page.close();
+  }
+} finally {
+  await browser.close();
+  await server.close();
+  rmSync(directory, { recursive: true });
+}

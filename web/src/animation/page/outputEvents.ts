@@ -1,0 +1,53 @@
+// Tells scripts of events: `outputchange` as X3DOM sends it, at the element of the node.
+
+import type { AnimatedElement } from "../elements.ts";
+import type { FieldType, Value } from "../fieldTypes.ts";
+import { scriptValueOf } from "./scriptValues.ts";
+
+class OutputChange extends Event {
+  /** Whether a listener has read the value, and may have kept the event. */
+  wasRead = false;
+  #name = "";
+  #type: FieldType | undefined;
+  #value: Value = 0;
+
+  constructor() {
+    super("outputchange");
+  }
+
+  set(name: string, type: FieldType, value: Value): this {
+    this.#name = name;
+    this.#type = type;
+    this.#value = value;
+    return this;
+  }
+
+  /** The name of the output. */
+  get fieldName(): string {
+    this.wasRead = true;
+    return this.#name;
+  }
+
+  get value(): unknown {
+    this.wasRead = true;
+    return this.#type && scriptValueOf(this.#type, this.#value);
+  }
+}
+
+interface WithHandler {
+  onoutputchange?: unknown;
+}
+
+export class OutputEvents {
+  /** An event that no listener has read is sent again: a scene may send thousands in a frame that nobody listens to. */
+  #unread: OutputChange | undefined;
+
+  send(element: AnimatedElement, field: string, type: FieldType, value: Value): void {
+    const event = (this.#unread ?? new OutputChange()).set(field, type, value);
+    this.#unread = undefined; // while it is sent, a listener may cause others
+    const target = element as unknown as Element & WithHandler;
+    target.dispatchEvent(event);
+    if (typeof target.onoutputchange === "function") (target.onoutputchange as (event: Event) => void)(event);
+    if (!event.wasRead) this.#unread = event;
+  }
+}

@@ -1,0 +1,182 @@
+// The animation of a page's <x3d>: its player, its sensors, and what scripts see of both.
+
+import type { DrawnFieldOf, FieldChange } from "../documentGraph.ts";
+import type { AnimatedElement } from "../elements.ts";
+import { attributeNameIn } from "../elements.ts";
+import { AnimationPlayer } from "../player.ts";
+import type { Quaternion } from "../rotations.ts";
+import { multiply } from "../rotations.ts";
+import type { Point } from "../rays.ts";
+import type { LocalView } from "../viewSensors.ts";
+import { ViewSensor } from "../viewSensors.ts";
+import { inverseOf, product, rotationIn, transformPoint } from "./matrices.ts";
+import type { Matrix } from "./matrices.ts";
+import { OutputEvents } from "./outputEvents.ts";
+import type { PointerSpace } from "./pointerSensing.ts";
+import { PointerSensing } from "./pointerSensing.ts";
+import { scriptValueOf, valueFromScript } from "./scriptValues.ts";
+
+/** The viewer in scene coordinates. */
+export interface SceneView {
+  readonly position: Point;
+  readonly orientation: Quaternion;
+  readonly centerOfRotation: Point;
+  readonly clipFromScene: Matrix;
+}
+
+/** What the animation needs of the view of its scene. */
+export interface AnimatedScene extends PointerSpace {
+  readonly drawnFieldOf: DrawnFieldOf;
+  /** Displays values that fields of drawn nodes have received, at once where `isFrame`. */
+  display(changes: readonly FieldChange[], isFrame: boolean): void;
+  /** Calls back so that the changes of attributes that it makes are not reported. */
+  withoutReports(write: () => void): void;
+  /** The view of the last frame; undefined before the first. */
+  view(): SceneView | undefined;
+  /** One sentence for the author. */
+  warn(message: string): void;
+}
+
+interface ScriptAccess {
+  getFieldValue?: (field: string) => unknown;
+  setFieldValue?: (field: string, value: unknown) => void;
+}
+
+export class PageAnimation {
+  readonly #scene: AnimatedScene;
+  readonly #player: AnimationPlayer;
+  readonly #events = new OutputEvents();
+  readonly #listeners = new AbortController();
+  readonly #warned = new Set<string>();
+  #viewSensors: readonly { readonly element: AnimatedElement; readonly sensor: ViewSensor }[] = [];
+  #isInFrame = false;
+
+  constructor(x3d: Element, scene: AnimatedScene, mayStartByItself: boolean) {
+    this.#scene = scene;
+    this.#player = new AnimationPlayer(
+      x3d,
+      {
+        now: () => Date.now() / 1000,
+        schedule: (callback, delay) => this.#schedule(callback, delay),
+      },
+      {
+        drawnFieldOf: scene.drawnFieldOf,
+        apply: (changes) => {
+          scene.withoutReports(() => {
+            for (const { element, attribute, type, value } of changes)
+              element.setAttribute(attribute, type.format(value));
+          });
+          scene.display(changes, this.#isInFrame);
+        },
+        writeAttribute: (element, field, text) => {
+          scene.withoutReports(() => {
+            element.setAttribute(attributeNameIn(element, field) ?? field, text);
+          });
+        },
+        onEvent: (element, field, type, value) => {
+          this.#events.send(element, field, type, value);
+        },
+        warn: (message) => {
+          if (this.#warned.has(message)) return;
+          this.#warned.add(message);
+          scene.warn(message);
+        },
+      },
+      mayStartByItself,
+    );
+    new PointerSensing(x3d, this.#player, scene, this.#listeners.signal);
+    this.read();
+  }
+
+  /** Reads the document's nodes and routes, again after a change. */
+  read(): void {
+    this.#player.read();
+    this.#viewSensors = Array.from(this.#player.nodes).flatMap(([element, { behaviour }]) =>
+      behaviour instanceof ViewSensor ? [{ element, sensor: behaviour }] : [],
+    );
+    for (const element of this.#player.elements) this.#addScriptAccess(element);
+    this.onFrame();
+  }
+
+  /** A script has set or removed an attribute. Returns whether the element is no drawn node, so that nothing is drawn. */
+  attributeChanged(element: Element, attribute: string): boolean {
+    this.#player.attributeChanged(element, attribute);
+    return this.#player.nodes.has(element);
+  }
+
+  /** Stops all clocks, or lets them go on from where they were. */
+  set isPaused(isPaused: boolean) {
+    this.#player.isPaused = isPaused;
+  }
+
+  /** Whether clocks run that no event has started. */
+  set mayStartByItself(mayStart: boolean) {
+    this.#player.mayStartByItself = mayStart;
+  }
+
+  /** Call after each frame: the view may have changed. */
+  onFrame(): void {
+    if (this.#viewSensors.length === 0) return;
+    const view = this.#scene.view();
+    if (view === undefined) return;
+    this.#player.run((time) => {
+      for (const { element, sensor } of this.#viewSensors) {
+        const local = this.#localView(view, element);
+        if (local) sensor.follow(local, time);
+      }
+    });
+  }
+
+  dispose(): void {
+    this.#listeners.abort();
+    this.#player.dispose();
+  }
+
+  #localView(view: SceneView, element: AnimatedElement): LocalView | undefined {
+    const sceneFromLocal = this.#scene.sceneFromChildrenOf(element.parentElement ?? element);
+    const localFromScene = inverseOf(sceneFromLocal);
+    if (!localFromScene) return undefined;
+    return {
+      position: transformPoint(localFromScene, view.position),
+      orientation: multiply(rotationIn(localFromScene), view.orientation),
+      centerOfRotation: transformPoint(localFromScene, view.centerOfRotation),
+      clipFromLocal: product(view.clipFromScene, sceneFromLocal),
+    };
+  }
+
+  /** A frame for a delay of 0; else a frame after a timer. */
+  #schedule(callback: () => void, delay: number): () => void {
+    let frame = 0;
+    const request = (): void => {
+      frame = requestAnimationFrame(() => {
+        this.#isInFrame = true;
+        try {
+          callback();
+        } finally {
+          this.#isInFrame = false;
+        }
+      });
+    };
+    const timer = delay > 0 ? setTimeout(request, 1000 * delay) : undefined;
+    if (delay <= 0) request();
+    return () => {
+      clearTimeout(timer);
+      cancelAnimationFrame(frame);
+    };
+  }
+
+  #addScriptAccess(element: AnimatedElement): void {
+    const target = element as AnimatedElement & ScriptAccess;
+    if (target.getFieldValue) return;
+    target.getFieldValue = (field) => {
+      const found = this.#player.fieldOf(element, field);
+      return found?.value === undefined ? null : scriptValueOf(found.type, found.value);
+    };
+    target.setFieldValue = (field, value) => {
+      const found = this.#player.fieldOf(element, field);
+      const converted = found && valueFromScript(found.type, value);
+      if (!found || converted === undefined || !this.#player.setValue(element, found.field, converted))
+        this.#scene.warn(`<${element.localName}> setFieldValue("${field}"): no such field, or no value of its type`);
+    };
+  }
+}

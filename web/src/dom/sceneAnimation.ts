@@ -1,0 +1,166 @@
+// Animates a page's scene where its document has nodes that send events. Only then the module that does it is loaded.
+
+import type { FieldChange } from "../animation/documentGraph.ts";
+import type { AnimatedElement } from "../animation/elements.ts";
+import type { AnimatedScene, PageAnimation } from "../animation/page/pageAnimation.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { Field } from "../document/fieldTypes.ts";
+import { nodeFields } from "../document/nodes.ts";
+import type { TransformDescription } from "../document/description.ts";
+
+/** Names of elements that send or carry events. */
+const namesOfAnimation =
+  /^(route|easeineaseout|boolean(filter|toggle)|\w+(sensor|interpolator(2d)?|sequencer|trigger))$/i;
+
+const fieldsOfTransform: ReadonlySet<string> = new Set<keyof TransformDescription>([
+  "translation",
+  "rotation",
+  "scale",
+  "center",
+  "scaleOrientation",
+]);
+
+/** What has received values in a frame. */
+export interface AnimatedValues {
+  /** The new values of Transforms, by their elements. */
+  readonly transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>;
+  /** Other fields: elements whose attributes have been written. */
+  readonly others: readonly { readonly element: Element; readonly attribute: string }[];
+}
+
+export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" | "display"> {
+  /** Displays values, whose attributes have been written; draws at once where `isFrame`. */
+  display(values: AnimatedValues, isFrame: boolean): void;
+}
+
+export class SceneAnimation {
+  readonly #x3d: Element;
+  readonly #host: SceneAnimationHost;
+  #animation: PageAnimation | undefined;
+  #isRequested = false;
+  #isPaused = false;
+  #mayStartByItself = true;
+  #isDisposed = false;
+  readonly #onVisibility = (): void => {
+    this.#applyState();
+  };
+
+  constructor(x3d: Element, host: SceneAnimationHost) {
+    this.#x3d = x3d;
+    this.#host = host;
+    document.addEventListener("visibilitychange", this.#onVisibility);
+  }
+
+  /** Loads the module if the document needs it. */
+  start(): void {
+    if (hasAnimation(this.#x3d)) this.#load();
+  }
+
+  /** `isPaused`: all clocks stand. `mayStartByItself`: clocks run that no event has started. */
+  setMotion(isPaused: boolean, mayStartByItself: boolean): void {
+    this.#isPaused = isPaused;
+    this.#mayStartByItself = mayStartByItself;
+    this.#applyState();
+  }
+
+  /** Follows changes of the document. Returns those that may concern what is drawn. */
+  follow(records: readonly MutationRecord[]): readonly MutationRecord[] {
+    const animation = this.#animation;
+    if (animation === undefined) {
+      if (!this.#isRequested && records.some(concernsAnimation)) this.#load();
+      return records;
+    }
+    if (records.some(changesGraph)) animation.read();
+    return records.filter(
+      ({ type, target, attributeName }) =>
+        type !== "attributes" || !animation.attributeChanged(target as Element, attributeName ?? ""),
+    );
+  }
+
+  /** Call after each frame. */
+  onFrame(): void {
+    this.#animation?.onFrame();
+  }
+
+  dispose(): void {
+    this.#isDisposed = true;
+    document.removeEventListener("visibilitychange", this.#onVisibility);
+    this.#animation?.dispose();
+  }
+
+  #load(): void {
+    this.#isRequested = true;
+    import("../animation/index.ts")
+      .then(({ PageAnimation: Animation }) => {
+        if (this.#isDisposed) return;
+        this.#animation = new Animation(
+          this.#x3d,
+          {
+            ...this.#host,
+            drawnFieldOf,
+            display: (changes, isFrame) => {
+              this.#host.display(valuesOf(changes), isFrame);
+            },
+          },
+          this.#mayStartByItself,
+        );
+        this.#applyState();
+      })
+      .catch((error: unknown) => {
+        this.#isRequested = false;
+        this.#host.warn(`the module that animates the scene could not be loaded: ${String(error)}`);
+      });
+  }
+
+  #applyState(): void {
+    if (!this.#animation) return;
+    this.#animation.mayStartByItself = this.#mayStartByItself;
+    this.#animation.isPaused = this.#isPaused || document.hidden;
+  }
+}
+
+function valuesOf(changes: readonly FieldChange[]): AnimatedValues {
+  const transforms = new Map<SceneElement, Partial<TransformDescription>>();
+  const others: { element: Element; attribute: string }[] = [];
+  for (const { element, field, attribute, value } of changes) {
+    if (element.localName.toLowerCase() !== "transform" || !fieldsOfTransform.has(field)) {
+      others.push({ element: element as unknown as Element, attribute });
+      continue;
+    }
+    const known = transforms.get(element);
+    if (known) Object.assign(known, { [field]: value });
+    else transforms.set(element, { [field]: value });
+  }
+  return { transforms, others };
+}
+
+function hasAnimation(element: Element): boolean {
+  if (namesOfAnimation.test(element.localName)) return true;
+  for (const child of element.getElementsByTagName("*")) if (namesOfAnimation.test(child.localName)) return true;
+  return false;
+}
+
+function concernsAnimation({ addedNodes }: MutationRecord): boolean {
+  for (const node of addedNodes) if (node instanceof Element && hasAnimation(node)) return true;
+  return false;
+}
+
+/** Whether nodes or routes may have been added, removed or renamed. */
+function changesGraph({ type, target, attributeName }: MutationRecord): boolean {
+  return (
+    type === "childList" || /^(def|use)$/i.test(attributeName ?? "") || /^route$/i.test((target as Element).localName)
+  );
+}
+
+const tables = new Map(
+  Object.entries<Readonly<Record<string, Field<unknown>>>>(nodeFields).map(([node, fields]) => [
+    node.toLowerCase(),
+    new Map(Object.entries(fields).map(([name, { type }]) => [name.toLowerCase(), { name, type: type.name }])),
+  ]),
+);
+
+/** A field of the runtime's table. */
+function drawnFieldOf({ localName }: AnimatedElement, field: string): { name: string; type: string } | undefined {
+  const lower = field.toLowerCase();
+  return tables.get(localName.toLowerCase())?.get(lower);
+}
