@@ -17,6 +17,8 @@ const withoutPi =
 const allLightsAreGlobal = "X3DOM's lights ignore `global` and light everything";
 
 export const explanations: Readonly<Record<string, string>> = {
+  "Animation-spline": "X3DOM lacks `SplineScalarInterpolator`",
+  "Animation-squad-ease": "X3DOM lacks `SquadOrientationInterpolator` and `EaseInEaseOut`",
   "Appearance-alphaMode-MASK": "X3DOM does not support `alphaMode`",
   "Background-pictures": "X3DOM exchanges front and back and mirrors their pictures",
   "Background-rotated": "X3DOM's backgrounds do not turn with their groups",

@@ -17,6 +17,7 @@ import { repository } from "../browser/paths.ts";
 import { decodePng, encodePng } from "../browser/png.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
 import { explanations, maxEqualMean } from "./explanations.ts";
+import { goTo, moments } from "./moments.ts";
 import type { Runtime } from "./runtimes.ts";
 import { pageOf, runtimes, serveRuntimes, size } from "./runtimes.ts";
 import type { Row } from "./contactSheet.ts";
@@ -78,6 +79,10 @@ async function show(page: Page, server: TestServer, runtime: Runtime, name: stri
     );
   if (isConverted)
     await page.evaluate(() => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete);
+  const moment = moments[name];
+  if (moment === undefined) return stillPicture(page);
+  await stillPicture(page);
+  await goTo(page, runtime, moment);
   return stillPicture(page);
 }
 

@@ -32,7 +32,9 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   for (const file of [
     "x_ite.css",
     "assets/lib/mikktspace_bg.wasm",
-    ...["CADGeometry", "Geometry2D", "NURBS", "Text"].map((name) => `assets/components/${name}Component.js`),
+    ...["CADGeometry", "EventUtilities", "Geometry2D", "NURBS", "Text"].map(
+      (name) => `assets/components/${name}Component.js`,
+    ),
     "assets/lib/woff2_decoder.js",
     ...fonts,
   ])

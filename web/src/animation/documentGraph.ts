@@ -100,8 +100,11 @@ export class DocumentGraph {
     for (const route of routes) this.#addRoute(route, named, known);
   }
 
-  /** A script has set or removed an attribute. Returns whether a node has taken it as an event. */
-  attributeChanged(element: AnimatedElement, attribute: string, time: number): boolean {
+  /**
+   * A script has set or removed an attribute. Returns whether a node has taken it as an event. `lag`: how much the
+   * scene's time is behind the clock, by which scripts state times.
+   */
+  attributeChanged(element: AnimatedElement, attribute: string, time: number, lag: number): boolean {
     const node = this.nodeOf(element);
     const field = node && inputOf(node, attribute);
     const specification = field === undefined ? undefined : node?.specificationOf(field);
@@ -115,9 +118,10 @@ export class DocumentGraph {
         );
       return false;
     }
+    const inScene = /Time$/.test(field) && typeof value === "number" && value > 0 ? value - lag : value;
     this.#graph.run(time, () => {
       if (this.#drawnNodes.get(element) === node) node.send(field, value);
-      else node.receive(field, value, time);
+      else node.receive(field, inScene, time);
     });
     return true;
   }

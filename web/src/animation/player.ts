@@ -116,7 +116,7 @@ export class AnimationPlayer {
 
   /** A script has set or removed an attribute. Returns whether a node has taken it as an event. */
   attributeChanged(element: AnimatedElement, attribute: string): boolean {
-    const isEvent = this.#document.attributeChanged(element, attribute, this.time);
+    const isEvent = this.#document.attributeChanged(element, attribute, this.time, this.#lag);
     if (isEvent) this.flush();
     return isEvent;
   }

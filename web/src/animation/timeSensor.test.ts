@@ -150,3 +150,14 @@ test("enabled false stops a sensor at once", () => {
   assert.equal(scene.events.at(-1), "t.isActive false");
   assert.equal(scene.delay, undefined);
 });
+
+test("a script starts a sensor by the clock's time, however long the scene has been paused", () => {
+  const scene = play(`<TimeSensor DEF="t" cycleInterval="4"/>`);
+  scene.player.isPaused = true;
+  scene.at(10);
+  scene.player.isPaused = false;
+  scene.at(11);
+  scene.set("t", "startTime", String(now + 11));
+  scene.frameAt(12);
+  assertNear(fractionsOf(scene), [0, 0.25]);
+});
