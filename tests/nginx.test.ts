@@ -1,35 +1,15 @@
 // The configuration of docs/live.md in a real nginx: many viewers, one request to the server for each frame.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { once } from "node:events";
-import { createInterface } from "node:readline";
 import { setTimeout as pause } from "node:timers/promises";
 import { test } from "node:test";
 import { findNginx, startNginx } from "./live/nginx.ts";
+import { startStream } from "./live/stream.ts";
 import { startViewer } from "./live/viewers.ts";
 
 const nginx = findNginx();
 const viewerCount = 20;
 const rate = 20;
-
-/** Starts a stream of a small cloth; resolves with its server's port. */
-async function startStream(): Promise<{ port: number; stop: () => Promise<void> }> {
-  const child = spawn(
-    "build/imgeo",
-    ["sample", "cloth", "--live", "--grid", "16", "--rate", `${rate}`, "--port", "0"],
-    { stdio: ["ignore", "pipe", "inherit"] },
-  );
-  const [line] = (await once(createInterface(child.stdout), "line")) as [string];
-  const port = Number(/:(\d+)\/live/.exec(line)?.[1]);
-  return {
-    port,
-    stop: async () => {
-      child.kill("SIGINT");
-      await once(child, "exit");
-    },
-  };
-}
 
 async function until(condition: () => boolean): Promise<void> {
   const deadline = Date.now() + 60_000;
@@ -44,7 +24,7 @@ for (const isHttp2 of [false, true])
     `nginx as docs/live.md has it serves a stream to ${viewerCount} viewers over HTTP/${isHttp2 ? "2" : "1.1"} from one request a frame`,
     { skip: nginx === undefined && "nginx is not installed" },
     async (t) => {
-      const stream = await startStream();
+      const stream = await startStream(["cloth", "--grid", "16", "--rate", `${rate}`]);
       const front = await startNginx(nginx ?? "", stream.port);
       const url = `https://localhost:${front.port}/live/cloth`;
       const viewers = Array.from({ length: viewerCount }, () =>

@@ -45,11 +45,13 @@ struct ServerOptions {
   std::string host = "127.0.0.1";                    ///< address to listen on; "0.0.0.0": every network
   std::uint16_t port = 8090;                         ///< 0: any free port, see Server::port()
   std::string directory{};                           ///< also serve the files of this directory; empty: none
-  std::string viewToken{};                           ///< that viewers state in `?token=`; empty: everybody may view
+  std::string viewToken{};                           ///< that viewers state in `?token=` for streams without a token
+                                                     ///< of their own; empty: everybody may view
   std::string publishToken{};                        ///< that lets other programs publish here; empty: none may
   std::size_t maxStreams = 16;                       ///< streams at a time
   std::size_t history = 30;                          ///< frames of a stream that stay available
   std::size_t historyBytes = std::size_t{256} << 20; ///< and at most so many bytes of each
+  double maxRate = 0;                                ///< frames per second that others may publish; 0: no limit
 };
 
 /// An HTTP server of streams, on threads of its own. It stops at the end of its scope.
@@ -88,6 +90,8 @@ struct PublisherOptions {
   std::uint16_t port = 8090;      ///< port of its own server; 0: any free one
   std::string to{};               ///< publish to this server instead: "http://host:8090"
   std::string token{};            ///< with `to`: the server's token for publishers
+  std::string viewToken{};        ///< that viewers of this stream state in `?token=`, at most 256 bytes; empty: that of
+                                  ///< the server, if it has one
 };
 
 /// What became of a published frame.

@@ -55,6 +55,9 @@ int imgeo_publisher_set_values(imgeo_publisher* publisher, uint32_t components, 
 /** Frames per second, at most 1000; faster ones are dropped. 0: no limit. */
 int imgeo_publisher_set_rate(imgeo_publisher* publisher, double rate);
 
+/** The token that viewers of this stream state in `?token=`, at most 256 bytes; NULL: none. Without this call none. */
+int imgeo_publisher_set_view_token(imgeo_publisher* publisher, const char* token);
+
 /** Publishes by a server of its own: "127.0.0.1", 8090; port 0: any free one. */
 int imgeo_publisher_listen(imgeo_publisher* publisher, const char* host, uint16_t port);
 /** Publishes to a server elsewhere, "http://host:8090", with its token for publishers; NULL: none. */

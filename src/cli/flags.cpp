@@ -265,7 +265,8 @@ Flag publishTokenFlag(const std::string& help) {
   return textFlag("token", "TOKEN", help + "; otherwise the variable IMGEO_TOKEN");
 }
 Flag viewTokenFlag() {
-  return textFlag("view-token", "TOKEN", "with --live: viewers add ?token=TOKEN to addresses of streams");
+  return textFlag("view-token", "TOKEN",
+                  "with --live: viewers add ?token=TOKEN to addresses of streams that have no token of their own");
 }
 
 Command sampleCommand() {
@@ -322,6 +323,9 @@ Command serveCommand() {
                     {.name = "live", .help = "take live streams and serve them to viewers"},
                     publishTokenFlag("with --live: what publishers state; without it nobody may publish"),
                     viewTokenFlag(),
+                    integer("max-streams", {}, 1, 10000, "16", "with --live: streams at a time"),
+                    integer("max-frame", {}, 1, 16384, "16384", "with --live: KiB of a frame as it is sent"),
+                    integer("max-rate", {}, 0, 1000, "0", "with --live: frames per second of a stream; 0: no limit"),
                     helpFlag()},
           .examples = {"imgeo serve site", "imgeo serve site --port 0 --host 0.0.0.0",
                        "imgeo serve site --live --token secret"}};
@@ -358,6 +362,7 @@ Command publishCommand() {
                     {.name = "loop", .help = "begin again after the last file"},
                     textFlag("to", "URL", "the server to publish to; otherwise this command is the server"),
                     textFlag("token", "TOKEN", "with --to: the server's token; otherwise the variable IMGEO_TOKEN"),
+                    textFlag("view-token", "TOKEN", "viewers add ?token=TOKEN to the address of this stream"),
                     portFlag("8090"),
                     hostFlag(),
                     helpFlag()},

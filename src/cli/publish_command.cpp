@@ -78,6 +78,7 @@ live::PublisherOptions streamOptionsOf(const Arguments& arguments) {
   options.port = static_cast<std::uint16_t>(arguments.integer("port"));
   options.to = arguments.text("to");
   options.token = publishTokenOf(arguments);
+  options.viewToken = arguments.text("view-token");
   return options;
 }
 

@@ -14,6 +14,9 @@ std::shared_ptr<live::Streams> streamsOf(const Arguments& arguments) {
   live::StreamLimits limits;
   limits.publishToken = publishTokenOf(arguments);
   limits.viewToken = arguments.text("view-token");
+  limits.streams = static_cast<std::size_t>(arguments.integer("max-streams"));
+  limits.frameBytes = static_cast<std::size_t>(arguments.integer("max-frame")) << 10;
+  limits.rate = static_cast<double>(arguments.integer("max-rate"));
   return std::make_shared<live::Streams>(std::move(limits));
 }
 

@@ -80,6 +80,8 @@ void checkDescription(const Description& description, const std::string& locatio
       refuse(location, "a range of values is empty or not finite");
   if (!(description.rate >= 0 && description.rate <= maxRate))
     refuse(location, fmt::format("the rate is not between 0 and {} frames per second", maxRate));
+  if (description.viewToken.size() > maxTokenBytes)
+    refuse(location, fmt::format("\"viewToken\" has more than {} bytes", maxTokenBytes));
 }
 
 std::string describe(const Description& description) {
@@ -127,6 +129,11 @@ Description readDescription(std::string_view text, const std::string& location) 
     if (!json.at("rate").is_number())
       refuse(location, "\"rate\" is no number");
     description.rate = json.at("rate").get<double>();
+  }
+  if (json.contains("viewToken")) {
+    if (!json.at("viewToken").is_string())
+      refuse(location, "\"viewToken\" is no text");
+    description.viewToken = json.at("viewToken").get<std::string>();
   }
   checkDescription(description, location);
   return description;

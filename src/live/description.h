@@ -16,6 +16,7 @@ struct Description {
   Box3d box;                                     ///< as the publisher stated it
   std::vector<std::array<double, 2>> valueRange; ///< minimum and maximum of each value component
   double rate = 0;                               ///< frames per second that the publisher announces; 0: none
+  std::string viewToken{};                       ///< that viewers state; empty: that of the server. Nobody is told it
 
   /// The lattice of positions: the box's minimum, and its longest edge divided by 2^positionBits - 1.
   Vec3d origin() const { return box.min; }
@@ -24,11 +25,13 @@ struct Description {
   friend bool operator==(const Description&, const Description&) = default;
 };
 
+constexpr std::size_t maxTokenBytes = 256;
+
 /// Throws Error{malformed, limit} with `location` unless the layout is valid, the box is finite and has an extent, each
-/// value component has a finite range, and the rate is 0 .. 1000.
+/// value component has a finite range, the rate is 0 .. 1000, and the token has at most maxTokenBytes.
 void checkDescription(const Description& description, const std::string& location);
 
-/// The description as the fields of a JSON object, without braces: "vertices": 16384, ...
+/// The description as the fields of a JSON object, without braces and without the token: "vertices": 16384, ...
 std::string describe(const Description& description);
 
 /// Reads the JSON object that announces an epoch. Safe for untrusted text. Throws Error{malformed, limit}.

@@ -16,8 +16,8 @@ std::shared_ptr<const Bytes> StoredFrame::image() const {
   return image_;
 }
 
-Stream::Stream(std::string name, HistoryLimits limits, std::uint64_t firstNumber)
-    : name_(std::move(name)), limits_(limits), run_([](const auto& calls) {
+Stream::Stream(std::string name, HistoryLimits limits, std::uint64_t firstNumber, double maxRate)
+    : name_(std::move(name)), limits_(limits), maxRate_(maxRate), run_([](const auto& calls) {
         for (const auto& call : calls)
           call();
       }),
@@ -56,9 +56,10 @@ void Stream::add(const FrameHeader& header, Bytes bytes) {
 
 bool Stream::isDue() {
   const std::lock_guard lock(mutex_);
-  if (!description_ || description_->rate <= 0)
+  const double announced = description_ ? description_->rate : 0;
+  const double rate = announced > 0 && maxRate_ > 0 ? std::min(announced, maxRate_) : std::max(announced, maxRate_);
+  if (rate <= 0)
     return true;
-  const double rate = description_->rate;
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> elapsed = now - lastAllowance_;
   lastAllowance_ = now;

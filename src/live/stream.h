@@ -44,8 +44,9 @@ struct HistoryLimits {
 /// Safe to use from several threads. No call waits for a viewer.
 class Stream {
 public:
-  /// Numbers begin with `firstNumber`: the milliseconds since 1970, unless tests choose another.
-  Stream(std::string name, HistoryLimits limits, std::uint64_t firstNumber);
+  /// Numbers begin with `firstNumber`: the milliseconds since 1970, unless tests choose another. `maxRate`: frames per
+  /// second, whatever a description announces; 0: no limit.
+  Stream(std::string name, HistoryLimits limits, std::uint64_t firstNumber, double maxRate = 0);
 
   /// Calls that viewers registered with callAtChange() are handed over to `run` instead of being made by the thread
   /// that publishes.
@@ -58,7 +59,7 @@ public:
   /// Adds an encoded frame, which has the next number and the epoch and layout of the last beginEpoch(). Throws
   /// Error{usage} where it has not.
   void add(const FrameHeader& header, Bytes bytes);
-  /// Whether another frame may come now: false if frames come faster than the description's rate, and counted then.
+  /// Whether another frame may come now: false if frames come faster than their rate, and counted then.
   /// Up to a quarter of a second may come at once.
   bool isDue();
   /// Counts values that a publisher has clamped.
@@ -100,6 +101,7 @@ private:
 
   const std::string name_;
   const HistoryLimits limits_;
+  const double maxRate_;
   mutable std::mutex mutex_;
   std::function<void(std::vector<std::function<void()>>)> run_;
   std::uint64_t version_ = 0, next_ = 0, epoch_ = 0;

@@ -32,7 +32,7 @@ std::shared_ptr<Stream> Streams::open(const std::string& name) {
       throw Error(ErrorKind::limit, name, fmt::format("is one stream too many: there are {}", streams_.size()));
     streams_.erase(idle);
   }
-  const auto stream = std::make_shared<Stream>(name, limits_.history, firstNumberNow());
+  const auto stream = std::make_shared<Stream>(name, limits_.history, firstNumberNow(), limits_.rate);
   if (run_)
     stream->setRunner(run_);
   streams_.emplace(name, stream);

@@ -11,10 +11,11 @@ struct StreamLimits {
   std::size_t streams = 16;                       ///< at a time
   std::size_t frameBytes = std::size_t{16} << 20; ///< of an encoded frame that is posted
   HistoryLimits history;
+  double rate = 0;          ///< frames per second of a stream, whatever it announces; 0: no limit
   unsigned framesAhead = 8; ///< a request for a frame waits if it is at most so far ahead of the newest
   unsigned waitMs = 10'000; ///< how long
   std::string publishToken; ///< that POST and DELETE state; empty: nobody may publish by HTTP
-  std::string viewToken;    ///< that viewers state; empty: everybody may view
+  std::string viewToken;    ///< that viewers state for streams without a token of their own; empty: everybody may view
 };
 
 /// Safe to use from several threads.

@@ -105,6 +105,10 @@ int imgeo_publisher_set_rate(imgeo_publisher* publisher, double rate) {
   return publisher->set([&] { publisher->options.rate = rate; });
 }
 
+int imgeo_publisher_set_view_token(imgeo_publisher* publisher, const char* token) {
+  return publisher->set([&] { publisher->options.viewToken = token ? token : ""; });
+}
+
 int imgeo_publisher_listen(imgeo_publisher* publisher, const char* host, uint16_t port) {
   return guarded([&] {
     const std::lock_guard lock(publisher->mutex);

@@ -24,6 +24,7 @@ Description descriptionOf(const PublisherOptions& options) {
   for (const Range& range : options.values)
     description.valueRange.push_back({range.min, range.max});
   description.rate = options.rate;
+  description.viewToken = options.viewToken;
   checkDescription(description, options.name);
   return description;
 }

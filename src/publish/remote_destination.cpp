@@ -84,7 +84,10 @@ private:
   void sendOne(std::unique_lock<std::mutex>& lock) {
     if (!isAnnounced_) {
       isAnnounced_ = true;
-      const std::string json = "{" + describe(*description_) + "}";
+      std::string json = "{" + describe(*description_);
+      if (!description_->viewToken.empty())
+        json += ", \"viewToken\": " + nlohmann::json(description_->viewToken).dump();
+      json += "}";
       lock.unlock();
       const HttpClient::Answer answer = request("application/json", Bytes(json.begin(), json.end()));
       if (answer.status != 200)

@@ -8,6 +8,7 @@ StreamLimits limitsOf(const ServerOptions& options) {
   StreamLimits limits;
   limits.streams = options.maxStreams;
   limits.history = {options.history, options.historyBytes};
+  limits.rate = options.maxRate;
   limits.viewToken = options.viewToken;
   limits.publishToken = options.publishToken;
   return limits;

@@ -90,20 +90,26 @@ LiveReply replyWithImage(const std::shared_ptr<Stream>& stream) {
   return contentResponse("image/png", state.newest->image(), "no-store", stream.get());
 }
 
-/// The token that a request states, as `Authorization: Bearer TOKEN` or as `?token=TOKEN`.
-std::string_view tokenOf(const RequestHead& request) {
+/// The token that a request states, as `Authorization: Bearer TOKEN` or as `?token=TOKEN` with %XX.
+std::string tokenOf(const RequestHead& request) {
   constexpr std::string_view scheme = "Bearer ", parameter = "token=";
   if (request.authorization.starts_with(scheme))
-    return request.authorization.substr(scheme.size());
+    return std::string(request.authorization.substr(scheme.size()));
   std::string_view query = request.target.substr(std::min(request.target.find('?'), request.target.size()));
   while (!query.empty()) {
     query.remove_prefix(1);
     const std::size_t end = std::min(query.find('&'), query.size());
     if (query.starts_with(parameter))
-      return query.substr(parameter.size(), end - parameter.size());
+      return percentDecode(query.substr(parameter.size(), end - parameter.size())).value_or("");
     query.remove_prefix(end);
   }
   return {};
+}
+
+/// The token that viewers of a stream state; empty: everybody may view.
+std::string viewTokenOf(const live::Streams& streams, const live::Stream* stream) {
+  const auto description = stream ? stream->state().description : nullptr;
+  return description && !description->viewToken.empty() ? description->viewToken : streams.limits().viewToken;
 }
 
 /// Says why a publisher is refused; nothing if it may publish.
@@ -150,13 +156,15 @@ Response methodRefusal(std::string_view allowed) {
   return response;
 }
 
-LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& names, bool isShared,
-                        bool isFromCache) {
+LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& names, const RequestHead& request) {
   const auto stream = streams.find(names[1]);
+  const std::string token = viewTokenOf(streams, stream.get());
+  if (!token.empty() && !live::areEqualTokens(token, tokenOf(request)))
+    return refuse(401, "The token of the viewer is missing or wrong.", nullptr);
   if (!stream)
     return refuse(404, "There is no such stream.", nullptr);
   if (names.size() == 3 && names[2] == "latest")
-    return jsonResponse(stream->latest(isFromCache), stream.get());
+    return jsonResponse(stream->latest(request.isFromCache), stream.get());
   if (names.size() == 3 && names[2] == "frame.png")
     return replyWithImage(stream);
   if (names.size() == 3 && names[2] == "stream.mpng")
@@ -164,6 +172,8 @@ LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& 
   const auto number = names.size() == 4 && names[2] == "frames" ? numberOf(names[3]) : std::nullopt;
   if (!number)
     return refuse(404, "There is no such file of a stream.", nullptr);
+  // A token in a header is no part of the URL, under which caches keep frames.
+  const bool isShared = token.empty() || request.authorization.empty();
   return replyWithFrame(stream, *number, streams.limits().framesAhead, isShared);
 }
 
@@ -209,12 +219,7 @@ LiveReply replyToLive(live::Streams& streams, const RequestHead& request) {
     return replyToPublisher(streams, request, path->names[1]);
   if (isStream || (request.method != "GET" && request.method != "HEAD"))
     return methodRefusal(isStream ? "POST, DELETE" : "GET, HEAD");
-  const std::string& token = streams.limits().viewToken;
-  if (!token.empty() && !live::areEqualTokens(token, tokenOf(request)))
-    return refuse(401, "The token of the viewer is missing or wrong.", nullptr);
-  // A token in a header is no part of the URL, under which caches keep frames.
-  LiveReply reply =
-      replyToViewer(streams, path->names, token.empty() || request.authorization.empty(), request.isFromCache);
+  LiveReply reply = replyToViewer(streams, path->names, request);
   if (request.method == "HEAD" && std::holds_alternative<ImageSequence>(reply))
     return methodRefusal("GET"); // the images would follow the head
   return reply;

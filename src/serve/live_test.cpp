@@ -6,7 +6,10 @@
 #include "base/error.h"
 
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iostream>
 #include <thread>
 
 namespace imgeo {
@@ -297,6 +300,155 @@ TEST_F(LiveServer, ShowsStreamsOnlyToViewersWithTheToken) {
   const std::string frame = "/live/cloth/frames/" + std::to_string(stream->state().newest->number());
   EXPECT_NE(get(frame + "?token=ticket").find("Cache-Control: public,"), std::string::npos);
   EXPECT_NE(get(frame, "Authorization: Bearer ticket\r\n").find("Cache-Control: private,"), std::string::npos);
+}
+
+TEST_F(LiveServer, ShowsAStreamWithATokenOfItsOwnOnlyToItsViewers) {
+  live::StreamLimits limits;
+  limits.viewToken = "ticket";
+  limits.publishToken = "secret";
+  start(limits);
+  const std::string announcement = "{" + live::describe(description()) + ", \"viewToken\": \"a b&c\"}";
+  const std::string answer = post("application/json", announcement, "Authorization: Bearer secret\r\n");
+  EXPECT_TRUE(hasStatus(answer, 200));
+  EXPECT_EQ(answer.find("a b&c"), answer.npos) << "the answer tells the token";
+  addFrame(*streams_->find("cloth"));
+  const auto other = streams_->open("other");
+  other->beginEpoch(description());
+  for (const char* file : {"latest", "frame.png", "stream.mpng", "frames/1"}) {
+    EXPECT_TRUE(hasStatus(get(fmt::format("/live/cloth/{}", file)), 401)) << file;
+    EXPECT_TRUE(hasStatus(get(fmt::format("/live/cloth/{}?token=ticket", file)), 401)) << file;
+  }
+  const std::string latest = get("/live/cloth/latest?token=a%20b%26c");
+  EXPECT_TRUE(hasStatus(latest, 200)) << latest;
+  EXPECT_EQ(latest.find("a b&c"), latest.npos);
+  EXPECT_TRUE(hasStatus(get("/live/cloth/frame.png", "Authorization: Bearer a b&c\r\n"), 200));
+  EXPECT_TRUE(hasStatus(get("/live/cloth/latest?token=a%20b%2"), 401));
+  EXPECT_TRUE(hasStatus(get("/live/other/latest?token=ticket"), 200));
+  EXPECT_TRUE(hasStatus(get("/live/other/latest?token=a%20b%26c"), 401));
+  // A token that is too long, or none.
+  const auto announced = [&](const std::string& token) {
+    return post("application/json", "{" + live::describe(description()) + ", \"viewToken\": " + token + "}",
+                "Authorization: Bearer secret\r\n");
+  };
+  EXPECT_TRUE(hasStatus(announced('"' + std::string(257, 'x') + '"'), 400));
+  EXPECT_TRUE(hasStatus(announced("7"), 400));
+}
+
+TEST_F(LiveServer, LimitsStreamsAndTheSizeAndTheRateOfFrames) {
+  live::StreamLimits limits;
+  limits.publishToken = "secret";
+  limits.streams = 2;
+  limits.frameBytes = 280;
+  limits.rate = 4;
+  start(limits);
+  const std::string token = "Authorization: Bearer secret\r\n";
+  streams_->open("a");
+  streams_->open("b");
+  const std::string full = post("application/json", "{" + live::describe(description()) + "}", token);
+  EXPECT_TRUE(hasStatus(full, 413)) << full;
+  EXPECT_NE(full.find("one stream too many"), full.npos);
+  streams_ = nullptr;
+  server_->stop();
+  thread_.join();
+
+  limits.streams = 3;
+  start(limits);
+  const auto stream = openStream(100); // it announces more than the server allows
+  live::Frame large = live::testing::noiseFrame(layout, 1);
+  large.number = stream->state().next;
+  large.epoch = stream->state().epoch;
+  EXPECT_GT(encodeFrame(large).size(), limits.frameBytes);
+  EXPECT_TRUE(hasStatus(post("application/x-imgeo-frame", asText(encodeFrame(large)), token), 413));
+  std::size_t refused = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Bytes frame = frameOf(stream->state().next, stream->state().epoch);
+    ASSERT_LE(frame.size(), limits.frameBytes);
+    refused += hasStatus(post("application/x-imgeo-frame", asText(frame), token), 429) ? 1 : 0;
+  }
+  EXPECT_GE(refused, 2u);
+  EXPECT_EQ(stream->droppedCount(), refused);
+}
+
+TEST_F(LiveServer, GoesOnWhenAPublisherVanishesAndReturns) {
+  live::StreamLimits limits;
+  limits.publishToken = "secret";
+  limits.waitMs = 200;
+  start(limits);
+  const std::string token = "Authorization: Bearer secret\r\n",
+                    announcement = "{" + live::describe(description()) + "}";
+  EXPECT_TRUE(hasStatus(post("application/json", announcement, token), 200));
+  const auto stream = streams_->find("cloth");
+  const auto next = [&] { return frameOf(stream->state().next, stream->state().epoch); };
+  EXPECT_TRUE(hasStatus(post("application/x-imgeo-frame", asText(next()), token), 200));
+  const std::uint64_t last = stream->state().newest->number();
+  {
+    const Client vanishing(server_->port());
+    const Bytes frame = next();
+    vanishing.send(fmt::format("POST /live/cloth?token=secret HTTP/1.1\r\nHost: a\r\nContent-Type: "
+                               "application/x-imgeo-frame\r\nContent-Length: {}\r\n\r\n",
+                               frame.size()));
+    vanishing.send(asText(frame).substr(0, frame.size() / 2));
+  }
+  // Viewers wait in vain; the last frame stays.
+  EXPECT_TRUE(hasStatus(getFrame(last + 1), 503));
+  EXPECT_TRUE(hasStatus(getFrame(last), 200));
+  // It returns, with another epoch.
+  EXPECT_TRUE(hasStatus(post("application/json", announcement, token), 200));
+  EXPECT_EQ(stream->state().epoch, last + 1);
+  EXPECT_TRUE(hasStatus(post("application/x-imgeo-frame", asText(next()), token), 200));
+  EXPECT_TRUE(hasStatus(getFrame(last + 1), 200));
+}
+
+/// Bytes of memory of this process.
+std::size_t residentBytes() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST_F(LiveServer, KeepsNothingOfViewersWhoConnectAndLeave) {
+  const char* stated = std::getenv("IMGEO_VIEWERS"); // make soak: 10,000
+  const int viewers = stated ? std::stoi(stated) : 500, together = 100;
+  live::StreamLimits limits;
+  limits.waitMs = 1000;
+  start(limits);
+  const auto stream = openStream();
+  addFrame(*stream);
+  std::size_t before = 0;
+  for (int i = 0; i < viewers; i += together) {
+    std::vector<std::unique_ptr<Client>> leaving;
+    for (int k = 0; k < together; ++k) {
+      leaving.push_back(std::make_unique<Client>(server_->port()));
+      ASSERT_TRUE(leaving.back()->isConnected());
+      const std::uint64_t next = stream->state().next;
+      switch (k % 4) {
+      case 0: // waits for a frame
+        leaving.back()->send(requestFor(fmt::format("/live/cloth/frames/{}", next)));
+        break;
+      case 1: // does not read images
+        leaving.back()->send(requestFor("/live/cloth/stream.mpng"));
+        break;
+      case 2: // leaves within a request
+        leaving.back()->send("GET /live/cloth/fra");
+        break;
+      default: // says nothing
+        break;
+      }
+    }
+    addFrame(*stream);
+    EXPECT_TRUE(hasStatus(getFrame(stream->state().newest->number()), 200));
+    if (i == 0)
+      before = residentBytes(); // what the first hundred need is reused
+  }
+  addFrame(*stream);
+  EXPECT_TRUE(hasStatus(getFrame(stream->state().newest->number()), 200));
+  const std::size_t after = residentBytes(), growth = after - std::min(before, after);
+  std::cout << viewers << " viewers have left: " << after / 1024 << " KiB of memory, " << growth / 1024
+            << " KiB more than after the first hundred\n";
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(growth, std::size_t{32} << 20);
+#endif
 }
 
 TEST_F(LiveServer, AnswersOtherMethods) {

@@ -16,6 +16,24 @@ int hexDigit(char c) {
   return -1;
 }
 
+/// The path of an absolute target, "http://host/path", which proxies send.
+std::string_view withoutOrigin(std::string_view target) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!target.starts_with(scheme))
+      continue;
+    const std::size_t slash = target.find('/', scheme.size());
+    return slash == std::string_view::npos ? "/" : target.substr(slash);
+  }
+  return target;
+}
+
+bool isUnreserved(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' ||
+         c == '_' || c == '~';
+}
+
+} // namespace
+
 std::optional<std::string> percentDecode(std::string_view text) {
   std::string decoded;
   decoded.reserve(text.size());
@@ -34,24 +52,6 @@ std::optional<std::string> percentDecode(std::string_view text) {
   }
   return decoded;
 }
-
-/// The path of an absolute target, "http://host/path", which proxies send.
-std::string_view withoutOrigin(std::string_view target) {
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (!target.starts_with(scheme))
-      continue;
-    const std::size_t slash = target.find('/', scheme.size());
-    return slash == std::string_view::npos ? "/" : target.substr(slash);
-  }
-  return target;
-}
-
-bool isUnreserved(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' ||
-         c == '_' || c == '~';
-}
-
-} // namespace
 
 std::optional<RequestPath> parseRequestTarget(std::string_view target) {
   target = withoutOrigin(target);

@@ -16,6 +16,9 @@ struct RequestPath {
   friend bool operator==(const RequestPath&, const RequestPath&) = default;
 };
 
+/// Decodes %XX; nothing where two hexadecimal digits are missing behind a %.
+std::optional<std::string> percentDecode(std::string_view text);
+
 /// Parses a request target, "/a%20b/c?query" or "http://host/a". Returns nothing for a target without a path, a
 /// malformed escape, an escaped slash or NUL, or "..", which browsers resolve before they send. Safe for untrusted
 /// bytes.

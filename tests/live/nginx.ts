@@ -3,7 +3,7 @@
 import { spawn, spawnSync } from "node:child_process";
 import { once } from "node:events";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createServer } from "node:net";
+import { connect as connectPlainly, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { connect } from "node:tls";
@@ -56,12 +56,8 @@ function replaced(configuration: string, part: string, by: string): string {
   return configuration.replace(part, () => by);
 }
 
-/** Starts nginx in front of the server at a local port. `change` may change the configuration. */
-export async function startNginx(
-  nginx: string,
-  serverPort: number,
-  change: (configuration: string) => string = (configuration) => configuration,
-): Promise<Nginx> {
+/** Starts nginx in front of the server at a local port, with TLS as the document has it or without. */
+export async function startNginx(nginx: string, serverPort: number, hasTls = true): Promise<Nginx> {
   const folder = mkdtempSync(join(tmpdir(), "imgeo-nginx-"));
   const file = (name: string): string => join(folder, name);
   const port = await freePort();
@@ -71,9 +67,9 @@ export async function startNginx(
     ...["-keyout", file("live.key"), "-out", file("live.pem")],
   ]);
   if (made.status !== 0) throw new Error(`openssl: ${made.stderr.toString()}`);
-  let configuration = change(documentedConfiguration());
+  let configuration = documentedConfiguration();
   for (const [part, by] of [
-    ["listen 443 ssl", `listen 127.0.0.1:${port} ssl`],
+    hasTls ? ["listen 443 ssl", `listen 127.0.0.1:${port} ssl`] : ["listen 443 ssl http2", `listen 127.0.0.1:${port}`],
     ["server 127.0.0.1:8090;", `server 127.0.0.1:${serverPort};`],
     ["/etc/ssl/certs/live.pem", file("live.pem")],
     ["/etc/ssl/private/live.key", file("live.key")],
@@ -94,7 +90,7 @@ export async function startNginx(
   const child = spawn(nginx, ["-p", folder, "-c", file("nginx.conf"), "-e", file("error.log")], { stdio: "ignore" });
   const ended = once(child, "exit");
   const certificate = readFileSync(file("live.pem"), "utf8");
-  for (const end = Date.now() + 10_000; !(await answers(port, certificate));) {
+  for (const end = Date.now() + 10_000; !(await answers(port, hasTls ? certificate : undefined));) {
     if (child.exitCode !== null || Date.now() > end)
       throw new Error(`nginx does not start: ${readFileSync(file("error.log"), "utf8")}`);
     await new Promise((resolve) => setTimeout(resolve, 50));
@@ -111,12 +107,18 @@ export async function startNginx(
   };
 }
 
-function answers(port: number, certificate: string): Promise<boolean> {
+/** Whether somebody listens at a port, with TLS where there is a certificate. */
+function answers(port: number, certificate: string | undefined): Promise<boolean> {
   return new Promise((resolve) => {
-    const socket = connect({ port, host: "127.0.0.1", ca: certificate }, () => {
+    const onConnect = (): void => {
       socket.end();
       resolve(true);
-    });
+    };
+    const options = { port, host: "127.0.0.1" };
+    const socket =
+      certificate === undefined
+        ? connectPlainly(options, onConnect)
+        : connect({ ...options, ca: certificate }, onConnect);
     socket.once("error", () => {
       resolve(false);
     });

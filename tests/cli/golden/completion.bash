@@ -62,6 +62,9 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
     "serve --token") COMPREPLY=(); return ;;
     "serve --view-token") COMPREPLY=(); return ;;
+    "serve --max-streams") COMPREPLY=(); return ;;
+    "serve --max-frame") COMPREPLY=(); return ;;
+    "serve --max-rate") COMPREPLY=(); return ;;
     "publish --vertices") COMPREPLY=(); return ;;
     "publish --box") COMPREPLY=(); return ;;
     "publish --name") COMPREPLY=(); return ;;
@@ -73,6 +76,7 @@ _imgeo() {
     "publish --rate") COMPREPLY=(); return ;;
     "publish --to") COMPREPLY=(); return ;;
     "publish --token") COMPREPLY=(); return ;;
+    "publish --view-token") COMPREPLY=(); return ;;
     "publish --port") COMPREPLY=(); return ;;
     "publish --host") COMPREPLY=(); return ;;
   esac
@@ -82,8 +86,8 @@ _imgeo() {
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
-    serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --attribute --rate --loop --to --token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --max-streams --max-frame --max-rate --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --attribute --rate --loop --to --token --view-token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;
     manual) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
   esac

@@ -115,7 +115,7 @@ _imgeo() {
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
       '--site[with --live\: serve this directory instead of a page that draws the motion]:site:_files -/' \
       '--token[with --live\: lets others publish here, too; otherwise the variable IMGEO_TOKEN]:token: ' \
-      '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams]:view-token: ' \
+      '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams that have no token of their own]:view-token: ' \
       '--json[print what was written as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
@@ -125,7 +125,10 @@ _imgeo() {
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
       '--live[take live streams and serve them to viewers]' \
       '--token[with --live\: what publishers state; without it nobody may publish; otherwise the variable IMGEO_TOKEN]:token: ' \
-      '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams]:view-token: ' \
+      '--view-token[with --live\: viewers add ?token=TOKEN to addresses of streams that have no token of their own]:view-token: ' \
+      '--max-streams[with --live\: streams at a time]:max-streams: ' \
+      '--max-frame[with --live\: KiB of a frame as it is sent]:max-frame: ' \
+      '--max-rate[with --live\: frames per second of a stream; 0\: no limit]:max-rate: ' \
       '-h[print this help]' \
       '--help[print this help]' \
       ':site:_files -/' ;;
@@ -142,6 +145,7 @@ _imgeo() {
       '--loop[begin again after the last file]' \
       '--to[the server to publish to; otherwise this command is the server]:to: ' \
       '--token[with --to\: the server'\''s token; otherwise the variable IMGEO_TOKEN]:token: ' \
+      '--view-token[viewers add ?token=TOKEN to the address of this stream]:view-token: ' \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
       '-h[print this help]' \
