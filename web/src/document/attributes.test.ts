@@ -64,7 +64,7 @@ describe("a shape's colorBy", () => {
 
   test("is the depth in fog where it has its name, unless another attribute colors the shape", () => {
     const bg = `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
-      <FloatVertexAttribute name="fogDepth" numComponents="1"/><GeometryPatch attrib="h.bin f.bin"/></BinaryGeometry>`;
+      <FloatVertexAttribute name="fogDepth" numComponents="1"/><GeometryPatch coord="c.bin" attrib="h.bin f.bin"/></BinaryGeometry>`;
     const plain = read("", bg);
     assert.deepEqual([plain.geometry.value?.name, plain.geometry.valueUse], ["fogDepth", "fogDepth"]);
     assert.equal(plain.shape.appearance.colorMap, undefined);

@@ -262,7 +262,7 @@ describe("the author's priority", () => {
 
   for (const text of ["-1", "much", "", "1 2", "NaN"]) {
     test(`is 1, with a warning, where the attribute is "${text}"`, () => {
-      const scene = sceneOf(`<Shape priority="${text}"><ImageGeometry priority="${text}"/></Shape>`);
+      const scene = sceneOf(`<Shape priority="${text}"><ImageGeometry priority="${text}" coord="a.png"/></Shape>`);
       assert.equal(shapesOf(scene.root)[0]?.priority, 1);
       assert.equal(scene.warnings.length, 2);
     });

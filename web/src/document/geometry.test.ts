@@ -115,7 +115,9 @@ describe("a geometry", () => {
   });
 
   test("has triangles for an unknown primitive and the default for an unknown element type, with warnings", () => {
-    const scene = sceneOf('<Shape><BinaryGeometry coordType="Float64" primType="QUADS" vertexCount="3 -1"/></Shape>');
+    const scene = sceneOf(
+      `<Shape><BinaryGeometry coord="c.bin" coordType="Float64" primType='"QUADS" "TRIANGLES"' vertexCount="3 -1"/></Shape>`,
+    );
     const geometry = shapesOf(scene.root)[0]?.geometry;
     assert.equal(geometry?.coordType, "Float32");
     assert.deepEqual(geometry.patches[0]?.draws, [
@@ -123,6 +125,25 @@ describe("a geometry", () => {
       { primitive: "triangles", count: 0 },
     ]);
     assert.equal(scene.warnings.length, 3);
+  });
+
+  test("warns where it has no coordinates, and where a draw has no primitive", () => {
+    const warningsOf = (markup: string): string[] =>
+      sceneOf(`<Shape>${markup}</Shape>`).warnings.map(({ message }) => message);
+    for (const node of [
+      '<BinaryGeometry index="i.bin" vertexCount="3"/>',
+      "<ImageGeometry><MultiTexture containerField='coord'><ImageTexture url='c.png'/></MultiTexture></ImageGeometry>",
+      "<ImageGeometry><GeometryPatch/></ImageGeometry>",
+    ])
+      assert.deepEqual(warningsOf(node), ["there is no coord; nothing is drawn"], node);
+    assert.deepEqual(warningsOf('<ImageGeometry profile="compact"/>'), ["there is no data; nothing is drawn"]);
+    assert.deepEqual(
+      warningsOf("<ImageGeometry><MovieTexture containerField='coord' url='m.webm'/></ImageGeometry>").length,
+      1,
+    );
+    assert.deepEqual(warningsOf('<BinaryGeometry coord="c.bin" primType="POINTS" vertexCount="3 6"/>'), [
+      "primType has 1 of 2 draws; TRIANGLES are drawn for the others",
+    ]);
   });
 
   test("has the first four of more byte planes, with a warning", () => {

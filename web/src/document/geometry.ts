@@ -246,13 +246,31 @@ function readPatches(
 ): PatchDescription[] {
   const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
   if (patchElements.length === 0) {
-    const images = containerImagesOf(element, resolve, warnings);
+    const imageWarnings: Warning[] = [];
+    const images = containerImagesOf(element, resolve, imageWarnings);
+    warnings.push(...imageWarnings);
     const values = { ...readFields(element, nodeFields.GeometryPatch, warnings), ...images };
-    return [patchOf(element, withImplicitMeshCount(element, values, warnings), encoding, warnings)];
+    const patch = patchOf(element, withImplicitMeshCount(element, values, warnings), encoding, warnings);
+    // An image that cannot be read is why there are none.
+    if (imageWarnings.length === 0) requireCoordinates(element, patch, encoding, warnings);
+    return [patch];
   }
-  return patchElements.map((child) =>
-    patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), encoding, warnings),
-  );
+  return patchElements.map((child) => {
+    const patch = patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), encoding, warnings);
+    requireCoordinates(child, patch, encoding, warnings);
+    return patch;
+  });
+}
+
+function requireCoordinates(
+  element: SceneElement,
+  { coord, data }: PatchDescription,
+  encoding: Encoding,
+  warnings: Warning[],
+): void {
+  const isPacked = encodingFormats[encoding].storage === "packed";
+  if (isPacked ? data === undefined : coord.length === 0)
+    warnings.push({ element, message: `there is no ${isPacked ? "data" : "coord"}; nothing is drawn` });
 }
 
 function patchOf(
@@ -347,6 +365,12 @@ const primitives: Readonly<Record<string, Primitive>> = {
 };
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
+  const { length } = values.primType;
+  if (length < values.vertexCount.length)
+    warnings.push({
+      element,
+      message: `primType has ${length} of ${values.vertexCount.length} draws; TRIANGLES are drawn for the others`,
+    });
   return values.vertexCount.map((count, index) => {
     const name = values.primType[index] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
