@@ -1,7 +1,7 @@
 // Bytes by role of compact sites at the maximum effort, compared with Draco and gltfpack with brotli on the same welded
 // mesh with the same normals and the same precision. Every site is verified against its input before it is counted.
-// Then bytes and times of classic sites by image format, and of their normals by encoding and precision. Prints
-// Markdown tables.
+// Then bytes and times of the images of sites of both profiles as PNG and as lossless WebP, also at the maximum effort,
+// and bytes of classic's normals by encoding and precision, at the default effort. Prints Markdown tables.
 //
 //   build/bench/size MODEL...        (in the repository's root, with draco_encoder installed)
 
@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+
+constexpr int maxEffort = 9;
 
 /// The kinds of streams in compact files, as columns of the table.
 constexpr std::array roles{"sizes",   "connectivity", "parts",  "positions", "seams",
@@ -50,8 +52,8 @@ void addStreams(const fs::path& file, Site& site) {
 
 Site measureSite(const std::string& model, int bits, const fs::path& work) {
   const std::string directory = work / "site", report = work / "report.json";
-  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--base", "0", "--effort", "9",
-           "-vp", std::to_string(bits), "-vn", "8", "-r", report});
+  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--base", "0", "--effort",
+           std::to_string(maxEffort), "-vp", std::to_string(bits), "-vn", "8", "-r", report});
   runOnce({"build/imgeo", "verify", directory, model});
   const Json json = Json::parse(asText(readFile(report)));
   Site site;
@@ -122,37 +124,68 @@ template <typename Function> double processorSeconds(Function function) {
   return now() - start;
 }
 
-/// Bytes of the images of one role in a format, and the processor time of one thread.
+/// Bytes of images in a format, and the processor time of one thread.
 struct ImageCost {
   std::uint64_t bytes = 0;
   double encode = 0, decode = 0; ///< seconds
+
+  ImageCost& operator+=(const ImageCost& other) {
+    bytes += other.bytes;
+    encode += other.encode;
+    decode += other.decode;
+    return *this;
+  }
 };
 
-void addCost(ImageCost& cost, const Image& image, ImageFormat format) {
+ImageCost costOf(const Image& image, ImageFormat format) {
   Bytes file;
-  cost.encode += processorSeconds([&] { file = encodeImageFile(image, format, 5); });
-  cost.decode += processorSeconds([&] { (void)decodeImageFile(file, "image"); });
-  cost.bytes += file.size();
+  ImageCost cost;
+  cost.encode = processorSeconds([&] { file = encodeImageFile(image, format, maxEffort); });
+  cost.decode = processorSeconds([&] { (void)decodeImageFile(file, "image"); });
+  cost.bytes = file.size();
+  return cost;
 }
 
-/// Prints a row for each role of a classic site: its images as PNG and as WebP, at the default effort.
-void printImageFormats(const std::string& model, const fs::path& work) {
-  const fs::path site = work / "classic";
-  runOnce({"build/imgeo", "convert", model, "-o", site, "--profile", "classic", "--no-pictures"});
-  std::map<std::string, std::array<ImageCost, 2>> roles;
+/// Images in both formats.
+struct FormatCosts {
+  ImageCost png, webp;
+  std::uint64_t smaller = 0; ///< bytes with each image in its smaller format
+
+  FormatCosts& operator+=(const FormatCosts& other) {
+    png += other.png;
+    webp += other.webp;
+    smaller += other.smaller;
+    return *this;
+  }
+};
+
+void printFormats(const std::string& model, const char* profile, const std::string& role, const FormatCosts& costs) {
+  const auto& [png, webp, smaller] = costs;
+  const auto ratioTo = [&](std::uint64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(png.bytes); };
+  fmt::print("| {} | {} | {} | {} | {} ({:.2f}) | {} ({:.2f}) | {:.2f} / {:.2f} | {:.1f} / {:.1f} |\n",
+             fs::path(model).stem().string(), profile, role, png.bytes, webp.bytes, ratioTo(webp.bytes), smaller,
+             ratioTo(smaller), png.encode, webp.encode, 1000 * png.decode, 1000 * webp.decode);
+}
+
+/// Prints a row for each role of a site's images, and one for all of them.
+void printImageFormats(const std::string& model, const char* profile, const fs::path& work) {
+  const fs::path site = work / profile;
+  runOnce({"build/imgeo", "convert", model, "-o", site, "--profile", profile, "--no-pictures"});
+  std::map<std::string, FormatCosts> roles;
   for (const SiteFile& file : inspect(site).files) {
     if (!file.path.starts_with("geometry/"))
       continue;
     const Image image = decodeImageFile(readFile(site / file.path), file.path);
-    for (const ImageFormat format : {ImageFormat::png, ImageFormat::webp})
-      addCost(roles[file.role][format == ImageFormat::webp], image, format);
+    FormatCosts costs{costOf(image, ImageFormat::png), costOf(image, ImageFormat::webp)};
+    costs.smaller = std::min(costs.png.bytes, costs.webp.bytes);
+    roles[file.role] += costs;
   }
+  FormatCosts all;
   for (const auto& [role, costs] : roles) {
-    const auto& [png, webp] = costs;
-    fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} / {:.2f} | {:.1f} / {:.1f} |\n", fs::path(model).stem().string(),
-               role, png.bytes, webp.bytes, static_cast<double>(webp.bytes) / static_cast<double>(png.bytes),
-               png.encode, webp.encode, 1000 * png.decode, 1000 * webp.decode);
+    printFormats(model, profile, role, costs);
+    all += costs;
   }
+  printFormats(model, profile, "**all**", all);
   std::fflush(stdout);
 }
 
@@ -170,13 +203,17 @@ void printNormals(const std::string& model, const char* normals, const char* bit
   std::fflush(stdout);
 }
 
-void printClassic(const std::vector<std::string>& models, const fs::path& work) {
-  fmt::print(
-      "\n| model | classic's images | PNG | WebP | ratio | encode, s | decode, ms |\n|---|---|--:|--:|--:|--:|--:|\n");
+void printImages(const std::vector<std::string>& models, const fs::path& work) {
+  fmt::print("\n| model | profile | images | PNG | WebP | the smaller of each | encode, s: PNG / WebP "
+             "| decode, ms: PNG / WebP |\n|---|---|---|--:|--:|--:|--:|--:|\n");
   for (const std::string& model : models)
-    printImageFormats(model, work);
-  fmt::print("\nEffort 5; PNG / WebP, processor time of one thread, by libdeflate and libwebp.\n\n"
-             "| model | classic's normals | bits | bytes | largest error, degrees |\n|---|---|--:|--:|--:|\n");
+    for (const char* profile : {"classic", "compact"})
+      printImageFormats(model, profile, work);
+  fmt::print("\nEffort {}; processor time of one thread, by libdeflate and libwebp.\n\n", maxEffort);
+}
+
+void printClassicNormals(const std::vector<std::string>& models, const fs::path& work) {
+  fmt::print("| model | classic's normals | bits | bytes | largest error, degrees |\n|---|---|--:|--:|--:|\n");
   for (const std::string& model : models)
     for (const char* normals : {"rgb", "octahedral", "spherical"})
       for (const char* bits : {"8", "16"})
@@ -192,7 +229,8 @@ void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   for (const std::string& model : models)
     summary += printModel(model, work);
   fmt::print("\ndraco_encoder -cl 10 -qn 8 -qt 12; gltfpack -cz -vn 8 -vt 12 -kv, then brotli 11.\n\n{}", summary);
-  printClassic(models, work);
+  printImages(models, work);
+  printClassicNormals(models, work);
 }
 
 } // namespace
