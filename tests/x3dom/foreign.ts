@@ -24,7 +24,7 @@ const columns = 4;
 const rows = 4;
 const cell = 1.8;
 const distance = 20;
-/** Of the picture in pixels: no byte of a coordinate is too fine to be visible. */
+/** Size of the picture in pixels, at which no byte of a coordinate is too fine to be visible. */
 export const foreignSize = { width: 640, height: 640 };
 
 const half = { x: 0.85, y: 0.8, z: 0.6 };
