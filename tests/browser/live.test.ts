@@ -2,13 +2,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { difference, savePicture } from "./compare.ts";
+import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
 import { exampleOf, type GridExample } from "./generators/grids.ts";
 import { until, type View } from "./harness.ts";
-import { gpuCalls, displayed, plainOf, wave, withLivePage } from "./livePage.ts";
+import { displayed, gpuCalls, plainOf, showsNewest, wave, withLivePage } from "./livePage.ts";
 import { areaWeightedNormals } from "./meshes.ts";
-import { encodePng } from "./png.ts";
+import { encodePng, type Picture } from "./png.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
+import { soakTest } from "./soak.ts";
 
 test("a live stream is drawn frame by frame", async () => {
   await withLivePage({ expectedErrors: /500|410|404|live\/sheet/ }, async (view) => {
@@ -195,6 +196,7 @@ test("a live stream is drawn from buffers as from images, and with normals of it
       await pickMiddle(example);
     }
 
+    const noIndex = { index: undefined, indexType: undefined, primType: undefined, vertexCount: undefined };
     // Triangles of an index image: normals are sums of those of the triangles around each vertex.
     const triangles = (example: GridExample): PlainPatch => {
       const plain = plainOf(example);
@@ -237,28 +239,57 @@ test("a live stream is drawn from buffers as from images, and with normals of it
     const revealed = await displayed(view, stream);
     assert.equal(revealed.at(-1)!.skipped, 4);
 
+    // Static images beside a stream: its texture coordinates are those of a geometry in files.
+    const { columns, rows } = wave(0);
+    const words = (value: number): [number, number] => [
+      Math.round(65535 * value) >> 8,
+      Math.round(65535 * value) & 255,
+    ];
+    const uv = Uint8Array.from(
+      Array.from({ length: columns * rows }, (_, n) => {
+        const [[u, uLow], [v, vLow]] = [
+          words((n % columns) / (columns - 1)),
+          words(Math.floor(n / columns) / (rows - 1)),
+        ];
+        return [u, v, uLow, vLow];
+      }).flat(),
+    );
+    server.put("/uv.png", encodePng({ width: columns, height: rows, channels: 4, data: uv }));
+    const checker = Uint8Array.from({ length: 3 * 64 }, (_, n) => (((n / 3) & 1) === ((n / 24) & 1) ? 250 : 20));
+    server.put("/checker.png", encodePng({ width: 8, height: 8, channels: 3, data: checker }));
+    const setTexture = (texture: string): Promise<void> =>
+      view.page.evaluate((html) => {
+        document.querySelector("imagetexture")?.remove();
+        document.querySelector("appearance")!.insertAdjacentHTML("beforeend", html);
+      }, texture);
+    const plain = await view.picture();
+    await setTexture('<ImageTexture url="checker.png"></ImageTexture>');
+    const textured: Picture[] = [];
+    for (const decode of [undefined, "cpu"]) {
+      await setGeometry({ ...noIndex, decode, texCoord: "uv.png" });
+      await view.promise("complete", "shape");
+      stream.publish(wave(60));
+      await displayed(view, stream);
+      textured.push(await view.picture());
+    }
+
     // A script that changes the files of a geometry: they take turns with the GPU memory of those before the last.
-    const filesOf = (n: number): { example: GridExample; urls: string[] } => {
-      const example = wave(100 + n);
+    const filesOf = (n: number, example = wave(100 + n)): { example: GridExample; urls: string[] } => {
       const urls = [...example.files.values()].map((file, plane) => {
         server.put(`/sheet/${n}-${plane}.png`, file);
         return `sheet/${n}-${plane}.png`;
       });
       return { example, urls };
     };
-    const grid = wave(0);
     const image = {
-      index: undefined,
-      indexType: undefined,
-      primType: undefined,
-      vertexCount: undefined,
+      ...noIndex,
       implicitMeshMode: "geometryImage",
-      implicitMeshSize: `${grid.columns} ${grid.rows}`,
+      implicitMeshSize: `${columns} ${rows}`,
       position: "0 0 0",
       size: "3 3 3",
     };
-    const showImages = async (n: number): Promise<GridExample> => {
-      const { example, urls } = filesOf(n);
+    const showImages = async (n: number, moment = 100 + n): Promise<GridExample> => {
+      const { example, urls } = filesOf(n, wave(moment));
       await setGeometry({ ...image, coord: urls.map((url) => `"${url}"`).join(" ") });
       await view.promise("complete", "shape");
       return example;
@@ -274,7 +305,7 @@ test("a live stream is drawn from buffers as from images, and with normals of it
     };
     const showBinary = async (n: number): Promise<GridExample> => {
       const { example, url } = binary(n);
-      const bytes = 12 * grid.columns * grid.rows;
+      const bytes = 12 * columns * rows;
       await setGeometry({
         coord: url,
         coordType: "Float32",
@@ -298,6 +329,13 @@ test("a live stream is drawn from buffers as from images, and with normals of it
       await show(plainOf(example), `changed files: ${name}`);
       assert.equal((await gpuCalls(view)).objects, before.objects, `${name}: changes allocate memory on the GPU`);
     };
+    await showImages(10, 60);
+    const inFiles = await view.picture();
+    savePicture("live: textured", inFiles);
+    for (const picture of textured) assertSamePicture("live: textured", picture, inFiles, boundsOfQuantised);
+    assert.ok(difference(inFiles, plain).mean > 5, "the texture is not displayed");
+    await setTexture("");
+    await setGeometry({ decode: undefined, texCoord: undefined });
     await changeSeveral("images", showImages);
     await setGeometry({ decode: "cpu" });
     await view.promise("complete", "shape");
@@ -307,4 +345,48 @@ test("a live stream is drawn from buffers as from images, and with normals of it
     });
     await changeSeveral("typed arrays", showBinary);
   });
+});
+
+/** Bytes of JavaScript's heap, and of array buffers, after garbage collection. */
+async function heapOf({ page }: View): Promise<{ heap: number; buffers: number }> {
+  await page.evaluate(() => {
+    (window as unknown as { frames: unknown[] }).frames.splice(0); // the test's own
+    window.observed.events.splice(0);
+  });
+  const session = await page.context().newCDPSession(page);
+  for (let n = 0; n < 3; ++n) await session.send("HeapProfiler.collectGarbage");
+  const usage = await session.send("Runtime.getHeapUsage");
+  await session.detach();
+  const { usedSize, backingStorageSize } = usage;
+  return { heap: usedSize, buffers: backingStorageSize };
+}
+
+/** Frames of the test that `make soak` runs. */
+const longFrameCount = Number(process.env.IMGEO_FRAMES ?? 10_000);
+/** The browser compiles code while it shows the first ones. */
+const warmUpFrameCount = 1000;
+
+soakTest("thousands of frames leave nothing behind", async () => {
+  for (const decode of ["gpu", "cpu"])
+    await withLivePage({}, async (view) => {
+      await view.setGeometry({ decode });
+      await view.promise("complete", "shape");
+      const examples = Array.from({ length: 32 }, (_, n) => wave(n / 5));
+      const publish = async (count: number): Promise<void> => {
+        for (let n = 0; n < count; ++n) {
+          view.stream.publish(examples[n % examples.length]!);
+          await showsNewest(view, view.stream);
+        }
+      };
+      await publish(warmUpFrameCount);
+      const before = { ...(await heapOf(view)), ...(await gpuCalls(view)) };
+      await publish(longFrameCount);
+      const after = { ...(await heapOf(view)), ...(await gpuCalls(view)) };
+      console.log(`decode="${decode}", ${longFrameCount} frames:`, before, after);
+      assert.equal(after.objects, before.objects, "frames allocate memory on the GPU");
+      // An object that stays for each frame would take more. What remains is compiled code and the browser's own lists
+      // of requests, which end at a few hundred.
+      assert.ok(after.heap - before.heap < 64 * longFrameCount, `the heap grew by ${after.heap - before.heap} bytes`);
+      assert.ok(after.buffers - before.buffers < 2 ** 16, `buffers grew by ${after.buffers - before.buffers} bytes`);
+    });
 });

@@ -87,14 +87,22 @@ export interface FrameDetail {
   skipped: number;
 }
 
+interface Recorded {
+  frames: FrameDetail[];
+}
+
 /** Waits until a frame of the page displays the newest frame of the stream. */
+export async function showsNewest({ page }: View, stream: TestStream): Promise<void> {
+  await until(
+    `frame ${stream.number} is displayed`,
+    async () => (await page.evaluate(() => (window as unknown as Recorded).frames.at(-1)?.number)) === stream.number,
+  );
+}
+
+/** Waits for the newest frame; returns all that have been displayed. */
 export async function displayed(view: View, stream: TestStream): Promise<FrameDetail[]> {
-  let frames: FrameDetail[] = [];
-  await until(`frame ${stream.number} is displayed`, async () => {
-    frames = await view.page.evaluate(() => (window as unknown as { frames: FrameDetail[] }).frames);
-    return frames.at(-1)?.number === stream.number;
-  });
-  return frames;
+  await showsNewest(view, stream);
+  return view.page.evaluate(() => (window as unknown as Recorded).frames);
 }
 
 export interface LiveView extends View {

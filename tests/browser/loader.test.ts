@@ -9,6 +9,7 @@ import type { Page } from "playwright-core";
 import { bundleApp } from "./appBundles.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { until, withPage, type PageOptions, type View } from "./harness.ts";
+import { plainOf as liveBuffersOf, wave } from "./livePage.ts";
 import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
 import { readPly } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
@@ -17,6 +18,7 @@ import { referenceSettingsOf, patchOfInput } from "./reference.ts";
 import { gate } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+import { TestStream } from "./testStream.ts";
 import { soakTest } from "./soak.ts";
 
 const bundles = { "app.js": "tests/browser/loaderPage.ts", "worker.js": "web/src/workers/worker.ts" };
@@ -123,6 +125,68 @@ describe("a scene in a three.js app has the same picture as plain buffers", () =
       },
     );
   }
+});
+
+test("a live stream in a three.js app is drawn, casts shadows and is picked as plain buffers", async () => {
+  let stream!: TestStream;
+  const server = (server: View["server"]): void => {
+    stream = new TestStream(server, "sheet");
+    server.put(
+      "/scene.x3d",
+      `<X3D><Scene><Shape><Appearance><Material diffuseColor="0.7 0.6 0.4"/></Appearance>
+        <ImageGeometry coord="live/sheet" solid="false"/></Shape></Scene></X3D>`,
+    );
+  };
+  await withApp(siteOfGenerated("trefoil", "--profile", "classic"), { server }, async ({ page }) => {
+    for (const keepsVertices of [false, true]) {
+      stream.begin(wave(0));
+      stream.publish(wave(0));
+      await page.evaluate((keep) => {
+        window.app.dispose();
+        window.app.loader.setKeepVertices(keep);
+        return window.app.load();
+      }, keepsVertices);
+      for (const moment of [0, 2, 4]) {
+        if (moment > 0) stream.publish(wave(moment));
+        const { positions, normals, triangles } = liveBuffersOf(wave(moment));
+        await page.evaluate(
+          (mesh) => {
+            window.app.setPlain(mesh, { diffuseColor: [0.7, 0.6, 0.4], shininess: 0.2 });
+          },
+          {
+            positions: [...positions],
+            normals: [...normals!],
+            triangles: [...triangles],
+            isDoubleSided: true,
+            lines: [],
+          },
+        );
+        const expected = await draw(page, "directional", "plain");
+        let picture = await draw(page, "directional", "scene");
+        await until("the frame is displayed", async () => {
+          picture = await draw(page, "directional", "scene");
+          return difference(picture, expected).mean < 0.1;
+        });
+        const name = `loader live ${keepsVertices ? "kept " : ""}${moment}`;
+        assertSamePicture(name, picture, expected, { mean: 0.06, offShare: 0.001 });
+        const unshadowed = await draw(page, "directional", "plain", false);
+        const shadow = difference(expected, unshadowed).mean;
+        assert.ok(shadow > 0.3, `the shadow changes the reference by ${shadow}`);
+        await draw(page, "directional", "scene");
+        const { gpu, ray } = await page.evaluate(() => window.app.pick(320, 200));
+        const depths = Array.from({ length: positions.length / 3 }, (_, n) => positions[3 * n + 2]!);
+        const z = gpu?.point[2] ?? NaN;
+        assert.ok(z >= Math.min(...depths) - 1e-3 && z <= Math.max(...depths) + 1e-3, `picked at z ${z}`);
+        if (keepsVertices)
+          ray!.point.forEach((coordinate, axis) => {
+            assert.ok(
+              Math.abs(coordinate - gpu!.point[axis]!) < 0.01,
+              `${String(ray!.point)} and ${String(gpu!.point)}`,
+            );
+          });
+      }
+    }
+  });
 });
 
 test("a texture is applied to a surface with the right orientation", async () => {

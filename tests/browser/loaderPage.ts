@@ -9,7 +9,9 @@ import {
   BufferGeometry,
   Color,
   DirectionalLight,
+  DoubleSide,
   Fog,
+  FrontSide,
   LineBasicMaterial,
   LineSegments,
   LoadingManager,
@@ -41,6 +43,8 @@ export interface PlainBuffers {
   /** sRGB, 0..1. */
   colors?: number[];
   triangles: number[];
+  /** Whether both sides of triangles are drawn. */
+  isDoubleSided?: boolean;
   lines: number[];
 }
 
@@ -130,7 +134,7 @@ function lightOf(kind: AppRequest["light"]): Light {
 }
 
 function plainObject(
-  { positions, normals, colors, triangles, lines }: PlainBuffers,
+  { positions, normals, colors, triangles, isDoubleSided = false, lines }: PlainBuffers,
   color: Color,
   shininess: number,
 ): Object3D {
@@ -144,7 +148,15 @@ function plainObject(
   if (triangles.length > 0) {
     geometry.setIndex(triangles);
     const roughness = Math.sqrt(2 / (shininess * 128 + 2));
-    return new Mesh(geometry, new MeshStandardMaterial({ ...colorOptions, roughness, metalness: 0 }));
+    return new Mesh(
+      geometry,
+      new MeshStandardMaterial({
+        ...colorOptions,
+        roughness,
+        metalness: 0,
+        side: isDoubleSided ? DoubleSide : FrontSide,
+      }),
+    );
   }
   if (lines.length === 0)
     return new Points(

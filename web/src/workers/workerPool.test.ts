@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { getEventListeners } from "node:events";
 import { describe, test } from "node:test";
 import type { IndexJob, NormalJob } from "../decode/classic/classicArrays.ts";
 import { DecodeError } from "../decode/decodeError.ts";
@@ -77,6 +78,20 @@ describe("jobs", () => {
     );
     pool.dispose();
     assert.ok(workers.every(({ isEnded }) => isEnded));
+  });
+
+  test("leave nothing at a signal that outlives them", async () => {
+    const { pool, workers } = poolWithFakes({ size: 1 });
+    const { signal } = new AbortController();
+    const [done, failing] = [1, 2].map((n) => pool.run("classicNormals", input(n), signal));
+    assert.equal(getEventListeners(signal, "abort").length, 2);
+    workers[0]?.answer(output(1));
+    await done;
+    assert.equal(getEventListeners(signal, "abort").length, 1);
+    workers[0]?.answer(asAnswer(new DecodeError("truncated", "is short")));
+    await assert.rejects(failing ?? Promise.resolve());
+    assert.equal(getEventListeners(signal, "abort").length, 0);
+    pool.dispose();
   });
 
   test("reject with their own errors, and the worker continues", async () => {

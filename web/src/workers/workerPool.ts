@@ -62,15 +62,19 @@ export class WorkerPool {
         reject(signal.reason as Error);
         return;
       }
-      const job: Job = { message: { name, input }, signal, resolve, reject };
-      signal.addEventListener(
-        "abort",
-        () => {
-          this.#waiting = this.#waiting.filter((other) => other !== job);
-          reject(signal.reason as Error); // a running job finishes, and its result is ignored
-        },
-        { once: true },
-      );
+      const onAbort = (): void => {
+        this.#waiting = this.#waiting.filter((other) => other !== job);
+        reject(signal.reason as Error); // a running job finishes, and its result is ignored
+      };
+      signal.addEventListener("abort", onAbort, { once: true });
+      // A signal may outlive thousands of jobs, as that of a live stream: it must not keep their input.
+      const settled = <Value>(settle: (value: Value) => void) => {
+        return (value: Value): void => {
+          signal.removeEventListener("abort", onAbort);
+          settle(value);
+        };
+      };
+      const job: Job = { message: { name, input }, signal, resolve: settled(resolve), reject: settled(reject) };
       this.#waiting.push(job);
       this.#pump();
     }) as Promise<OutputOf<Name>>;
