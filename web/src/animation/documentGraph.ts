@@ -118,7 +118,7 @@ export class DocumentGraph {
         );
       return false;
     }
-    const inScene = /Time$/.test(field) && typeof value === "number" && value > 0 ? value - lag : value;
+    const inScene = field.endsWith("Time") && typeof value === "number" && value > 0 ? value - lag : value;
     this.#graph.run(time, () => {
       if (this.#drawnNodes.get(element) === node) node.send(field, value);
       else node.receive(field, inScene, time);

@@ -9,7 +9,9 @@ const maxCoordinate = 1e18;
 
 /** Whether a GPU can draw the content of a box. Other boxes are left out of the bounds to which the camera fits. */
 export function isDrawable({ min, max }: Box3): boolean {
-  return [...min.toArray(), ...max.toArray()].every((edge) => Math.abs(edge) < maxCoordinate);
+  const isWithin = ({ x, y, z }: Vector3): boolean =>
+    Math.abs(x) < maxCoordinate && Math.abs(y) < maxCoordinate && Math.abs(z) < maxCoordinate;
+  return isWithin(min) && isWithin(max);
 }
 
 /** The axis-aligned bounds of a transformed box. */

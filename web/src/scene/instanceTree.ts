@@ -9,7 +9,7 @@ import type { SceneElement } from "../document/element.ts";
 import { boxOfAllRotations, isDrawable, transformedBox } from "./bounds.ts";
 import { EffectScope, sceneScope } from "./effectScope.ts";
 import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
-import { emptySummary, NodeInstance } from "./nodeInstance.ts";
+import { emptySummary, NodeInstance, summaryOfBox } from "./nodeInstance.ts";
 import { mergeSummaries } from "./subtreeSummary.ts";
 import { lengthScaleOf, matrixOf } from "./transforms.ts";
 
@@ -233,7 +233,7 @@ function leafSummary(
         description.box && description.contributesToBounds && isUnbounded
           ? transformedBox(sceneFromNode, description.box)
           : undefined;
-      return box && isDrawable(box) ? { ...emptySummary, box } : emptySummary;
+      return box && isDrawable(box) ? summaryOfBox(box) : emptySummary;
     }
     case "viewpoint":
       return {

@@ -60,6 +60,25 @@ export const emptySummary: SubtreeSummary = {
   effectScopes: none,
 };
 
+/** The summary of a shape with these bounds; a literal, since a scene that moves makes thousands in each frame. */
+export function summaryOfBox(box: Box3): SubtreeSummary {
+  return {
+    box,
+    lights: none,
+    environmentLights: none,
+    viewpoints: none,
+    backgrounds: none,
+    fogs: none,
+    localFogs: none,
+    clipPlanes: none,
+    lods: none,
+    boundedGroups: none,
+    anchors: none,
+    billboards: none,
+    effectScopes: none,
+  };
+}
+
 /** What a node inherits from the groups around it. */
 export interface InheritedState {
   readonly sceneFromNode: Matrix4;

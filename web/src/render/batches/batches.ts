@@ -181,6 +181,7 @@ export class Batches {
     // is multiplied by the same mirror.
     const mirror = member.isMirrored ? -1 : 1;
     sphere.copy(bounds).applyMatrix4(rootFromStored);
+    const [stepX, stepY, stepZ] = step;
     return this.#table.write(instanceIndex, instanceFields.matrix, [
       mirror * xx,
       mirror * yx,
@@ -194,7 +195,9 @@ export class Batches {
       yz,
       zz,
       oz,
-      ...step,
+      stepX,
+      stepY,
+      stepZ,
       member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0,
     ]);
   }

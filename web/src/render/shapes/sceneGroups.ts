@@ -264,7 +264,9 @@ function applyDescription(
   group.visible = description.visible;
   if (!hasMoved) return;
   if (description.kind === "shape") {
-    group.updateMatrixWorld(true);
+    // Its own matrix is the identity, and what batches draw has no objects in it.
+    if (group.parent && group.children.length === 0) group.matrixWorld.copy(group.parent.matrixWorld);
+    else group.updateMatrixWorld(true);
     return;
   }
   if (parentFromNode) group.matrix.copy(parentFromNode);
