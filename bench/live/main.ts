@@ -3,7 +3,7 @@
 //
 //   scripts/bench live             after the table of bench/live.cpp
 //   FRAMES=18000                   frames of the long run (default 2000; 18,000 take ten minutes; 0: no page)
-//   VIEWERS=100,200                numbers of viewers
+//   VIEWERS=100,200                numbers of viewers; 0: none
 
 import { spawn } from "node:child_process";
 import { once } from "node:events";
@@ -19,7 +19,10 @@ import { startStream } from "../../tests/live/stream.ts";
 
 const rate = 30;
 const frameCount = Number(process.env.FRAMES ?? 2000);
-const viewerCounts = (process.env.VIEWERS ?? "100,250,500,750,1000,1500").split(",").map(Number);
+const viewerCounts = (process.env.VIEWERS ?? "1,100,250,500,750,1000,1500")
+  .split(",")
+  .map(Number)
+  .filter((count) => count > 0);
 const secondsPerCount = 6;
 /** Bytes per second of the slow line. */
 const slowLine = 500_000;
@@ -34,6 +37,13 @@ interface Counts {
   readonly refused: number;
   readonly medianAge: number;
   readonly age95: number;
+}
+
+/** Seconds that the workers of nginx have had on a processor. */
+function workerSeconds(pid: number | undefined): number {
+  if (pid === undefined) return 0;
+  const workers = readFileSync(`/proc/${pid}/task/${pid}/children`, "utf8").trim().split(" ");
+  return workers.reduce((sum, worker) => sum + processorSeconds(Number(worker)), 0);
 }
 
 /** Seconds that a process has had on a processor. */
@@ -58,23 +68,32 @@ async function measureViewers(isBehindNginx: boolean): Promise<number> {
     return 0;
   }
   let reached = 0;
+  /** What the simulation and one viewer take of a core. */
+  let base: number | undefined;
   for (const count of viewerCounts) {
     const stream = await startStream(["cloth", "--grid", "64", "--rate", `${rate}`], ["taskset", "-c", "0", tool]);
     const front = isBehindNginx ? await startNginx(nginx ?? "", stream.port, false) : undefined;
     const before = processorSeconds(stream.pid);
+    const workersBefore = workerSeconds(front?.pid);
     const text = await output("taskset", [
       ...["-c", "1", viewersProgram, `${front?.port ?? stream.port}`, "cloth"],
       ...[`${count}`, `${secondsPerCount}`],
     ]);
     const load = (processorSeconds(stream.pid) - before) / secondsPerCount;
+    const nginxSeconds = workerSeconds(front?.pid) - workersBefore;
     const passed = front?.counts();
     await front?.stop();
     await stream.stop();
     if (text === "") break;
     const counts = JSON.parse(text) as Counts;
+    base ??= load;
+    // Viewers receive frames before the measured ones, too.
+    const sent = (counts.frames * secondsPerCount) / (secondsPerCount - 1);
+    const seconds = secondsPerCount * (load - base) + nginxSeconds;
+    const microseconds = count > 1 ? ((1e6 * seconds) / sent).toFixed(0) : "";
     const requests = passed && (passed.passed / (secondsPerCount * rate)).toFixed(2);
     console.log(
-      `| ${count} | ${isBehindNginx ? "behind nginx" : "directly"} | ${counts.rate.toFixed(1)} | ${counts.skipped} | ${counts.torn} | ${counts.medianAge} / ${counts.age95} ms | ${(100 * load).toFixed(0)} % | ${requests ?? count} |`,
+      `| ${count} | ${isBehindNginx ? "behind nginx" : "directly"} | ${counts.rate.toFixed(1)} | ${counts.skipped} | ${counts.torn} | ${counts.medianAge} / ${counts.age95} ms | ${(100 * load).toFixed(0)} % | ${microseconds} | ${requests ?? count} |`,
     );
     if (counts.torn > 0) throw new Error("a frame is torn");
     if (counts.rate < 0.97 * rate) break;
@@ -211,7 +230,7 @@ async function measureLongRun(browser: Browser): Promise<void> {
 }
 
 console.log(
-  "| viewers | | frames a second each | skipped | torn | age, median / 19 of 20 | the server on its core | requests to the server a frame |\n|--:|---|--:|--:|--:|--:|--:|--:|",
+  "| viewers | | frames a second each | skipped | torn | age, median / 19 of 20 | the server on its core | µs for a frame sent | requests to the server a frame |\n|--:|---|--:|--:|--:|--:|--:|--:|--:|",
 );
 const direct = await measureViewers(false);
 const behind = await measureViewers(true);

@@ -34,6 +34,8 @@ export interface RequestCounts {
 
 export interface Nginx {
   readonly port: number;
+  /** The number of its main process. */
+  readonly pid: number;
   /** The certificate, which only these tests trust. */
   readonly certificate: string;
   /** Requests that have been answered since the start. */
@@ -97,6 +99,7 @@ export async function startNginx(nginx: string, serverPort: number, hasTls = tru
   }
   return {
     port,
+    pid: child.pid ?? 0,
     certificate,
     counts: () => countsOf(readFileSync(file("access.log"), "utf8")),
     stop: async () => {
