@@ -30,13 +30,19 @@ async function bundleOf(source: string, ...plugins: Plugin[]): Promise<Buffer> {
   return Buffer.from(outputFiles[0]!.contents);
 }
 
-/** The modules that a page of `imgeo convert` loads: those that draw the preview, and all. */
-async function siteModules(): Promise<{ first: Buffer[]; all: Buffer[] }> {
+/**
+ * The modules that a page of `imgeo convert` loads: those that draw the preview, all of a document that does not move,
+ * and the one for documents that move.
+ */
+async function siteModules(): Promise<{ first: Buffer[]; all: Buffer[]; animation: Buffer[] }> {
   const { outputFiles } = await build({ ...siteBundle, outdir: "dist", write: false });
   const modules = outputFiles.map(({ path, contents }) => ({ path, bytes: Buffer.from(contents) }));
+  const withoutEnds = (...ends: readonly string[]): Buffer[] =>
+    modules.filter(({ path }) => !ends.some((end) => path.endsWith(end))).map(({ bytes }) => bytes);
   return {
-    first: modules.filter(({ path }) => !path.endsWith("-scene.js")).map(({ bytes }) => bytes),
-    all: modules.map(({ bytes }) => bytes),
+    first: withoutEnds("-scene.js", "-animation.js"),
+    all: withoutEnds("-animation.js"),
+    animation: modules.filter(({ path }) => path.endsWith("-animation.js")).map(({ bytes }) => bytes),
   };
 }
 
@@ -65,6 +71,7 @@ type Files = Buffer | Buffer[];
 const rows: [name: string, withThree: Files | undefined, without: Files | undefined][] = [
   ["imgeo, what a page loads before its first image", site.first, undefined],
   ["imgeo, all that it loads", site.all, undefined],
+  ["imgeo, in addition for documents that move", undefined, site.animation],
   [
     "imgeo, the element `<x3d>` in one module",
     await bundleOf(element, leanThree),

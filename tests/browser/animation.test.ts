@@ -120,6 +120,25 @@ async function assertScrubbed(view: View, site: string): Promise<void> {
   assertSamePicture("animation-scrubbed", picture, fresh, { mean: 0.05, offShare: 0.001 });
 }
 
+/** Geometry that moves takes no more memory from frame to frame. */
+async function assertKeepsMemory(view: View): Promise<void> {
+  const { page } = view;
+  const memory = (): Promise<number[]> =>
+    page.evaluate(() => {
+      const { statistics } = document.querySelector("x3d") as unknown as {
+        statistics: { geometries: number; textures: number; programs: number; bufferBytes: number };
+      };
+      return [statistics.geometries, statistics.textures, statistics.programs, statistics.bufferBytes];
+    });
+  let before: number[] = [];
+  for (let step = 0; step < 8; step++) {
+    await set(view, "wave", "set_fraction", String(step / 8));
+    await view.picture();
+    if (step === 3) before = await memory();
+  }
+  assert.deepEqual(await memory(), before);
+}
+
 async function assertPlays(view: View): Promise<void> {
   const { page } = view;
   const before = await framesOf(view);
@@ -194,6 +213,7 @@ test("a scene moves as its ROUTEs say, by its clocks, its scripts and the pointe
       view.page.evaluate(() => "getFieldValue" in document.querySelector('[DEF="clock"]')!),
     );
     await assertScrubbed(view, site);
+    await assertKeepsMemory(view);
     await assertPlays(view);
     await assertSensors(view);
   });
