@@ -97,33 +97,45 @@ test("a live stream is drawn frame by frame", async () => {
       return Array.from(data.subarray(at, at + 3));
     };
     const constant = (value: number): number[] => Array.from({ length: 16 }, () => value);
-    await view.page.evaluate(() => {
-      document.querySelector("material")!.outerHTML = "<UnlitMaterial></UnlitMaterial>";
-    });
-    stream.begin(flat, { colorComponents: 3 });
-    stream.publish(flat, [200, 100, 50].map(constant));
-    await displayed(view, stream);
-    assert.deepEqual(await center(), [200, 100, 50]);
-    await view.page.evaluate(() => {
-      document.querySelector("shape")!.setAttribute("colorBy", "value");
-      document.querySelector("shape")!.setAttribute("colorMap", "0 0 0, 1 1 1");
-    });
-    stream.begin(flat, { valueComponents: 1, valueBits: 12, valueRange: [[-1, 3]] });
-    stream.publish(flat, [constant(819)]);
-    await displayed(view, stream);
-    assert.deepEqual(await center(), [51, 51, 51]);
-    await view.page.evaluate(() => {
-      document.querySelector("shape")!.removeAttribute("colorBy");
-      document.querySelector("unlitmaterial")!.outerHTML = '<Material diffuseColor="0.3 0.3 0.3"></Material>';
-    });
-    const shadeOf = async (u: number, v: number): Promise<number> => {
-      stream.begin(flat, { normalBits: 8 });
-      stream.publish(flat, [u, v].map(constant));
+    const setMaterial = (html: string): Promise<void> =>
+      view.page.evaluate((text) => {
+        document.querySelector("material, unlitmaterial")!.outerHTML = text;
+      }, html);
+    const setShape = (attributes: Record<string, string | undefined>): Promise<void> =>
+      view.page.evaluate((changes) => {
+        const shape = document.querySelector("shape")!;
+        for (const [name, value] of Object.entries(changes))
+          if (value === undefined) shape.removeAttribute(name);
+          else shape.setAttribute(name, value);
+      }, attributes);
+    const shades: number[] = [];
+    for (const decode of ["auto", "cpu"]) {
+      await view.setGeometry({ decode });
+      await setMaterial("<UnlitMaterial></UnlitMaterial>");
+      stream.begin(flat, { colorComponents: 3 });
+      stream.publish(flat, [200, 100, 50].map(constant));
       await displayed(view, stream);
-      return (await center())[0]!;
-    };
-    const [facing, down] = [await shadeOf(127, 127), await shadeOf(127, 0)];
-    assert.ok(facing > down + 20, `${facing} facing the viewer, ${down} facing down`);
+      assert.deepEqual(await center(), [200, 100, 50]);
+      await setShape({ colorBy: "value", colorMap: "0 0 0, 1 1 1" });
+      stream.begin(flat, { valueComponents: 1, valueBits: 12, valueRange: [[-1, 3]] });
+      stream.publish(flat, [constant(819)]);
+      await displayed(view, stream);
+      assert.deepEqual(await center(), [51, 51, 51]);
+      await setShape({ colorBy: undefined });
+      await setMaterial('<Material diffuseColor="0.3 0.3 0.3"></Material>');
+      const shadeOf = async (u: number, v: number): Promise<number> => {
+        stream.begin(flat, { normalBits: 8 });
+        stream.publish(flat, [u, v].map(constant));
+        await displayed(view, stream);
+        return (await center())[0]!;
+      };
+      const [facing, down] = [await shadeOf(127, 127), await shadeOf(127, 0)];
+      assert.ok(facing > down + 20, `${facing} facing the viewer, ${down} facing down`);
+      shades.push(facing, down);
+    }
+    assert.deepEqual(shades.slice(2), shades.slice(0, 2));
+    await view.setGeometry({ decode: undefined });
+    await view.promise("complete", "shape");
 
     // The same stream as points, in another geometry.
     const surface = await view.picture();
