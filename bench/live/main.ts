@@ -16,6 +16,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { findNginx, startNginx } from "../../tests/live/nginx.ts";
 import { startStream } from "../../tests/live/stream.ts";
+import { startViewer } from "../../tests/live/viewers.ts";
 
 const rate = 30;
 const frameCount = Number(process.env.FRAMES ?? 2000);
@@ -179,11 +180,24 @@ function quantile(sorted: readonly number[], share: number): number {
   return sorted[Math.floor(share * (sorted.length - 1))] ?? NaN;
 }
 
+/** The runtime's FrameSource without a page: frames are received and decoded. */
+async function measureReceipt(isSlow: boolean, url: string): Promise<void> {
+  const viewer = startViewer({ url });
+  await pause(12_000);
+  viewer.stop();
+  const ages = viewer.ages.slice(10).sort((a, b) => a - b);
+  console.log(
+    `| ${isSlow ? "0.5 MB/s" : "unlimited"} | received | ${(viewer.shown.length / 12).toFixed(1)} | ${viewer.skipped} | ${quantile(ages, 0.5).toFixed(0)} / ${quantile(ages, 0.95).toFixed(0)} / ${quantile(ages, 1).toFixed(0)} ms |`,
+  );
+}
+
 async function measureAges(browser: Browser): Promise<void> {
   for (const isSlow of [false, true]) {
     const stream = await startStream(["cloth", "--grid", "128", "--rate", `${rate}`], [tool]);
     const line = isSlow ? await startLine(stream.port, slowLine) : undefined;
-    const page = await openPage(browser, line?.port ?? stream.port);
+    const port = line?.port ?? stream.port;
+    await measureReceipt(isSlow, `http://127.0.0.1:${port}/live/cloth`);
+    const page = await openPage(browser, port);
     await page.waitForFunction(() => (window as unknown as { ages: number[] }).ages.length > 10, undefined, {
       timeout: 120_000,
     });
@@ -192,7 +206,7 @@ async function measureAges(browser: Browser): Promise<void> {
     const ages = (await agesOf(page)).slice(before).sort((a, b) => a - b);
     const skipped = await page.evaluate(() => (window as unknown as { skippedCount: () => number }).skippedCount());
     console.log(
-      `| ${isSlow ? "0.5 MB/s" : "unlimited"} | ${(ages.length / 10).toFixed(1)} | ${skipped} | ${quantile(ages, 0.5).toFixed(0)} / ${quantile(ages, 0.95).toFixed(0)} / ${quantile(ages, 1).toFixed(0)} ms |`,
+      `| ${isSlow ? "0.5 MB/s" : "unlimited"} | page | ${(ages.length / 10).toFixed(1)} | ${skipped} | ${quantile(ages, 0.5).toFixed(0)} / ${quantile(ages, 0.95).toFixed(0)} / ${quantile(ages, 1).toFixed(0)} ms |`,
     );
     await page.close();
     line?.close();
@@ -238,9 +252,7 @@ console.log(`\nViewers at ${rate} Hz on 64 x 64 vertices: ${direct} directly, ${
 if (frameCount === 0) process.exit();
 const browser = await launchChromium();
 try {
-  console.log(
-    "| line | frames a second | skipped | age on the screen, median / 19 of 20 / oldest |\n|---|--:|--:|--:|",
-  );
+  console.log("| line | viewer | frames a second | skipped | age, median / 19 of 20 / oldest |\n|---|---|--:|--:|--:|");
   await measureAges(browser);
   console.log("\n| frames | heap | GPU bytes | age, median / 19 of 20 |\n|--:|--:|--:|--:|");
   await measureLongRun(browser);

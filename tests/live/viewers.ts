@@ -2,8 +2,8 @@
 // own as browsers have them.
 
 import { connect, type ClientHttp2Session } from "node:http2";
+import { Agent as HttpAgent, request as requestPlainly, type IncomingHttpHeaders } from "node:http";
 import { Agent, request } from "node:https";
-import type { IncomingHttpHeaders } from "node:http";
 import type { Readable } from "node:stream";
 import { setTimeout as pause } from "node:timers/promises";
 import { frameImages } from "../../web/src/decode/frame/frameImages.ts";
@@ -20,14 +20,16 @@ export interface Viewer {
 }
 
 export interface ViewerOptions {
-  /** The address of the stream, with https:// */
+  /** The address of the stream. */
   readonly url: string;
-  readonly certificate: string;
-  readonly isHttp2: boolean;
+  /** The server's, where the address begins with https:// */
+  readonly certificate?: string;
+  /** Default: false. */
+  readonly isHttp2?: boolean;
 }
 
-export function startViewer({ url, certificate, isHttp2 }: ViewerOptions): Viewer {
-  const transport = isHttp2 ? http2Transport(url, certificate) : http1Transport(certificate);
+export function startViewer({ url, certificate = "", isHttp2 = false }: ViewerOptions): Viewer {
+  const transport = isHttp2 ? http2Transport(url, certificate) : http1Transport(url, certificate);
   const addedAt = new Map<number, number>();
   const source = new FrameSource(
     {
@@ -73,12 +75,14 @@ interface Transport {
   close(): void;
 }
 
-function http1Transport(certificate: string): Transport {
-  const agent = new Agent({ keepAlive: true, ca: certificate });
+function http1Transport(stream: string, certificate: string): Transport {
+  const isSecure = stream.startsWith("https:");
+  const agent = isSecure ? new Agent({ keepAlive: true, ca: certificate }) : new HttpAgent({ keepAlive: true });
+  const send = isSecure ? request : requestPlainly;
   return {
     fetch: (url, signal) =>
       new Promise((resolve, reject) => {
-        const outgoing = request(url, { agent, signal }, (incoming) => {
+        const outgoing = send(url, { agent, signal }, (incoming) => {
           responseOf(incoming, incoming.statusCode ?? 0, incoming.headers).then(resolve, reject);
         });
         outgoing.once("error", reject);
