@@ -210,7 +210,11 @@ export class PageViewer {
 
   /** Displays values that animation has written into attributes. */
   #displayValues({ transforms, others }: AnimatedValues, isFrame: boolean): void {
-    for (const { element } of others) this.#core.reader.touch(element);
+    for (const { element } of others) {
+      this.#core.reader.touch(element);
+      // The reader knows the ancestors of the page's own elements only.
+      if (!this.#x3d.contains(element)) for (const part of partsAround(element)) this.#core.reader.touch(part);
+    }
     if (others.length > 0) this.#core.read();
     if (transforms.size > 0)
       this.#core.move(transforms.keys(), () => {
@@ -248,6 +252,12 @@ export class PageViewer {
     this.#observe();
     this.#core.read();
     this.#animation.start();
+  }
+
+  /** Plays the animation of the documents that are inlined. */
+  #followInlined(): void {
+    const roots = (this.#core.scene?.inlines ?? []).map(({ element }) => this.#core.inlines.documentOf(element)?.x3d);
+    this.#animation.followInlined(roots.filter((root) => root instanceof Element));
   }
 
   #observe(): void {
@@ -355,9 +365,11 @@ export class PageViewer {
         });
       },
       onInlineRead: () => {
+        this.#followInlined();
         this.#listener.onNavigation(); // the title may be the document's
       },
       onInlineRemoved: (inline) => {
+        this.#followInlined();
         this.#inlines.onRemoved(inline);
       },
     };
@@ -504,6 +516,17 @@ export class PageViewer {
   #warn(message: string): void {
     this.#core.log.warn(`<${this.#x3d.localName}> ${message}`);
   }
+}
+
+/** The elements around a part of a node that is read together with its parts, up to that node; none for others. */
+function partsAround(element: Element): readonly Element[] {
+  const node = element.closest(
+    "shape, Shape, texturebackground, TextureBackground, environmentlight, EnvironmentLight",
+  );
+  const parts: Element[] = [];
+  for (let at = node && element.parentElement; at !== null && parts.at(-1) !== node; at = at.parentElement)
+    parts.push(at);
+  return parts;
 }
 
 function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {

@@ -36,7 +36,12 @@ export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" |
 export class SceneAnimation {
   readonly #x3d: Element;
   readonly #host: SceneAnimationHost;
+  /** The animation of the page's own document. */
   #animation: PageAnimation | undefined;
+  /** Those of inlined documents, by their root elements. */
+  readonly #inlined = new Map<Element, PageAnimation>();
+  #module: Promise<{ readonly PageAnimation: typeof PageAnimation }> | undefined;
+  #roots: readonly Element[] = [];
   #isRequested = false;
   #isPaused = false;
   #mayStartByItself = true;
@@ -77,45 +82,75 @@ export class SceneAnimation {
     );
   }
 
+  /** Plays the inlined documents with these root elements, and no others. */
+  followInlined(roots: readonly Element[]): void {
+    this.#roots = roots;
+    for (const [root, animation] of this.#inlined) {
+      if (roots.includes(root)) continue;
+      animation.dispose();
+      this.#inlined.delete(root);
+    }
+    for (const root of roots) if (!this.#inlined.has(root) && hasAnimation(root)) void this.#playInlined(root);
+  }
+
   /** Call after each frame. */
   onFrame(): void {
-    this.#animation?.onFrame();
+    for (const animation of this.#all) animation.onFrame();
   }
 
   dispose(): void {
     this.#isDisposed = true;
     document.removeEventListener("visibilitychange", this.#onVisibility);
-    this.#animation?.dispose();
+    for (const animation of this.#all) animation.dispose();
+  }
+
+  get #all(): readonly PageAnimation[] {
+    return [...(this.#animation ? [this.#animation] : []), ...this.#inlined.values()];
   }
 
   #load(): void {
     this.#isRequested = true;
-    import("../animation/index.ts")
-      .then(({ PageAnimation: Animation }) => {
-        if (this.#isDisposed) return;
-        this.#animation = new Animation(
-          this.#x3d,
-          {
-            ...this.#host,
-            drawnFieldOf,
-            display: (changes, isFrame) => {
-              this.#host.display(valuesOf(changes), isFrame);
-            },
-          },
-          this.#mayStartByItself,
-        );
-        this.#applyState();
-      })
-      .catch((error: unknown) => {
-        this.#isRequested = false;
-        this.#host.warn(`the module that animates the scene could not be loaded: ${String(error)}`);
-      });
+    void this.#play(this.#x3d).then((animation) => {
+      this.#isRequested = animation !== undefined;
+      this.#animation = animation;
+    });
+  }
+
+  async #playInlined(root: Element): Promise<void> {
+    const animation = await this.#play(root);
+    if (animation === undefined) return;
+    // The document may have been removed, or requested twice, while the module was being loaded.
+    if (this.#roots.includes(root) && !this.#inlined.has(root)) this.#inlined.set(root, animation);
+    else animation.dispose();
+  }
+
+  /** Undefined where the module cannot be loaded, with a warning. */
+  async #play(root: Element): Promise<PageAnimation | undefined> {
+    try {
+      const { PageAnimation: Animation } = await (this.#module ??= import("../animation/index.ts"));
+      if (this.#isDisposed) return undefined;
+      const scene: AnimatedScene = {
+        ...this.#host,
+        drawnFieldOf,
+        display: (changes, isFrame) => {
+          this.#host.display(valuesOf(changes), isFrame);
+        },
+      };
+      const animation = new Animation(root, scene, this.#mayStartByItself);
+      animation.isPaused = this.#isPaused || document.hidden;
+      return animation;
+    } catch (error) {
+      this.#module = undefined;
+      this.#host.warn(`the module that animates the scene could not be loaded: ${String(error)}`);
+      return undefined;
+    }
   }
 
   #applyState(): void {
-    if (!this.#animation) return;
-    this.#animation.mayStartByItself = this.#mayStartByItself;
-    this.#animation.isPaused = this.#isPaused || document.hidden;
+    for (const animation of this.#all) {
+      animation.mayStartByItself = this.#mayStartByItself;
+      animation.isPaused = this.#isPaused || document.hidden;
+    }
   }
 }
 
