@@ -118,6 +118,7 @@ constexpr Row fieldRows[] = {
     {"TimeSensor", "elapsedTime", {"SFTime", outputOnly}},
     {"TimeSensor", "fraction_changed", {"SFFloat", outputOnly}},
     {"TimeSensor", "isPaused", {"SFBool", outputOnly}},
+    {"TimeSensor", "set_fraction", {"SFFloat", inputOnly}}, // ours, as X3DOM has it
     {"TimeSensor", "time", {"SFTime", outputOnly}},
     {"TimeTrigger", "set_boolean", {"SFBool", inputOnly}},
     {"TimeTrigger", "triggerTime", {"SFTime", outputOnly}},

@@ -3,9 +3,13 @@
 #include "base/error.h"
 #include "import/vrml/names.h"
 #include "import/x3d/element_edits.h"
+#include "import/x3d/node_table.h"
 #include "scene/mf_string.h"
 
+#include <algorithm>
+#include <compare>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -35,6 +39,20 @@ pugi::xml_node firstNodeOf(pugi::xml_node declaration) {
   return {};
 }
 
+/// Whether a node of a body besides the first stays: it sends events but is not drawn.
+bool isOfEvents(pugi::xml_node node) {
+  const NodeRow* row = nodeRow(node.name());
+  return row && row->treatment == NodeTreatment::drawn &&
+         (row->component == "Time" || row->component == "Interpolation" || row->component == "EventUtilities" ||
+          row->name == "ROUTE");
+}
+
+/// The end of a route.
+struct RouteEnd {
+  std::string node, field;
+  friend auto operator<=>(const RouteEnd&, const RouteEnd&) = default;
+};
+
 /// A declaration and the prototypes that its body declares; or the scope of a document.
 struct Prototype {
   /// The prototype that a name stands for. A body may use only names that were declared before it, so that no prototype
@@ -61,6 +79,7 @@ public:
     noteNames(elements_.root(), 0, true);
     declarations_ = elements_.document.append_child("declarations");
     expandIn(elements_.root(), *addScope(), 0);
+    connectRoutes(elements_.root());
     elements_.document.remove_child(declarations_);
     return std::move(report_);
   }
@@ -110,7 +129,7 @@ private:
     for (const pugi::xml_node& other : elementsOf(declaration.child("ProtoBody")))
       if (isDeclaration(other))
         declare(other, *prototype, removed);
-      else if (other != first)
+      else if (other != first && !isOfEvents(other))
         ++report_.leftOut[other.name()];
     prototype->order = ++order_;
     removed.append_move(declaration);
@@ -183,11 +202,24 @@ private:
     report_.prototypes += expanded_.insert(prototype).second;
     std::map<std::string, std::string> names;
     const std::size_t offset = elements_.offsets.of(instance);
-    rename(copy, names, offset);
-    connect(copy, instance, prototype->declaration.child("ProtoInterface"), offset);
+    std::vector<pugi::xml_node> copies{copy};
+    for (const pugi::xml_node& other : elementsOf(prototype->declaration.child("ProtoBody")))
+      if (other != first && isOfEvents(other)) // at the end of the scene, where any of them may stand
+        copies.push_back(elements_.root().child("Scene").append_copy(other));
+    for (const pugi::xml_node& each : copies)
+      rename(each, names, offset);
+    for (const pugi::xml_node& each : copies)
+      renameRoutes(each, names);
+    connections_.clear();
+    for (const pugi::xml_node& each : copies)
+      connect(each, instance, prototype->declaration.child("ProtoInterface"), offset);
     for (const char* field : {"DEF", "containerField"})
-      if (const pugi::xml_attribute given = instance.attribute(field))
+      if (const pugi::xml_attribute given = instance.attribute(field)) {
+        if (field == std::string_view("DEF"))
+          renameEnds(copies, copy.attribute("DEF").value(), given.value());
         setField(copy, field, given.value());
+      }
+    noteConnections(instance.attribute("DEF").value());
     instance.parent().remove_child(instance);
     prototype->isExpanding = true;
     if (isElement(copy, "ProtoInstance"))
@@ -217,6 +249,90 @@ private:
       rename(child, names, offset);
   }
 
+  /// Gives the ends of routes in a copied body the new names of their nodes.
+  static void renameRoutes(pugi::xml_node element, const std::map<std::string, std::string>& names) {
+    if (isElement(element, "ROUTE"))
+      for (const char* end : {"fromNode", "toNode"})
+        if (const auto found = names.find(element.attribute(end).value()); found != names.end())
+          element.attribute(end).set_value(found->second.c_str());
+    for (const pugi::xml_node& child : elementsOf(element))
+      renameRoutes(child, names);
+  }
+
+  /// The body's first node gets the DEF of its instance: routes of the body follow.
+  static void renameEnds(const std::vector<pugi::xml_node>& copies, const std::string& from, const std::string& to) {
+    if (!from.empty())
+      for (const pugi::xml_node& copy : copies)
+        renameRoutes(copy, {{from, to}});
+  }
+
+  /// Notes which fields of nodes the fields of an instance with a DEF stand for, for routes to the instance.
+  void noteConnections(const std::string& instance) {
+    for (auto& [element, nodeField, protoField] : connections_) {
+      if (instance.empty())
+        break;
+      if (!element.attribute("DEF")) {
+        std::string name = fmt::format("{}-{}", instance, protoField);
+        for (std::size_t number = 2; !names_.insert(name).second; ++number)
+          name = fmt::format("{}-{}-{}", instance, protoField, number);
+        element.append_attribute("DEF").set_value(name.c_str());
+      }
+      const RouteEnd end{element.attribute("DEF").value(), nodeField};
+      if (const RouteEnd from{instance, protoField}; from != end)
+        ends_[from].push_back(end);
+    }
+    connections_.clear();
+  }
+
+  /// The fields of nodes that a field of an instance stands for; the field itself where it is no instance's.
+  std::vector<RouteEnd> endsOf(const RouteEnd& end, std::size_t depth = 0) {
+    if (++routeEnds_ > maxExpandedElements)
+      throw Error(ErrorKind::limit, name_, "routes connect too many fields of prototypes");
+    std::vector<RouteEnd> all;
+    if (const auto found = ends_.find(end); found != ends_.end() && depth < maxNesting) {
+      for (const RouteEnd& next : found->second)
+        std::ranges::move(endsOf(next, depth + 1), std::back_inserter(all));
+      return all;
+    }
+    // "set_x" and "x_changed" are names of the field x, too.
+    const std::string_view field = end.field;
+    std::string plain;
+    if (field.starts_with("set_"))
+      plain = field.substr(4);
+    else if (field.ends_with("_changed"))
+      plain = field.substr(0, field.size() - 8);
+    if (!plain.empty() && ends_.contains({end.node, plain}))
+      return endsOf({end.node, plain}, depth + 1);
+    return {end};
+  }
+
+  /// Replaces routes from and to fields of instances by routes of the fields that these stand for.
+  void connectRoutes(pugi::xml_node element) {
+    for (pugi::xml_node& child : elementsOf(element)) {
+      if (!isElement(child, "ROUTE")) {
+        connectRoutes(child);
+        continue;
+      }
+      const auto at = [&](const char* node, const char* field) {
+        return endsOf({child.attribute(node).value(), child.attribute(field).value()});
+      };
+      const std::vector<RouteEnd> sources = at("fromNode", "fromField"), targets = at("toNode", "toField");
+      for (std::size_t i = 0; i < sources.size(); ++i)
+        for (std::size_t j = 0; j < targets.size(); ++j) {
+          const bool isLast = i + 1 == sources.size() && j + 1 == targets.size();
+          if (!isLast && ++expandedElements_ > maxExpandedElements)
+            throw Error(ErrorKind::limit, name_, "routes connect too many fields of prototypes");
+          pugi::xml_node route = isLast ? child : element.insert_copy_before(child, child);
+          if (!isLast)
+            elements_.offsets.add(route, elements_.offsets.of(child));
+          setField(route, "fromNode", sources[i].node);
+          setField(route, "fromField", sources[i].field);
+          setField(route, "toNode", targets[j].node);
+          setField(route, "toField", targets[j].field);
+        }
+    }
+  }
+
   /// Sets the fields that nodes of the body connect to fields of the prototype.
   void connect(pugi::xml_node element, pugi::xml_node instance, pugi::xml_node interface, std::size_t offset) {
     for (const pugi::xml_node& child : elementsOf(element))
@@ -229,6 +345,7 @@ private:
       if (!value)
         value = interface.find_child_by_attribute("field", "name", protoField);
       fill(element, connection.attribute("nodeField").value(), value, offset);
+      connections_.push_back({element, connection.attribute("nodeField").value(), protoField});
     }
     if (is)
       element.remove_child(is);
@@ -266,7 +383,13 @@ private:
   pugi::xml_node declarations_;
   std::set<std::string> names_;                ///< the DEF names in the scene
   std::map<std::string, std::size_t> numbers_; ///< the last number that was tried as a suffix, by DEF name
-  std::size_t expandedElements_ = 0;
+  std::size_t expandedElements_ = 0, routeEnds_ = 0;
+  struct Connection {
+    pugi::xml_node element;
+    std::string nodeField, protoField;
+  };
+  std::vector<Connection> connections_;            ///< of the instance that is being expanded
+  std::map<RouteEnd, std::vector<RouteEnd>> ends_; ///< by a field of an instance
 };
 
 } // namespace

@@ -69,6 +69,30 @@ TEST(Routes, KeepGeometryWhoseCoordinatesTheyMove) {
   EXPECT_TRUE(moved.warnings.empty()) << ::testing::PrintToString(moved.warnings);
 }
 
+TEST(Routes, OfPrototypesConnectTheNodesOfEachInstance) {
+  const Imported imported = readScene(
+      "<ProtoDeclare name='Door'><ProtoInterface><field name='swing' type='SFRotation' accessType='inputOutput'/>"
+      "</ProtoInterface><ProtoBody><Group><Transform DEF='Wing'><IS><connect nodeField='rotation' protoField='swing'/>"
+      "</IS></Transform></Group><TimeSensor DEF='Clock' loop='true'/>"
+      "<PositionInterpolator DEF='Slide' key='0 1' keyValue='0 0 0 1 0 0'/>" +
+      route("Clock.fraction_changed", "Slide.set_fraction") + route("Slide.value_changed", "Wing.translation") +
+      "</ProtoBody></ProtoDeclare><ProtoInstance name='Door' DEF='First'/><ProtoInstance name='Door' DEF='Second'/>"
+      "<OrientationInterpolator DEF='O' key='0' keyValue='0 1 0 1'/>" +
+      route("O.value_changed", "Second.set_swing"));
+  const SceneGraph& graph = imported.scene.graph;
+  EXPECT_EQ(imported.warnings.size(), 1u) << ::testing::PrintToString(imported.warnings); // instances are written out
+  EXPECT_EQ(countNodes<TimeSensor>(graph), 2u);
+  std::vector<std::string> texts;
+  for (const Route& each : graph.routes)
+    texts.push_back(graph.nodes[each.fromNode].name + "." + each.fromField + " " + graph.nodes[each.toNode].name + "." +
+                    each.toField);
+  std::ranges::sort(texts);
+  EXPECT_EQ(texts, (std::vector<std::string>{
+                       "Clock-2.fraction_changed Slide-2.set_fraction", "Clock.fraction_changed Slide.set_fraction",
+                       "O.value_changed Wing-2.rotation", "Slide-2.value_changed Wing-2.translation",
+                       "Slide.value_changed Wing.translation"}));
+}
+
 TEST(Interpolators, ThatAreMalformedAreLeftOutWithTheirRoutesAndOneWarning) {
   for (const auto& [fields, fault] :
        std::map<std::string, std::string>{{"key='0 1 0.5' keyValue='0 1 2'", "its keys are not in ascending order"},
