@@ -120,6 +120,12 @@ Rotation rotationOfQuaternion(double x, double y, double z, double w) {
   return {Vec3d{x, y, z} * (sign / imaginaryLength), 2 * std::atan2(imaginaryLength, std::abs(w))};
 }
 
+std::array<double, 4> quaternionOf(const Rotation& rotation) {
+  const double size = length(rotation.axis), sine = size > 0 ? std::sin(rotation.angle / 2) / size : 0;
+  return {rotation.axis.x * sine, rotation.axis.y * sine, rotation.axis.z * sine,
+          size > 0 ? std::cos(rotation.angle / 2) : 1};
+}
+
 Affine3d affineOf(const Rotation& rotation) {
   const double axisLength = length(rotation.axis);
   if (rotation.angle == 0 || !(axisLength > 0))

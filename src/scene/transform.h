@@ -3,6 +3,8 @@
 
 #include "base/affine.h"
 
+#include <array>
+
 namespace imgeo {
 
 /// A rotation about `axis` (of any length) by `angle` radians.
@@ -25,6 +27,9 @@ struct Transform {
 
 /// The rotation of the quaternion x i + y j + z k + w, of any length; none for a quaternion of length 0.
 Rotation rotationOfQuaternion(double x, double y, double z, double w);
+
+/// The unit quaternion x, y, z, w of a rotation.
+std::array<double, 4> quaternionOf(const Rotation& rotation);
 
 Affine3d affineOf(const Rotation& rotation);
 Affine3d affineOf(const Transform& transform);

@@ -183,33 +183,57 @@ Interpolator interpolatorOf(AnimatedField field, const AnimationKeys& keys, doub
 }
 
 void AnimationBuilder::begin(const std::string& name, double seconds) {
-  TimeSensor sensor;
+  name_ = name.empty() ? "animation" : name;
   seconds_ = seconds;
-  sensor.cycleInterval = seconds > 0 ? rounded(static_cast<float>(seconds), 9) : 1;
+  sensor_.reset();
+  interpolators_.clear();
+}
+
+/// The animation's TimeSensor.
+std::size_t AnimationBuilder::sensor() {
+  if (sensor_)
+    return *sensor_;
+  TimeSensor sensor;
+  sensor.cycleInterval = seconds_ > 0 ? rounded(static_cast<float>(seconds_), 9) : 1;
   sensor.loop = true;
   sensor.enabled = !hasPlaying_;
   hasPlaying_ = true;
-  interpolators_.clear();
-  sensor_ = addRoot(graph_, {name.empty() ? "animation" : name, sensor, {}, ""});
+  sensor_ = addRoot(graph_, {name_, sensor, {}, ""});
+  return *sensor_;
+}
+
+/// Whether a node, or one below it, is seen, gives light, or is a place to look from.
+bool AnimationBuilder::showsAnything(std::size_t node) {
+  const auto [found, isNew] = showsAnything_.try_emplace(node);
+  if (isNew) {
+    const NodeContent& content = graph_.nodes[node].content;
+    const bool isGroup = std::holds_alternative<Group>(content) || std::holds_alternative<Transform>(content);
+    found->second = !isGroup || std::ranges::any_of(graph_.nodes[node].children,
+                                                    [&](std::size_t child) { return showsAnything(child); });
+  }
+  return showsAnything_[node];
 }
 
 std::size_t AnimationBuilder::interpolatorOf(std::size_t node, AnimatedField field, const AnimationKeys& keys,
                                              const void* source) {
   if (const auto found = interpolators_.find({source, field}); source && found != interpolators_.end())
     return found->second;
+  const std::size_t clock = sensor();
   const std::string& name = graph_.nodes[node].name;
   const std::size_t index =
       addRoot(graph_, {fmt::format("{}-{}", name.empty() ? "node" : name, fieldNames[static_cast<std::size_t>(field)]),
                        imgeo::interpolatorOf(field, keys, seconds_),
                        {},
                        ""});
-  graph_.routes.push_back({sensor_, "fraction_changed", index, "set_fraction"});
+  graph_.routes.push_back({clock, "fraction_changed", index, "set_fraction"});
   if (source)
     interpolators_[{source, field}] = index;
   return index;
 }
 
 void AnimationBuilder::animate(std::size_t node, AnimatedField field, const AnimationKeys& keys, const void* source) {
+  if (!showsAnything(node))
+    return;
   const std::size_t interpolator = interpolatorOf(node, field, keys, source);
   graph_.routes.push_back({interpolator, "value_changed", node, fieldNames[static_cast<std::size_t>(field)]});
 }

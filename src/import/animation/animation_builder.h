@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -35,18 +36,24 @@ public:
   /// `graph` must outlive this.
   explicit AnimationBuilder(SceneGraph& graph) : graph_(graph) {}
 
-  /// Begins an animation that takes `seconds`. The first one of a scene plays by itself, the others do not.
+  /// Begins an animation that takes `seconds`. It gets a TimeSensor if it moves anything. The first one of a scene that
+  /// does plays by itself, the others do not.
   void begin(const std::string& name, double seconds);
 
-  /// Animates a field of a node with these keys. Channels with the same `source` share an interpolator; it may be null.
+  /// Animates a field of a node with these keys, unless the node has nothing below it that is seen or lights: joints of
+  /// skins. Channels with the same `source` share an interpolator; it may be null.
   void animate(std::size_t node, AnimatedField field, const AnimationKeys& keys, const void* source);
 
 private:
+  std::size_t sensor();
   std::size_t interpolatorOf(std::size_t node, AnimatedField field, const AnimationKeys& keys, const void* source);
+  bool showsAnything(std::size_t node);
 
   SceneGraph& graph_;
-  std::size_t sensor_ = 0;
+  std::string name_;
   double seconds_ = 1;
+  std::optional<std::size_t> sensor_;
+  std::map<std::size_t, bool> showsAnything_; ///< by node
   bool hasPlaying_ = false;
   std::map<std::tuple<const void*, AnimatedField>, std::size_t> interpolators_; ///< of the animation
 };

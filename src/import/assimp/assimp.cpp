@@ -1,5 +1,6 @@
 #include "import/assimp/assimp.h"
 #include "import/archive/zip.h"
+#include "import/assimp/animations.h"
 #include "import/assimp/files.h"
 #include "import/assimp/library.h"
 #include "import/assimp/materials.h"
@@ -109,8 +110,12 @@ public:
       cameras_[source_.mCameras[i]->mName.C_Str()] = source_.mCameras[i];
     for (unsigned i = 0; i < source_.mNumLights; ++i)
       lights_[source_.mLights[i]->mName.C_Str()] = source_.mLights[i];
+    for (unsigned i = 0; i < source_.mNumAnimations; ++i)
+      for (unsigned c = 0; c < source_.mAnimations[i]->mNumChannels; ++c)
+        moved_.insert(source_.mAnimations[i]->mChannels[c]->mNodeName.C_Str());
     if (source_.mRootNode)
       readRoot(*source_.mRootNode);
+    readAnimations();
     addWarnings();
     return std::move(imported_);
   }
@@ -132,8 +137,11 @@ private:
     Node node;
     node.name = nameOf(source.mName);
     const Affine3d map = mapOf(source.mTransformation);
+    const bool isMoved = moved_.contains(source.mName.C_Str());
     if (!isFinite(map))
       ++lostTransforms_;
+    else if (isMoved)
+      node.content = rounded(unskewedTransformOf(map));
     else if (map != Affine3d{})
       node.content = rounded(transformOf(map));
     for (unsigned i = 0; i < source.mNumMeshes; ++i)
@@ -143,7 +151,18 @@ private:
     addLight(source, node);
     for (unsigned i = 0; i < source.mNumChildren; ++i)
       node.children.push_back(readNode(*source.mChildren[i], depth + 1));
-    return addNode(graph(), std::move(node));
+    const bool isTransform = std::holds_alternative<Transform>(node.content);
+    const std::size_t index = addNode(graph(), std::move(node));
+    if (isMoved && isTransform)
+      movedNodes_.emplace(source.mName.C_Str(), index);
+    return index;
+  }
+
+  void readAnimations() {
+    AssimpAnimations animations(source_, graph(), movedNodes_);
+    animations.read();
+    otherChannels_ = animations.otherChannels;
+    malformedChannels_ = animations.malformedChannels;
   }
 
   /// Adds one shape per kind of element; all nodes with the mesh share it.
@@ -326,7 +345,9 @@ private:
       if (count > 0)
         warnings.push_back(fmt::format("{} not carried over.", counted(count, singular, plural)));
     };
-    add(source_.mNumAnimations, "animation is", "animations are");
+    add(otherChannels_, "animation of morph targets is", "animations of morph targets are");
+    add(malformedChannels_, "animation of a node, whose keys are not in order or not finite, is",
+        "animations of nodes, whose keys are not in order or not finite, are");
     add(skins_, "skin is", "skins are");
     add(morphTargets_, "mesh has morph targets, which are", "meshes have morph targets, which are");
     add(furtherTexCoords_, "mesh has texture coordinates that no texture uses, which are",
@@ -349,6 +370,9 @@ private:
   std::vector<std::vector<std::size_t>> shapesOf_; ///< shape nodes by mesh
   std::map<std::string, const aiCamera*> cameras_;
   std::map<std::string, const aiLight*> lights_;
+  std::set<std::string> moved_; ///< names of the nodes that animations move
+  std::map<std::string, std::size_t> movedNodes_;
+  std::size_t otherChannels_ = 0, malformedChannels_ = 0;
   std::size_t skins_ = 0, morphTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
               lostTransforms_ = 0, fans_ = 0, unusableNormals_ = 0;
 };

@@ -96,6 +96,33 @@ TEST(Assimp, ReadsTheSetsOfTextureCoordinatesThatTexturesUse) {
   EXPECT_EQ(importFile(directory / "b.dae", all).scene.meshes.at(0).texCoordMappings.size(), 2u);
 }
 
+TEST(Assimp, ReadsAnimationsOfNodes) {
+  const TemporaryDirectory directory;
+  const std::string animation = R"(<library_animations><animation>
+    <source id="at"><float_array id="ata" count="3">0 1 4</float_array><technique_common>
+      <accessor source="#ata" count="3" stride="1"><param name="TIME" type="float"/></accessor></technique_common></source>
+    <source id="av"><float_array id="ava" count="9">2 0 0 2 1 0 5 1 0</float_array><technique_common>
+      <accessor source="#ava" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+      <param name="Z" type="float"/></accessor></technique_common></source>
+    <sampler id="as"><input semantic="INPUT" source="#at"/><input semantic="OUTPUT" source="#av"/></sampler>
+    <channel source="#as" target="b/move"/></animation></library_animations>
+  <library_visual_scenes>)";
+  writeFile(directory / "a.dae", asBytes(replaced(collada, {{"<translate>2 0 0", "<translate sid=\"move\">2 0 0"},
+                                                            {"<library_visual_scenes>", animation}})));
+  const SceneGraph graph = importFile(directory / "a.dae").scene.graph;
+  const auto right = std::ranges::find(graph.nodes, "b", &Node::name); // Assimp names animated scenes by ids
+  ASSERT_NE(right, graph.nodes.end());
+  EXPECT_TRUE(std::holds_alternative<Transform>(right->content));
+  ASSERT_EQ(graph.routes.size(), 2u) << "what does not move has no interpolator";
+  const auto& sensor = std::get<TimeSensor>(graph.nodes.at(graph.routes[0].fromNode).content);
+  EXPECT_TRUE(sensor.enabled && sensor.loop);
+  EXPECT_EQ(sensor.cycleInterval, 4);
+  EXPECT_EQ(std::get<Interpolator>(graph.nodes.at(graph.routes[1].fromNode).content),
+            (Interpolator{InterpolatorKind::position, {0, 0.25, 1}, {2, 0, 0, 2, 1, 0, 5, 1, 0}}));
+  EXPECT_EQ(graph.routes[1].toNode, static_cast<std::size_t>(right - graph.nodes.begin()));
+  EXPECT_EQ(graph.routes[1].toField, "translation");
+}
+
 TEST(Assimp, ReadsNodesMaterialsTexturesCamerasAndLights) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.dae", asBytes(collada));

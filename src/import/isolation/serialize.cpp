@@ -64,8 +64,8 @@ void members(auto& archive, auto& v, const InlinedDocument*) {
   archive(v.url, v.head);
 }
 void members(auto& archive, auto& v, const SceneGraph*) {
-  archive(v.title, v.info, v.nodes, v.roots, v.routes, v.head, v.inlined, v.appearances, v.textures, v.images, v.background,
-          v.headlight, v.isComplete);
+  archive(v.title, v.info, v.nodes, v.roots, v.routes, v.head, v.inlined, v.appearances, v.textures, v.images,
+          v.background, v.headlight, v.isComplete);
 }
 void members(auto& archive, auto& v, const Imported*) {
   archive(v.scene.graph, v.scene.meshes, v.attributes, v.format, v.warnings, v.up, v.metres);
