@@ -46,6 +46,9 @@ struct SiteInfo {
   ElementCounts elements;               ///< elements of all geometries
   std::size_t vertices = 0;             ///< vertices of all patches
   std::size_t patches = 0;              ///< patches of all geometries
+  std::size_t timeSensors = 0;          ///< TimeSensors: an animation has one
+  std::size_t interpolators = 0;        ///< interpolators that are linear between their keys
+  std::size_t routes = 0;               ///< ROUTEs
   std::uint64_t documentBytes = 0;      ///< size of the document and of those that it inlines
   std::uint64_t containerBytes = 0;     ///< size of the geometry files
   std::uint64_t runtimeBytes = 0;       ///< size of the runtime's modules

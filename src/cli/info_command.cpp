@@ -31,6 +31,9 @@ Json jsonOf(const SiteInfo& info) {
             {"points", info.elements.points},
             {"vertices", info.vertices},
             {"patches", info.patches},
+            {"timeSensors", info.timeSensors},
+            {"interpolators", info.interpolators},
+            {"routes", info.routes},
             {"documentBytes", info.documentBytes},
             {"containerBytes", info.containerBytes},
             {"textureBytes", info.textureBytes},
@@ -92,6 +95,15 @@ void printGeometries(const std::vector<GeometryInfo>& geometries) {
       fmt::print("{}\n", textOf(*it));
 }
 
+/// "animation: 1 TimeSensor, 3 interpolators, 6 routes"
+template <typename Info> void printAnimation(const Info& info) {
+  if (info.timeSensors + info.interpolators + info.routes > 0)
+    fmt::print("animation: {} {}, {} {}, {} {}\n", info.timeSensors,
+               info.timeSensors == 1 ? "TimeSensor" : "TimeSensors", info.interpolators,
+               info.interpolators == 1 ? "interpolator" : "interpolators", info.routes,
+               info.routes == 1 ? "route" : "routes");
+}
+
 void warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings)
     fmt::print(stderr, "imgeo: warning: {}\n", warning);
@@ -101,6 +113,7 @@ void printSite(const SiteInfo& info) {
   fmt::print("{}, {} vertices, {} {}\n", listed(info.elements), grouped(info.vertices), info.patches,
              info.patches == 1 ? "patch" : "patches");
   printGeometries(info.geometries);
+  printAnimation(info);
   fmt::print("\n");
   struct Sum {
     std::size_t files = 0;
@@ -138,13 +151,23 @@ void printSite(const SiteInfo& info) {
 
 Json jsonOf(const SourceInfo& info) {
   const auto vector = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
-  return {{"format", info.format},          {"bytes", info.bytes},
-          {"shapes", info.shapes},          {"triangles", info.elements.triangles},
-          {"lines", info.elements.lines},   {"points", info.elements.points},
-          {"vertices", info.vertices},      {"normals", info.normals},
-          {"texCoords", info.texCoords},    {"texCoordSets", info.texCoordSets},
-          {"colors", info.colors},          {"attributes", info.attributes},
-          {"boxMin", vector(info.box.min)}, {"boxMax", vector(info.box.max)},
+  return {{"format", info.format},
+          {"bytes", info.bytes},
+          {"shapes", info.shapes},
+          {"triangles", info.elements.triangles},
+          {"lines", info.elements.lines},
+          {"points", info.elements.points},
+          {"timeSensors", info.timeSensors},
+          {"interpolators", info.interpolators},
+          {"routes", info.routes},
+          {"vertices", info.vertices},
+          {"normals", info.normals},
+          {"texCoords", info.texCoords},
+          {"texCoordSets", info.texCoordSets},
+          {"colors", info.colors},
+          {"attributes", info.attributes},
+          {"boxMin", vector(info.box.min)},
+          {"boxMax", vector(info.box.max)},
           {"warnings", info.warnings}};
 }
 
@@ -156,6 +179,7 @@ void printSource(const SourceInfo& info) {
              info.texCoordSets > 1 ? fmt::format("{} sets of texture coordinates", info.texCoordSets)
                                    : has(info.texCoords, "texture coordinates"),
              has(info.colors, "colours"));
+  printAnimation(info);
   if (!info.attributes.empty())
     fmt::print("further attributes of vertices: {}\n", fmt::join(info.attributes, ", "));
   if (!info.box.empty())

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "export/export.h"
+#include "export/gltf_animations.h"
 #include "export/gltf_arrays.h"
 #include "export/gltf_light.h"
 #include "export/gltf_material.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 namespace imgeo {
@@ -24,22 +26,26 @@ constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942, magic 
 /// with several materials.
 class GltfBuilder {
 public:
-  explicit GltfBuilder(const Scene& scene) : scene_(scene), primitives_(scene.meshes.size()) {
+  explicit GltfBuilder(const Scene& scene)
+      : scene_(scene), primitives_(scene.meshes.size()), animatedNodes_(gltfAnimatedNodes(scene.graph)) {
     shapeInstances(scene.graph); // throws if there are too many instances: glTF nodes have one parent
     for (const std::size_t root : scene.graph.roots)
       if (const std::optional<std::size_t> node = addNode(root))
         roots.push_back(*node);
+    animations = gltfAnimations(scene.graph, gltfNodes_, arrays);
   }
 
   GltfArrays arrays;
   Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
   Json images = Json::array(), samplers = Json::array(), textures = Json::array(), cameras = Json::array();
-  Json lights = Json::array();
+  Json lights = Json::array(), animations = Json::array();
 
 private:
   /// Adds a node and its descendants. Returns its index; nothing if there is no shape, viewpoint or light among them.
   std::optional<std::size_t> addNode(std::size_t index) {
     const Node& node = scene_.graph.nodes[index];
+    if (animatedNodes_.contains(index))
+      return addAnimatedNode(index);
     Json json = Json::object();
     if (!node.name.empty())
       json["name"] = node.name;
@@ -69,6 +75,32 @@ private:
         addTransform(json, *transform);
     }
     nodes.push_back(std::move(json));
+    return nodes.size() - 1;
+  }
+
+  /// Adds a Transform that an animation moves, as translation, rotation and scale about its center.
+  std::optional<std::size_t> addAnimatedNode(std::size_t index) {
+    const Node& node = scene_.graph.nodes[index];
+    const Transform& transform = std::get<Transform>(node.content);
+    Json children = Json::array();
+    for (const std::size_t child : node.children)
+      if (const std::optional<std::size_t> added = addNode(child))
+        children.push_back(*added);
+    if (children.empty())
+      return {};
+    const auto vector = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
+    if (transform.center != Vec3d{}) {
+      nodes.push_back({{"translation", vector(transform.center * -1)}, {"children", std::move(children)}});
+      children = Json::array({nodes.size() - 1});
+    }
+    Json json{{"children", std::move(children)},
+              {"translation", vector(transform.translation + transform.center)},
+              {"rotation", quaternionOf(transform.rotation)},
+              {"scale", vector(transform.scale)}};
+    if (!node.name.empty())
+      json["name"] = node.name;
+    nodes.push_back(std::move(json));
+    gltfNodes_[index].push_back(nodes.size() - 1);
     return nodes.size() - 1;
   }
 
@@ -175,6 +207,8 @@ private:
   std::map<std::string, std::size_t> materialIndices_;               ///< by the JSON text
   std::map<std::size_t, std::optional<std::size_t>> textureIndices_; ///< nothing for images of other formats
   std::map<std::size_t, std::size_t> imageIndices_;
+  std::set<std::size_t> animatedNodes_;
+  std::map<std::size_t, std::vector<std::size_t>> gltfNodes_; ///< of animated nodes
 };
 
 void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t padding) {
@@ -230,6 +264,8 @@ Bytes writeGlb(const Scene& scene) {
     root["extensionsUsed"].push_back("KHR_lights_punctual");
     root["extensions"]["KHR_lights_punctual"]["lights"] = gltf.lights;
   }
+  if (!gltf.animations.empty())
+    root["animations"] = gltf.animations;
   root["accessors"] = arrays.accessors;
   root["bufferViews"] = arrays.views;
   root["buffers"] = Json::array({{{"byteLength", arrays.bytes.size()}}});

@@ -142,6 +142,14 @@ std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vec
 /// no parent yet. Leaves its head in `more`, with new indices, for the caller to store.
 std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t firstMesh);
 
+/// The number of nodes of a kind that are reachable from the roots, each counted once.
+template <typename Content> std::size_t countNodes(const SceneGraph& graph) {
+  std::size_t count = 0;
+  for (const std::size_t node : nodesInOrder(graph))
+    count += std::holds_alternative<Content>(graph.nodes[node].content);
+  return count;
+}
+
 /// The indices of all Shape nodes in document order.
 std::vector<std::size_t> shapeNodes(const SceneGraph& graph);
 

@@ -104,6 +104,10 @@ SiteInfo inspect(const fs::path& site) {
   addImages(textureFilesOf(document.scene), "texture");
   addImages(previewFilesOf(document.scene), "preview");
   info.warnings = document.scene.warnings;
+  info.timeSensors = countNodes<TimeSensor>(document.scene.graph);
+  info.interpolators = countNodes<Interpolator>(document.scene.graph);
+  if (const auto routes = document.scene.otherElements.find("ROUTE"); routes != document.scene.otherElements.end())
+    info.routes = routes->second;
 
   const ContainerReader reader(fetchFrom(document));
   for (const GeometryDescription& geometry : document.scene.geometries) {

@@ -13,6 +13,9 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   info.format = imported.format;
   info.warnings = imported.warnings;
   info.attributes = imported.attributes;
+  info.timeSensors = countNodes<TimeSensor>(imported.scene.graph);
+  info.interpolators = countNodes<Interpolator>(imported.scene.graph);
+  info.routes = imported.scene.graph.routes.size();
   const std::vector<ShapeInstance> instances = shapeInstances(imported.scene.graph);
   info.shapes = instances.size();
   for (const ShapeInstance& instance : instances)

@@ -16,7 +16,8 @@ struct SourceInfo {
   std::uint64_t bytes = 0;
   ElementCounts elements;
   std::size_t shapes = 0, vertices = 0;
-  bool normals = false, texCoords = false, colors = false; ///< whether any mesh has them
+  std::size_t timeSensors = 0, interpolators = 0, routes = 0; ///< as in SiteInfo
+  bool normals = false, texCoords = false, colors = false;    ///< whether any mesh has them
   std::uint32_t texCoordSets = 0;      ///< the largest number of sets of texture coordinates of a mesh
   std::vector<std::string> attributes; ///< names of further vertex attributes
   Box3d box;

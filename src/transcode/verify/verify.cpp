@@ -10,6 +10,7 @@
 #include "transcode/site/site_manifest.h"
 #include "transcode/source/preparation.h"
 #include "transcode/verify/check_files.h"
+#include "transcode/verify/compare_animations.h"
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/compare_geometry_nodes.h"
 #include "transcode/verify/compare_mesh.h"
@@ -135,6 +136,8 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);
     compareGeometryNodes(document.scene, imported.scene.graph, findings);
+    if (manifest)
+      compareAnimations(document.scene, imported.scene.graph, findings);
     if (checkFiles(document, report.isForeign, imported.scene.graph, findings))
       compareScenes(document, imported.scene, manifest, report, findings);
   } catch (const Error& error) {

@@ -1,0 +1,85 @@
+#include "transcode/verify/compare_animations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace imgeo {
+
+namespace {
+
+template <typename Content> std::vector<std::size_t> nodesWith(const SceneGraph& graph) {
+  std::vector<std::size_t> nodes = nodesInOrder(graph);
+  std::erase_if(nodes, [&](std::size_t node) { return !std::holds_alternative<Content>(graph.nodes[node].content); });
+  return nodes;
+}
+
+/// Equal but for the rounding of a sum.
+bool isNear(double a, double b) {
+  return std::abs(a - b) <= 1e-6 * std::max({1.0, std::abs(a), std::abs(b)});
+}
+
+bool isSame(const TimeSensor& a, const TimeSensor& b) {
+  return a.enabled == b.enabled && a.loop == b.loop && isNear(a.cycleInterval, b.cycleInterval) &&
+         isNear(a.startTime, b.startTime) && isNear(a.stopTime, b.stopTime) && isNear(a.pauseTime, b.pauseTime) &&
+         isNear(a.resumeTime, b.resumeTime);
+}
+
+bool isSame(const Interpolator& a, const Interpolator& b) {
+  return a.kind == b.kind && std::ranges::equal(a.keys, b.keys, isNear) &&
+         std::ranges::equal(a.values, b.values, isNear);
+}
+
+/// A route between nodes that a site's reader keeps; nodes by their number among those of their kind.
+using RouteKey = std::tuple<std::size_t, std::size_t, std::string, std::size_t, std::size_t, std::string>;
+
+std::vector<RouteKey> routesOf(const SceneGraph& graph) {
+  std::map<std::size_t, std::size_t> numbers; ///< by node
+  std::map<std::size_t, std::size_t> counts;  ///< by kind
+  for (const std::size_t node : nodesInOrder(graph))
+    numbers[node] = counts[graph.nodes[node].content.index()]++;
+  std::vector<RouteKey> keys;
+  for (const Route& route : graph.routes) {
+    const NodeContent &from = graph.nodes[route.fromNode].content, &to = graph.nodes[route.toNode].content;
+    const auto isKept = [](const NodeContent& content) {
+      return std::holds_alternative<TimeSensor>(content) || std::holds_alternative<Interpolator>(content);
+    };
+    if (isKept(from) && isKept(to))
+      keys.emplace_back(from.index(), numbers[route.fromNode], route.fromField, to.index(), numbers[route.toNode],
+                        route.toField);
+    else if (isKept(from) && std::holds_alternative<Transform>(to))
+      keys.emplace_back(from.index(), numbers[route.fromNode], route.fromField, to.index(), 0, route.toField);
+  }
+  std::ranges::sort(keys);
+  return keys;
+}
+
+template <typename Content>
+void compareNodes(const SceneGraph& site, const SceneGraph& input, const char* plural, Findings& findings) {
+  const std::vector<std::size_t> inSite = nodesWith<Content>(site), inInput = nodesWith<Content>(input);
+  if (inSite.size() != inInput.size())
+    return findings.add("The site has {} {}, the input {}.", inSite.size(), plural, inInput.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < inSite.size(); ++i)
+    different +=
+        !isSame(std::get<Content>(site.nodes[inSite[i]].content), std::get<Content>(input.nodes[inInput[i]].content));
+  if (different > 0)
+    findings.add("{} of {} {} differ from those of the input.", different, inSite.size(), plural);
+}
+
+} // namespace
+
+void compareAnimations(const SceneDocument& site, const SceneGraph& input, Findings& findings) {
+  compareNodes<TimeSensor>(site.graph, input, "TimeSensors", findings);
+  compareNodes<Interpolator>(site.graph, input, "interpolators", findings);
+  const auto found = site.otherElements.find("ROUTE");
+  const std::size_t routes = found == site.otherElements.end() ? 0 : found->second;
+  if (routes != input.routes.size())
+    findings.add("The site has {} routes, the input {}.", routes, input.routes.size());
+  else if (routesOf(site.graph) != routesOf(input))
+    findings.add("Routes of the site connect other nodes or fields than those of the input.");
+}
+
+} // namespace imgeo
