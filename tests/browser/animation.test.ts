@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
 import { finalPicture, until, withPage, type View } from "./harness.ts";
 import { sceneOf } from "./scenes.ts";
+import type { TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 const size = { width: 320, height: 240 };
@@ -205,9 +206,32 @@ async function assertSensors(view: View): Promise<void> {
   );
 }
 
+const inlined = `<X3D version="4.0"><Scene><Transform DEF="t">${shape(box)}</Transform><TimeSensor DEF="c" loop="true"></TimeSensor>
+  <PositionInterpolator DEF="i" key="0 1" keyValue="0 0 0 1 0 0"></PositionInterpolator>
+  ${route("c.fraction_changed", "i.set_fraction")}${route("i.value_changed", "t.translation")}</Scene></X3D>`;
+
+/** An inlined document plays when the page's own clock does not. */
+async function assertInlinedPlays(view: View): Promise<void> {
+  await set(view, "clock", "enabled", "false");
+  await view.page.evaluate(() => {
+    document.querySelector("x3d")!.setAttribute("paused", "false");
+    const inline = document.createElement("inline");
+    inline.setAttribute("url", "inlined.x3d");
+    document.querySelector("scene")!.append(inline);
+  });
+  const before = await framesOf(view);
+  await until("the inlined document plays", async () => (await framesOf(view)) > before + 30);
+  await view.page.evaluate(() => {
+    document.querySelector("x3d")!.setAttribute("paused", "");
+  });
+}
+
 test("a scene moves as its ROUTEs say, by its clocks, its scripts and the pointer, and stands where nothing moves", async () => {
   const site = sceneOf("animation", { trefoil: siteOfGenerated("trefoil") }, scene);
-  await withPage(site, { size }, async (view) => {
+  const server = (of: TestServer): void => {
+    of.put("/inlined.x3d", inlined);
+  };
+  await withPage(site, { size, server }, async (view) => {
     await view.promise("complete");
     await until("the animation is loaded", () =>
       view.page.evaluate(() => "getFieldValue" in document.querySelector('[DEF="clock"]')!),
@@ -216,5 +240,6 @@ test("a scene moves as its ROUTEs say, by its clocks, its scripts and the pointe
     await assertKeepsMemory(view);
     await assertPlays(view);
     await assertSensors(view);
+    await assertInlinedPlays(view);
   });
 });
