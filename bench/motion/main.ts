@@ -14,7 +14,7 @@ import { startServer } from "../../tests/browser/server.ts";
 import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
-const rounds = 200;
+const rounds = 100;
 const timeout = 120_000;
 
 type Kind = "PositionInterpolator" | "OrientationInterpolator";
