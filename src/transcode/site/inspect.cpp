@@ -1,4 +1,4 @@
-// inspect(): the description of a site, without decoding its geometry.
+// inspect(): the description of a site, from its document and the sizes of its files.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -25,10 +25,24 @@ std::uint64_t sizeOf(const fs::path& file) {
   return bytes;
 }
 
-void addCounts(const PatchDescription& patch, SiteInfo& info) {
-  for (const Draw& draw : patch.draws)
-    info.elements += elementsOf(draw);
-  info.vertices += patch.vertexCount;
+/// Adds the numbers of elements and vertices. Documents of other programs need not state them: then the files do, and
+/// files that cannot be decoded are warnings.
+void addCounts(const GeometryDescription& geometry, const ContainerReader& reader, SiteInfo& info) {
+  for (const PatchDescription& patch : geometry.patches) {
+    std::vector<Draw> draws = patch.draws;
+    std::size_t vertices = patch.vertexCount;
+    if (vertices == 0 || std::ranges::any_of(draws, [](const Draw& draw) { return draw.count == 0; }))
+      try {
+        const IndexedPatch decoded = reader.decode(patch, geometry);
+        draws = decoded.draws;
+        vertices = decoded.vertexCount();
+      } catch (const Error& error) {
+        info.warnings.push_back(error.what());
+      }
+    for (const Draw& draw : draws)
+      info.elements += elementsOf(draw);
+    info.vertices += vertices;
+  }
 }
 
 GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& reader) {
@@ -113,8 +127,7 @@ SiteInfo inspect(const fs::path& site) {
   for (const GeometryDescription& geometry : document.scene.geometries) {
     info.geometries.push_back(infoOf(geometry, reader));
     info.patches += geometry.patches.size();
-    for (const PatchDescription& patch : geometry.patches)
-      addCounts(patch, info);
+    addCounts(geometry, reader, info);
   }
   std::error_code ignored;
   if (document.name == pageName && fs::exists(document.root / sceneName, ignored))

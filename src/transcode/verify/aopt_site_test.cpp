@@ -430,6 +430,7 @@ TEST_F(AoptSite, CanBeInspectedAndExported) {
            " index='i.bin' coord='c.bin' lit='false'></BinaryGeometry>");
   const SiteInfo info = inspect(directory.path());
   EXPECT_EQ(info.elements.triangles, mesh.elementCount());
+  EXPECT_EQ(info.vertices, mesh.wedgeCount());
   EXPECT_EQ(info.containerBytes, index.size() + coords.size());
   const ExportReport report = exportSite(directory.path(), directory.path() / "out.ply");
   EXPECT_EQ(report.elements.triangles, mesh.elementCount());
