@@ -10,7 +10,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr int floatType = 5126;
+constexpr int keyComponentType = 5126; // floats
 
 /// The path of glTF for the field of a Transform that a route names; nullptr for another field.
 const char* pathOf(std::string_view field) {
@@ -78,7 +78,7 @@ private:
     arrays_.begin();
     for (const float time : times)
       appendLittle(arrays_.bytes, time);
-    const std::size_t accessor = arrays_.end(0, floatType, "SCALAR", times.size());
+    const std::size_t accessor = arrays_.end(0, keyComponentType, "SCALAR", times.size());
     arrays_.views.back().erase("target"); // only vertex data has one
     arrays_.accessors.back()["min"] = {times.front()};
     arrays_.accessors.back()["max"] = {times.back()};
@@ -104,7 +104,8 @@ private:
         appendLittle(arrays_.bytes, static_cast<float>(number));
     }
     const bool isRotation = interpolator.kind == InterpolatorKind::orientation;
-    const std::size_t accessor = arrays_.end(0, floatType, isRotation ? "VEC4" : "VEC3", values.size() / components);
+    const std::size_t accessor =
+        arrays_.end(0, keyComponentType, isRotation ? "VEC4" : "VEC3", values.size() / components);
     arrays_.views.back().erase("target");
     return accessor;
   }
