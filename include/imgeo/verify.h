@@ -35,7 +35,8 @@ struct VerifyReport {
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
 /// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
 ///
-/// It compares only the surfaces of geometry images: their distance must be within what the site states.
+/// It compares only the surfaces of geometry images: their distance must be within what the site states. Geometry with
+/// operators must draw what the input has: vertices and centres of elements, not their normals, are compared.
 ///
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.

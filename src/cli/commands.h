@@ -10,6 +10,7 @@ int runConvert(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runVerify(const Arguments& arguments);
 int runExport(const Arguments& arguments);
+int runTransform(const Arguments& arguments);
 int runSample(const Arguments& arguments);
 /// `imgeo sample MOTION --live`
 int runLiveSample(const Arguments& arguments);

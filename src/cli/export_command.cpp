@@ -5,6 +5,7 @@
 #include "cli/terminal.h"
 #include "transcode/export/export_site.h"
 #include "transcode/sample/sample_file.h"
+#include "transcode/transform/transform_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,6 +42,15 @@ int print(const Arguments& arguments, const ExportReport& report) {
 int runExport(const Arguments& arguments) {
   handleSignals();
   return print(arguments, exportSite(arguments.text("site"), arguments.text("output")));
+}
+
+int runTransform(const Arguments& arguments) {
+  handleSignals();
+  const auto [written, warnings] = transformFile(arguments.text("input"), arguments.text("output"),
+                                                 arguments.text("operators"), arguments.has("outside"));
+  for (const std::string& warning : warnings)
+    fmt::print(stderr, "imgeo: warning: {}\n", warning);
+  return print(arguments, written);
 }
 
 int runSample(const Arguments& arguments) {

@@ -231,20 +231,48 @@ Command verifyCommand() {
           .examples = {"imgeo verify site statue.ply", "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
 
+Flag meshFileFlag() {
+  return {.name = "output",
+          .aliases = {"-o"},
+          .valueKind = ValueKind::file,
+          .valueName = "FILE",
+          .help = "the file to write; .ply, .obj or .glb says what",
+          .required = true};
+}
+
+Command transformCommand() {
+  return {
+      .name = "transform",
+      .usage = "INPUT -o FILE --operators LIST",
+      .summary = "map the vertices of a mesh by image operators",
+      .text = "Writes the mesh that a page shows whose geometry nodes have the field operators=\"LIST\". The "
+              "operators are translate, scale, gamma, negate, swizzle, solarize, threshold, posterise and, for "
+              "sites of profile classic, blur; docs/formats/nodes.md has their arguments. They map each coordinate "
+              "as a part, 0 to 1, of the cube over the longest edge of the mesh's box.",
+      .flags = {positional("input", "INPUT", ValueKind::file,
+                           "a site's directory or a mesh file of any format that convert reads; \"-\" reads "
+                           "standard input"),
+                meshFileFlag(),
+                {.name = "operators",
+                 .valueKind = ValueKind::text,
+                 .valueName = "LIST",
+                 .help = "operators in their order, such as \"scale(0.8) negate(x)\"; after those of a site's nodes",
+                 .required = true},
+                outsideFlag(),
+                jsonFlag("what was written"),
+                helpFlag()},
+      .examples = {"imgeo transform statue.ply -o mirrored.ply --operators \"negate(x)\"",
+                   "imgeo transform site -o statue.glb --operators \"gamma(1.2) scale(0.8 1 0.8)\""}};
+}
+
 Command exportCommand() {
-  Flag output{.name = "output",
-              .aliases = {"-o"},
-              .valueKind = ValueKind::file,
-              .valueName = "FILE",
-              .help = "the file to write; .ply, .obj or .glb says what",
-              .required = true};
   return {.name = "export",
           .usage = "DIR -o FILE",
           .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
           .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
                   "Reads sites that aopt wrote for X3DOM, too.",
-          .flags = {positional("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"), output,
-                    jsonFlag("what was written"), helpFlag()},
+          .flags = {positional("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"),
+                    meshFileFlag(), jsonFlag("what was written"), helpFlag()},
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
 }
 
@@ -397,9 +425,9 @@ Command manualCommand() {
 } // namespace
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all{convertCommand(), infoCommand(),       verifyCommand(),
-                                        exportCommand(),  sampleCommand(),     serveCommand(),
-                                        publishCommand(), completionCommand(), manualCommand()};
+  static const std::vector<Command> all{convertCommand(),    infoCommand(),   verifyCommand(), exportCommand(),
+                                        transformCommand(),  sampleCommand(), serveCommand(),  publishCommand(),
+                                        completionCommand(), manualCommand()};
   return all;
 }
 

@@ -33,6 +33,8 @@ int run(const Arguments& arguments) {
     return runVerify(arguments);
   if (name == "export")
     return runExport(arguments);
+  if (name == "transform")
+    return runTransform(arguments);
   if (name == "sample")
     return runSample(arguments);
   if (name == "serve")

@@ -26,7 +26,7 @@ StoredPrecision SinglePatchReader::precisionOf(const GeometryDescription& geomet
   return precision;
 }
 
-ContainerReader::ContainerReader(const FetchFile& fetch) {
+ContainerReader::ContainerReader(const FetchFile& fetch) : fetch_(fetch) {
   for (const EncodingRow* row : allEncodings())
     readers_.push_back(row->makeReader(fetch));
 }

@@ -27,9 +27,13 @@ public:
   /// untrusted bytes.
   StoredPrecision precisionOf(const GeometryDescription& geometry) const;
 
+  /// The function that gives the bytes of files.
+  const FetchFile& fetch() const { return fetch_; }
+
 private:
   PatchReader& readerOf(const GeometryDescription& geometry) const;
 
+  FetchFile fetch_;
   std::vector<std::unique_ptr<PatchReader>> readers_; ///< by encoding
 };
 

@@ -8,6 +8,7 @@
 #include "prepare/geometry_image/surface_distance.h"
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
+#include "scene/operators.h"
 #include "scene/vertex_attributes.h"
 
 #include <array>
@@ -138,6 +139,7 @@ struct GeometryDescription {
   std::optional<GridKind> grid;
   /// The distance of grids that were sampled from a mesh from its surface.
   std::optional<SurfaceDistance> surfaceDistance;
+  std::vector<Operator> operators; ///< map the decoded vertices; readMesh() applies them
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded

@@ -41,11 +41,17 @@ std::vector<std::uint32_t> gridTriangles(GridKind kind, Vec2<std::uint32_t> size
 
 std::vector<Vec3f> slopeNormals(GridKind kind, Vec2<std::uint32_t> size, std::span<const Vec3u> positions,
                                 const Lattice& lattice, bool ccw) {
+  std::vector<Vec3d> points;
+  points.reserve(positions.size());
+  for (const Vec3u& position : positions)
+    points.push_back(lattice.point(position));
+  return slopeNormals(kind, size, points, ccw);
+}
+
+std::vector<Vec3f> slopeNormals(GridKind kind, Vec2<std::uint32_t> size, std::span<const Vec3d> points, bool ccw) {
   const bool isClosed = kind == GridKind::sculpt;
   const std::uint32_t columns = size.x, rows = size.y;
-  const auto difference = [&](std::uint32_t from, std::uint32_t to) {
-    return lattice.point(positions[to]) - lattice.point(positions[from]);
-  };
+  const auto difference = [&](std::uint32_t from, std::uint32_t to) { return points[to] - points[from]; };
   const auto slope = [&](std::uint32_t row, std::uint32_t column) {
     const std::uint32_t first = isClosed ? column + columns - 1 : std::max(column, 1u) - 1,
                         last = isClosed ? column + 1 : std::min(column + 1, columns - 1), above = std::max(row, 1u) - 1,
@@ -54,7 +60,7 @@ std::vector<Vec3f> slopeNormals(GridKind kind, Vec2<std::uint32_t> size, std::sp
                  difference(row * columns + first % columns, row * columns + last % columns));
   };
   std::vector<Vec3f> normals;
-  normals.reserve(positions.size());
+  normals.reserve(points.size());
   for (std::uint32_t row = 0; row < rows; ++row)
     for (std::uint32_t column = 0; column < columns; ++column) {
       Vec3d normal = slope(row, column);

@@ -21,6 +21,9 @@ DecodeFields heightMapBox(const Lattice& lattice, Vec2<std::uint32_t> size);
 /// triangle with two corners at one point, as there are at the poles of sculpts, is left out.
 std::vector<std::uint32_t> gridTriangles(GridKind kind, Vec2<std::uint32_t> size, std::span<const Vec3u> positions);
 
+/// Normals of a grid of points by the slope between the neighbours of each, as the following function.
+std::vector<Vec3f> slopeNormals(GridKind kind, Vec2<std::uint32_t> size, std::span<const Vec3d> points, bool ccw);
+
 /// Normals of a grid by the slope between the neighbours of each vertex. At a pole, where all points of a row coincide,
 /// they are those of the next row. `ccw`: whether triangles of gridTriangles() are seen from the front.
 std::vector<Vec3f> slopeNormals(GridKind kind, Vec2<std::uint32_t> size, std::span<const Vec3u> positions,

@@ -3,8 +3,11 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "base/parallel.h"
+#include "containers/blur.h"
+#include "containers/encodings.h"
 #include "containers/grid.h"
 #include "containers/stored.h"
+#include "containers/stored_coords.h"
 #include "prepare/weld.h"
 
 #include <algorithm>
@@ -50,14 +53,35 @@ std::vector<std::uint32_t> cornersOf(const IndexedPatch& patch, Topology topolog
   return corners;
 }
 
-void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const std::string& location) {
+/// A patch, and the points of its vertices.
+struct DecodedPatch {
+  IndexedPatch indexed;
+  std::vector<Vec3d> points; ///< where they are no longer on the lattice
+};
+
+DecodedPatch decode(const ContainerReader& reader, const PatchDescription& patch, const GeometryDescription& geometry) {
+  DecodedPatch decoded{reader.decode(patch, geometry), {}};
+  IndexedPatch& indexed = decoded.indexed;
+  const bool isBlurred = blurRadiusOf(geometry.operators) > 0;
+  if (isBlurred)
+    decoded.points = blurredPoints(indexed, patch, geometry, reader.fetch());
+  if (geometry.grid && isBlurred)
+    indexed.normals = slopeNormals(*geometry.grid, patch.implicitMeshSize, decoded.points, geometry.ccw);
+  else if (geometry.grid && indexed.normals.empty())
+    indexed.normals =
+        slopeNormals(*geometry.grid, patch.implicitMeshSize, indexed.positions, geometry.lattice, geometry.ccw);
+  return decoded;
+}
+
+void append(Mesh& mesh, const DecodedPatch& decoded, const Lattice& lattice, const std::string& location) {
+  const IndexedPatch& patch = decoded.indexed;
   const std::size_t before = mesh.wedgeCount(), records = patch.vertexCount();
   if (before + records > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, location, "a shape has more vertices than 32 bits count");
   append(mesh, before, patch, records);
-  for (const Vec3u& q : patch.positions) {
+  for (std::size_t i = 0; i < records; ++i) {
     mesh.wedgePositions.push_back(narrow<std::uint32_t>(mesh.positions.size()));
-    mesh.positions.push_back(Vec3f(lattice.point(q)));
+    mesh.positions.push_back(Vec3f(decoded.points.empty() ? lattice.point(patch.positions[i]) : decoded.points[i]));
   }
   for (const std::uint32_t corner : cornersOf(patch, mesh.topology))
     mesh.corners.push_back(narrow<std::uint32_t>(before + corner));
@@ -65,22 +89,34 @@ void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const
 
 } // namespace
 
+OperatorFrame operatorFrameOf(const GeometryDescription& geometry, const Mesh& mesh) {
+  if (!hasElementTypes(geometry.encoding) || geometry.coordType != ElementType::float32) {
+    const auto [position, size] = decodeFields(geometry);
+    return OperatorFrame::of({position - size * 0.5, position + size * 0.5});
+  }
+  Box3d box;
+  for (const PatchDescription& patch : geometry.patches) {
+    const Box3d& stated = patch.box.empty() ? geometry.box : patch.box;
+    if (stated.empty())
+      return OperatorFrame::of(boxOf(mesh));
+    box.add(stated.min);
+    box.add(stated.max);
+  }
+  return OperatorFrame::of(box);
+}
+
 Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& location) {
-  std::vector<IndexedPatch> patches(geometry.patches.size());
-  parallelFor(patches.size(), [&](std::size_t i) {
-    patches[i] = reader.decode(geometry.patches[i], geometry);
-    if (geometry.grid && patches[i].normals.empty())
-      patches[i].normals = slopeNormals(*geometry.grid, geometry.patches[i].implicitMeshSize, patches[i].positions,
-                                        geometry.lattice, geometry.ccw);
-  });
+  std::vector<DecodedPatch> patches(geometry.patches.size());
+  parallelFor(patches.size(), [&](std::size_t i) { patches[i] = decode(reader, geometry.patches[i], geometry); });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, location);
   mesh.texCoordMappings = geometry.texCoordMappings;
-  for (IndexedPatch& patch : patches)
+  for (DecodedPatch& patch : patches)
     append(mesh, std::exchange(patch, {}), geometry.lattice, location);
   const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
   mesh.colorComponents = isOpaque ? 3 : 4;
   weld(mesh);
+  applyOperators(mesh, geometry.operators, operatorFrameOf(geometry, mesh), location);
   return mesh;
 }
 

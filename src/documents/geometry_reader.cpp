@@ -358,6 +358,14 @@ void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geome
     patch.vertexAttributes[VertexRole::normal] = normalInCoords(patch.coord[0]);
 }
 
+std::vector<Operator> operatorsOf(const FieldReader& fields, Encoding encoding) {
+  const std::string text = fields.text("operators");
+  auto [operators, problem] = readOperators(text, rowOf(encoding).storage == PatchStorage::bytePlanes);
+  if (!problem.empty())
+    fields.warnOrFail(refusalOf(text, problem), "none is applied");
+  return operators;
+}
+
 } // namespace
 
 bool isGeometryNode(const char* name) {
@@ -378,7 +386,12 @@ std::vector<Draw> readDraws(const FieldReader& fields) {
   return draws;
 }
 
-GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node) {
+bool readSolid(const FieldReader& fields) {
+  return fields.boolean("solid", true) &&
+         orientationOf(readOperators(fields.text("operators"), true).operators) != Orientation::folded;
+}
+
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, DocumentWarnings* warnings) {
   const FieldReader fields(source, node);
   GeometryDescription geometry;
   const Encoding encoding = encodingOf(fields);
@@ -408,6 +421,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     if (geometry.indexType != ElementType::uint16 && geometry.indexType != ElementType::uint32)
       fields.fail(ErrorKind::unsupported, "images hold indices of type Uint16 or Uint32");
   }
+  geometry.operators = operatorsOf(FieldReader(source, node, warnings), encoding);
   geometry.attributes = readVertexAttributes(source, node, encoding);
   const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())

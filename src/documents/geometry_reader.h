@@ -18,8 +18,12 @@ std::vector<Draw> readDraws(const FieldReader& fields);
 
 /// Reads a geometry node with its patches, in either form of docs/formats/nodes.md: GeometryPatch children, or one
 /// patch in url fields or ImageTexture children of the node itself. Throws Error for geometry that a Lattice cannot
-/// express.
-GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node);
+/// express. A list of operators that cannot be read is a warning or, without `warnings`, an Error{malformed}.
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, DocumentWarnings* warnings);
+
+/// Whether only the front of a geometry node's triangles is visible. What operators have folded is visible from both
+/// sides.
+bool readSolid(const FieldReader& fields);
 
 /// The field `patch` of a Shape, "DEF#N".
 struct PatchName {

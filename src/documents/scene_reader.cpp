@@ -293,7 +293,7 @@ private:
     const std::string def = fields.text("DEF");
     if (def.empty())
       return;
-    SharedGeometry shared{readGeometry(source_, fields.node()), fields.boolean("solid", true), {}};
+    SharedGeometry shared{readGeometry(source_, fields.node(), &document_.warnings), readSolid(fields), {}};
     if (rowOf(shared.geometry).storage != PatchStorage::packed || shared.geometry.patches.size() != 1)
       fields.fail(ErrorKind::unsupported, "a geometry outside of a Shape is no patch of compact");
     shared.geometry.box = shared.geometry.patches[0].box;
@@ -329,8 +329,8 @@ private:
     }
     Shape read;
     read.mesh = document_.geometries.size();
-    read.solid = fields.boolean("solid", true);
-    GeometryDescription geometry = readGeometry(source_, fields.node());
+    read.solid = readSolid(fields);
+    GeometryDescription geometry = readGeometry(source_, fields.node(), &document_.warnings);
     geometry.box = shape.box();
     const bool hasPatches = std::ranges::any_of(
         fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });

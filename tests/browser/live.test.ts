@@ -11,6 +11,15 @@ import { encodePng, type Picture } from "./png.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
 import { soakTest } from "./soak.ts";
 
+/** A surface, mirrored in x and scaled around the origin. */
+function mirrored(mesh: PlainPatch, scale: number): PlainPatch {
+  const mirror = (array: Float32Array, factor: number): Float32Array =>
+    array.map((value, i) => (i % 3 === 0 ? -1 : 1) * factor * value);
+  const triangles = mesh.triangles.slice();
+  for (let n = 0; n < triangles.length; n += 3) triangles.subarray(n + 1, n + 3).reverse();
+  return { ...mesh, positions: mirror(mesh.positions, scale), normals: mirror(mesh.normals!, 1), triangles };
+}
+
 test("a live stream is drawn frame by frame", async () => {
   await withLivePage({ expectedErrors: /500|410|404|live\/sheet/ }, async (view) => {
     const { stream, outages } = view;
@@ -31,6 +40,19 @@ test("a live stream is drawn frame by frame", async () => {
     await show(wave(4), "live: a later frame");
     const hit = await pickedDepth(view);
     assert.ok(hit !== undefined && Math.abs(hit) < 0.7, `picked at z ${hit}`);
+
+    // Operators map every frame, in drawing and picking, into the same objects.
+    await view.setGeometry({ operators: "negate(x) scale(0.8)" });
+    stream.publish(wave(4.1));
+    await displayed(view, stream);
+    const mapped = await gpuCalls(view);
+    stream.publish(wave(6));
+    await displayed(view, stream);
+    assert.equal((await gpuCalls(view)).objects, mapped.objects, "mapped frames allocate memory on the GPU");
+    await view.show(mirrored(plainOf(wave(6)), 0.8), "live: mapped by operators");
+    const mappedHit = await pickedDepth(view);
+    assert.ok(mappedHit !== undefined && Math.abs(mappedHit) < 0.56, `picked at z ${mappedHit}`);
+    await view.setGeometry({ operators: undefined });
 
     // Frames that are late are skipped.
     for (let n = 0; n < 20; ++n) stream.publish(wave(n));

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
-import { meshOf, shapeOf, sheet } from "./generators/grids.ts";
+import { meshOf, shapeOf, sheet, surfaceOver } from "./generators/grids.ts";
 import { pictureSize, withPage, type View } from "./harness.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
@@ -18,8 +18,13 @@ const example = sheet();
 /** In units of the sheet's box, which is 2 wide around the origin: the point and the direction of a normal. */
 type Mapping = (point: Vec3, normal: Vec3) => readonly [point: Vec3, normal: Vec3];
 
-/** Lists of operators with their meaning, written out, and whether they mirror. */
-const lists: readonly (readonly [operators: string, map: Mapping | undefined, isMirroring: boolean])[] = [
+/** Lists of operators with their meaning, written out, whether they mirror, and the radius of their blur. */
+const lists: readonly (readonly [
+  operators: string,
+  map: Mapping | undefined,
+  isMirroring: boolean,
+  blurRadius?: number,
+])[] = [
   [
     "negate(y)",
     ([x, y, z], [a, b, c]) => [
@@ -45,13 +50,42 @@ const lists: readonly (readonly [operators: string, map: Mapping | undefined, is
     false,
   ],
   ["gamma(1.3) solarize(0.8) posterise(200)", undefined, false],
+  [
+    "blur(3.5) negate(y)",
+    ([x, y, z], [a, b, c]) => [
+      [x, -y, z],
+      [a, -b, c],
+    ],
+    true,
+    3.5,
+  ],
 ];
 
-function mappedMesh(map: Mapping, isMirroring: boolean): PlainPatch {
-  const plain = meshOf(
+/** The weighted mean of the neighbours of each vertex: as many on both sides, where the grid ends. */
+function blurredPositions(positions: Float32Array, radius: number): Float32Array {
+  const { columns, rows } = example;
+  const reach = Math.ceil(radius);
+  return positions.map((_, i) => {
+    const [column, row] = [Math.floor(i / 3) % columns, Math.floor(i / 3 / columns)];
+    const across = Math.min(reach, column, columns - 1 - column);
+    const down = Math.min(reach, row, rows - 1 - row);
+    let [sum, total] = [0, 0];
+    for (let y = -down; y <= down; ++y)
+      for (let x = -across; x <= across; ++x) {
+        const weight = Math.exp((-2 * (x * x + y * y)) / radius ** 2);
+        sum += weight * positions[i + 3 * (y * columns + x)]!;
+        total += weight;
+      }
+    return sum / total;
+  });
+}
+
+function mappedMesh(map: Mapping, isMirroring: boolean, blurRadius: number): PlainPatch {
+  const sharp = meshOf(
     example,
     [...example.files.values()].map((file) => decodePng(file)),
   );
+  const plain = blurRadius > 0 ? surfaceOver(example, blurredPositions(sharp.positions, blurRadius)) : sharp;
   const { normals } = plain;
   const vectorAt = (array: ArrayLike<number>, n: number): Vec3 => [array[3 * n]!, array[3 * n + 1]!, array[3 * n + 2]!];
   const positions = new Float32Array(plain.positions.length);
@@ -105,7 +139,7 @@ test("operators map the vertices of every pass", async () => {
       const plain = await view.picture();
       const requestCount = view.server.requests.length;
       const ofPage: Picture[] = [];
-      for (const [operators, map, isMirroring] of lists) {
+      for (const [operators, map, isMirroring, blurRadius = 0] of lists) {
         await view.page.evaluate((text) => {
           document.querySelector("imagegeometry")!.setAttribute("operators", text);
         }, operators);
@@ -114,7 +148,7 @@ test("operators map the vertices of every pass", async () => {
         assert.ok(difference(picture, plain).mean > 0.5, `${operators}: nothing has changed`);
         ofPage.push(picture);
         if (map === undefined) continue;
-        const mesh = mappedMesh(map, isMirroring);
+        const mesh = mappedMesh(map, isMirroring, blurRadius);
         if (decode === "gpu")
           assertSamePicture(operators, picture, await referencePicture(html, [mesh]), boundsOfQuantised);
         let hits = 0;

@@ -22,7 +22,7 @@ void expectGolden(const std::string& name, const std::vector<std::string>& words
 TEST(Help, EqualsItsReviewedGoldens) {
   expectGolden("help.txt", {"--help"});
   for (const std::string command :
-       {"convert", "info", "verify", "export", "sample", "serve", "publish", "completion", "manual"})
+       {"convert", "info", "verify", "export", "transform", "sample", "serve", "publish", "completion", "manual"})
     expectGolden("help-" + command + ".txt", {command, "--help"});
 }
 
@@ -34,7 +34,7 @@ TEST(Help, CompletionsAndManualEqualTheirReviewedGoldens) {
 
 TEST(Help, EveryLineFitsATerminal) {
   for (const std::string command :
-       {"convert", "info", "verify", "export", "sample", "serve", "publish", "completion", "manual"}) {
+       {"convert", "info", "verify", "export", "transform", "sample", "serve", "publish", "completion", "manual"}) {
     std::istringstream lines(run({command, "--help"}).out);
     bool examples = false;
     for (std::string line; std::getline(lines, line);) {

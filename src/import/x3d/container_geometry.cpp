@@ -53,16 +53,24 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
   return geometries;
 }
 
+/// The description of a node. Its Shape's box stands in for those of patches that have none.
+GeometryDescription ContainerGeometries::describe(pugi::xml_node node) const {
+  GeometryDescription geometry = readGeometry(source_.documentText(), node, warnings_);
+  if (!geometry.operators.empty())
+    geometry.box = FieldReader(source_.documentText(), node.parent()).box();
+  return geometry;
+}
+
 std::optional<std::vector<Mesh>> ContainerGeometries::read(std::span<const pugi::xml_node> nodes,
                                                            const AttributeChoice& kept,
                                                            std::set<std::string>& attributes) const {
   if (!isPatchGeometry(nodes[0].name()))
     return std::vector{readPopGeometry(source_, nodes[0], fetch_)};
   const auto isFlat = [&](pugi::xml_node node) { return !source_.boolean(node, "normalPerVertex", true); };
-  GeometryDescription geometry = readGeometry(source_.documentText(), nodes[0]);
+  GeometryDescription geometry = describe(nodes[0]);
   std::vector<PatchDescription> patches = std::exchange(geometry.patches, {});
   for (const pugi::xml_node& node : nodes.subspan(1)) {
-    GeometryDescription more = readGeometry(source_.documentText(), node);
+    GeometryDescription more = describe(node);
     std::ranges::move(std::exchange(more.patches, {}), std::back_inserter(patches));
     if (!(more == geometry) || isFlat(node) != isFlat(nodes[0]))
       return {};
@@ -97,7 +105,7 @@ gltf::ShapeResource ContainerGeometries::readExternal(pugi::xml_node node, bool 
 std::map<std::uint32_t, ContainerGeometries::SharedPatch>
 ContainerGeometries::readShared(pugi::xml_node node, const std::set<std::uint32_t>& indices,
                                 const AttributeChoice& kept, std::set<std::string>& attributes) const {
-  GeometryDescription geometry = readGeometry(source_.documentText(), node);
+  GeometryDescription geometry = describe(node);
   if (rowOf(geometry).storage != PatchStorage::packed || geometry.patches.size() != 1)
     source_.fail(node, ErrorKind::unsupported, "is no patch of compact, whose file Shapes can share");
   const std::string location = source_.locationOf(node);

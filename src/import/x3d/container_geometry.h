@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "containers/container_reader.h"
+#include "documents/field_reader.h"
 #include "import/gltf/shape_resource.h"
 #include "import/references.h"
 #include "import/x3d/source.h"
@@ -31,9 +32,10 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
 /// Reads the files that the geometry nodes of one document name.
 class ContainerGeometries {
 public:
-  ContainerGeometries(const Source& source, const References& references)
-      : source_(source), fetch_([&references](const std::string& url) { return references.fetch(url); }),
-        reader_(fetch_) {}
+  /// `warnings`: of operators that cannot be read; without it they are an Error.
+  ContainerGeometries(const Source& source, const References& references, DocumentWarnings* warnings)
+      : source_(source), warnings_(warnings),
+        fetch_([&references](const std::string& url) { return references.fetch(url); }), reader_(fetch_) {}
 
   /// The meshes, one for each kind of element, of nodes whose patches belong together, or of one node that is no
   /// ExternalGeometry; empty where nodes differ in more than their patches. Of the named attributes it has those in
@@ -58,7 +60,10 @@ private:
   /// Keeps the named attributes of a mesh that are in `kept`; adds the names of all to `attributes`.
   static void chooseAttributes(Mesh& mesh, const AttributeChoice& kept, std::set<std::string>& attributes);
 
+  GeometryDescription describe(pugi::xml_node node) const;
+
   const Source& source_;
+  DocumentWarnings* warnings_;
   FetchFile fetch_;
   ContainerReader reader_;
 };

@@ -1,5 +1,6 @@
 #include "import/x3d/shape_reader.h"
 
+#include "documents/geometry_reader.h"
 #include "images/image_type.h"
 #include "import/text/text_scanner.h"
 #include "import/x3d/geometry.h"
@@ -27,7 +28,7 @@ ShapeReader::ShapeReader(const Source& source, const References& references, con
                          Imported& imported, Summary& summary, Faults& faults, const Routes& routes)
     : source_(source), imported_(imported), summary_(summary), faults_(faults), routes_(routes),
       inlineBytes_(options.inlineBytes), keptAttributes_(options.attributes), mappings_(options.attributes),
-      containers_(source, references),
+      containers_(source, references, options.strict ? nullptr : &imported.warnings),
       sharedPatches_(source, containers_, keptAttributes_, attributes_,
                      [this](Mesh mesh, bool isSolid) { return addShape(std::move(mesh), isSolid); }) {
   addTextureMappings();
@@ -86,11 +87,31 @@ std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap)
     return {};
   noteDataOf(node);
   summary_.fans += geometry->fans;
-  return found->second = {addShape(std::move(geometry->mesh), geometry->solid)};
+  if (!operate(node, geometry->mesh))
+    return {};
+  return found->second = {addShape(std::move(geometry->mesh), geometry->solid && isSolid(node))};
 }
 
 std::optional<Shape> ShapeReader::shapeOfSharedPatch(pugi::xml_node element) {
   return sharedPatches_.shapeOf(element, faults_.isStrict());
+}
+
+/// Whether only the front of a geometry's triangles is visible: see readSolid().
+bool ShapeReader::isSolid(pugi::xml_node geometry) const {
+  return readSolid(FieldReader(source_.documentText(), geometry, &imported_.warnings));
+}
+
+/// Maps a mesh by the operators of its node, in the box around it. False where that fails, which is noted.
+bool ShapeReader::operate(pugi::xml_node node, Mesh& mesh) {
+  const std::string text = node.attribute("operators").value();
+  const auto [operators, problem] = readOperators(text, false);
+  if (!problem.empty())
+    faults_.attempt("A geometry is left without operators",
+                    [&]() -> bool { source_.fail(node, ErrorKind::malformed, refusalOf(text, problem)); });
+  return faults_.attempt("A geometry is left as it is", [&] {
+    applyOperators(mesh, operators, OperatorFrame::of(boxOf(mesh)), source_.locationOf(node));
+    return true;
+  });
 }
 
 Shape ShapeReader::addShape(Mesh mesh, bool isSolid) {
@@ -108,7 +129,7 @@ std::optional<Shape> ShapeReader::shapeOfPatches(const std::vector<pugi::xml_nod
   }
   if (!meshes || meshes->size() != 1 || meshes->front().corners.empty())
     return {};
-  return addShape(std::move(meshes->front()), source_.boolean(geometries[0], "solid", true));
+  return addShape(std::move(meshes->front()), isSolid(geometries[0]));
 }
 
 template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, const Read& read) -> decltype(read()) {
@@ -138,7 +159,7 @@ std::vector<Shape> ShapeReader::shapesOfFiles(pugi::xml_node node) {
   std::vector<Shape> shapes;
   for (Mesh& mesh : *meshes)
     if (!mesh.corners.empty())
-      shapes.push_back(addShape(std::move(mesh), source_.boolean(node, "solid", true)));
+      shapes.push_back(addShape(std::move(mesh), isSolid(node)));
   if (shapes.empty())
     ++summary_.empty[node.name()];
   return shapes;

@@ -46,6 +46,8 @@ private:
   bool staysInline(pugi::xml_node node) const;
   void addTextureMappings();
   Shape addShape(Mesh mesh, bool isSolid);
+  bool isSolid(pugi::xml_node geometry) const;
+  bool operate(pugi::xml_node node, Mesh& mesh);
   std::vector<Shape> shapesOfFiles(pugi::xml_node node);
   std::vector<Shape> shapesOfResource(pugi::xml_node node, gltf::ShapeResource resource);
   std::size_t addAppearance(gltf::ResourceMaterial material);

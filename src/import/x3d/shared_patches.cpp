@@ -69,7 +69,7 @@ void SharedPatches::findNames() {
 }
 
 void SharedPatches::readNode(pugi::xml_node geometry, GeometryNode& node) {
-  const bool isSolid = source_.boolean(geometry, "solid", true);
+  const bool isSolid = readSolid(FieldReader(source_.documentText(), geometry));
   try {
     for (auto& [index, patch] : containers_.readShared(geometry, node.indices, kept_, attributes_))
       if (const Error* error = std::get_if<Error>(&patch))

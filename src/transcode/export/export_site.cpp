@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "containers/encodings.h"
 #include "export/export.h"
 #include "scene/source_axes.h"
 #include "transcode/export/write_scene.h"
@@ -27,13 +28,29 @@ void readImages(const SiteDocument& document, SceneGraph& graph) {
       image.bytes = readFile(fileOf(document, image.url));
 }
 
+/// Adds operators to those of every geometry.
+void addOperators(SceneDocument& document, std::span<const Operator> operators, const std::string& location) {
+  for (GeometryDescription& geometry : document.geometries) {
+    const bool hasImages = rowOf(geometry).storage == PatchStorage::bytePlanes;
+    if (blurRadiusOf(operators) > 0 && !(hasImages && geometry.operators.empty()))
+      throw Error(ErrorKind::unsupported, location,
+                  hasImages ? "has operators, after which an image cannot be blurred"
+                            : "has geometry without images of coordinates, which blur filters");
+    geometry.operators.insert(geometry.operators.end(), operators.begin(), operators.end());
+  }
+  if (orientationOf(operators) == Orientation::folded)
+    for (const std::size_t node : shapeNodes(document.graph))
+      std::get<Shape>(document.graph.nodes[node].content).solid = false;
+}
+
 } // namespace
 
-ExportReport exportSite(const fs::path& site, const fs::path& output) {
+ExportReport exportSite(const fs::path& site, const fs::path& output, std::span<const Operator> operators) {
   const std::optional<MeshFormat> format = meshFormatOf(output);
   if (!format)
     throw Error(ErrorKind::usage, output.string(), "ends in none of .ply, .obj and .glb, which say what to write");
-  const SiteDocument document = openDocument(site);
+  SiteDocument document = openDocument(site);
+  addOperators(document.scene, operators, site.string());
   Scene scene = readMeshes(document);
   if (*format == MeshFormat::glb) // PLY and OBJ do not contain images
     readImages(document, scene.graph);

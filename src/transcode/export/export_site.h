@@ -2,9 +2,11 @@
 // Exports a site to a mesh file: PLY, OBJ or GLB.
 
 #include "imgeo/elements.h"
+#include "scene/operators.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace imgeo {
@@ -18,7 +20,9 @@ struct ExportReport {
 };
 
 /// Writes the meshes of a site as one mesh file; the extension of `output` chooses the format (export/export.h). Reads
-/// sites of imgeo and of other programs that write X3DOM's containers. Throws Error; {usage} for an unknown extension.
-ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output);
+/// sites of imgeo and of other programs that write X3DOM's containers. `operators` map each mesh after those of its
+/// node. Throws Error; {usage} for an unknown extension.
+ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output,
+                        std::span<const Operator> operators = {});
 
 } // namespace imgeo

@@ -13,6 +13,7 @@
 #include "transcode/verify/compare_animations.h"
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/compare_geometry_nodes.h"
+#include "transcode/verify/compare_mapped.h"
 #include "transcode/verify/compare_mesh.h"
 #include "transcode/verify/compare_resampled.h"
 
@@ -103,7 +104,9 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     if (!compared.emplace(geometry, mesh).second)
       continue;
     const GeometryDescription& description = document.scene.geometries.at(geometry);
-    if (description.surfaceDistance)
+    if (!description.operators.empty())
+      compareMapped(reader, description, input.meshes[mesh], report, findings);
+    else if (description.surfaceDistance)
       compareResampled(reader, description, input.meshes[mesh], report, findings);
     else
       compareMesh(reader, description, input.meshes[mesh], manifest, report, findings);

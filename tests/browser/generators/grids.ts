@@ -103,6 +103,14 @@ export function meshOf(
       3 * n,
     );
   }
+  return surfaceOver({ mode, columns, rows }, positions);
+}
+
+/** The surface of a grid whose vertices are at other positions, with its normals. */
+export function surfaceOver(
+  { mode, columns, rows }: Pick<GridExample, "mode" | "columns" | "rows">,
+  positions: Float32Array,
+): PlainPatch {
   const triangles: number[] = [];
   const across = mode === "sculpt" ? columns : columns - 1;
   for (let row = 0; row < rows - 1; ++row) {

@@ -2,7 +2,7 @@ _imgeo() {
   local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}"
   COMPREPLY=()
   if [[ $COMP_CWORD -eq 1 ]]; then
-    COMPREPLY=($(compgen -W "convert info verify export sample serve publish completion manual --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "convert info verify export transform sample serve publish completion manual --help --version" -- "$word"))
     return
   fi
   case "${COMP_WORDS[1]} $before" in
@@ -46,6 +46,8 @@ _imgeo() {
     "convert --threads") COMPREPLY=(); return ;;
     "convert -r"|"convert --report") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "export -o"|"export --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "transform -o"|"transform --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "transform --operators") COMPREPLY=(); return ;;
     "sample --seats") COMPREPLY=(); return ;;
     "sample -o"|"sample --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "sample --grid") COMPREPLY=(); return ;;
@@ -85,6 +87,7 @@ _imgeo() {
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    transform) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --operators --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --max-streams --max-frame --max-rate --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --attribute --rate --loop --to --token --view-token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

@@ -6,6 +6,7 @@ _imgeo() {
     'info:say what a site or a mesh file holds, and where its bytes are'
     'verify:read a site back and prove that it equals its input'
     'export:write the mesh that a site holds as PLY, OBJ or GLB'
+    'transform:map the vertices of a mesh by image operators'
     'sample:write a generated scene or publish a moving one'
     'serve:serve a directory over HTTP until Ctrl-C'
     'publish:publish frames of a pipe or of files as a live stream'
@@ -101,6 +102,15 @@ _imgeo() {
       '-h[print this help]' \
       '--help[print this help]' \
       ':site:_files -/' ;;
+    transform) _arguments \
+      '-o[the file to write; .ply, .obj or .glb says what]:output:_files' \
+      '--output[the file to write; .ply, .obj or .glb says what]:output:_files' \
+      '--operators[operators in their order, such as "scale(0.8) negate(x)"; after those of a site'\''s nodes]:operators: ' \
+      '--outside[let the source refer to files outside of its folder]' \
+      '--json[print what was written as JSON]' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':input:_files' ;;
     sample) _arguments \
       '--seats[how many seats the hall has]:seats: ' \
       '-o[of hall\: the GLB file to write]:output:_files' \

@@ -1,5 +1,6 @@
 // Image operators as geometry operators (paper, section 7.4): they map points of the geometry's box, whose coordinates
-// are 0 … 1 as those of an image's channels. `render/shaders/operatorChunk.ts` does the same in the shader.
+// are 0 … 1 as those of an image's channels. `render/shaders/operatorChunk.ts` does the same in the shader,
+// `src/scene/operators.h` in the converter; vectors/operators.json binds it.
 
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Box3 } from "./geometryDescription.ts";
@@ -7,14 +8,17 @@ import type { Box3 } from "./geometryDescription.ts";
 /**
  * What happens to a coordinate c of each axis. `affine`: a c + b. `power`: max(c, 0)^a. `fold`: c beyond a is mirrored
  * at a. `clamp`: a … b. `steps`: to the nearest multiple of 1 / a. `permute`: axis n gets the coordinate of axis a[n].
+ * `blur`: a[0] is its radius in texels; it filters the image of the points, and a point alone stays.
  */
 export interface Operator {
-  readonly kind: "affine" | "power" | "fold" | "clamp" | "steps" | "permute";
+  readonly kind: "affine" | "power" | "fold" | "clamp" | "steps" | "permute" | "blur";
   readonly a: Vec3;
   readonly b: Vec3;
 }
 
 export const maxOperators = 16;
+/** In texels: a vertex is the mean of at most 9 x 9. */
+export const maxBlurRadius = 4;
 
 /** What a list of operators does to the front side of triangles. */
 export type Orientation = "kept" | "flipped" | "folded";
@@ -63,6 +67,11 @@ const posterise: Make = ([levels = NaN, ...others], axes) => {
     : "takes a number of levels, 2 to 65536";
 };
 
+const blur: Make = ([radius = NaN, ...others], axes) =>
+  axes === "" && others.length === 0 && radius >= 0 && radius <= maxBlurRadius
+    ? { kind: "blur", a: [radius, 0, 0], b: none }
+    : `takes a radius of 0 to ${maxBlurRadius} texels`;
+
 const makers: ReadonlyMap<string, Make> = new Map<string, Make>([
   ["translate", add],
   ["brightness", add],
@@ -94,34 +103,64 @@ const makers: ReadonlyMap<string, Make> = new Map<string, Make>([
   ],
   ["posterise", posterise],
   ["posterize", posterise],
+  ["blur", blur],
 ]);
 
-/** Reads `operators`. One sentence for the first part that cannot be read; nothing is then applied. */
-export function readOperators(text: string): { operators: readonly Operator[]; problem: string | undefined } {
-  const refuse = (problem: string) => ({ operators: [], problem: `operators="${text}": ${problem}; none is applied` });
+/** Not all that Number() reads: neither "0x10" nor "Infinity". */
+const decimal = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+const largestNumber = 1e6;
+/** How far points may be mapped: farther ones would not be finite in a shader. */
+const farthest = 1e9;
+
+/** A text as sentences quote it: not longer than a line. */
+function quoted(text: string): string {
+  const characters = Array.from(text);
+  return `"${characters.length <= 60 ? text : characters.slice(0, 60).join("") + "…"}"`;
+}
+
+/**
+ * Reads `operators`. One sentence for the first part that cannot be read; nothing is then applied. `hasImages`: whether
+ * the geometry has images of coordinates, as SIG classic has them; a blur of other geometry is refused.
+ */
+export function readOperators(
+  text: string,
+  hasImages: boolean,
+): { operators: readonly Operator[]; problem: string | undefined } {
+  const refuse = (problem: string) => ({
+    operators: [],
+    problem: `operators=${quoted(text)}: ${problem}; none is applied`,
+  });
   const operators: Operator[] = [];
-  let rest = text.trim();
+  let rest = text.replace(/^[ \t\r\n,]+|[ \t\r\n,]+$/g, "");
   while (rest !== "") {
-    const match = /^([a-z]+)\s*\(([^()]*)\)[\s,]*/i.exec(rest);
-    if (match === null) return refuse(`"${rest}" is no operator with arguments in parentheses`);
+    const match = /^([a-z]+)[ \t\r\n]*\(([^()]*)\)[ \t\r\n,]*/i.exec(rest);
+    if (match === null) return refuse(`${quoted(rest)} is no operator with arguments in parentheses`);
     const [whole, name = "", inside = ""] = match;
     rest = rest.slice(whole.length);
-    const key = name.toLowerCase();
-    if (key === "blur")
-      return refuse("blur mixes vertices that are neighbours in an image but not on the surface, and is not drawn");
-    const make = makers.get(key);
-    if (make === undefined) return refuse(`"${name}" is none of ${Array.from(makers.keys()).join(", ")}, blur`);
-    const words = inside.split(/[\s,]+/).filter((word) => word !== "");
+    const make = makers.get(name.toLowerCase());
+    if (make === undefined) return refuse(`${quoted(name)} is none of ${Array.from(makers.keys()).join(", ")}`);
+    const words = inside.split(/[ \t\r\n,]+/).filter((word) => word !== "");
     const axes = words.length === 1 && /^[a-z]+$/i.test(words[0] ?? "") ? (words[0] ?? "").toLowerCase() : "";
-    const numbers = axes === "" ? words.map(Number) : [];
-    if (!numbers.every((number) => Number.isFinite(number) && Math.abs(number) <= 1e6))
-      return refuse(`${name}(${inside}) has something that is no number from -1000000 to 1000000`);
-    const operator = make(numbers, axes);
+    const isNumber = (word: string) => decimal.test(word) && Math.abs(Number(word)) <= largestNumber;
+    if (axes === "" && !words.every(isNumber))
+      return refuse(`${quoted(inside)} of ${name} has something that is no number from -1000000 to 1000000`);
+    const operator = make(axes === "" ? words.map(Number) : [], axes);
     if (typeof operator === "string") return refuse(`${name} ${operator}`);
     if (operators.length >= maxOperators) return refuse(`it has more than ${maxOperators} operators`);
+    if (operator.kind === "blur" && operators.length > 0) return refuse("blur is not the first operator");
     operators.push(operator);
   }
+  const { min, max } = operatedBox(operators, { min: [0, 0, 0], max: [1, 1, 1] });
+  if (![...min, ...max].every((coordinate) => Math.abs(coordinate) <= farthest))
+    return refuse("it maps points farther than 1e9 edges of their box");
+  if (!hasImages && blurRadiusOf(operators) > 0)
+    return refuse("blur filters images of coordinates, and this geometry has none");
   return { operators, problem: undefined };
+}
+
+/** The radius of a list's blur, which is its first operator; 0 without one. */
+export function blurRadiusOf([first]: readonly Operator[]): number {
+  return first?.kind === "blur" ? first.a[0] : 0;
 }
 
 /** Maps a point of the unit box. */
@@ -149,6 +188,7 @@ function mapped({ kind, a, b }: Operator, c: number, axis: 0 | 1 | 2): number {
     case "steps":
       return Math.floor(c * a[axis] + 0.5) / a[axis];
     case "permute":
+    case "blur":
       return c;
   }
 }

@@ -2,7 +2,7 @@
 
 import { colorMapOf, withValues } from "./attributes.ts";
 import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
-import type { Box3, Encoding, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
+import type { Box3, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
 import { fogDepthName } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
@@ -144,7 +144,7 @@ function readGeometryOf(
   const geometry = hasValues
     ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
     : boxed;
-  return { geometry, ...drawingFieldsOf(found.child, context, geometry.encoding) };
+  return { geometry, ...drawingFieldsOf(found.child, context, geometry) };
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
@@ -162,21 +162,21 @@ function readSharedPatch(element: SceneElement, patch: string, context: ShapeRea
     return { geometry: undefined, priority: 1, lit: true };
   }
   const geometry = geometries.variant(shared, `#${index}`, (plain) => withPatchIndex(plain, Number(index)));
-  return { geometry, ...drawingFieldsOf(node, context) };
+  return { geometry, ...drawingFieldsOf(node, context, geometry) };
 }
 
 /** The fields of a geometry node that are not part of its description. The reader of the node has warned of them. */
 function drawingFieldsOf(
   node: SceneElement,
   { operators: reader, warnings }: ShapeReadingContext,
-  encoding?: Encoding,
+  geometry: GeometryDescription,
 ): Omit<ShapeGeometry, "geometry"> {
   const { priority, lit, paused, rate, operators: text } = nodeFields.ImageGeometry;
   const { operators: list, ...common } = readFields(node, { priority, lit, operators: text }, []);
-  const { operators, problem } = (list === "" ? undefined : reader?.read(list)) ?? { operators: [] };
+  const { operators, problem } = (list === "" ? undefined : reader?.read(list, geometry)) ?? { operators: [] };
   if (problem !== undefined) warnings.push({ element: node, message: problem });
   const fields = list === "" ? common : { ...common, operators };
-  return encoding === "live" ? { ...fields, playback: readFields(node, { paused, rate }, []) } : fields;
+  return geometry.encoding === "live" ? { ...fields, playback: readFields(node, { paused, rate }, []) } : fields;
 }
 
 function withPatchIndex(geometry: GeometryDescription, patchIndex: number): GeometryDescription | undefined {
@@ -235,11 +235,15 @@ function isGeometry(child: SceneElement): boolean {
   return name !== "appearance" && !name.startsWith("metadata");
 }
 
-/** Gives the shape's box to a geometry's only patch where that has no box; else undefined. */
+/**
+ * Gives the shape's box to patches that have none: to the only one, or to those of floats, which lie in no quantization
+ * box. Undefined where there is none such.
+ */
 function withBox(geometry: GeometryDescription, box: Box3): GeometryDescription | undefined {
-  const [patch, ...others] = geometry.patches;
-  if (!patch || patch.box || others.length > 0) return undefined;
-  return { ...geometry, patches: [{ ...patch, box }] };
+  const { patches } = geometry;
+  const lacksBox = patches.some((patch) => patch.box === undefined);
+  if (!lacksBox || (patches.length > 1 && geometry.coordType !== "Float32")) return undefined;
+  return { ...geometry, patches: patches.map((patch) => (patch.box ? patch : { ...patch, box })) };
 }
 
 /** The element, or the one that its USE names; undefined where there is none. */

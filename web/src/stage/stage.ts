@@ -66,6 +66,13 @@ export interface Grid {
   readonly rows: number;
 }
 
+/** How the vertices of a stage in buffers lay in images of coordinates, from which they were decoded. */
+export interface CoordImage {
+  /** Vertices in a row. */
+  readonly columns: number;
+  readonly grid: Grid | undefined;
+}
+
 /** A stage whose vertices the shader fetches from images (SIG classic). */
 export interface TextureStage extends StageHead {
   readonly kind: "textures";
@@ -150,6 +157,8 @@ export interface BufferStage extends StageHead {
   readonly vertexCount: number;
   readonly index: GpuIndex | undefined;
   readonly coord: GpuVertices;
+  /** Undefined: the vertices have not been in images. */
+  readonly coordImage?: CoordImage | undefined;
   readonly attributes: ByVertexRole<GpuVertices>;
   /** Normals of two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normalFormat: NormalFormat;

@@ -34,7 +34,12 @@ export interface PickResources {
 export interface PickDrawOptions {
   readonly buffers: BufferProvider;
   /** Bounds of the vertices, and what operators map them to, in stored coordinates. */
-  readonly operation: { readonly bounds: Sphere; pointOf(stored: Vector3): Vector3 };
+  readonly operation: {
+    readonly bounds: Sphere;
+    /** What is drawn instead of the coordinates in the buffers, x, y and z of each vertex. */
+    readonly blurred?: { readonly points: Float32Array<ArrayBuffer> } | undefined;
+    pointOf(stored: Vector3): Vector3;
+  };
   /** Transforms stored coordinates into those of the shape. */
   readonly shapeFromStored: Matrix4;
   acquireResources(): PickResources;
@@ -105,14 +110,15 @@ export class PickDraw {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;
     const { first, count } = this.range;
-    const { buffers } = this.#options;
+    const { buffers, operation } = this.#options;
     if (this.#contents?.version !== coord.bytes.version) this.#contents = undefined;
+    const { blurred } = operation;
     this.#contents ??= {
       version: coord.bytes.version,
       index: index && (buffers.read(index.bytes, index.type, first, count) as IndexArray),
-      coord: buffers.read(coord.bytes, coord.type, 0),
-      coordStride: coord.stride,
-      coordOffset: coord.offset,
+      coord: blurred ? blurred.points : buffers.read(coord.bytes, coord.type, 0),
+      coordStride: blurred ? 3 : coord.stride,
+      coordOffset: blurred ? 0 : coord.offset,
     };
     return this.#contents;
   }

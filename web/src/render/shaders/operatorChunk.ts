@@ -3,7 +3,7 @@
 import type { IUniform } from "three";
 import type { Vec3 } from "../../document/description.ts";
 import type { Operator } from "../../document/operators.ts";
-import { isOdd, maxOperators } from "../../document/operators.ts";
+import { blurRadiusOf, isOdd, maxOperators } from "../../document/operators.ts";
 import type { OperatorFrame } from "../../document/operatorFrame.ts";
 
 export interface OperatorUniforms extends Record<string, IUniform> {
@@ -12,14 +12,18 @@ export interface OperatorUniforms extends Record<string, IUniform> {
   operators: IUniform<readonly number[]>;
   operatorMin: IUniform<Vec3>;
   operatorSize: IUniform<Vec3>;
+  /** In texels; 0: images are not filtered. */
+  blurRadius: IUniform<number>;
 }
 
 const kinds = ["affine", "power", "fold", "clamp", "steps", "permute"] as const satisfies Operator["kind"][];
 
-export function operatorUniformsOf(operators: readonly Operator[], { min, size }: OperatorFrame): OperatorUniforms {
+export function operatorUniformsOf(list: readonly Operator[], { min, size }: OperatorFrame): OperatorUniforms {
+  const operators = list.flatMap(({ kind, ...vectors }) => (kind === "blur" ? [] : [{ kind, ...vectors }]));
   const numbers = operators.flatMap(({ kind, a, b }) => [...a, kinds.indexOf(kind), ...b, isOdd(a) ? -1 : 1]);
   return {
     operatorCount: { value: operators.length },
+    blurRadius: { value: blurRadiusOf(list) },
     operators: { value: Array.from({ length: 8 * maxOperators }, (_, n) => numbers[n] ?? 0) },
     operatorMin: { value: min },
     operatorSize: { value: size },

@@ -15,7 +15,13 @@ import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 import { operatorChunk } from "./operatorChunk.ts";
 import { replaceChunks } from "./replaceChunks.ts";
-import { glslFirstTexelOf, imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
+import {
+  blurredDefine,
+  glslFirstTexelOf,
+  imageNormalsDefine,
+  imageVerticesDefine,
+  srgbColorsDefine,
+} from "./vertexFormat.ts";
 
 // three.js defines FLAT_SHADED if a geometry has no normal attribute, even if an image has normals.
 const imageNormalsChunk = /* glsl */ `
@@ -113,6 +119,8 @@ uniform bool isStrip;
 uniform int lineCount;
 uniform bool areTexCoordsBytes;
 uniform bool colorHasAlpha;
+uniform float blurRadius;
+uniform int recordCount;
 
 #ifdef GRID
 
@@ -177,7 +185,7 @@ int recordTexelIndex(int record) {
   return hasIndex ? record : texelIndex(coordImage0, record);
 }
 
-vec3 storedPosition(int record) {
+vec3 texelPosition(int record) {
   int n = recordTexelIndex(record);
   uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
   if (coordPlaneCount > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
@@ -192,7 +200,27 @@ vec3 storedPosition(int record) {
   #endif
 }
 
-#ifdef GRID_NORMALS
+// After the operator blur, as decode/classic/blur.ts filters it.
+vec3 storedPosition(int record) {
+  if (blurRadius <= 0.0) return texelPosition(record);
+  int columns = gridSize.x > 0 ? gridSize.x : hasIndex ? textureSize(coordImage0, 0).x : implicitWidth;
+  ivec2 at = ivec2(record % columns, record / columns);
+  int rows = recordCount / columns;
+  int inRow = at.y < rows ? columns : recordCount % columns;
+  int reach = int(ceil(blurRadius));
+  int across = isGridClosed ? reach : min(reach, min(at.x, inRow - 1 - at.x));
+  int down = at.y < rows ? min(reach, min(at.y, rows - 1 - at.y)) : 0;
+  vec4 sum = vec4(0.0);
+  for (int y = -down; y <= down; ++y)
+    for (int x = -across; x <= across; ++x) {
+      float weight = exp(-2.0 * float(x * x + y * y) / (blurRadius * blurRadius));
+      int neighbour = (at.y + y) * columns + (at.x + x + 4 * columns) % columns;
+      sum += weight * vec4(texelPosition(neighbour), 1.0);
+    }
+  return sum.xyz / sum.w;
+}
+
+#ifdef GRID
 
 // The normal from differences between the neighbours on both sides; at a border, the vertex itself is
 // one of them. Divided by the step because the caller multiplies by it.
@@ -222,6 +250,9 @@ vec2 wordsOf(vec4 texel) {
 }
 
 vec3 readNormal(int record) {
+  #ifdef GRID
+    if (blurRadius > 0.0) return gridNormal(record);
+  #endif
   #ifdef GRID_NORMALS
     return gridNormal(record);
   #elif defined(NORMAL_WORD_TEXELS)
@@ -275,6 +306,18 @@ vec3 unitNormal(vec3 normal) {
   #endif
 }
 
+#ifdef ${blurredDefine}
+
+// Coordinates and, of grids, normals after the operator blur, in as many rows each (stages/blurredVertices.ts).
+uniform sampler2D blurredImage;
+
+vec3 blurredAt(int part) {
+  ivec2 size = textureSize(blurredImage, 0);
+  return texelFetch(blurredImage, ivec2(gl_VertexID % size.x, gl_VertexID / size.x + part * (size.y / 2)), 0).xyz;
+}
+
+#endif
+
 #if defined(USE_COLOR_ALPHA)
   #define STORED_COLOR(color) color
 #elif defined(USE_COLOR)
@@ -298,8 +341,15 @@ Vertex vertexAt(int end) {
     if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd),
       ${texCoordRoles.map((role) => `END_${role}`).join(", ")});
   #endif
-  return Vertex(position, unitNormal(normal), STORED_COLOR(color),
+  Vertex vertex = Vertex(position, unitNormal(normal), STORED_COLOR(color),
     ${texCoordRoles.map((role) => `BUFFER_${role}`).join(", ")});
+  #ifdef ${blurredDefine}
+    vertex.position = blurredAt(0);
+    #ifdef BLURRED_NORMALS
+      vertex.normal = blurredAt(1);
+    #endif
+  #endif
+  return vertex;
 }
 
 #endif

@@ -62,6 +62,8 @@ export interface ImageVertexUniforms extends VertexUniforms, Record<`${VertexRol
   lineCount: IUniform<number>;
   areTexCoordsBytes: IUniform<boolean>;
   colorHasAlpha: IUniform<boolean>;
+  /** Records of the patch. */
+  recordCount: IUniform<number>;
 }
 
 /** Samplers in vertex shaders beside those of attributes: the index, coordinates (4), values (3), instance records. */
@@ -75,6 +77,8 @@ export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
 /** Defined in materials that light in linear space: vertex colours are sRGB. */
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
+/** Defined in materials that read vertices of buffers after the operator blur (stages/blurredVertices.ts). */
+export const blurredDefine = "BLURRED";
 
 /** How the vertices of a draw are read. */
 export interface VertexFormat {
@@ -106,6 +110,11 @@ export function vertexDefinesOf(
     ...gridDefines,
     ...(readsNormals && normalDefines),
   };
+}
+
+/** The #defines for the vertices of a grid, or of no grid, in buffers after the operator blur. */
+export function blurredDefinesOf(grid: Grid | undefined): Record<string, string> {
+  return { [blurredDefine]: "", ...(grid && { BLURRED_NORMALS: "" }) };
 }
 
 /** The GLSL expression for the first texel of an image. */

@@ -16,6 +16,7 @@ import type {
 } from "../../document/description.ts";
 import type { Orientation } from "../../document/operators.ts";
 import { orientationOf } from "../../document/operators.ts";
+import { operatedBounds } from "../../scene/operatorFrame.ts";
 import { isCubeMapRole } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { surfaceAsPoints } from "../points/surfaceAsPoints.ts";
@@ -29,6 +30,7 @@ import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SurfaceTexture, SurfaceTextureRole } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";
+import { hasBlurredBuffers } from "../stages/stageOperation.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
 import { withWideLines } from "../lines/wideLines.ts";
@@ -58,6 +60,8 @@ interface DisplayedPatch {
   readonly drawMode: DrawMode;
   /** What operators have done to its faces. */
   readonly orientation: Orientation;
+  /** As hasBlurredBuffers says. */
+  readonly isBlurred: boolean;
   readonly draws: PatchDraws;
 }
 
@@ -111,9 +115,11 @@ export class ShapeObject {
     return this.#groups.size > 0;
   }
 
-  /** Bounds of patches for which the document gives none. */
+  /** Bounds of what is drawn of patches for which the document gives none. */
   *bounds(): Generator<Bounds> {
-    for (const { stage } of this.#patches.values()) if (stage.bounds) yield stage.bounds;
+    const { operators = [] } = this.#appearance;
+    for (const { geometry, stage } of this.#patches.values())
+      if (stage.bounds) yield operatedBounds(operators, geometry, stage.bounds);
   }
 
   /** Whether any instance is visible. */
@@ -239,7 +245,8 @@ export class ShapeObject {
         patch !== undefined &&
         this.#drawnOf(displayed.stage, patch) === displayed.drawn &&
         this.#drawModeOf(displayed.stage) === displayed.drawMode &&
-        orientationOf(this.#appearance.operators ?? []) === displayed.orientation;
+        orientationOf(this.#appearance.operators ?? []) === displayed.orientation &&
+        hasBlurredBuffers(displayed.stage, this.#appearance) === displayed.isBlurred;
       if (isSame)
         displayed.draws.applyAppearance(
           withStreamedRange(this.#appearance, displayed.geometry),
@@ -278,7 +285,8 @@ export class ShapeObject {
       surfaceTextures: new Map(this.#surfaceTextures),
     };
     const orientation = orientationOf(this.#appearance.operators ?? []);
-    const displayed = { geometry, stage, drawn, drawMode, orientation };
+    const isBlurred = hasBlurredBuffers(stage, this.#appearance);
+    const displayed = { geometry, stage, drawn, drawMode, orientation, isBlurred };
     const isSame = before?.drawMode === drawMode && before.orientation === orientation && before.drawn !== drawn;
     if (isSame && before.draws.replaceStage?.(drawn, patchContext) === true)
       return { ...displayed, draws: before.draws };

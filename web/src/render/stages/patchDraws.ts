@@ -54,10 +54,9 @@ interface DrawnStage {
 }
 
 function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
-  const { geometry, patch, appearance } = context;
+  const { geometry, patch, appearance, buffers } = context;
   const bounds = boundsOf(geometry, patch, stage);
-  const operation = new StageOperation(geometry, patch, stage, bounds);
-  operation.follow(appearance);
+  const operation = new StageOperation(geometry, patch, stage, bounds, appearance, buffers);
   return { stage, context, bounds, operation, shapeFromStored: shapeFromStoredOf(geometry, patch) };
 }
 
@@ -65,7 +64,7 @@ function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
 export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
   const { materialFactory, buffers, geometries } = context;
   let drawn = drawnStageOf(stage, context);
-  const uniforms = uniformsOf(stage, context);
+  const uniforms = uniformsOf(stage, context, blurredUniformsOf(drawn));
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
   const pickOf = (range: DrawRange, bufferGeometry: BufferGeometry, side: Side) => {
     const { operation, shapeFromStored, stage } = drawn;
@@ -75,7 +74,15 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       shapeFromStored,
       acquireResources: () => ({
         geometry: bufferGeometry,
-        request: pickRequestOf(stage, range, side, uniforms.of(range), displayed.appearance, displayed.surfaceTextures),
+        request: pickRequestOf(
+          stage,
+          range,
+          side,
+          uniforms.of(range),
+          displayed.appearance,
+          displayed.surfaceTextures,
+          operation.blurred !== undefined,
+        ),
         release: () => undefined,
       }),
     });
@@ -145,10 +152,14 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     },
     replaceStage(stage, context) {
       const next = drawnStageOf(stage, context);
-      if (layoutOf(next) !== layoutOf(drawn) || !geometries.replace(drawn.stage, stage)) return false;
+      if (layoutOf(next) !== layoutOf(drawn) || !geometries.replace(drawn.stage, stage)) {
+        next.operation.dispose();
+        return false;
+      }
+      drawn.operation.dispose();
       drawn = next;
       displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
-      const nextUniforms = uniformsOf(stage, context);
+      const nextUniforms = uniformsOf(stage, context, blurredUniformsOf(next));
       for (const draw of draws) {
         setBounds(draw.bufferGeometry, next);
         const own = draw.request.uniforms as Record<string, IUniform | undefined>;
@@ -172,17 +183,25 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         for (const material of materials.all) material.dispose();
         pick.dispose();
       }
+      drawn.operation.dispose();
       geometries.release(drawn.stage);
     },
   };
 }
 
 function requestOf<Uniforms extends Partial<VertexUniforms>>(
-  { stage, context: { geometry, appearance, shared } }: DrawnStage,
+  { stage, context: { geometry, appearance, shared }, operation: { blurred } }: DrawnStage,
   range: DrawRange,
   uniforms: Uniforms,
 ) {
-  return { ...materialRequestOf(stage, range, geometry, uniforms, shared), ...facesOf(geometry, appearance) };
+  return {
+    ...materialRequestOf(stage, range, geometry, uniforms, shared, false, blurred !== undefined),
+    ...facesOf(geometry, appearance),
+  };
+}
+
+function blurredUniformsOf({ operation: { blurred } }: DrawnStage): Record<string, IUniform> {
+  return blurred ? { blurredImage: { value: blurred.texture } } : {};
 }
 
 function setBounds(geometry: BufferGeometry, { bounds: { box, sphere } }: DrawnStage): void {

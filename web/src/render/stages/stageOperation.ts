@@ -4,11 +4,13 @@ import type { Object3D } from "three";
 import { Box3, Sphere, Vector3 } from "three";
 import type { AppearanceDescription, GeometryDescription, PatchDescription } from "../../document/description.ts";
 import type { Operator } from "../../document/operators.ts";
-import { orientationOf } from "../../document/operators.ts";
+import { blurRadiusOf, orientationOf } from "../../document/operators.ts";
 import type { OperatorFrame } from "../../document/operatorFrame.ts";
 import { operatedBoxInFrame, operatedInFrame } from "../../document/operatorFrame.ts";
 import { operatorFrameOf } from "../../scene/operatorFrame.ts";
-import type { Stage } from "../../stage/stage.ts";
+import type { BufferStage, CoordImage, Stage } from "../../stage/stage.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import { BlurredVertices } from "./blurredVertices.ts";
 import type { MaterialRequest } from "../materials/materialFactory.ts";
 
 /** Bounds of vertices as they are stored. */
@@ -19,14 +21,26 @@ interface StoredBounds {
 
 export class StageOperation {
   readonly frame: OperatorFrame;
+  /** Where the shader cannot filter the vertices itself. */
+  readonly blurred: BlurredVertices | undefined;
   readonly #stored: StoredBounds;
   #operators: readonly Operator[] = [];
   #sphere: Sphere;
 
-  constructor(geometry: GeometryDescription, patch: PatchDescription, stage: Stage, stored: StoredBounds) {
+  constructor(
+    geometry: GeometryDescription,
+    patch: PatchDescription,
+    stage: Stage,
+    stored: StoredBounds,
+    appearance: AppearanceDescription,
+    buffers: BufferProvider,
+  ) {
+    if (hasBlurredBuffers(stage, appearance))
+      this.blurred = new BlurredVertices(stage, stage.coordImage, geometry, patch, buffers);
     this.frame = operatorFrameOf(geometry, patch, stage.bounds);
     this.#stored = stored;
     this.#sphere = stored.sphere;
+    this.follow(appearance);
   }
 
   /** Bounds of the mapped vertices, in stored coordinates. */
@@ -37,6 +51,7 @@ export class StageOperation {
   follow({ operators = [] }: AppearanceDescription): void {
     if (operators === this.#operators) return;
     this.#operators = operators;
+    this.blurred?.follow(blurRadiusOf(operators));
     const { box, sphere } = this.#stored;
     this.#sphere = sphere;
     if (operators.length === 0) return;
@@ -55,11 +70,25 @@ export class StageOperation {
     Object.assign(object, { boundingSphere: this.#sphere });
   }
 
+  dispose(): void {
+    this.blurred?.dispose();
+  }
+
   /** The mapped point of a vertex, in stored coordinates. */
   pointOf(stored: Vector3): Vector3 {
     if (this.#operators.length === 0) return stored;
     return stored.set(...operatedInFrame(this.#operators, this.frame, stored.toArray()));
   }
+}
+
+/** Whether the vertices of a stage have to be filtered before the shader gets them. */
+export function hasBlurredBuffers(
+  stage: Stage,
+  { operators = [] }: AppearanceDescription,
+): stage is BufferStage & { readonly coordImage: CoordImage } {
+  // Wide lines are instances, which know no index of their vertices.
+  const isWide = stage.draws.some((draw) => draw.isWide === true);
+  return stage.kind === "buffers" && stage.coordImage !== undefined && !isWide && blurRadiusOf(operators) > 0;
 }
 
 /** Which faces of a geometry are drawn after its operators. Folded ones are visible from both sides. */

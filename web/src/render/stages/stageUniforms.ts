@@ -9,6 +9,7 @@ import type {
   AppearanceDescription,
   GeometryDescription,
   LineDescription,
+  PatchDescription,
   PointDescription,
 } from "../../document/description.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
@@ -31,9 +32,11 @@ export interface StageUniforms {
   of(range: DrawRange): VertexUniforms;
 }
 
-export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
+/** `more`: further uniforms of all draws. */
+export function uniformsOf(stage: Stage, context: PatchContext, more: Record<string, IUniform> = {}): StageUniforms {
   const { geometry, patch, shared, textures } = context;
   const common: VertexUniforms = {
+    ...more,
     ...appearanceUniformsOf(geometry, context.appearance, operatorFrameOf(geometry, patch, stage.bounds)),
     pixelRatio: shared.pixelRatio,
     viewport: shared.viewport,
@@ -41,7 +44,7 @@ export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
     ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
   };
   if (stage.kind === "buffers") return { common, of: () => common };
-  const base = imageUniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch));
+  const base = imageUniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch), patch);
   return {
     common,
     of: (range) => ({
@@ -112,11 +115,18 @@ function appearanceUniformsOf(
   };
 }
 
+/** The vertices of a patch's images: of a grid, of its draws, or as stated, otherwise all texels. */
+function recordCountOf({ index, coord: [first], grid }: TextureStage, patch: PatchDescription): number {
+  if (grid === undefined && patch.index === undefined) return patch.draws.reduce((sum, { count }) => sum + count, 0);
+  return patch.vertexCount || (first ? first.image.width * first.image.height - first.firstTexel : index ? 1 : 0);
+}
+
 function imageUniformsOf(
   stage: TextureStage,
   textures: TextureProvider,
   common: VertexUniforms,
   maxStoredValue: number,
+  patch: PatchDescription,
 ): ImageVertexUniforms {
   const { index, coord, attributes } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({
@@ -148,5 +158,6 @@ function imageUniformsOf(
     lineCount: { value: 1 },
     areTexCoordsBytes: { value: stage.texCoordBits === 8 },
     colorHasAlpha: { value: colorsOf(stage) === "rgba" },
+    recordCount: { value: recordCountOf(stage, patch) },
   };
 }

@@ -190,6 +190,7 @@ class BufferStageBuilder implements StageBuilder {
       index,
       draws,
       coord,
+      coordImage: streamed ? undefined : { columns: this.#columnsOf(available.coordHeader), grid: this.#patch.grid },
       attributes: {
         ...attributes,
         normal: streamed?.normal ?? attributes.normal ?? available.slopeNormals,
@@ -356,6 +357,12 @@ class BufferStageBuilder implements StageBuilder {
       // The file that arrived last may be the coordinates; the error is the index's.
       throw index ? asDeliveryError(error, index.url) : error;
     }
+  }
+
+  /** Vertices in a row of their images. */
+  #columnsOf(header: Pick<ImageHeader, "width"> | undefined): number {
+    const { index, grid, implicitWidth } = this.#patch;
+    return grid === undefined && index !== undefined ? (header?.width ?? 1) : implicitWidth;
   }
 
   /** Makes the normals of a live surface, where it has none, follow from its triangles. */

@@ -1,0 +1,113 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "base/testing.h"
+#include "imgeo/imgeo.h"
+#include "scene/testing.h"
+#include "transcode/export/export_site.h"
+#include "transcode/site/testing.h"
+#include "transcode/transform/transform_file.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+/// Adds the field `operators` to the geometry nodes of a site.
+void addOperators(const std::filesystem::path& site, const std::string& operators) {
+  for (const char* name : {"index.html", "scene.x3d"}) {
+    const Bytes bytes = readFile(site / name);
+    std::string text(bytes.begin(), bytes.end());
+    for (const std::string node : {"<ImageGeometry", "<BinaryGeometry"})
+      for (std::size_t at = text.find(node); at != std::string::npos; at = text.find(node, at + 1))
+        text.insert(at + node.size(), " operators='" + operators + "'");
+    writeFile(site / name, asBytes(text));
+  }
+}
+
+void expectEqual(const std::filesystem::path& site, const std::filesystem::path& input, bool isEqual = true) {
+  const VerifyReport report = verify(site, input);
+  EXPECT_EQ(report.equal, isEqual) << input << ": " << fmt::format("{}", fmt::join(report.findings, " "));
+}
+
+ErrorKind kindOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return ErrorKind::io;
+}
+
+/// A third of the lists mirror.
+const std::vector<std::string> lists{"negate(y)", "scale(0.7 0.9 0.8) swizzle(yxz) translate(0.05 -0.1 0)",
+                                     "gamma(1.3) solarize(0.8)", "posterise(9) threshold(0.1 0.9)"};
+
+TEST(TransformFile, WritesWhatAPageOfTheConvertedFileShowsWithTheSameOperators) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() / name; };
+  testing::writeMesh(path("torus.ply"), testing::torus(20, 16));
+  const Encoding encodings[] = {Encoding::classic, Encoding::compact, Encoding::bg, Encoding::classic};
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    SCOPED_TRACE(lists[i]);
+    ConvertOptions options;
+    options.encoding = encodings[i];
+    options.patchVertices = 256;
+    options.effort = 0;
+    options.force = true;
+    options.pictures = false;
+    convert(path("torus.ply"), path("site"), options);
+    addOperators(path("site"), lists[i]);
+    const bool collapses = i == 3; // points near a step may fall to either side of it
+    for (const char* format : {"out.ply", "out.obj"}) {
+      transformFile(path("torus.ply"), path(format), lists[i], false);
+      if (!collapses)
+        expectEqual(path("site"), path(format));
+    }
+    exportSite(path("site"), path("out.ply"));
+    expectEqual(path("site"), path("out.ply"));
+    expectEqual(path("site"), path("torus.ply"), false);
+    // A conversion of the page writes the mapped mesh, which has no operators any more.
+    convert(path("site") / "index.html", path("again"), options);
+    expectEqual(path("again"), path("site") / "index.html");
+    const Bytes page = readFile(path("again") / "scene.x3d");
+    EXPECT_EQ(std::string(page.begin(), page.end()).find("operators"), std::string::npos);
+  }
+}
+
+TEST(TransformFile, OfASiteAddsOperatorsToThoseOfItsNodes) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() / name; };
+  testing::writeMesh(path("torus.ply"), testing::torus(12, 10));
+  convert(path("torus.ply"), path("site"), {});
+  transformFile(path("site"), path("both.ply"), "negate(x) scale(0.5)", false);
+  addOperators(path("site"), "negate(x)");
+  transformFile(path("site"), path("second.ply"), "scale(0.5)", false);
+  EXPECT_EQ(readFile(path("both.ply")), readFile(path("second.ply")));
+}
+
+TEST(TransformFile, RefusesWithOneSentence) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() / name; };
+  testing::writeMesh(path("torus.ply"), testing::torus(12, 10));
+  convert(path("torus.ply"), path("site"), {});
+  const auto transform = [&](const char* input, const char* output, const char* operators) {
+    return kindOf([&] { transformFile(path(input), path(output), operators, false); });
+  };
+  EXPECT_EQ(transform("torus.ply", "out.fbx", "negate()"), ErrorKind::usage);
+  EXPECT_EQ(transform("torus.ply", "out.ply", "rotate(1)"), ErrorKind::usage);
+  EXPECT_EQ(transform("torus.ply", "out.ply", " "), ErrorKind::usage);
+  EXPECT_EQ(transform("torus.ply", "out.ply", "blur(1)"), ErrorKind::usage);
+  EXPECT_EQ(transform("site", "out.ply", "blur(1)"), ErrorKind::unsupported);
+  EXPECT_EQ(transform("torus.ply", "out.ply", "scale(1e6) scale(1e6)"), ErrorKind::usage);
+  EXPECT_EQ(transform("none.ply", "out.ply", "negate()"), ErrorKind::io);
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+}
+
+} // namespace
+} // namespace imgeo
