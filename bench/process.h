@@ -63,7 +63,7 @@ inline void writePrepared(const std::string& model, const std::filesystem::path&
   if (child == 0) {
     std::uint64_t bytes = 0;
     Scene scene = importInput(model, {}, bytes).scene;
-    prepareScene(scene, {}, NormalWeighting::area, model);
+    prepareScene(scene, {}, model);
     writeFile(file, exportScene(scene, format));
     _exit(0);
   }

@@ -90,7 +90,8 @@ struct ConvertOptions {
   NormalEncoding normals = NormalEncoding::rgb; ///< how normals are stored; compact replaces rgb by octahedral
   std::uint32_t normalBits = 0;   ///< bits of a stored component; 0: 8, or more in BG if that costs no bytes
   std::uint32_t texCoordBits = 0; ///< compact: 1..16; classic: 8, 16, 24; BG: 8, 16, 32; 0: 12 in compact, 16 elsewhere
-  std::uint32_t colorBits = 0;    ///< compact: 1..8; classic: 8, 16, 24; BG: 8, 16, 32; 0: 8
+  std::uint32_t colorBits = 0;    ///< compact: 1..8; classic: 8, 16, 24; BG: 8, 16, 32; 0: 8. With at
+                                  ///< most 8, colours of sources with more are rounded to 8 first
   DroppedElements dropped{};      ///< elements to leave out
   NormalWeighting normalWeighting = NormalWeighting::area; ///< for meshes without normals
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
@@ -178,6 +179,7 @@ struct ConvertReport {
   std::optional<double> texCoordError;                 ///< maximum of a texture coordinate's error, if there are any
   bool hasNormals = false;                             ///< a mesh has normals
   bool hasColors = false;                              ///< a mesh has vertex colours
+  double colorError = 0;                               ///< maximum error of a colour's channel, which is 0..1
   std::vector<AttributeReport> attributes;             ///< further attributes that were kept
   std::vector<ResampledMesh> resampled;                ///< meshes that became geometry images
   TextureReport textures;                              ///< texture images

@@ -80,7 +80,7 @@ struct SiteMesh {
   std::vector<std::array<float, 3>> normals;                       ///< unit length
   std::vector<std::array<float, 2>> texCoords;                     ///< first set
   std::vector<std::vector<std::array<float, 2>>> furtherTexCoords; ///< sets beside the first, up to 3
-  std::vector<std::array<std::uint8_t, 4>> colors;                 ///< RGBA
+  std::vector<std::array<std::uint8_t, 4>> colors;                 ///< RGBA, rounded to 8 bits
   std::vector<SiteAttribute> attributes;                           ///< further attributes
   std::vector<std::uint32_t> indices; ///< vertex indices: 3 a triangle, 2 a line, 1 a point
 };

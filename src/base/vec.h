@@ -52,6 +52,44 @@ struct Rgba8 {
   friend bool operator==(const Rgba8&, const Rgba8&) = default;
 };
 
+/// A colour of four channels, 0 .. 1, in sRGB unless stated otherwise. Sources of 8 bits a channel keep them exactly.
+struct Rgba {
+  float r = 0, g = 0, b = 0, a = 1;
+
+  constexpr Rgba() = default;
+  constexpr Rgba(float red, float green, float blue, float alpha) : r(red), g(green), b(blue), a(alpha) {}
+  constexpr Rgba(Rgba8 bytes) // not explicit: bytes are the usual form of colours
+      : r(static_cast<float>(bytes.r / 255.0)), g(static_cast<float>(bytes.g / 255.0)),
+        b(static_cast<float>(bytes.b / 255.0)), a(static_cast<float>(bytes.a / 255.0)) {}
+  friend bool operator==(const Rgba&, const Rgba&) = default;
+};
+
+/// The nearest of 0 .. 255 to a channel, which is clamped; NaN becomes 0.
+inline std::uint8_t channelByte(double channel) {
+  return channel > 0 ? static_cast<std::uint8_t>(std::lround(std::min(channel, 1.0) * 255)) : std::uint8_t{0};
+}
+
+/// A source's channel, clamped to 0 .. 1; NaN becomes 0. 0.7 is half-way between the bytes 178 and 179, but the float
+/// nearest to it is not: where that changes the byte, the next float is taken. A float stands for the decimal number
+/// that it was read from, so that its product with 255 is rounded as a float.
+template <typename Number> float channelOf(Number number) {
+  const Number fraction = number > 0 ? std::min(number, Number{1}) : 0;
+  const auto byte = static_cast<std::uint8_t>(std::lround(fraction * 255));
+  const auto nearest = static_cast<float>(fraction);
+  const std::uint8_t nearestByte = channelByte(nearest);
+  return nearestByte == byte ? nearest : std::nextafter(nearest, nearestByte < byte ? 2.0f : -1.0f);
+}
+
+/// The nearest colour of 8 bits a channel.
+inline Rgba8 asRgba8(const Rgba& color) {
+  return {channelByte(color.r), channelByte(color.g), channelByte(color.b), channelByte(color.a)};
+}
+
+/// Whether 8 bits a channel hold the colour exactly.
+inline bool isRgba8(const Rgba& color) {
+  return Rgba(asRgba8(color)) == color;
+}
+
 /// An axis-aligned box; empty until a point is added.
 struct Box3d {
   Vec3d min{+std::numeric_limits<double>::infinity(), +std::numeric_limits<double>::infinity(),

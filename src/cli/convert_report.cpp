@@ -21,11 +21,6 @@ std::string normalSourceName(const Arguments& arguments, const ConvertReport& re
   return report.normalsComputed ? arguments.text("normal-weighting") : "source";
 }
 
-/// Maximum error of a colour component of 0..255: half a step, rounded to a whole number.
-double colorErrorBound(std::uint32_t bits) {
-  return bits >= 8 ? 0 : std::floor(127.5 / ((1u << bits) - 1) + 0.5);
-}
-
 void printLine(const std::string& label, const std::string& text) {
   fmt::print("{} {}\n", bold(fmt::format("{:10}", label)), text);
 }
@@ -151,10 +146,10 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   if (report.texCoordError)
     printLine("texcoords", fmt::format("{}off by at most {:.3g}", bitsOf(report.texCoordBits), *report.texCoordError));
   if (report.hasColors)
-    printLine("colours", bitsOf(report.colorBits) +
-                             (report.colorBits >= 8
-                                  ? "as in the source"
-                                  : fmt::format("off by at most {:.0f} of 255", colorErrorBound(report.colorBits))));
+    printLine("colours",
+              bitsOf(report.colorBits) + (report.colorError == 0
+                                              ? "as in the source"
+                                              : fmt::format("off by at most {:.2g} of 255", 255 * report.colorError)));
   for (const AttributeReport& attribute : report.attributes)
     printLine("attribute",
               fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits, attribute.error));
@@ -260,7 +255,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
     json["texCoordError"] = *report.texCoordError;
   json["colorBits"] = report.colorBits;
   if (report.hasColors)
-    json["colorError"] = colorErrorBound(report.colorBits);
+    json["colorError"] = 255 * report.colorError;
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalSourceName(arguments, report);

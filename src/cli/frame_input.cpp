@@ -29,11 +29,11 @@ void append(std::vector<float>& numbers, const std::vector<Vec3f>& vectors) {
     numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
 }
 
-void appendColors(std::vector<float>& numbers, const std::vector<Rgba8>& colors, std::uint32_t components) {
-  for (const Rgba8 color : colors) {
-    const std::uint8_t channels[] = {color.r, color.g, color.b, color.a};
+void appendColors(std::vector<float>& numbers, const std::vector<Rgba>& colors, std::uint32_t components) {
+  for (const Rgba& color : colors) {
+    const float channels[] = {color.r, color.g, color.b, color.a};
     for (std::uint32_t i = 0; i < components; ++i)
-      numbers.push_back(static_cast<float>(channels[i]) / 255);
+      numbers.push_back(channels[i]);
   }
 }
 

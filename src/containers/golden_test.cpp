@@ -21,7 +21,7 @@ PatchedMesh goldenMesh() {
   mesh.colorComponents = 4;
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
     const auto byte = [&](std::size_t factor) { return static_cast<std::uint8_t>(wedge * factor); };
-    mesh.colors.push_back({byte(8), byte(5), byte(3), byte(7)});
+    mesh.colors.push_back(Rgba8{byte(8), byte(5), byte(3), byte(7)});
   }
   return testing::onePatch(mesh, 12);
 }

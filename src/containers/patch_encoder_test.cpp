@@ -124,7 +124,7 @@ Mesh richMesh(std::uint32_t seed) {
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
     mesh.colors.push_back(random.color());
     if (mesh.colorComponents == 4)
-      mesh.colors.back().a = static_cast<std::uint8_t>(random.bits());
+      mesh.colors.back().a = static_cast<float>((random.bits() & 255) / 255.0);
   }
   for (const char* name : {"heat", "flow"})
     mesh.namedAttributes.push_back(

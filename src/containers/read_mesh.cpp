@@ -113,7 +113,7 @@ Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry
   mesh.texCoordMappings = geometry.texCoordMappings;
   for (DecodedPatch& patch : patches)
     append(mesh, std::exchange(patch, {}), geometry.lattice, location);
-  const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
+  const bool isOpaque = std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; });
   mesh.colorComponents = isOpaque ? 3 : 4;
   weld(mesh);
   applyOperators(mesh, geometry.operators, operatorFrameOf(geometry, mesh), location);

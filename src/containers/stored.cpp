@@ -35,6 +35,14 @@ Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::size_t
   return {bound(box.min.x, box.size.x), bound(box.min.y, box.size.y)};
 }
 
+double colorErrorBound(const GeometryDescription& geometry, std::uint32_t bits) {
+  const bool isSig = !hasElementTypes(geometry.encoding);
+  const ElementType type = geometry.attributeTypes[VertexRole::color];
+  const bool isExact = !isSig && type == ElementType::float32;
+  const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(type);
+  return (isExact ? 0 : 0.5 / steps) + 2 * std::numeric_limits<float>::epsilon();
+}
+
 Vec3f unitNormal(Vec3d stored) {
   const double norm = length(stored);
   return norm > 0 && std::isfinite(norm) ? Vec3f(stored * (1 / norm)) : Vec3f{0, 0, 1};

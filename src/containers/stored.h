@@ -18,6 +18,9 @@ Vec2f texCoordAt(const Vec2<double>& fraction, const TexCoordBox& box);
 /// stores `bits` bits, bg the type of the description.
 Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::size_t set, std::uint32_t bits);
 
+/// The maximum error of a stored colour's channel, 0 .. 1, likewise.
+double colorErrorBound(const GeometryDescription& geometry, std::uint32_t bits);
+
 /// The unit vector of a stored normal; (0, 0, 1) for a zero vector.
 Vec3f unitNormal(Vec3d stored);
 

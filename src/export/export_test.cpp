@@ -34,7 +34,7 @@ std::vector<Corner> cornersOf(const Mesh& mesh) {
     if (!mesh.texCoords.empty())
       corner.texCoord = mesh.texCoords[wedge];
     if (!mesh.colors.empty())
-      corner.color = mesh.colors[wedge];
+      corner.color = asRgba8(mesh.colors[wedge]);
     corners.push_back(corner);
   }
   return corners;
@@ -106,7 +106,7 @@ TEST(ExportedPly, IsReadBackByOurImport) {
 
 TEST(ExportedPly, HoldsAllShapesAndAttributesThatOnlySomeHave) {
   Mesh plain = testing::grid(3), colored = testing::sphere(4, 5);
-  colored.colors.assign(colored.wedgeCount(), {1, 2, 3, 255});
+  colored.colors.assign(colored.wedgeCount(), Rgba8{1, 2, 3, 255});
   Scene scene = sceneOf({plain, colored});
   setAppearance(scene, Material{.diffuseColor{1, 0, 0.2f}});
   const Imported read = importBytes(writePly(scene), "a.ply");
@@ -157,8 +157,8 @@ TEST(ExportedObj, IsReadBackByOurImport) {
       continue;
     SCOPED_TRACE(seed);
     for (Mesh* each : {&mesh, &other}) // OBJ leaves out alpha
-      for (Rgba8& color : each->colors)
-        color.a = 255;
+      for (Rgba& color : each->colors)
+        color.a = 1;
     const Scene scene = sceneOf({mesh, other});
     const Imported read = importBytes(exportScene(scene, MeshFormat::obj), "a.obj");
     ASSERT_EQ(shapeNodes(read.scene.graph).size(), 2u);
@@ -172,7 +172,7 @@ TEST(ExportedObj, HasLinesAndPoints) {
   Mesh lines{{}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
   lines.texCoords = {{0, 0}, {1, 0.5f}};
   Mesh points{{}, "", Topology::points, {{7, 8, 9}}, {0}, {0}};
-  points.colors = {{255, 0, 51, 255}};
+  points.colors = {Rgba8{255, 0, 51, 255}};
   Scene scene = sceneOf({lines, points});
   scene.graph.nodes[1].name = "two\nlines";
   EXPECT_EQ(asText(writeObj(scene)), "o part0\nv 0 0 0\nv 1 0 0\nvt 0 0\nvt 1 0.5\nl 1/1 2/2\n"

@@ -48,14 +48,14 @@ std::size_t addTexCoords(GltfArrays& arrays, const std::vector<Vec2f>& texCoords
 }
 
 std::size_t addColors(GltfArrays& arrays, const Mesh& mesh) {
-  std::array<std::uint16_t, 256> linearOf;
-  for (std::size_t i = 0; i < 256; ++i)
-    linearOf[i] = static_cast<std::uint16_t>(std::lround(65535 * linearOfSrgb(static_cast<double>(i) / 255)));
+  const auto append = [&](double fraction) {
+    appendLittle(arrays.bytes, static_cast<std::uint16_t>(std::lround(65535 * fraction)));
+  };
   arrays.begin();
-  for (const Rgba8& color : mesh.colors) {
-    for (const std::uint8_t channel : {color.r, color.g, color.b})
-      appendLittle(arrays.bytes, linearOf[channel]);
-    appendLittle(arrays.bytes, static_cast<std::uint16_t>(257 * color.a)); // alpha is already linear
+  for (const Rgba& color : mesh.colors) {
+    for (const float channel : {color.r, color.g, color.b})
+      append(linearOfSrgb(channel));
+    append(color.a); // already linear
   }
   const std::size_t accessor = arrays.end(arrayBuffer, unsignedShort, "VEC4", mesh.wedgeCount());
   arrays.accessors.back()["normalized"] = true;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 namespace imgeo {
 
@@ -31,16 +32,17 @@ PositionLines printPositions(Text& out, const Mesh& mesh) {
       print(out, "v {} {} {}\n", p.x, p.y, p.z);
     return written;
   }
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> lines;
+  std::map<std::tuple<std::uint32_t, float, float, float>, std::uint64_t> lines;
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
-    const Rgba8 color = mesh.colors[wedge];
-    const auto channels = std::uint32_t{color.r} << 16 | std::uint32_t{color.g} << 8 | color.b;
-    const auto [line, isNew] = lines.try_emplace({mesh.wedgePositions[wedge], channels}, lines.size());
+    const Rgba& color = mesh.colors[wedge];
+    const auto [line, isNew] = lines.try_emplace({mesh.wedgePositions[wedge], color.r, color.g, color.b}, lines.size());
     written.ofWedge[wedge] = line->second;
     if (!isNew)
       continue;
     const Vec3f& p = mesh.positions[mesh.wedgePositions[wedge]];
-    print(out, "v {} {} {} {:.6g} {:.6g} {:.6g}\n", p.x, p.y, p.z, color.r / 255.0, color.g / 255.0, color.b / 255.0);
+    const int digits = isRgba8(color) ? 6 : 9; // nine are all of single precision
+    print(out, "v {} {} {} {:.{}g} {:.{}g} {:.{}g}\n", p.x, p.y, p.z, color.r, digits, color.g, digits, color.b,
+          digits);
   }
   written.count = lines.size();
   return written;

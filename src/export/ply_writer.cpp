@@ -19,6 +19,7 @@ namespace {
 /// The properties of vertices, namely all that at least one shape has, and the number of elements of each kind.
 struct PlyLayout {
   bool hasNormals = false, hasTexCoords = false, hasColors = false, hasAlpha = false;
+  bool hasByteColors = true;                             ///< 8 bits hold every colour exactly
   std::map<std::string, std::uint32_t> componentsByName; ///< number of components of each further attribute
   std::uint64_t vertexCount = 0, faceCount = 0, edgeCount = 0;
 };
@@ -35,6 +36,7 @@ PlyLayout layoutOf(const Scene& scene) {
     layout.hasNormals |= !mesh.normals.empty();
     layout.hasTexCoords |= !mesh.texCoords.empty();
     layout.hasColors |= !mesh.colors.empty();
+    layout.hasByteColors &= std::ranges::all_of(mesh.colors, isRgba8);
     layout.hasAlpha |= !mesh.colors.empty() && mesh.colorComponents == 4;
     for (const NamedAttribute& attribute : mesh.namedAttributes)
       layout.componentsByName.emplace(attribute.name, attribute.components);
@@ -60,9 +62,9 @@ std::string headerOf(const PlyLayout& layout) {
   if (layout.hasTexCoords)
     properties("float", {"s", "t"});
   if (layout.hasColors)
-    properties("uchar", {"red", "green", "blue"});
+    properties(layout.hasByteColors ? "uchar" : "float", {"red", "green", "blue"});
   if (layout.hasAlpha)
-    properties("uchar", {"alpha"});
+    properties(layout.hasByteColors ? "uchar" : "float", {"alpha"});
   for (const auto& [name, components] : layout.componentsByName)
     for (std::uint32_t c = 0; c < components; ++c)
       header +=
@@ -78,11 +80,9 @@ std::string headerOf(const PlyLayout& layout) {
   return header + "end_header\n";
 }
 
-Rgba8 diffuseColorOf(const Material& material) {
-  const auto byte = [](float value) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
-  };
-  return {byte(material.diffuseColor.x), byte(material.diffuseColor.y), byte(material.diffuseColor.z), 255};
+Rgba diffuseColorOf(const Material& material) {
+  const auto& [red, green, blue] = material.diffuseColor;
+  return asRgba8(Rgba(red, green, blue, 1));
 }
 
 /// A component of a further attribute; 0 if the mesh has no attribute of this name and number of components.
@@ -94,7 +94,7 @@ float valueOf(const Mesh& mesh, const std::string& name, std::uint32_t component
 }
 
 void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, const PlyLayout& layout) {
-  const Rgba8 defaultColor = diffuseColorOf(phongOf(appearance.material));
+  const Rgba defaultColor = diffuseColorOf(phongOf(appearance.material));
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
     const auto append = [&](Vec3f v) {
       for (int axis = 0; axis < 3; ++axis)
@@ -109,10 +109,19 @@ void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, 
       appendLittle(out, texCoord.y);
     }
     if (layout.hasColors) {
-      const Rgba8 color = mesh.colors.empty() ? defaultColor : mesh.colors[wedge];
-      out.insert(out.end(), {color.r, color.g, color.b});
+      const Rgba& color = mesh.colors.empty() ? defaultColor : mesh.colors[wedge];
+      const Rgba8 bytes = asRgba8(color);
+      const auto appendChannel = [&](std::uint8_t byte, float channel) {
+        if (layout.hasByteColors)
+          out.push_back(byte);
+        else
+          appendLittle(out, channel);
+      };
+      appendChannel(bytes.r, color.r);
+      appendChannel(bytes.g, color.g);
+      appendChannel(bytes.b, color.b);
       if (layout.hasAlpha)
-        out.push_back(color.a);
+        appendChannel(bytes.a, color.a);
     }
     for (const auto& [name, components] : layout.componentsByName)
       for (std::uint32_t c = 0; c < components; ++c)

@@ -105,7 +105,7 @@ TEST(BaseMesh, KeepsColors) {
   for (std::size_t i = 0; i < base->positions.size(); ++i) {
     const double height = base->positions[i].y - middle;
     if (std::abs(height) > 0.2 * middle) {
-      EXPECT_EQ(base->colors[i].r, height > 0 ? 255 : 0);
+      EXPECT_EQ(base->colors[i].r, height > 0 ? 1 : 0);
     }
   }
 }

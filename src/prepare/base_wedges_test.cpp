@@ -65,7 +65,7 @@ TEST(BaseWedges, SplitPositionsOnlyAtTextureSeams) {
   EXPECT_LT(splitPositionCount, seamed.base.positions.size() / 3) << "the seams are two lines";
   mesh.texCoords.clear();
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
-    mesh.colors.push_back({static_cast<std::uint8_t>(wedge % 251), 0, 0, 255});
+    mesh.colors.push_back(Rgba8{static_cast<std::uint8_t>(wedge % 251), 0, 0, 255});
   const MeshWithBase colored = withBase(mesh, 65535);
   EXPECT_EQ(colored.base.wedgePositions.size(), colored.base.positions.size());
   EXPECT_EQ(colored.base.colors.size(), colored.base.positions.size());

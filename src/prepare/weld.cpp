@@ -20,18 +20,21 @@ std::uint32_t keyOf(float value) {
 std::uint64_t keyOf(Vec2f v) {
   return std::uint64_t{keyOf(v.x)} << 32 | keyOf(v.y);
 }
-std::uint32_t keyOf(Rgba8 c) {
-  return std::bit_cast<std::uint32_t>(c);
-}
 
 bool haveSameBits(const Vec3f& a, const Vec3f& b) {
   return keyOf(a.x) == keyOf(b.x) && keyOf(a.y) == keyOf(b.y) && keyOf(a.z) == keyOf(b.z);
+}
+bool haveSameBits(const Rgba& a, const Rgba& b) {
+  return keyOf(a.r) == keyOf(b.r) && keyOf(a.g) == keyOf(b.g) && keyOf(a.b) == keyOf(b.b) && keyOf(a.a) == keyOf(b.a);
 }
 template <typename Value> bool haveSameBits(const Value& a, const Value& b) {
   return keyOf(a) == keyOf(b);
 }
 std::uint64_t hashOf(std::uint64_t seed, const Vec3f& v) {
   return mixHash(mixHash(seed, keyOf(Vec2f{v.x, v.y})), keyOf(v.z));
+}
+std::uint64_t hashOf(std::uint64_t seed, const Rgba& c) {
+  return mixHash(mixHash(seed, keyOf(Vec2f{c.r, c.g})), keyOf(Vec2f{c.b, c.a}));
 }
 template <typename Value> std::uint64_t hashOf(std::uint64_t seed, const Value& value) {
   return mixHash(seed, keyOf(value));

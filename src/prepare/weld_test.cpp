@@ -17,7 +17,7 @@ auto valueOf(const Mesh& mesh, std::size_t corner) {
   const Vec3f p = mesh.cornerPosition(corner) + Vec3f{}; // -0 becomes 0
   const Vec3f n = (mesh.normals.empty() ? Vec3f{} : mesh.normals[wedge]) + Vec3f{};
   const Vec2f t = mesh.texCoords.empty() ? Vec2f{} : mesh.texCoords[wedge];
-  const Rgba8 c = mesh.colors.empty() ? Rgba8{} : mesh.colors[wedge];
+  const Rgba c = mesh.colors.empty() ? Rgba{} : mesh.colors[wedge];
   std::vector<float> named;
   for (const NamedAttribute& attribute : mesh.namedAttributes)
     for (std::uint32_t i = 0; i < attribute.components; ++i)

@@ -322,7 +322,7 @@ inline Mesh randomMesh(std::uint32_t seed) {
     if (colors) {
       mesh.colors.push_back(random.color());
       if (mesh.colorComponents == 4)
-        mesh.colors.back().a = static_cast<std::uint8_t>(random.below(256));
+        mesh.colors.back().a = static_cast<float>(random.below(256) / 255.0);
     }
   }
   for (std::uint32_t number = random.oneIn(3) ? 1 + random.below(3) : 0; number > 0; --number)

@@ -61,8 +61,8 @@ struct VertexAttributes {
   std::vector<Vec2f> texCoords1, texCoords2, texCoords3;
   /// The names of the sets of texture coordinates, by which textures choose theirs; may be empty if there is one set.
   std::vector<std::string> texCoordMappings;
-  std::vector<Rgba8> colors;
-  std::uint32_t colorComponents = 3;           ///< 3: every alpha is 255; 4: with alpha
+  std::vector<Rgba> colors;
+  std::uint32_t colorComponents = 3;           ///< 3: every alpha is 1; 4: with alpha
   std::vector<NamedAttribute> namedAttributes; ///< with unique names
 };
 
@@ -99,8 +99,8 @@ inline constexpr std::tuple vertexAttributeTable{
                               "TEXCOORD_3",
                               &VertexAttributes::texCoords3,
                               {0, 0}},
-    VertexAttributeRow<Rgba8>{
-        VertexRole::color, "color", "colours", "COLOR_0", &VertexAttributes::colors, {255, 255, 255, 255}},
+    VertexAttributeRow<Rgba>{VertexRole::color, "color", "colours", "COLOR_0", &VertexAttributes::colors,
+                             Rgba(1, 1, 1, 1)},
 };
 static_assert(std::tuple_size_v<decltype(vertexAttributeTable)> == vertexRoles.size());
 

@@ -8,7 +8,7 @@ namespace {
 TEST(VertexAttributes, AreGatheredByVertex) {
   VertexAttributes attributes;
   attributes.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  attributes.colors = {{1, 0, 0, 9}, {2, 0, 0, 9}, {3, 0, 0, 9}};
+  attributes.colors = {Rgba8{1, 0, 0, 9}, Rgba8{2, 0, 0, 9}, Rgba8{3, 0, 0, 9}};
   attributes.colorComponents = 4;
   attributes.namedAttributes = {{"heat", 1, {10, 20, 30}}, {"flow", 2, {1, 2, 3, 4, 5, 6}}};
   const VertexAttributes gathered = gather(attributes, std::vector<std::uint32_t>{2, 0, 2, 2});
@@ -37,7 +37,7 @@ TEST(VertexAttributes, AreFilledWithDefaultsWhereOneSideLacksThem) {
 TEST(VertexAttributes, AreVisitedInTheOrderOfTheirRoles) {
   VertexAttributes attributes, others;
   attributes.texCoords = {{1, 2}};
-  others.colors = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+  others.colors = {Rgba8{1, 2, 3, 4}, Rgba8{5, 6, 7, 8}};
   std::vector<std::string> visited;
   visitAttributes(attributes, others, [&](const auto& row, const auto& values, const auto& otherValues) {
     EXPECT_EQ(row.role, vertexRoles[visited.size()]);

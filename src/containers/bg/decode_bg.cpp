@@ -148,14 +148,14 @@ std::vector<Vec2f> decodeTexCoords(const Records& records, std::uint32_t count, 
   return texCoords;
 }
 
-std::vector<Rgba8> decodeColors(const Records& records, std::uint32_t count, std::uint32_t components) {
-  const auto byte = [&](std::uint32_t n, std::uint32_t component) {
+std::vector<Rgba> decodeColors(const Records& records, std::uint32_t count, std::uint32_t components) {
+  const auto channel = [&](std::uint32_t n, std::uint32_t component) {
     const double fraction = records.realAt(n, component);
-    return static_cast<std::uint8_t>(std::lround(255 * (fraction >= 0 ? std::min(fraction, 1.0) : 0)));
+    return static_cast<float>(fraction >= 0 ? std::min(fraction, 1.0) : 0); // NaN becomes 0
   };
-  std::vector<Rgba8> colors;
+  std::vector<Rgba> colors;
   for (std::uint32_t n = 0; n < count; ++n)
-    colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2), components == 4 ? byte(n, 3) : std::uint8_t{255}});
+    colors.emplace_back(channel(n, 0), channel(n, 1), channel(n, 2), components == 4 ? channel(n, 3) : 1);
   return colors;
 }
 

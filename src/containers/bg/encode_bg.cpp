@@ -125,9 +125,9 @@ Column colorColumn(const IndexedPatch& patch, const GeometryDescription& geometr
   const ElementType type = geometry.attributeTypes[VertexRole::color];
   Column column{Role::color, {}, 4 * byteSizeOf(type), geometry.colorComponents == 3};
   column.bytes.reserve(patch.vertexCount() * column.recordBytes);
-  for (const Rgba8& color : patch.colors)
-    for (const std::uint8_t channel : {color.r, color.g, color.b, color.a})
-      appendFraction(column.bytes, type, channel / 255.0);
+  for (const Rgba& color : patch.colors)
+    for (const float channel : {color.r, color.g, color.b, color.a})
+      appendFraction(column.bytes, type, channel);
   return column;
 }
 

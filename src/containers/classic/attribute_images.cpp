@@ -140,9 +140,9 @@ std::vector<Image> texCoordImages(const std::vector<Vec2f>& texCoords, const Tex
 std::vector<Image> colorImages(const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize records) {
   const std::uint32_t bits = geometry.imageBits[VertexRole::color];
   return byteImages(patch.vertexCount(), geometry.colorComponents, bits, records, [&](std::size_t n, std::uint32_t c) {
-    const Rgba8& color = patch.colors[n];
-    const std::uint8_t channels[] = {color.r, color.g, color.b, color.a};
-    return storeFraction(channels[c] / 255.0, bits);
+    const Rgba& color = patch.colors[n];
+    const float channels[] = {color.r, color.g, color.b, color.a};
+    return storeFraction(channels[c], bits);
   });
 }
 

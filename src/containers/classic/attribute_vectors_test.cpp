@@ -54,8 +54,10 @@ Json caseOf(VertexRole role, NormalEncoding normals, std::uint32_t bits, std::ui
       values.push_back({patch.normals[n].x, patch.normals[n].y, patch.normals[n].z});
     else if (role == VertexRole::texCoord)
       values.push_back({patch.texCoords[n].x, patch.texCoords[n].y});
-    else
-      values.push_back({patch.colors[n].r / 255.0, patch.colors[n].g / 255.0, patch.colors[n].b / 255.0});
+    else {
+      const Rgba8 color = asRgba8(patch.colors[n]);
+      values.push_back({color.r / 255.0, color.g / 255.0, color.b / 255.0});
+    }
   Json images = Json::array();
   for (const Image& image : attributeImages(role, patch, geometry, {recordCount, 1}))
     images.push_back(texelsOf(image));

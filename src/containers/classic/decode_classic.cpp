@@ -12,7 +12,6 @@
 #include "containers/stored_coords.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace imgeo {
 
@@ -162,17 +161,15 @@ std::vector<Vec2f> decodeTexCoords(const std::vector<Texels>& planes, std::uint3
   return texCoords;
 }
 
-std::vector<Rgba8> decodeColors(const std::vector<Texels>& planes, std::uint32_t count,
-                                const GeometryDescription& geometry) {
+std::vector<Rgba> decodeColors(const std::vector<Texels>& planes, std::uint32_t count,
+                               const GeometryDescription& geometry) {
   const double largest = (1u << geometry.imageBits[VertexRole::color]) - 1;
   const bool hasAlpha = geometry.colorComponents == 4;
-  std::vector<Rgba8> colors;
+  std::vector<Rgba> colors;
   colors.reserve(count);
   for (std::uint32_t n = 0; n < count; ++n) {
-    const auto channel = [&](std::uint32_t c) {
-      return static_cast<std::uint8_t>(std::lround(255 * numberAt(planes, n, c) / largest));
-    };
-    colors.push_back({channel(0), channel(1), channel(2), hasAlpha ? channel(3) : std::uint8_t{255}});
+    const auto channel = [&](std::uint32_t c) { return static_cast<float>(numberAt(planes, n, c) / largest); };
+    colors.emplace_back(channel(0), channel(1), channel(2), hasAlpha ? channel(3) : 1);
   }
   return colors;
 }

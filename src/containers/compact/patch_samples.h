@@ -144,7 +144,7 @@ inline std::vector<Sample> samples() {
     for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
       mesh.colors.push_back(random.color());
       if (components == 4)
-        mesh.colors.back().a = static_cast<std::uint8_t>(random.bits());
+        mesh.colors.back().a = static_cast<float>((random.bits() & 255) / 255.0);
     }
     return mesh;
   };

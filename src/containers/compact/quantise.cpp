@@ -127,13 +127,12 @@ Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const TexCoordB
   return attribute;
 }
 
-Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits) {
+Attribute colorAttribute(const std::vector<Rgba>& colors, std::uint32_t components, std::uint32_t bits) {
   Attribute attribute{typeOf(AttributeKind::color, components, bits), {}};
-  for (const Rgba8& color : colors) {
-    Value value{{quantiseFraction(color.r / 255.0, bits), quantiseFraction(color.g / 255.0, bits),
-                 quantiseFraction(color.b / 255.0, bits)}};
+  for (const Rgba& color : colors) {
+    Value value{{quantiseFraction(color.r, bits), quantiseFraction(color.g, bits), quantiseFraction(color.b, bits)}};
     if (components == 4)
-      value[3] = quantiseFraction(color.a / 255.0, bits);
+      value[3] = quantiseFraction(color.a, bits);
     attribute.values.push_back(value);
   }
   return attribute;
@@ -190,10 +189,8 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
         break;
       }
       case AttributeKind::color: {
-        const auto at = [&](std::uint32_t i) {
-          return static_cast<std::uint8_t>(fractionOf(attribute, wedge, i) * 255 + 0.5);
-        };
-        vertices.colors.push_back({at(0), at(1), at(2), attribute.type.components == 4 ? at(3) : std::uint8_t{255}});
+        const auto at = [&](std::uint32_t i) { return static_cast<float>(fractionOf(attribute, wedge, i)); };
+        vertices.colors.emplace_back(at(0), at(1), at(2), attribute.type.components == 4 ? at(3) : 1);
         break;
       }
       case AttributeKind::other:

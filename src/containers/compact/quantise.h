@@ -20,7 +20,7 @@ CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const At
 
 /// Quantised attributes with one value for each wedge.
 Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const TexCoordBox& box, std::uint32_t bits);
-Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
+Attribute colorAttribute(const std::vector<Rgba>& colors, std::uint32_t components, std::uint32_t bits);
 
 /// Values are rounded to 2^bits values over the range of the description; `bits` is 1 .. 8 * description.bytes.
 Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description, std::uint32_t bits);

@@ -252,7 +252,7 @@ private:
       }
       corner = index;
     }
-    const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
+    const bool isOpaque = std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; });
     mesh.colorComponents = isOpaque ? 3 : 4;
     if (texCoordSets.size() > 1) // a single set serves all textures
       for (const unsigned set : texCoordSets)
@@ -274,10 +274,7 @@ private:
     }
     if (source.HasVertexColors(0)) {
       const aiColor4D& color = source.mColors[0][vertex];
-      const auto byte = [](float value) {
-        return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255)) : std::uint8_t{0};
-      };
-      mesh.colors.push_back({byte(color.r), byte(color.g), byte(color.b), byte(color.a)});
+      mesh.colors.emplace_back(channelOf(color.r), channelOf(color.g), channelOf(color.b), channelOf(color.a));
     }
   }
 

@@ -57,10 +57,6 @@ std::vector<std::uint32_t> separated(std::uint64_t mode, const std::vector<std::
   }
 }
 
-std::uint8_t byteOf(double value) {
-  return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0) * 255)) : std::uint8_t{0};
-}
-
 } // namespace
 
 const PrimitiveData::Attribute* PrimitiveData::find(const std::string& name) const {
@@ -184,12 +180,12 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
       omissions.unusableNormals += !makeUnit(mesh.normals.back());
     }
     if (colors) { // linear in glTF
-      const auto channel = [&](std::uint32_t c) { return byteOf(srgbOfLinear(colors->number(vertex, c))); };
-      const std::uint8_t alpha = colors->components == 4 ? byteOf(colors->number(vertex, 3)) : std::uint8_t{255};
-      mesh.colors.push_back({channel(0), channel(1), channel(2), alpha});
+      const auto channel = [&](std::uint32_t c) { return channelOf(srgbOfLinear(colors->number(vertex, c))); };
+      const float alpha = colors->components == 4 ? channelOf(colors->number(vertex, 3)) : 1;
+      mesh.colors.emplace_back(channel(0), channel(1), channel(2), alpha);
     }
   }
-  const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
+  const bool isOpaque = std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; });
   mesh.colorComponents = isOpaque ? 3 : 4;
 }
 

@@ -66,7 +66,7 @@ TEST(GltfPrimitive, ReadsEveryTypeOfNumber) {
   EXPECT_EQ(mesh.normals[0], (Vec3f{-1, 0, 0}));
   EXPECT_EQ(mesh.texCoords[2], (Vec2f{0, 0})); // v is measured up
   EXPECT_EQ(mesh.texCoords[1], (Vec2f{1, 1}));
-  EXPECT_EQ(mesh.colors[1], (Rgba8{0, 255, 0, 51}));
+  EXPECT_EQ(asRgba8(mesh.colors[1]), (Rgba8{0, 255, 0, 51}));
   EXPECT_EQ(mesh.colorComponents, 4u);
 }
 
@@ -122,8 +122,8 @@ TEST(GltfPrimitive, ConvertsLinearColoursToSrgb) {
   const std::size_t colors = gltf.addAccessor<float>({0.2140f, 1, 0, 7, -1, 0.5f, 0, 0, 0}, "VEC3", 5126);
   gltf.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
   const Mesh mesh = onlyMeshOf(gltf.show(0));
-  EXPECT_EQ(mesh.colors[0], (Rgba8{127, 255, 0, 255}));
-  EXPECT_EQ(mesh.colors[1], (Rgba8{255, 0, 188, 255}));
+  EXPECT_EQ(asRgba8(mesh.colors[0]), (Rgba8{127, 255, 0, 255}));
+  EXPECT_EQ(asRgba8(mesh.colors[1]), (Rgba8{255, 0, 188, 255}));
   EXPECT_EQ(mesh.colorComponents, 3u);
 }
 

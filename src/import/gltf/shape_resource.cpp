@@ -258,13 +258,10 @@ void readStored(Mesh& mesh, bool isUpsideDown, const Value& location) {
   if (const auto colors = taken(mesh, storedColor)) {
     if (colors->components != 3 && colors->components != 4)
       location.fail(ErrorKind::malformed, "has colors of the wrong number of components");
-    const auto byte = [](float value) {
-      return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.f, 1.f) * 255));
-    };
     for (std::size_t i = 0; i < colors->values.size(); i += colors->components) {
       const float* value = &colors->values[i];
-      const std::uint8_t alpha = colors->components == 4 ? byte(value[3]) : std::uint8_t{255};
-      mesh.colors.push_back({byte(value[0]), byte(value[1]), byte(value[2]), alpha});
+      const float alpha = colors->components == 4 ? channelOf(value[3]) : 1;
+      mesh.colors.emplace_back(channelOf(value[0]), channelOf(value[1]), channelOf(value[2]), alpha);
     }
     mesh.colorComponents = colors->components;
   }

@@ -33,8 +33,8 @@ void expectSquare(const Mesh& mesh, bool isUpsideDown) {
   const auto at = [&](std::size_t corner) { return mesh.corners[corner]; };
   EXPECT_EQ(mesh.normals[at(1)], (Vec3f{0, 0, 1}));
   EXPECT_EQ(mesh.texCoords[at(1)], (Vec2f{1, isUpsideDown ? 1.f : 0.f}));
-  EXPECT_EQ(mesh.colors[at(0)], (Rgba8{255, 0, 0, 255}));
-  EXPECT_EQ(mesh.colors[at(5)], (Rgba8{255, 255, 255, 128}));
+  EXPECT_EQ(asRgba8(mesh.colors[at(0)]), (Rgba8{255, 0, 0, 255}));
+  EXPECT_EQ(asRgba8(mesh.colors[at(5)]), (Rgba8{255, 255, 255, 128}));
   EXPECT_EQ(mesh.colorComponents, 4u);
   EXPECT_TRUE(mesh.namedAttributes.empty());
 }

@@ -118,21 +118,19 @@ private:
     const std::size_t count = readNumbers(n, 3);
     checkFinite(std::span(n).first(3), "a coordinate");
     content_.positions.push_back({n[0], n[1], n[2]});
-    constexpr Rgba8 white{255, 255, 255, 255};
+    constexpr Rgba white(1, 1, 1, 1);
     if (count >= 6) {
       content_.colors.resize(content_.positions.size() - 1, white); // for earlier vertices without colours
-      content_.colors.push_back({channel(n[3]), channel(n[4]), channel(n[5]), 255});
+      content_.colors.emplace_back(channel(n[3]), channel(n[4]), channel(n[5]), 1.0f);
     } else if (!content_.colors.empty()) {
       content_.colors.push_back(white);
     }
   }
 
-  std::uint8_t channel(float value) {
-    const float scaled = value * 255;
-    if (scaled >= 0 && scaled < 255.5f)
-      return static_cast<std::uint8_t>(std::lround(scaled));
-    ++colorsClamped_;
-    return scaled > 0 ? 255 : 0; // NaN becomes 0
+  float channel(float value) {
+    if (!(value >= 0 && value * 255 < 255.5f)) // beyond rounding
+      ++colorsClamped_;
+    return channelOf(value);
   }
 
   void readTexCoord() {

@@ -114,7 +114,7 @@ TEST(Obj, CutsPolygonsIntoTriangles) {
 
 TEST(Obj, ReadsVertexColours) {
   const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0 1\nf 1 2 3\n", "m.obj");
-  EXPECT_EQ(mesh.colors, (std::vector<Rgba8>{{255, 255, 255, 255}, {255, 128, 0, 255}, {255, 255, 255, 255}}));
+  EXPECT_EQ(mesh.colors, (std::vector<Rgba>{{1, 1, 1, 1}, {1, 0.5f, 0, 1}, {1, 1, 1, 1}}));
 }
 
 TEST(Obj, ReadsPolylinesAsAMeshOfLines) {

@@ -31,7 +31,7 @@ struct ObjContent {
   std::vector<Vec3f> positions; ///< finite
   std::vector<Vec3f> normals;   ///< unit length
   std::vector<Vec2f> texCoords;
-  std::vector<Rgba8> colors; ///< per position, or empty
+  std::vector<Rgba> colors; ///< per position, or empty
   std::vector<ObjObject> objects;
 };
 

@@ -17,7 +17,7 @@ Mesh frameMesh(float moment) {
   mesh.wedgePositions = {0, 1, 2, 3};
   mesh.corners = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
   mesh.normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
-  mesh.colors = {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {9, 9, 9, 255}};
+  mesh.colors = {Rgba8{255, 0, 0, 255}, Rgba8{0, 255, 0, 255}, Rgba8{0, 0, 255, 255}, Rgba8{9, 9, 9, 255}};
   return mesh;
 }
 

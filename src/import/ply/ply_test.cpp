@@ -201,7 +201,8 @@ TEST(Ply, ScalesColoursByTheirType) {
   };
   EXPECT_EQ(colorOf("uchar", "0 1 254 255"), (Rgba8{0, 1, 254, 255}));
   EXPECT_EQ(colorOf("ushort", "0 257 65278 65535"), (Rgba8{0, 1, 254, 255}));
-  EXPECT_EQ(colorOf("float", "0 0.00392157 0.5 1"), (Rgba8{0, 1, 128, 255}));
+  EXPECT_EQ(colorOf("ushort", "1 2 3 65534"), (Rgba{1 / 65535.0f, 2 / 65535.0f, 3 / 65535.0f, 65534 / 65535.0f}));
+  EXPECT_EQ(colorOf("float", "0 0.00392157 0.5 1"), (Rgba{0, 0.00392157f, 0.5f, 1}));
   EXPECT_EQ(colorOf("double", "-3 7 nan 1"), (Rgba8{0, 255, 0, 255}));
 }
 

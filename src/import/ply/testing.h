@@ -117,7 +117,7 @@ inline Bytes plyBytes(const Mesh& mesh, const PlyStyle& style) {
       values.add("float", mesh.texCoords[wedge].y);
     }
     if (!mesh.colors.empty()) {
-      const Rgba8 c = mesh.colors[wedge];
+      const Rgba8 c = asRgba8(mesh.colors[wedge]);
       for (const std::uint8_t value : {c.r, c.g, c.b, c.a})
         values.add("uchar", value);
     }

@@ -125,14 +125,13 @@ void PlyVertexReader::reserve() {
 }
 
 /// Colour channels of 16 bits range over 0 .. 65,535, floating-point ones over 0 .. 1, all others over 0 .. 255.
-std::uint8_t PlyVertexReader::channel(PlySemantic semantic) {
+float PlyVertexReader::channel(PlySemantic semantic) {
   const PlyType type = types_[indexOf(semantic)];
-  const double scale = type == PlyType::uint16 ? 1 / 257.0 : isInteger(type) ? 1 : 255;
-  const double scaled = value(semantic) * scale;
-  if (scaled >= 0 && scaled < 255.5)
-    return static_cast<std::uint8_t>(std::lround(scaled));
-  ++content_.colorsClamped;
-  return scaled > 0 ? 255 : 0; // NaN becomes 0
+  const double maximum = type == PlyType::uint16 ? 65535 : isInteger(type) ? 255 : 1;
+  const double fraction = value(semantic) / maximum;
+  if (!(fraction >= 0 && fraction * 255 < 255.5)) // beyond rounding
+    ++content_.colorsClamped;
+  return channelOf(fraction);
 }
 
 void PlyVertexReader::noteRounding() {
@@ -157,11 +156,10 @@ const char* PlyVertexReader::addVertex() {
     content_.attributes.texCoords.push_back({f(PlySemantic::u), f(PlySemantic::v)});
   }
   if (hasColor_) {
-    const std::uint8_t red = channel(PlySemantic::red), green = channel(PlySemantic::green),
-                       blue = channel(PlySemantic::blue);
-    const std::uint8_t alpha = hasAlpha_ ? channel(PlySemantic::alpha) : 255;
-    content_.attributes.colors.push_back({red, green, blue, alpha});
-    if (alpha < 255)
+    const float red = channel(PlySemantic::red), green = channel(PlySemantic::green), blue = channel(PlySemantic::blue),
+                alpha = hasAlpha_ ? channel(PlySemantic::alpha) : 1;
+    content_.attributes.colors.emplace_back(red, green, blue, alpha);
+    if (alpha < 1)
       content_.attributes.colorComponents = 4;
   }
   if (!namedAreFinite())

@@ -48,7 +48,7 @@ private:
   bool has(PlySemantic first, PlySemantic last) const;
   double value(PlySemantic semantic) const { return values_[static_cast<std::size_t>(semantic)]; }
   bool isFinite(PlySemantic first, PlySemantic last) const;
-  std::uint8_t channel(PlySemantic semantic);
+  float channel(PlySemantic semantic);
   void noteRounding();
   void reserve();
   /// Appends a vertex of the current values; returns an error message, or null.

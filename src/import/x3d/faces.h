@@ -16,7 +16,7 @@ struct VertexData {
   std::vector<Vec2f> texCoords;
   std::vector<std::vector<Vec2f>> furtherTexCoords; ///< sets beside the first, with the same indices
   std::vector<std::string> texCoordMappings;        ///< names of all sets; empty for a single one
-  std::vector<Rgba8> colors;
+  std::vector<Rgba> colors;
   std::uint32_t colorComponents = 3;
   std::vector<float> fogDepths; ///< by position; the last one is that of all further positions too
 };

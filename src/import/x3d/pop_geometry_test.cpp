@@ -87,8 +87,8 @@ TEST(PopGeometry, JoinsItsLevelsAtFullPrecision) {
   EXPECT_LT(length(Vec3d(mesh.normals.at(corners[5])) - Vec3d{1, -1, -1} * (1 / std::sqrt(3))), 1e-6);
   EXPECT_EQ(mesh.texCoords.at(corners[1]), (Vec2f{1, 0}));
   EXPECT_EQ(mesh.texCoords.at(corners[5]), (Vec2f{0, 1}));
-  EXPECT_EQ(mesh.colors.at(corners[1]), (Rgba8{255, 255, 51, 255}));
-  EXPECT_EQ(mesh.colors.at(corners[5]), (Rgba8{0, 0, 0, 255}));
+  EXPECT_EQ(asRgba8(mesh.colors.at(corners[1])), (Rgba8{255, 255, 51, 255}));
+  EXPECT_EQ(asRgba8(mesh.colors.at(corners[5])), (Rgba8{0, 0, 0, 255}));
 }
 
 TEST(PopGeometry, JoinsVerticesByTheirOffsetsAndWithoutIndicesByTheirOrder) {

@@ -147,9 +147,10 @@ TEST(TessellationVectors, ReadGeometryNodes) {
         data.normals.push_back(mesh.normals[wedge]);
       if (!mesh.texCoords.empty())
         data.texCoords.push_back(mesh.texCoords[wedge]);
-      if (!mesh.colors.empty())
-        colors.insert(colors.end(),
-                      {double(mesh.colors[wedge].r), double(mesh.colors[wedge].g), double(mesh.colors[wedge].b)});
+      if (!mesh.colors.empty()) {
+        const Rgba8 color = asRgba8(mesh.colors[wedge]);
+        colors.insert(colors.end(), {double(color.r), double(color.g), double(color.b)});
+      }
     }
     const Json& corners = vector["corners"];
     const std::map<std::string, Topology> topologies{

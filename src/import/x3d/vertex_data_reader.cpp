@@ -28,13 +28,10 @@ public:
     const pugi::xml_node color = childNamed({"Color", "ColorRGBA"});
     const std::size_t components = std::string_view(color.name()) == "ColorRGBA" ? 4 : 3;
     const std::vector<double> colors = tuplesOf(source_, color, "color", components);
-    const auto byte = [](double value) {
-      return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
-    };
     for (std::size_t i = 0; i < colors.size(); i += components)
-      data.colors.push_back({byte(colors[i]), byte(colors[i + 1]), byte(colors[i + 2]),
-                             components == 4 ? byte(colors[i + 3]) : std::uint8_t{255}});
-    const bool isOpaque = std::ranges::all_of(data.colors, [](Rgba8 c) { return c.a == 255; });
+      data.colors.emplace_back(channelOf(colors[i]), channelOf(colors[i + 1]), channelOf(colors[i + 2]),
+                               components == 4 ? channelOf(colors[i + 3]) : 1);
+    const bool isOpaque = std::ranges::all_of(data.colors, [](const Rgba& c) { return c.a == 1; });
     data.colorComponents = isOpaque ? 3 : 4;
     if (kept_.has(fogDepthName))
       for (const double depth : source_.reals(childNamed({"FogCoordinate"}), "depth"))

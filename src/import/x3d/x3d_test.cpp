@@ -80,7 +80,7 @@ TEST(X3d, ReadsLinesAndPoints) {
   const Mesh points =
       meshOf("<PointSet>" + square + "<ColorRGBA color='1 0 0 1 0 1 0 0.5 0 0 1 1 1 1 1 1'/></PointSet>");
   EXPECT_EQ(points.topology, Topology::points);
-  EXPECT_EQ(points.colors.at(1), (Rgba8{0, 255, 0, 128}));
+  EXPECT_EQ(asRgba8(points.colors.at(1)), (Rgba8{0, 255, 0, 128}));
   EXPECT_EQ(points.colorComponents, 4u);
 }
 

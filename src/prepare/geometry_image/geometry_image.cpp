@@ -43,10 +43,10 @@ public:
                       static_cast<float>(mix([&](std::uint32_t w) { return double{values[w].y}; }))});
     }
     if (!mesh_.colors.empty()) {
-      const auto channel = [&](std::uint8_t Rgba8::*c) {
-        return static_cast<std::uint8_t>(mix([&](std::uint32_t w) { return double(mesh_.colors[w].*c); }) + 0.5);
+      const auto channel = [&](float Rgba::*c) {
+        return channelOf(mix([&](std::uint32_t w) { return double{mesh_.colors[w].*c}; }));
       };
-      target_.colors.push_back({channel(&Rgba8::r), channel(&Rgba8::g), channel(&Rgba8::b), channel(&Rgba8::a)});
+      target_.colors.emplace_back(channel(&Rgba::r), channel(&Rgba::g), channel(&Rgba::b), channel(&Rgba::a));
     }
     for (std::size_t a = 0; a < mesh_.namedAttributes.size(); ++a) {
       const NamedAttribute& attribute = mesh_.namedAttributes[a];

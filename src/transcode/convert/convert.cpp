@@ -153,8 +153,11 @@ public:
   /// Welds meshes, drops elements and computes missing normals.
   void prepareMeshes() {
     reportProgress(0.2, "preparing");
-    const PreparationReport prepared =
-        prepareScene(scene_, options_.dropped, options_.normalWeighting, locationOf(input_));
+    const PreparationReport prepared = prepareScene(
+        scene_,
+        {.dropped = options_.dropped, .weighting = options_.normalWeighting, .byteColors = options_.colorBits <= 8},
+        locationOf(input_));
+    roundingOfColors_ = prepared.colorError;
     report_.weld = prepared.weld;
     report_.normalsComputed = prepared.normalsComputed;
     std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
@@ -185,6 +188,7 @@ public:
       elementsDone += count;
       reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
     });
+    report_.colorError += roundingOfColors_;
   }
 
   /// Writes the textures and adds the appearances and nodes that the source lacks. An X3D source is complete.
@@ -303,6 +307,7 @@ private:
             .normalErrorDegrees = hasStatedError(options_) ? report_.normalErrorDegrees : 0,
             .axes = report_.axes.axes,
             .dropped = options_.dropped,
+            .colorBits = report_.hasColors ? options_.colorBits : 8,
             .attributes = std::move(attributeNames),
             .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
             .sourceTextureBytes = report_.textures.sourceBytes,
@@ -316,6 +321,7 @@ private:
   ConvertReport report_;
   Stopwatch total_, step_;
   bool hasOnlyFirstTexCoords_ = false;
+  double roundingOfColors_ = 0;   ///< before they are encoded
   Scene scene_;                   ///< until encodeMeshes
   PictureSamples pictureSamples_; ///< from sampleSurfaces on
   ViewSamples viewSamples_;       ///< from sampleSurfaces on

@@ -34,6 +34,9 @@ EncodeOptions encodeOptionsFrom(const ConvertOptions& options) {
 void noteAttributes(EncodedMesh& mesh, const VertexAttributes& vertices, const ConvertOptions& options) {
   mesh.hasNormals |= !vertices.normals.empty();
   mesh.hasColors |= !vertices.colors.empty();
+  const bool areBytes = std::ranges::all_of(vertices.colors, isRgba8);
+  if (!areBytes || (!vertices.colors.empty() && options.colorBits < 8)) // 8, 16, 24 and 32 bits hold bytes exactly
+    mesh.colorError = colorErrorBound(mesh.geometry, options.colorBits);
   for (std::size_t set = 0; set < texCoordSetCount(vertices); ++set) {
     const Vec2<double> error = texCoordErrorBound(mesh.geometry, set, options.texCoordBits);
     mesh.texCoordError = std::max({mesh.texCoordError.value_or(0), error.x, error.y});

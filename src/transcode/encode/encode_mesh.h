@@ -22,6 +22,7 @@ struct EncodedMesh {
   double positionError = 0;      ///< maximum error of a vertex along an axis
   double normalErrorDegrees = 0; ///< maximum error of stored normals
   bool hasNormals = false, hasColors = false;
+  double colorError = 0;                  ///< maximum error of a colour's channel, 0 .. 1
   std::optional<double> texCoordError;    ///< maximum error of texture coordinates, if there are any
   std::optional<ResampledMesh> resampled; ///< if it became geometry images
 };
@@ -29,7 +30,8 @@ struct EncodedMesh {
 /// The options of convert that encoding needs. All defaults are filled in.
 EncodeOptions encodeOptionsFrom(const ConvertOptions& options);
 
-/// Sets which attributes a mesh has and the error of its texture coordinates, by some of the vertices that it stores.
+/// Sets which attributes a mesh has and the errors of its texture coordinates and colours, by some of the vertices that
+/// it stores.
 void noteAttributes(EncodedMesh& mesh, const VertexAttributes& vertices, const ConvertOptions& options);
 
 /// Writes the files of a patch and returns its description with their names.

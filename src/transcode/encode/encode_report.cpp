@@ -38,6 +38,7 @@ void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
   report.maxPositionBits = std::max(report.maxPositionBits, lattice.bits);
   report.hasNormals |= encoded.hasNormals;
   report.hasColors |= encoded.hasColors;
+  report.colorError = std::max(report.colorError, encoded.colorError);
   if (encoded.texCoordError)
     report.texCoordError = std::max(report.texCoordError.value_or(0), *encoded.texCoordError);
   if (encoded.resampled)

@@ -167,8 +167,8 @@ private:
   Vec3f vertexColor(std::size_t first, std::span<const float> weights) const {
     Vec3f color{0, 0, 0};
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      const Rgba8& corner = mesh_.colors[mesh_.corners[first + i]];
-      color = color + Vec3f{float(corner.r), float(corner.g), float(corner.b)} * (weights[i] / 255);
+      const Rgba& corner = mesh_.colors[mesh_.corners[first + i]];
+      color = color + Vec3f{corner.r, corner.g, corner.b} * weights[i];
     }
     return color;
   }

@@ -25,8 +25,10 @@ SiteMesh siteMeshOf(const Mesh& mesh) {
     for (const Vec2f& texCoord : texCoordsOf(mesh, set))
       texCoords.push_back({texCoord.x, texCoord.y});
   }
-  for (const Rgba8& color : mesh.colors)
-    result.colors.push_back({color.r, color.g, color.b, color.a});
+  for (const Rgba& color : mesh.colors) {
+    const auto [red, green, blue, alpha] = asRgba8(color);
+    result.colors.push_back({red, green, blue, alpha});
+  }
   for (const NamedAttribute& attribute : mesh.namedAttributes)
     result.attributes.push_back({attribute.name, attribute.components, attribute.values});
   result.indices = mesh.corners;

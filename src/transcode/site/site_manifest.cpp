@@ -88,6 +88,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["droppedDegenerate"] = true;
   if (manifest.dropped.repeated)
     json["droppedRepeated"] = true;
+  if (manifest.colorBits > 8)
+    json["colorBits"] = manifest.colorBits;
   if (!manifest.attributes.empty())
     json["attributes"] = manifest.attributes;
   if (manifest.onlyFirstTexCoords)
@@ -124,6 +126,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
     manifest.axes = readAxes(json, name);
     manifest.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
+    manifest.colorBits = json.value("colorBits", 8u);
     manifest.attributes = json.value("attributes", std::vector<std::string>{});
     manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);
     manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);

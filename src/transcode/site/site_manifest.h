@@ -27,6 +27,8 @@ struct SiteManifest {
   double normalErrorDegrees = 0;
   SourceAxes axes;         ///< the Transform at the top of the document
   DroppedElements dropped; ///< elements of the source that were dropped
+  /// Bits of colours that were asked for. With at most 8, colours were rounded to 8 bits before they were encoded.
+  std::uint32_t colorBits = 8;
   /// Names of the further attributes that were kept, and with them of sets of texture coordinates that no texture uses.
   std::vector<std::string> attributes;
   bool onlyFirstTexCoords = false;      ///< further sets of texture coordinates were left out, with their textures

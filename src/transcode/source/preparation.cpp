@@ -4,6 +4,8 @@
 #include "base/file.h"
 #include "base/parallel.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -13,12 +15,30 @@ namespace {
 struct MeshReport {
   WeldReport weld;
   bool normalsComputed = false;
+  double colorError = 0;
 };
 
-MeshReport prepareMesh(Mesh& mesh, const DroppedElements& dropped, NormalWeighting weighting) {
-  MeshReport report{weld(mesh, dropped), false};
+/// Rounds colours to 8 bits a channel. Returns the largest change of a channel.
+double roundColors(Mesh& mesh) {
+  float change = 0;
+  for (Rgba& color : mesh.colors) {
+    const Rgba rounded = asRgba8(color);
+    for (float Rgba::*channel : {&Rgba::r, &Rgba::g, &Rgba::b, &Rgba::a})
+      change = std::max(change, std::abs(rounded.*channel - color.*channel));
+    color = rounded;
+  }
+  if (std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; }))
+    mesh.colorComponents = 3;
+  return change;
+}
+
+MeshReport prepareMesh(Mesh& mesh, const PreparationOptions& options) {
+  MeshReport report;
+  if (options.byteColors)
+    report.colorError = roundColors(mesh);
+  report.weld = weld(mesh, options.dropped);
   if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
-    computeNormals(mesh, weighting);
+    computeNormals(mesh, options.weighting);
     report.normalsComputed = true;
   }
   return report;
@@ -50,16 +70,15 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
   return importFile(input, options);
 }
 
-PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
-                               const std::string& location) {
+PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location) {
   std::vector<MeshReport> reports(scene.meshes.size());
-  parallelFor(scene.meshes.size(),
-              [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], dropped, weighting); });
+  parallelFor(scene.meshes.size(), [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], options); });
 
   PreparationReport sum;
   for (const MeshReport& report : reports) {
     addTo(sum.weld, report.weld);
     sum.normalsComputed |= report.normalsComputed;
+    sum.colorError = std::max(sum.colorError, report.colorError);
   }
   const std::size_t shapesBefore = shapeNodes(scene.graph).size();
   std::vector<bool> isEmpty;

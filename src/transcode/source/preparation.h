@@ -23,17 +23,23 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
 /// Name of the input in messages: the path, or "standard input".
 std::string locationOf(const std::filesystem::path& input);
 
+struct PreparationOptions {
+  DroppedElements dropped{};
+  NormalWeighting weighting = NormalWeighting::area;
+  bool byteColors = true; ///< round colours to 8 bits, so that vertices whose colours differ by less are welded
+};
+
 struct PreparationReport {
   WeldReport weld;              ///< summed over the meshes
   bool normalsComputed = false; ///< computed for at least one mesh
+  double colorError = 0;        ///< the most by which rounding has changed a colour's channel, 0 .. 1
   std::vector<std::string> warnings;
 };
 
-/// Welds every mesh, drops the stated elements and unreferenced positions, computes normals for triangle meshes without
-/// normals, and removes shapes without elements. Throws Error{malformed} with the location `location` if no shape is
-/// left, unless the scene is complete (an X3D source).
-PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
-                               const std::string& location);
+/// Rounds colours, welds every mesh, drops the stated elements and unreferenced positions, computes normals for
+/// triangle meshes without normals, and removes shapes without elements. Throws Error{malformed} with the location
+/// `location` if no shape is left, unless the scene is complete (an X3D source).
+PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location);
 
 /// Meshes and textures of which something was left out.
 struct LeftOutTexCoords {

@@ -56,7 +56,7 @@ struct Distance {
   double normalDegrees = 0;
   std::array<Vec2<double>, maxTexCoordSets> texCoords;
   double named = 0; ///< as a fraction of the allowed difference
-  bool colorsDiffer = false;
+  double color = 0; ///< of a channel, 0 .. 1
 };
 
 /// A further attribute that both lists have, and the allowed difference of each component.
@@ -115,7 +115,7 @@ private:
     if (texCoordSets_ > 0)
       return list.texCoords[vertex].x / bounds_.texCoords[0].x;
     if (colors_)
-      return list.colors[vertex].r;
+      return list.colors[vertex].r / bounds_.color;
     if (!named_.empty()) {
       const NamedPair& pair = named_.front();
       const NamedAttribute& attribute = &list == &input_ ? pair.input : pair.site;
@@ -153,7 +153,7 @@ private:
   Distance nearest(std::uint32_t element, const std::vector<Candidate>& candidates, const ElementList& others,
                    const ElementList& own, std::size_t ownTurns) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Distance best{180, {}, infinity, true}; // the result if every cost is NaN
+    Distance best{180, {}, infinity, infinity}; // the result if every cost is NaN
     best.texCoords.fill({infinity, infinity});
     double bestCost = infinity;
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
@@ -188,12 +188,17 @@ private:
         addToWorst({std::abs(double{ta.x} - tb.x), std::abs(double{ta.y} - tb.y)}, distance.texCoords[set]);
       }
       if (colors_)
-        distance.colorsDiffer |= a.colors[va] != b.colors[vb];
+        distance.color = std::max(distance.color, between(a.colors[va], b.colors[vb]));
       const bool isInput = &a == &input_;
       for (const NamedPair& pair : named_)
         distance.named = std::max(distance.named, between(pair, isInput ? va : vb, isInput ? vb : va));
     }
     return distance;
+  }
+
+  static double between(const Rgba& a, const Rgba& b) {
+    return std::max({std::abs(double{a.r} - b.r), std::abs(double{a.g} - b.g), std::abs(double{a.b} - b.b),
+                     std::abs(double{a.a} - b.a)});
   }
 
   static double between(const NamedPair& pair, std::uint32_t inputVertex, std::uint32_t siteVertex) {
@@ -209,10 +214,11 @@ private:
   /// The bound as a divisor: attributes that are stored exactly have the bound 0.
   static double allowed(double bound) { return std::max(bound, 1e-300); }
 
-  /// At most 1 if all differences are within their bounds. Colours are stored exactly: a difference costs more than any
-  /// difference of keys.
+  /// At most 1 if all differences are within their bounds.
   double cost(const Distance& distance) const {
-    double cost = std::max(distance.colorsDiffer ? 256.0 : 0.0, distance.named);
+    double cost = distance.named;
+    if (colors_)
+      cost = std::max(cost, distance.color / bounds_.color);
     if (normals_)
       cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
     for (std::size_t set = 0; set < texCoordSets_; ++set) {
@@ -226,12 +232,13 @@ private:
     worst = {std::max(worst.x, distance.x), std::max(worst.y, distance.y)};
   }
 
-  static void addToWorst(const Distance& distance, ElementDifference& worst) {
+  void addToWorst(const Distance& distance, ElementDifference& worst) const {
     worst.normalDegrees = std::max(worst.normalDegrees, distance.normalDegrees);
     for (std::size_t set = 0; set < maxTexCoordSets; ++set)
       addToWorst(distance.texCoords[set], worst.texCoords[set]);
     worst.named = std::max(worst.named, distance.named);
-    worst.colorsDiffering += distance.colorsDiffer;
+    worst.color = std::max(worst.color, distance.color);
+    worst.colorsDiffering += colors_ && distance.color > bounds_.color;
   }
 
   const ElementList& input_;

@@ -35,14 +35,9 @@ ElementType coordTypeOf(const GeometryDescription& geometry) {
   return hasElementTypes(geometry.encoding) ? geometry.coordType : ElementType::uint32;
 }
 
-/// Rounds colours as storing them with this many bits a component does; 0 or at least 8 bits keep them.
-void roundColors(std::vector<Rgba8>& colors, std::uint32_t bits) {
-  if (bits == 0 || bits >= 8)
-    return;
-  const double steps = (1 << bits) - 1;
-  for (Rgba8& color : colors)
-    for (std::uint8_t* component : {&color.r, &color.g, &color.b, &color.a})
-      *component = static_cast<std::uint8_t>(std::floor(*component / 255.0 * steps + 0.5) / steps * 255 + 0.5);
+/// Allowed error of a colour's channel, 0 .. 1.
+double colorBound(const GeometryDescription& geometry, const StoredPrecision& precision) {
+  return colorErrorBound(geometry, std::max(precision.bits[VertexRole::color], 1u));
 }
 
 /// Allowed error of texture coordinates, by set.
@@ -215,7 +210,8 @@ void addFindings(const ElementDifference& difference, const AttributeBounds& bou
   if (difference.named > 1)
     findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.", difference.named);
   if (difference.colorsDiffering > 0)
-    findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
+    findings.add("{} {} have other colours: a channel is off by up to {:.3g} of 255, more than its rounding, {:.3g}.",
+                 difference.colorsDiffering, elements, 255 * difference.color, 255 * bounds.color);
 }
 
 } // namespace
@@ -246,12 +242,11 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
                                      : topologyOf(patches.front().draws.front().primitive);
   const bool isUnindexed = std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
   const ElementKind kind{topology, isUnindexed};
-  ElementList input = elementsOf(mesh, quantised, kind);
-  const ElementList site = elementsOf(patches, kind);
+  const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
   const StoredPrecision precision = reader.precisionOf(geometry);
-  roundColors(input.colors, precision.bits[VertexRole::color]);
   const AttributeBounds bounds{normalBoundDegrees(geometry, manifest.value_or(SiteManifest{})),
-                               texCoordBounds(geometry, precision), namedBounds(geometry)};
+                               texCoordBounds(geometry, precision), colorBound(geometry, precision),
+                               namedBounds(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   addCounts(difference, input, site, topology, report);
   addFindings(difference, bounds, topology, report, findings);

@@ -9,8 +9,8 @@ namespace {
 
 VertexAttributes withOpaqueColors(VertexAttributes attributes) {
   if (attributes.colorComponents == 3)
-    for (Rgba8& color : attributes.colors)
-      color.a = 255;
+    for (Rgba& color : attributes.colors)
+      color.a = 1;
   return attributes;
 }
 

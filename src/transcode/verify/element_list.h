@@ -13,7 +13,7 @@
 
 namespace imgeo {
 
-/// Elements of a mesh. Attributes are per vertex; alpha is 255 if colours have three components.
+/// Elements of a mesh. Attributes are per vertex; alpha is 1 if colours have three components.
 struct ElementList : VertexAttributes {
   std::vector<Vec3u> positions;  ///< per vertex, on the lattice
   std::uint32_t cornerCount = 3; ///< corners of an element: 3 for triangles, 2 for lines, 1 for points
@@ -47,6 +47,7 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
 struct AttributeBounds {
   double normalDegrees = 0;
   std::array<Vec2<double>, maxTexCoordSets> texCoords; ///< by set
+  double color = 1e-6;                                 ///< of a channel, 0 .. 1; greater than 0
   std::map<std::string, std::vector<double>> named; ///< by name of a further attribute; one number for each component
 };
 
@@ -56,7 +57,8 @@ struct ElementDifference {
   double normalDegrees = 0;                            ///< largest angle between an element and its best match
   std::array<Vec2<double>, maxTexCoordSets> texCoords; ///< by set: largest difference along each axis, likewise
   double named = 0;                ///< largest difference of a further attribute, as a fraction of its bound
-  std::size_t colorsDiffering = 0; ///< elements without a match of the same colours
+  double color = 0;                ///< largest difference of a colour's channel, 0 .. 1
+  std::size_t colorsDiffering = 0; ///< elements without a match whose colours are within their bound
 };
 
 /// Matches elements whose corners lie on the same lattice points in the same cyclic order (lines in either direction),

@@ -53,7 +53,11 @@ Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>&
   for (const Mesh& mesh : imported.scene.meshes)
     hadNormals.push_back(!mesh.normals.empty());
   const SiteManifest settings = manifest.value_or(SiteManifest{});
-  prepareScene(imported.scene, settings.dropped, settings.normalWeighting, locationOf(input));
+  prepareScene(imported.scene,
+               {.dropped = settings.dropped,
+                .weighting = settings.normalWeighting,
+                .byteColors = manifest && manifest->colorBits <= 8},
+               locationOf(input));
   if (settings.onlyFirstTexCoords)
     keepFirstTexCoords(imported.scene);
   for (std::size_t i = 0; i < hadNormals.size(); ++i)

@@ -223,7 +223,7 @@ TEST(Verify, SeesNormalsLeftOut) {
 TEST(Verify, SeesOtherColoursAndTextureCoordinates) {
   Mesh mesh = testing::torus(20, 20);
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
-    mesh.colors.push_back({static_cast<std::uint8_t>(wedge), 7, 9, 255});
+    mesh.colors.push_back(Rgba8{static_cast<std::uint8_t>(wedge), 7, 9, 255});
   DamagedSite colored(Encoding::classic, mesh), mapped(Encoding::classic, mesh);
   EXPECT_TRUE(colored.verified().equal);
   colored.changeImage(*colored.geometry().patches[0].vertexAttributes[VertexRole::color],
