@@ -146,12 +146,13 @@ std::size_t AppearanceReader::read(const pugi::xml_node& node) {
   appearance.alphaCutoff = fields.real("alphaCutoff", 0.5f);
 
   DefinedMaterial material;
+  bool hasMaterial = false;
   std::map<std::string, TextureTransform> transforms;
   std::optional<std::size_t> colorTexture;
   for (const pugi::xml_node& child : node.children()) {
     const FieldReader childFields = fieldsOf(child);
     if (isNamed(child, "Material") || isNamed(child, "PhysicalMaterial") || isNamed(child, "UnlitMaterial"))
-      material = readMaterial(childFields);
+      material = readMaterial(childFields), hasMaterial = true;
     else if (isNamed(child, "ImageTexture"))
       colorTexture = readTexture(childFields);
     else
@@ -171,9 +172,30 @@ std::size_t AppearanceReader::read(const pugi::xml_node& node) {
   appearance.textures = std::move(material.textures);
   graph_.appearances.push_back(std::move(appearance));
   const std::size_t index = graph_.appearances.size() - 1;
+  if (!hasMaterial)
+    withoutMaterial_.insert(index);
   if (const std::string& def = graph_.appearances[index].name; !def.empty())
     appearances_[def] = index;
   return index;
+}
+
+std::size_t AppearanceReader::unlit(std::optional<std::size_t> appearance, bool hasVertexColors) {
+  const auto [found, isNew] = unlit_.try_emplace({appearance, hasVertexColors}, graph_.appearances.size());
+  if (!isNew)
+    return found->second;
+  Appearance changed = appearance ? graph_.appearances[*appearance] : Appearance{};
+  changed.name.clear();
+  std::erase_if(changed.textures, [](const TextureUse& use) { return use.role != TextureRole::color; });
+  UnlitMaterial material = std::visit(
+      [](const auto& given) {
+        return UnlitMaterial{given.emissiveColor, given.transparency};
+      },
+      changed.material);
+  if (!changed.textures.empty() || hasVertexColors || !appearance || withoutMaterial_.contains(*appearance))
+    material.emissiveColor = {1, 1, 1};
+  changed.material = material;
+  graph_.appearances.push_back(std::move(changed));
+  return found->second;
 }
 
 } // namespace imgeo

@@ -5,7 +5,10 @@
 #include "scene/scene.h"
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace imgeo {
 
@@ -17,6 +20,11 @@ public:
   /// Reads an Appearance, or finds the one that it USEs. Returns its index. Malformed fields have their defaults, with
   /// a warning.
   std::size_t read(const pugi::xml_node& node);
+
+  /// The appearance of triangles that are not lit (`lit="false"`, X3DOM), by that of their Shape: an UnlitMaterial in
+  /// the colours of the texture, else those of the vertices, else the material's emissiveColor; white without a
+  /// material. Returns its index.
+  std::size_t unlit(std::optional<std::size_t> appearance, bool hasVertexColors);
 
 private:
   /// A material with its textures. `mappings` has the values of its mapping fields, by nameOf(TextureRole).
@@ -42,6 +50,9 @@ private:
   /// Indices by DEF; of images, by url.
   std::map<std::string, std::size_t> appearances_, textures_, images_;
   std::map<std::string, DefinedMaterial> materials_; ///< by DEF
+  std::set<std::size_t> withoutMaterial_;            ///< indices of appearances
+  /// Results of unlit(), by its parameters.
+  std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> unlit_;
 };
 
 } // namespace imgeo

@@ -35,6 +35,19 @@ bool hasElements(const pugi::xml_node& node) {
   return std::ranges::any_of(node.children(), [](const auto& child) { return child.type() == pugi::node_element; });
 }
 
+bool drawsTriangles(const GeometryDescription& geometry) {
+  return std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
+    return std::ranges::any_of(patch.draws,
+                               [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; });
+  });
+}
+
+bool hasColors(const GeometryDescription& geometry) {
+  return std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
+    return patch.vertexAttributes[VertexRole::color].has_value();
+  });
+}
+
 class SceneReader {
 public:
   SceneReader(const DocumentText& source)
@@ -211,6 +224,7 @@ private:
     geometry.box = box;
     document_.geometries.resize(first + 1);
     isJoinable_.resize(first + 1);
+    isUnlit_.resize(first + 1);
     return true;
   }
 
@@ -284,7 +298,9 @@ private:
       leftOut_.insert(fields.text("DEF"));
       return {};
     }
-    shape->appearance = appearance;
+    shape->appearance = isUnlit_[shape->mesh]
+                            ? appearances_.unlit(appearance, hasColors(document_.geometries[shape->mesh]))
+                            : appearance;
     return add(fields, *shape);
   }
 
@@ -313,6 +329,7 @@ private:
       document_.geometries.push_back(shared.geometry);
       document_.geometries.back().patches[0].data->location = PatchLocation{name->index};
       isJoinable_.push_back(false);
+      isUnlit_.push_back(false);
     }
     Shape shape;
     shape.mesh = mesh->second;
@@ -340,6 +357,7 @@ private:
       geometry.patches[0].box = geometry.box;
     // In documents for X3DOM each patch is a Shape of its own.
     const bool isWhole = hasPatches || rowOf(geometry).storage == PatchStorage::packed;
+    isUnlit_.push_back(!fields.boolean("lit", true) && drawsTriangles(geometry));
     document_.geometries.push_back(std::move(geometry));
     const std::string def = fields.text("DEF");
     isJoinable_.push_back(!isWhole && def.empty());
@@ -353,6 +371,7 @@ private:
   AppearanceReader appearances_;
   std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
   std::vector<bool> isJoinable_;               ///< by geometry: it is its own only patch, and has no DEF
+  std::vector<bool> isUnlit_;                  ///< by geometry: its triangles are not lit
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
   std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry is inline in the document, or missing
   struct RouteText {

@@ -61,15 +61,16 @@ void removeNames(pugi::xml_node element) {
 /// Replaces the material of an Appearance.
 void makeUnlit(pugi::xml_node appearance, bool hasVertexColors, const ShapeDefinitions& definitions) {
   pugi::xml_node unlit = appearance.prepend_child("UnlitMaterial");
-  std::string emissiveColor = "0 0 0";
+  std::string emissiveColor = "1 1 1"; // without a material
   bool isTextured = false;
   for (pugi::xml_node child : elementsOf(appearance)) {
     isTextured = isTextured || isTextureNode(child.name());
     if (child == unlit || !(isShader(child) || isMaterialNode(child.name())))
       continue;
     const pugi::xml_node material = definitionOf(child, definitions);
-    if (const pugi::xml_attribute given = material.attribute(isShader(child) ? "emissiveFactor" : "emissiveColor"))
-      emissiveColor = given.value();
+    const bool isWhite = std::string_view(material.name()) == "UnlitMaterial";
+    const pugi::xml_attribute emissive = material.attribute(isShader(child) ? "emissiveFactor" : "emissiveColor");
+    emissiveColor = emissive ? emissive.value() : isWhite ? "1 1 1" : "0 0 0";
     if (const pugi::xml_attribute given = material.attribute("transparency"))
       setField(unlit, "transparency", given.value());
     for (const pugi::xml_node& texture : elementsOf(material))

@@ -148,6 +148,24 @@ TEST_F(SourcePage, KeepsGeometryThatIsNotLitInItsOwnColors) {
     EXPECT_NE(text.find(kept), std::string::npos) << kept << " in " << text;
   const VerifyReport verified = verify(directory_ / "site", directory_ / "in/index.html");
   EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+
+  const SceneDocument direct = openDocument(directory_ / "in").scene; // without convert
+  std::vector<AnyMaterial> materials;
+  for (const std::size_t node : shapeNodes(direct.graph))
+    materials.push_back(direct.graph.appearances.at(*shapeOf(direct.graph, node).appearance).material);
+  ASSERT_EQ(materials.size(), 2u);
+  EXPECT_EQ(materials[0], AnyMaterial(UnlitMaterial{.emissiveColor = {0, 0, 0}}));
+  EXPECT_TRUE(std::holds_alternative<UnlitMaterial>(materials[1]));
+  const VerifyReport foreign = verify(directory_ / "in", directory_ / "in/index.html");
+  EXPECT_TRUE(foreign.equal) << ::testing::PrintToString(foreign.findings);
+  std::string lit(asText(readFile(directory_ / "in/index.html")));
+  for (std::size_t at = lit.find("lit=false"); at != lit.npos; at = lit.find("lit=false"))
+    lit.replace(at, 9, "lit=true ");
+  writeFile(directory_ / "in/lit.html", asBytes(lit));
+  const VerifyReport other = verify(directory_ / "in", directory_ / "in/lit.html");
+  EXPECT_NE(::testing::PrintToString(other.findings).find("2 of 2 shapes are lit in the site and not in the input"),
+            std::string::npos)
+      << ::testing::PrintToString(other.findings);
 }
 
 TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {

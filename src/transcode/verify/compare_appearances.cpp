@@ -36,6 +36,20 @@ bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, c
          std::ranges::all_of(site.textures, [&](const TextureUse& use) { return isUsedIn(use, input.textures); });
 }
 
+std::optional<bool> isUnlit(const SceneGraph& graph, const Node& shape) {
+  if (const std::optional<std::size_t> appearance = std::get<Shape>(shape.content).appearance)
+    return std::holds_alternative<UnlitMaterial>(graph.appearances.at(*appearance).material);
+  const auto find = [&](const Node& parent, std::string_view element) {
+    const auto found = std::ranges::find_if(parent.children, [&](std::size_t child) {
+      const auto* generic = std::get_if<GenericNode>(&graph.nodes[child].content);
+      return generic && generic->element == element;
+    });
+    return found == parent.children.end() ? nullptr : &graph.nodes[*found];
+  };
+  const Node* appearance = find(shape, "Appearance");
+  return appearance ? std::optional(find(*appearance, "UnlitMaterial") != nullptr) : std::nullopt;
+}
+
 std::set<std::string> unreadTextureUrls(const SceneGraph& input) {
   std::set<std::string> urls;
   for (const Node& node : input.nodes)

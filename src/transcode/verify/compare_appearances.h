@@ -5,6 +5,7 @@
 #include "scene/mesh.h"
 #include "scene/scene.h"
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -18,5 +19,9 @@ bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, c
 
 /// URLs of textures that an X3D input refers to but that could not be read; convert keeps such URLs.
 std::set<std::string> unreadTextureUrls(const SceneGraph& input);
+
+/// Whether a Shape node has an UnlitMaterial, in an Appearance that was read or in one that an X3D source keeps as it
+/// is. Nothing: it has no Appearance.
+std::optional<bool> isUnlit(const SceneGraph& graph, const Node& shape);
 
 } // namespace imgeo

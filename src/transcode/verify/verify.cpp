@@ -94,7 +94,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
   MovedShapes movedShapes(manifest ? manifest->axes : SourceAxes{});
-  std::size_t differentMaterials = 0;
+  std::size_t differentMaterials = 0, differentLighting = 0;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
     const Shape &siteShape = shapeOf(siteGraph, siteShapes[i].node),
                 &inputShape = shapeOf(input.graph, inputShapes[i].node);
@@ -104,6 +104,9 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
       differentMaterials +=
           !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape, input.meshes[mesh].topology);
     }
+    if (report.isForeign && input.meshes[mesh].topology == Topology::triangles)
+      differentLighting += isUnlit(siteGraph, siteGraph.nodes[siteShapes[i].node]).value_or(false) !=
+                           isUnlit(input.graph, input.graph.nodes[inputShapes[i].node]).value_or(false);
     movedShapes.compare(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
     if (!compared.emplace(geometry, mesh).second)
       continue;
@@ -117,6 +120,9 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
   }
   if (movedShapes.count() > 0)
     findings.add("{} of {} shapes stand elsewhere than in the input.", movedShapes.count(), siteShapes.size());
+  if (differentLighting > 0)
+    findings.add("{} of {} shapes are lit in the site and not in the input, or the other way round.", differentLighting,
+                 siteShapes.size());
   if (differentMaterials > 0)
     findings.add("{} of {} shapes have other materials than in the input, or other texture transforms.",
                  differentMaterials, report.comparedMaterials);
