@@ -14,7 +14,7 @@ namespace {
 
 using Numbers = std::span<const double>;
 
-constexpr std::string_view spaces = " \t\r\n", separators = " \t\r\n,";
+constexpr std::string_view spaces = " \t\r\n", operatorSeparators = " \t\r\n,";
 constexpr double largestNumber = 1e6;
 /// How far points may be mapped: farther ones would not be finite in a shader.
 constexpr double farthest = 1e9;
@@ -169,10 +169,10 @@ std::optional<double> numberOf(std::string_view word) {
 std::vector<std::string_view> wordsOf(std::string_view text) {
   std::vector<std::string_view> words;
   for (;;) {
-    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(operatorSeparators), text.size()));
     if (text.empty())
       return words;
-    words.push_back(text.substr(0, text.find_first_of(separators)));
+    words.push_back(text.substr(0, text.find_first_of(operatorSeparators)));
     text.remove_prefix(words.back().size());
   }
 }
@@ -194,7 +194,7 @@ std::optional<Call> takeCall(std::string_view& rest) {
     return {};
   call.inside = rest.substr(open + 1, close - open - 1);
   rest.remove_prefix(close + 1);
-  rest.remove_prefix(std::min(rest.find_first_not_of(separators), rest.size()));
+  rest.remove_prefix(std::min(rest.find_first_not_of(operatorSeparators), rest.size()));
   return call;
 }
 
@@ -204,8 +204,8 @@ OperatorList readOperators(std::string_view text, bool hasImages) {
   const auto refuse = [](std::string problem) { return OperatorList{{}, std::move(problem)}; };
   OperatorList list;
   std::string_view rest = text;
-  rest.remove_prefix(std::min(rest.find_first_not_of(separators), rest.size()));
-  rest = rest.substr(0, rest.find_last_not_of(separators) + 1);
+  rest.remove_prefix(std::min(rest.find_first_not_of(operatorSeparators), rest.size()));
+  rest = rest.substr(0, rest.find_last_not_of(operatorSeparators) + 1);
   while (!rest.empty()) {
     const std::string_view before = rest;
     const std::optional<Call> call = takeCall(rest);

@@ -29,7 +29,7 @@ void addOperators(const std::filesystem::path& site, const std::string& operator
   }
 }
 
-void expectEqual(const std::filesystem::path& site, const std::filesystem::path& input, bool isEqual = true) {
+void expectSiteEquals(const std::filesystem::path& site, const std::filesystem::path& input, bool isEqual = true) {
   const VerifyReport report = verify(site, input);
   EXPECT_EQ(report.equal, isEqual) << input << ": " << fmt::format("{}", fmt::join(report.findings, " "));
 }
@@ -67,14 +67,14 @@ TEST(TransformFile, WritesWhatAPageOfTheConvertedFileShowsWithTheSameOperators) 
     for (const char* format : {"out.ply", "out.obj"}) {
       transformFile(path("torus.ply"), path(format), lists[i], false);
       if (!collapses)
-        expectEqual(path("site"), path(format));
+        expectSiteEquals(path("site"), path(format));
     }
     exportSite(path("site"), path("out.ply"));
-    expectEqual(path("site"), path("out.ply"));
-    expectEqual(path("site"), path("torus.ply"), false);
+    expectSiteEquals(path("site"), path("out.ply"));
+    expectSiteEquals(path("site"), path("torus.ply"), false);
     // A conversion of the page writes the mapped mesh, which has no operators any more.
     convert(path("site") / "index.html", path("again"), options);
-    expectEqual(path("again"), path("site") / "index.html");
+    expectSiteEquals(path("again"), path("site") / "index.html");
     const Bytes page = readFile(path("again") / "scene.x3d");
     EXPECT_EQ(std::string(page.begin(), page.end()).find("operators"), std::string::npos);
   }
