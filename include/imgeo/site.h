@@ -61,8 +61,8 @@ struct SiteInfo {
 };
 
 /// Reads a site (its directory, its index.html or a scene.x3d). Decodes geometry only where its node does not state the
-/// numbers of vertices and elements. Safe for untrusted bytes. Throws Error, also for files of geometry and runtime that
-/// are missing.
+/// numbers of vertices and elements. Safe for untrusted bytes. Throws Error, also for files of geometry and runtime
+/// that are missing.
 SiteInfo inspect(const std::filesystem::path& site);
 
 /// A further vertex attribute.

@@ -27,7 +27,7 @@ Bytes imageOfFrame(ByteSpan bytes, const std::string& location) {
   // The last row begins with the number of the frame, the most significant byte first, as far as there are pixels.
   std::uint8_t* last = image.pixels.data() + std::size_t{3} * width * (image.height - 1);
   for (std::uint32_t i = 0; i < 9 && i < 3 * width; ++i)
-    last[i] = i == 0 ? 0 : static_cast<std::uint8_t>(frame.number >> (8 * (8 - i)));
+    last[i] = i == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(frame.number >> (8 * (8 - i)));
   return encodePng(image, 0);
 }
 

@@ -22,7 +22,8 @@ interface CanvasOfXIte extends Element {
 export async function goTo(page: Page, runtime: Runtime, fraction: number): Promise<void> {
   if (runtime === "X_ITE") {
     await page.waitForFunction((value) => {
-      const canvas = document.querySelector<CanvasOfXIte>("x3d-canvas")!;
+      const canvas = document.querySelector<CanvasOfXIte>("x3d-canvas");
+      if (canvas === null) return false;
       try {
         canvas.browser.currentScene.getNamedNode("clock").set_fraction = value;
         return true;
@@ -33,8 +34,8 @@ export async function goTo(page: Page, runtime: Runtime, fraction: number): Prom
     return;
   }
   if (runtime === "imgeo")
-    await page.waitForFunction(() => "getFieldValue" in document.querySelector('[DEF="clock"]')!);
+    await page.waitForFunction(() => "getFieldValue" in (document.querySelector('[DEF="clock"]') ?? {}));
   await page.evaluate((value) => {
-    document.querySelector('[DEF="clock"]')!.setAttribute("set_fraction", String(value));
+    document.querySelector('[DEF="clock"]')?.setAttribute("set_fraction", String(value));
   }, fraction);
 }

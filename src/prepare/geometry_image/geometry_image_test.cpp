@@ -288,6 +288,19 @@ TEST(GeometryImage, OfRandomTrianglesIsFiniteAndInTheirBox) {
   }
 }
 
+TEST(GeometryImage, OfAPocketThatOpensAtOneEdgeIsThePocket) {
+  // Two triangles back to back: a crease at one edge, and normals that are continuous at the vertex opposite to it.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.wedgePositions = {0, 1, 2, 0, 1};
+  mesh.normals = {{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {0, 0, -1}};
+  testing::addTriangle(mesh, 0, 1, 2);
+  testing::addTriangle(mesh, 4, 3, 2);
+  ASSERT_EQ(chartsOf(mesh).size(), 1u);
+  const std::vector<GeometryImage> images = geometryImages(mesh, parametrise(mesh), 16, maxEdge);
+  EXPECT_LT(distanceBetween(mesh, welded(images)).largest, 1e-6);
+}
+
 TEST(GeometryImage, HasEqualBytesOnEveryRun) {
   const Mesh mesh = testing::sphere(9, 14);
   const auto sample = [&] { return geometryImages(mesh, parametrise(mesh), 40, maxEdge); };

@@ -239,6 +239,8 @@ std::optional<ParametrisedChart> mapped(const Mesh& mesh, const Chart& chart) {
   ParametrisedChart result;
   result.chart = chart;
   result.boundary = boundaryOf(chart);
+  if (result.boundary.size() < 3) // a pocket: a rectangle needs three of its corners at vertices
+    return {};
   result.disk = diskMeshOf(mesh, chart);
   ParametrisedChart byTexCoords = result;
   if (keepTexCoords(mesh, byTexCoords) && byTexCoords.embedding.stretch <= maxTexCoordStretch)
