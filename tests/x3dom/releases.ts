@@ -60,7 +60,7 @@ export async function pictureOf(
 ): Promise<Picture> {
   const pictures: Picture[] = [];
   await withX3dom(site, container, html, bodies, size, async (view) => {
-    await loaded(view.page);
+    await loaded(view.page, html.includes("<ExternalGeometry"));
     pictures.push(await view.picture());
   });
   const [picture] = pictures;
@@ -79,11 +79,12 @@ interface ExternalShapeElement extends Element {
 }
 
 /** Waits until every image and array has loaded and has been drawn; throws after three minutes. */
-async function loaded(page: Page): Promise<void> {
+async function loaded(page: Page, hasExternalGeometry: boolean): Promise<void> {
+  // An ExternalGeometry sets the count to 0 while other files load, and then it falls below with each of them.
+  if (hasExternalGeometry) await page.waitForLoadState("networkidle");
   await page.waitForFunction(
     () => {
       const doc = document.querySelector<X3domElement>("x3d")?.runtime?.canvas.doc;
-      // An ExternalGeometry sets the count to 0, and then it falls below with each image that is still loading.
       const hasCounted = doc !== undefined && doc.downloadCount <= 0 && !doc.needRender;
       // An ExternalShape does not count its download.
       const shapes = Array.from(document.querySelectorAll<ExternalShapeElement>("ExternalShape"));
