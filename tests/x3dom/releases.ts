@@ -60,7 +60,7 @@ export async function pictureOf(
 ): Promise<Picture> {
   const pictures: Picture[] = [];
   await withX3dom(site, container, html, bodies, size, async (view) => {
-    await loaded(view.page, html.includes("<ExternalGeometry"));
+    await loaded(view.page);
     pictures.push(await view.picture());
   });
   const [picture] = pictures;
@@ -79,9 +79,9 @@ interface ExternalShapeElement extends Element {
 }
 
 /** Waits until every image and array has loaded and has been drawn; throws after three minutes. */
-async function loaded(page: Page, hasExternalGeometry: boolean): Promise<void> {
-  // An ExternalGeometry sets the count to 0 while other files load, and then it falls below with each of them.
-  if (hasExternalGeometry) await page.waitForLoadState("networkidle");
+async function loaded(page: Page): Promise<void> {
+  // X3DOM's count is 0 before it has asked for all files, and an ExternalGeometry sets it to 0 while others load.
+  await page.waitForLoadState("networkidle");
   await page.waitForFunction(
     () => {
       const doc = document.querySelector<X3domElement>("x3d")?.runtime?.canvas.doc;
