@@ -10,6 +10,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
+import { changeTimes } from "../changeTimes.ts";
 import { goUntilComplete } from "../completePage.ts";
 
 const equalCount = 7000,
@@ -59,23 +60,8 @@ const changes: Record<string, (round: number) => void> = {
   },
 };
 
-/** Self-contained. MutationObservers run before continuations of promises that resolve after the change. */
-async function timesIn(change: (round: number) => void, count: number): Promise<number[]> {
-  const times: number[] = [];
-  for (let round = 0; round < count; ++round) {
-    await new Promise((resolve) => {
-      setTimeout(resolve, 150);
-    });
-    const begun = performance.now();
-    change(round);
-    await Promise.resolve();
-    times.push(performance.now() - begun);
-  }
-  return times;
-}
-
 async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
-  const times = await page.evaluate<number[]>(`(${timesIn.toString()})(${change.toString()}, ${rounds})`);
+  const times = await changeTimes(page, change, rounds, 150);
   const sorted = times.sort((a, b) => a - b);
   return `| ${name} | ${sorted[Math.floor(sorted.length / 2)]!.toFixed(2)} ms | ${sorted[0]!.toFixed(2)} ms |`;
 }

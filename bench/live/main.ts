@@ -61,6 +61,13 @@ async function output(program: string, words: readonly string[]): Promise<string
   return text;
 }
 
+/** Prints a row of a Markdown table. */
+function printRow(...cells: (string | number)[]): void {
+  console.log(`| ${cells.join(" | ")} |`);
+}
+
+const lineName = (isSlow: boolean): string => (isSlow ? "0.5 MB/s" : "unlimited");
+
 /** The server, and nginx where it is in front, run on the first core, the viewers on the others. */
 async function measureViewers(isBehindNginx: boolean): Promise<number> {
   const nginx = findNginx();
@@ -93,8 +100,16 @@ async function measureViewers(isBehindNginx: boolean): Promise<number> {
     const seconds = secondsPerCount * (load - base) + nginxSeconds;
     const microseconds = count > 1 ? ((1e6 * seconds) / sent).toFixed(0) : "";
     const requests = passed && (passed.passed / (secondsPerCount * rate)).toFixed(2);
-    console.log(
-      `| ${count} | ${isBehindNginx ? "behind nginx" : "directly"} | ${counts.rate.toFixed(1)} | ${counts.skipped} | ${counts.torn} | ${counts.medianAge} / ${counts.age95} ms | ${(100 * load).toFixed(0)} % | ${microseconds} | ${requests ?? count} |`,
+    printRow(
+      count,
+      isBehindNginx ? "behind nginx" : "directly",
+      counts.rate.toFixed(1),
+      counts.skipped,
+      counts.torn,
+      `${counts.medianAge} / ${counts.age95} ms`,
+      `${(100 * load).toFixed(0)} %`,
+      microseconds,
+      requests ?? count,
     );
     if (counts.torn > 0) throw new Error("a frame is torn");
     if (counts.rate < 0.97 * rate) break;
@@ -180,15 +195,19 @@ function quantile(sorted: readonly number[], share: number): number {
   return sorted[Math.floor(share * (sorted.length - 1))] ?? NaN;
 }
 
+/** Quantiles of sorted times. */
+function quantiles(sorted: number[], ...shares: number[]): string {
+  return `${shares.map((share) => quantile(sorted, share).toFixed(0)).join(" / ")} ms`;
+}
+
 /** The runtime's FrameSource without a page: frames are received and decoded. */
 async function measureReceipt(isSlow: boolean, url: string): Promise<void> {
   const viewer = startViewer({ url });
   await pause(12_000);
   viewer.stop();
   const ages = viewer.ages.slice(10).sort((a, b) => a - b);
-  console.log(
-    `| ${isSlow ? "0.5 MB/s" : "unlimited"} | received | ${(viewer.shown.length / 12).toFixed(1)} | ${viewer.skipped} | ${quantile(ages, 0.5).toFixed(0)} / ${quantile(ages, 0.95).toFixed(0)} / ${quantile(ages, 1).toFixed(0)} ms |`,
-  );
+  const rateReached = (viewer.shown.length / 12).toFixed(1);
+  printRow(lineName(isSlow), "received", rateReached, viewer.skipped, quantiles(ages, 0.5, 0.95, 1));
 }
 
 async function measureAges(browser: Browser): Promise<void> {
@@ -205,9 +224,7 @@ async function measureAges(browser: Browser): Promise<void> {
     await pause(10_000);
     const ages = (await agesOf(page)).slice(before).sort((a, b) => a - b);
     const skipped = await page.evaluate(() => (window as unknown as { skippedCount: () => number }).skippedCount());
-    console.log(
-      `| ${isSlow ? "0.5 MB/s" : "unlimited"} | page | ${(ages.length / 10).toFixed(1)} | ${skipped} | ${quantile(ages, 0.5).toFixed(0)} / ${quantile(ages, 0.95).toFixed(0)} / ${quantile(ages, 1).toFixed(0)} ms |`,
-    );
+    printRow(lineName(isSlow), "page", (ages.length / 10).toFixed(1), skipped, quantiles(ages, 0.5, 0.95, 1));
     await page.close();
     line?.close();
     await stream.stop();
@@ -235,17 +252,25 @@ async function measureLongRun(browser: Browser): Promise<void> {
     const { textureBytes, bufferBytes } = (await page.evaluate(
       () => document.querySelector<ViewElement>("x3d")!.statistics,
     ))!;
-    console.log(
-      `| ${ages.length} | ${(usedSize / 1024).toFixed(0)} KiB | ${textureBytes + bufferBytes} | ${quantile(sorted, 0.5).toFixed(0)} / ${quantile(sorted, 0.95).toFixed(0)} ms |`,
-    );
+    const heap = `${(usedSize / 1024).toFixed(0)} KiB`;
+    printRow(ages.length, heap, textureBytes + bufferBytes, quantiles(sorted, 0.5, 0.95));
   }
   await page.close();
   await stream.stop();
 }
 
-console.log(
-  "| viewers | | frames a second each | skipped | torn | age, median / 19 of 20 | the server on its core | µs for a frame sent | requests to the server a frame |\n|--:|---|--:|--:|--:|--:|--:|--:|--:|",
+printRow(
+  "viewers",
+  "",
+  "frames a second each",
+  "skipped",
+  "torn",
+  "age, median / 19 of 20",
+  "the server on its core",
+  "µs for a frame sent",
+  "requests to the server a frame",
 );
+console.log("|--:|---|--:|--:|--:|--:|--:|--:|--:|");
 const direct = await measureViewers(false);
 const behind = await measureViewers(true);
 console.log(`\nViewers at ${rate} Hz on 64 x 64 vertices: ${direct} directly, ${behind} behind nginx.\n`);

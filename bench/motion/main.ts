@@ -11,6 +11,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
+import { changeTimes } from "../changeTimes.ts";
 import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
@@ -19,6 +20,8 @@ const timeout = 120_000;
 
 type Kind = "PositionInterpolator" | "OrientationInterpolator";
 
+const appearance = '<Appearance><Material diffuseColor="0.5 0.5 0.5"></Material></Appearance>';
+
 /** `count` Transforms, each with a shape of its own or with one that all share. */
 function sceneText(kind: Kind, isShared: boolean): string {
   const shapes = Array.from({ length: count }, (_, n) => {
@@ -26,14 +29,15 @@ function sceneText(kind: Kind, isShared: boolean): string {
     const shape =
       isShared && n > 0
         ? '<Shape USE="box"></Shape>'
-        : `<Shape${n === 0 ? ' DEF="box"' : ""}><Appearance><Material diffuseColor="${(n % 7) / 7} 0.5 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
+        : `<Shape${n === 0 ? ' DEF="box"' : ""}>${appearance}<Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
     const values =
       kind === "PositionInterpolator"
         ? `${x} ${y} 0  ${x} ${y} ${1 + (n % 3)}  ${x} ${y} 0`
         : `0 1 0 0  0 1 0 ${1 + (n % 3)}  0 1 0 0`;
     const [field, still] =
       kind === "PositionInterpolator" ? ["translation", ""] : ["rotation", ` translation="${x} ${y} 0"`];
-    return `<Transform DEF="t${n}"${still}>${shape}</Transform><${kind} DEF="i${n}" key="0 0.5 1" keyValue="${values}"></${kind}>
+    return `<Transform DEF="t${n}"${still}>${shape}</Transform>
+<${kind} DEF="i${n}" key="0 0.5 1" keyValue="${values}"></${kind}>
 <ROUTE fromNode="clock" fromField="fraction_changed" toNode="i${n}" toField="set_fraction"></ROUTE>
 <ROUTE fromNode="i${n}" fromField="value_changed" toNode="t${n}" toField="${field}"></ROUTE>`;
   });
@@ -53,24 +57,8 @@ const frames: Record<string, (round: number) => void> = {
   },
 };
 
-/** Self-contained. MutationObservers run before continuations of promises that resolve after the change. */
-async function timesIn(change: (round: number) => void, length: number): Promise<number[]> {
-  const times: number[] = [];
-  for (let round = 0; round < length; ++round) {
-    await new Promise((resolve) => {
-      setTimeout(resolve, 20);
-    });
-    const begun = performance.now();
-    change(round);
-    await Promise.resolve();
-    times.push(performance.now() - begun);
-  }
-  return times;
-}
-
 async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
-  const run = (length: number): Promise<number[]> =>
-    page.evaluate<number[]>(`(${timesIn.toString()})(${change.toString()}, ${length})`);
+  const run = (count: number): Promise<number[]> => changeTimes(page, change, count, 20);
   await run(rounds / 4); // until the code has been compiled
   const session = await page.context().newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });

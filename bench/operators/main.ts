@@ -40,9 +40,11 @@ function shapesScene(): Scene {
   const shapes = Array.from(
     { length: shapeCount },
     (_, n) =>
-      `<Transform translation="${2 * (n % 10)} ${2 * Math.floor(n / 10)} 0"><Shape><Appearance><Material></Material></Appearance><Sphere radius="${0.5 + n / 1000}"></Sphere></Shape></Transform>`,
+      `<Transform translation="${2 * (n % 10)} ${2 * Math.floor(n / 10)} 0"><Shape>
+<Appearance><Material></Material></Appearance><Sphere radius="${0.5 + n / 1000}"></Sphere></Shape></Transform>`,
   );
-  const html = `<!DOCTYPE html><title>operators</title><script type="module" src="imgeo.js"></script><X3D style="${small}"><Scene>${shapes.join("\n")}</Scene></X3D>`;
+  const html = `<!DOCTYPE html><title>operators</title><script type="module" src="imgeo.js"></script>
+<X3D style="${small}"><Scene>${shapes.join("\n")}</Scene></X3D>`;
   return { name: `${shapeCount} shapes`, html, selector: "sphere" };
 }
 
@@ -81,7 +83,8 @@ async function row(browser: Browser, { name, site, html, selector }: Scene): Pro
     const times = (await page.evaluate(timesOf, [selector, rounds] as [string, number])).sort((a, b) => a - b);
     const growth = ((await heapBytes()) - before) / rounds;
     const at = (share: number) => times[Math.floor(share * (rounds - 1))]!.toFixed(2);
-    return `| ${name} | ${at(0.5)} ms | ${at(0.95)} ms | ${server.requests.length - requests} | ${growth.toFixed(0)} bytes |`;
+    const cells = [`${at(0.5)} ms`, `${at(0.95)} ms`, server.requests.length - requests, `${growth.toFixed(0)} bytes`];
+    return `| ${name} | ${cells.join(" | ")} |`;
   } finally {
     await page.close();
     await server.close();
