@@ -64,10 +64,7 @@ private:
       json["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       lights.push_back(light->json);
     } else {
-      Json children = Json::array();
-      for (const std::size_t child : node.children)
-        if (const std::optional<std::size_t> added = addNode(child))
-          children.push_back(*added);
+      Json children = addChildren(node);
       if (children.empty())
         return {};
       json["children"] = std::move(children);
@@ -78,14 +75,20 @@ private:
     return nodes.size() - 1;
   }
 
-  /// Adds a Transform that an animation moves, as translation, rotation and scale about its center.
-  std::optional<std::size_t> addAnimatedNode(std::size_t index) {
-    const Node& node = scene_.graph.nodes[index];
-    const Transform& transform = std::get<Transform>(node.content);
+  /// Adds the children of a node; returns their indices.
+  Json addChildren(const Node& node) {
     Json children = Json::array();
     for (const std::size_t child : node.children)
       if (const std::optional<std::size_t> added = addNode(child))
         children.push_back(*added);
+    return children;
+  }
+
+  /// Adds a Transform that an animation moves, as translation, rotation and scale about its center.
+  std::optional<std::size_t> addAnimatedNode(std::size_t index) {
+    const Node& node = scene_.graph.nodes[index];
+    const Transform& transform = std::get<Transform>(node.content);
+    Json children = addChildren(node);
     if (children.empty())
       return {};
     const auto vector = [](Vec3d v) { return Json{v.x, v.y, v.z}; };

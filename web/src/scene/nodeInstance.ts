@@ -44,24 +44,8 @@ export interface SubtreeSummary {
 }
 
 const none: readonly never[] = [];
-export const emptySummary: SubtreeSummary = {
-  box: undefined,
-  lights: none,
-  environmentLights: none,
-  viewpoints: none,
-  backgrounds: none,
-  fogs: none,
-  localFogs: none,
-  clipPlanes: none,
-  lods: none,
-  boundedGroups: none,
-  anchors: none,
-  billboards: none,
-  effectScopes: none,
-};
-
-/** The summary of a shape with these bounds; a literal, since a scene that moves makes thousands in each frame. */
-export function summaryOfBox(box: Box3): SubtreeSummary {
+/** The summary of a shape with these bounds. A literal, because a scene that moves makes thousands in each frame. */
+export function summaryOfBox(box: Box3 | undefined): SubtreeSummary {
   return {
     box,
     lights: none,
@@ -78,6 +62,8 @@ export function summaryOfBox(box: Box3): SubtreeSummary {
     effectScopes: none,
   };
 }
+
+export const emptySummary = summaryOfBox(undefined);
 
 /** What a node inherits from the groups around it. */
 export interface InheritedState {
