@@ -21,7 +21,7 @@ async function until(condition: () => boolean): Promise<void> {
 
 for (const isHttp2 of [false, true])
   test(
-    `nginx as docs/live.md has it serves a stream to ${viewerCount} viewers over HTTP/${isHttp2 ? "2" : "1.1"} from one request a frame`,
+    `nginx of docs/live.md serves ${viewerCount} viewers over HTTP/${isHttp2 ? "2" : "1.1"} from one request a frame`,
     { skip: nginx === undefined && "nginx is not installed" },
     async (t) => {
       const stream = await startStream(["cloth", "--grid", "16", "--rate", `${rate}`]);
@@ -43,8 +43,10 @@ for (const isHttp2 of [false, true])
       const requests = after.frames - before.frames;
       const passed = after.passed - before.passed;
       const ages = viewers.flatMap(({ ages }) => ages.slice(rate)).sort((a, b) => a - b);
+      const ageAt = (share: number): string => `${ages[Math.floor(share * ages.length)]?.toFixed(1)} ms`;
       t.diagnostic(
-        `${frames} frames, ${requests} requests, ${(passed / frames).toFixed(2)} a frame reached the server; age ${ages[Math.floor(ages.length / 2)]?.toFixed(1)} ms (median), ${ages[Math.floor(0.95 * ages.length)]?.toFixed(1)} ms (19 of 20); ${JSON.stringify(after.statuses)}`,
+        `${frames} frames, ${requests} requests, ${(passed / frames).toFixed(2)} a frame reached the server; ` +
+          `age ${ageAt(0.5)} (median), ${ageAt(0.95)} (19 of 20); ${JSON.stringify(after.statuses)}`,
       );
       assert.ok(passed < requests / 4, `${passed} of ${requests} requests reached the server`);
       for (const { shown, outages } of viewers) {

@@ -102,8 +102,8 @@ function foldersIn(metafile: Metafile): Set<string> {
 }
 
 /**
- * A fresh Vite project of an app: its files in a folder of its own beside the installed package. Returns the text of each
- * file that Vite builds.
+ * A fresh Vite project of an app: its files in a folder of its own beside the installed package. Returns the text of
+ * each file that Vite builds.
  */
 function viteBuild(name: string, source: string): Map<string, string> {
   const project = join(app, name);

@@ -1,6 +1,6 @@
 // Builds the page of image operators on geometry in build/operators, for any server.
 //
-//   node examples/operators/build.ts SITE GRIDSITE [OUTPUT]     sites of one mesh: --profile classic, --as geometry-image
+//   node examples/operators/build.ts SITE GRIDSITE [OUTPUT]     of one mesh: --profile classic, --as geometry-image
 
 import { cpSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -19,7 +19,9 @@ const notes = {
   sequence:
     "The image has the vertices in the order of the triangles. Its neighbours are not neighbours on the surface, so the " +
     "blur draws distant vertices together and destroys the shape, as the paper notes in section 7.4. Choose the grid.",
-  grid: "The texels of a geometry image are neighbours on the surface: the blur smooths it. Borders of its charts are blurred along themselves, so that they still meet.",
+  grid:
+    "The texels of a geometry image are neighbours on the surface: the blur smooths it. Borders of its charts are " +
+    "blurred along themselves, so that they still meet.",
 };
 
 function operatorsOf(values) {

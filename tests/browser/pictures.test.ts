@@ -25,7 +25,7 @@ import { soakTest } from "./soak.ts";
 interface Case {
   mesh: GeneratedMesh;
   options: string[];
-  /** Whether only `make soak` runs it: each of its values stands in another case as well, here or in cpuDecoding.test.ts. */
+  /** Whether only `make soak` runs it: other cases, here or in cpuDecoding.test.ts, have each of its values. */
   isLong?: boolean;
 }
 

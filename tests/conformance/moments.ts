@@ -1,5 +1,5 @@
-// Documents that move are compared at one moment. Their interpolators follow one named `clock`, whose fraction is set by
-// a script as the runtime has it.
+// Documents that move are compared at one moment. Their interpolators follow one TimeSensor, DEF="clock", whose fraction
+// a script sets.
 
 import type { Page } from "playwright-core";
 import type { Runtime } from "./runtimes.ts";

@@ -61,8 +61,8 @@ function container(): Buffer {
           type: "SCALAR",
         },
       },
-      // X3DOM lights every material, though glTF's CONSTANT is not lit, and all others also by a light of its own. Light
-      // does not change colours of 0 and 1.
+      // X3DOM lights every material, though glTF's CONSTANT is not lit, and all others also by a light of its own.
+      // Light does not change colours of 0 and 1.
       materials: {
         glow: {
           extensions: {

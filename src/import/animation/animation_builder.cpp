@@ -202,7 +202,8 @@ std::size_t AnimationBuilder::sensor() {
   return *sensor_;
 }
 
-/// Whether a node, or one below it, is seen, gives light, or is a place to look from.
+/// Whether a node is not a group, or has a descendant that is not: a Shape, a light or a Viewpoint, which its movement
+/// affects.
 bool AnimationBuilder::showsAnything(std::size_t node) {
   const auto [found, isNew] = showsAnything_.try_emplace(node);
   if (isNew) {

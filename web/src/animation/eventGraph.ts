@@ -1,5 +1,5 @@
-// X3D's event model (ISO/IEC 19775-1, 4.4.8): an event from outside starts a cascade, in which events follow the routes,
-// all with the time of the first.
+// X3D's event model (ISO/IEC 19775-1, 4.4.8): an event from outside starts a cascade, in which events follow the
+// routes, all with the time of the first.
 
 import type { Value } from "./fieldTypes.ts";
 import type { Destination, EventNode, EventSink } from "./eventNode.ts";
@@ -29,7 +29,7 @@ export class EventGraph implements EventSink {
     return this.#cascade;
   }
 
-  /** Sends the events of `begin`, and all that follow from them, in the order in which they arise. `time` in seconds. */
+  /** Sends the events of `begin`, and those that follow from them, in the order of their causes. `time` in seconds. */
   run(time: number, begin: () => void): void {
     if (this.#isRunning) {
       begin(); // by a listener: part of the cascade that runs

@@ -1,5 +1,5 @@
-// Plays a document's animation: runs its clocks, sends what happens outside into the event graph, and hands on what
-// changes, once for each frame.
+// Plays a document's animation: once for each frame it advances the clocks, sends their events and those of the pointer
+// and the camera along the routes, and applies the changed fields to the scene.
 
 import type { DrawnFieldOf, FieldChange } from "./documentGraph.ts";
 import { DocumentGraph, fieldNamed } from "./documentGraph.ts";
@@ -149,7 +149,7 @@ export class AnimationPlayer {
     return field !== undefined && type ? { field, type, value: node?.valueOf(field) } : undefined;
   }
 
-  /** Sends a value to a field, as an event. Returns false where there is no such field, or the value is of another type. */
+  /** Sends a value to a field, as an event. Returns false if there is no such field, or the value has another type. */
   setValue(element: AnimatedElement, field: string, value: unknown): boolean {
     const node = this.#document.nodeOf(element);
     const specification = node?.specificationOf(field);

@@ -24,7 +24,7 @@ export class TimeSensor implements Behaviour {
   /** The start time with which it has become active last: it does not start twice with the same one. */
   #startUsed: number | undefined;
   /**
-   * Whether it may start as the document says. False where the user prefers reduced motion: then an event must start it.
+   * Whether it may start as the document says. False if the user prefers reduced motion: then an event must start it.
    */
   mayStartByItself = true;
   #wasStarted = false;

@@ -31,7 +31,7 @@ export class ArrayBuffers implements BufferProvider {
     return gpuArray;
   }
 
-  /** Stores vertices, which change in place. */
+  /** Stores a copy of vertices; `write` of the result replaces their values in the same array. */
   makeWritable(array: ElementArray): WritableArray {
     const bytes = Object.assign(this.store(array.slice(), DynamicDrawUsage), { version: 0 });
     return {

@@ -228,8 +228,8 @@ export class SceneRenderer {
   }
 
   /**
-   * Gives Transforms of the scene other values, without a description of the whole scene. The next description must have
-   * these values.
+   * Gives Transforms of the scene other values, without a description of the whole scene. The next description must
+   * have these values.
    */
   move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): BuiltScene {
     const built = this.#shapes.move(transforms);
@@ -239,7 +239,7 @@ export class SceneRenderer {
     return built;
   }
 
-  /** The transform from the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
+  /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
   sceneFromTransform(element: SceneElement): Matrix4 | undefined {
     return this.#shapes.sceneFromTransform(element);
   }

@@ -61,7 +61,7 @@ export class DeliveryControl {
     this.request();
   }
 
-  /** Schedules new requests for instances that have moved: what moves all the time must not cause them in each frame. */
+  /** Schedules requests for instances that have moved; not in each frame, as some may move all the time. */
   followMoves({ instances }: Pick<SceneChanges, "instances">): void {
     for (const [node, instance] of instances) this.#moved.set(node, instance);
     this.#timer ??= setTimeout(() => {

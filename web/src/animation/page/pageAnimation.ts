@@ -98,7 +98,7 @@ export class PageAnimation {
     this.onFrame();
   }
 
-  /** A script has set or removed an attribute. Returns whether the element is no drawn node, so that nothing is drawn. */
+  /** A script has set or removed an attribute. Returns whether the element is a node of the animation, not drawn. */
   attributeChanged(element: Element, attribute: string): boolean {
     this.#player.attributeChanged(element, attribute);
     return this.#player.nodes.has(element);

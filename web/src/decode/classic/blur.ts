@@ -1,5 +1,5 @@
-// The operator blur of docs/formats/nodes.md: a filter on the image of a patch's coordinates. src/containers/blur.h does
-// the same, vectors/blur.json binds both; the vertex shader does it where vertices come from images
+// The operator blur of docs/formats/nodes.md: a filter on the image of a patch's coordinates. src/containers/blur.h
+// does the same, and vectors/blur.json tests both; where vertices come from images the vertex shader does it
 // (render/shaders/vertexChunk.ts).
 
 /** Points in rows of `columns`, of which the last may be shorter; x, y and z follow each other. */

@@ -105,7 +105,10 @@ export class PickDraw {
     return object;
   }
 
-  /** Index and coordinates of the draw, read back once until `forgetContents`, or until they change; undefined for vertices from images. */
+  /**
+   * Index and coordinates of the draw, read back once until `forgetContents` or a change; undefined for vertices from
+   * images.
+   */
   contents(): BufferContents | undefined {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;

@@ -151,7 +151,7 @@ export class SceneGroups implements InstanceTreeListener {
     return this.#followSummary();
   }
 
-  /** The transform from the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
+  /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
   sceneFromTransform(element: SceneElement): Matrix4 | undefined {
     return this.#tree.transformOf(element)?.sceneFromNode;
   }

@@ -135,7 +135,7 @@ export class SceneShapes {
     return this.#built(this.#applyChanges(), areEffectScopesRenumbered);
   }
 
-  /** Gives Transforms other values: see `InstanceTree.move`. Only instances have changed in the scene that it returns. */
+  /** Gives Transforms other values: see `InstanceTree.move`. In the scene that it returns only instances differ. */
   move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): BuiltScene {
     const areEffectScopesRenumbered = this.#graph.move(transforms);
     if (areEffectScopesRenumbered || this.#graph.hasEffects) this.#setEffects();
@@ -144,7 +144,7 @@ export class SceneShapes {
     return this.#built({ shapes: new Map(), removed: [], instances }, areEffectScopesRenumbered);
   }
 
-  /** The transform from the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
+  /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
   sceneFromTransform(element: SceneElement): Matrix4 | undefined {
     return this.#graph.sceneFromTransform(element);
   }

@@ -17,8 +17,8 @@ export interface BufferUpload {
 /** Access to stored arrays. All methods but `dispose` throw RangeError if an array is unknown or closed. */
 export interface BufferProvider {
   /**
-   * Whether buffers on the GPU belong to stored arrays, so that the attributes of a geometry can be exchanged; otherwise
-   * they belong to geometries.
+   * Whether buffers on the GPU belong to stored arrays, so that the attributes of a geometry can be exchanged;
+   * otherwise they belong to geometries.
    */
   readonly ownsBuffers: boolean;
   /** Records of `stride` elements, as three.js' InterleavedBuffer. */

@@ -82,7 +82,7 @@ class AvailableArrays {
   /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
   value: GpuVertices | undefined;
-  /** In place of all of these, as far as a live stream has them. The stream owns them. */
+  /** Vertices of a live stream. Where it has a role, they replace the decoded ones above. The stream frees them. */
   streamed: LiveArrays | undefined;
 }
 
