@@ -21,7 +21,7 @@ const notes = {
     "blur draws distant vertices together and destroys the shape, as the paper notes in section 7.4. Choose the grid.",
   grid:
     "The texels of a geometry image are neighbours on the surface: the blur smooths it. Borders of its charts are " +
-    "blurred along themselves, so that they still meet.",
+    "blurred along themselves; where the charts of a seam have other numbers of texels along it, it opens.",
 };
 
 function operatorsOf(values) {

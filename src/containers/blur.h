@@ -20,7 +20,8 @@ struct PointImage {
 
 /// The weighted mean of the neighbours of each point, ceil(radius) to each side along rows and columns, with the
 /// weights of a Gaussian whose standard deviation is radius / 2. Near an end of a row or column there are fewer, as
-/// many on both sides: corners stay, and a border is filtered along itself, so that surfaces that meet there still do.
+/// many on both sides: corners stay, and a border is filtered along itself, so that surfaces that have the same points
+/// there still meet.
 std::vector<Vec3d> blurred(const PointImage& image, double radius);
 
 /// The vertices of a patch of SIG classic after its geometry's blur, in the coordinates of the shape.

@@ -13,7 +13,8 @@ export interface PointImage {
 /**
  * The weighted mean of the neighbours of each point, ceil(radius) to each side along rows and columns, with the weights
  * of a Gaussian whose standard deviation is radius / 2. Near an end of a row or column there are fewer, as many on both
- * sides: corners stay, and a border is filtered along itself, so that surfaces that meet there still do.
+ * sides: corners stay, and a border is filtered along itself, so that surfaces that have the same points there still
+ * meet.
  */
 export function blurred({ points, columns, isClosed }: PointImage, radius: number): Float64Array {
   const result = Float64Array.from(points);
