@@ -200,9 +200,10 @@ vec3 texelPosition(int record) {
   #endif
 }
 
+#ifdef ${blurredDefine}
+
 // After the operator blur, as decode/classic/blur.ts filters it.
 vec3 storedPosition(int record) {
-  if (blurRadius <= 0.0) return texelPosition(record);
   int columns = gridSize.x > 0 ? gridSize.x : hasIndex ? textureSize(coordImage0, 0).x : implicitWidth;
   ivec2 at = ivec2(record % columns, record / columns);
   int rows = recordCount / columns;
@@ -219,6 +220,10 @@ vec3 storedPosition(int record) {
     }
   return sum.xyz / sum.w;
 }
+
+#else
+  #define storedPosition texelPosition
+#endif
 
 #ifdef GRID
 
@@ -250,10 +255,7 @@ vec2 wordsOf(vec4 texel) {
 }
 
 vec3 readNormal(int record) {
-  #ifdef GRID
-    if (blurRadius > 0.0) return gridNormal(record);
-  #endif
-  #ifdef GRID_NORMALS
+  #if defined(GRID_NORMALS) || defined(BLURRED_NORMALS)
     return gridNormal(record);
   #elif defined(NORMAL_WORD_TEXELS)
     return unitOf(floor(wordsOf(texelOf(normalImage, ${glslFirstTexelOf("normal")}, recordTexelIndex(record))) + 0.5));

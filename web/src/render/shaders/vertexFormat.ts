@@ -77,7 +77,7 @@ export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
 /** Defined in materials that light in linear space: vertex colours are sRGB. */
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
-/** Defined in materials that read vertices of buffers after the operator blur (stages/blurredVertices.ts). */
+/** Defined in materials that read vertices after the operator blur: it makes shaders slower to compile and to run. */
 export const blurredDefine = "BLURRED";
 
 /** How the vertices of a draw are read. */
@@ -86,7 +86,7 @@ export interface VertexFormat {
   readonly isFromImages: boolean;
   /** As attributeDefinesOf returns them. */
   readonly attributeDefines: Readonly<Record<string, string>>;
-  /** As gridDefinesOf returns them. */
+  /** As gridDefinesOf and blurredDefinesOf return them. */
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf returns them. */
   readonly normalDefines: Readonly<Record<string, string>>;
@@ -112,9 +112,9 @@ export function vertexDefinesOf(
   };
 }
 
-/** The #defines for the vertices of a grid, or of no grid, in buffers after the operator blur. */
-export function blurredDefinesOf(grid: Grid | undefined): Record<string, string> {
-  return { [blurredDefine]: "", ...(grid && { BLURRED_NORMALS: "" }) };
+/** The #defines for vertices after the operator blur; those of a grid get their normals from it. */
+export function blurredDefinesOf(isGrid: boolean): Record<string, string> {
+  return { [blurredDefine]: "", ...(isGrid && { BLURRED_NORMALS: "" }) };
 }
 
 /** The GLSL expression for the first texel of an image. */

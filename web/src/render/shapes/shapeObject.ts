@@ -30,7 +30,7 @@ import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SurfaceTexture, SurfaceTextureRole } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";
-import { hasBlurredBuffers } from "../stages/stageOperation.ts";
+import { isBlurred } from "../stages/stageOperation.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
 import { withWideLines } from "../lines/wideLines.ts";
@@ -60,7 +60,7 @@ interface DisplayedPatch {
   readonly drawMode: DrawMode;
   /** What operators have done to its faces. */
   readonly orientation: Orientation;
-  /** As hasBlurredBuffers says. */
+  /** Whether it is drawn after the operator blur. */
   readonly isBlurred: boolean;
   readonly draws: PatchDraws;
 }
@@ -246,7 +246,7 @@ export class ShapeObject {
         this.#drawnOf(displayed.stage, patch) === displayed.drawn &&
         this.#drawModeOf(displayed.stage) === displayed.drawMode &&
         orientationOf(this.#appearance.operators ?? []) === displayed.orientation &&
-        hasBlurredBuffers(displayed.stage, this.#appearance) === displayed.isBlurred;
+        isBlurred(displayed.stage, this.#appearance) === displayed.isBlurred;
       if (isSame)
         displayed.draws.applyAppearance(
           withStreamedRange(this.#appearance, displayed.geometry),
@@ -285,8 +285,10 @@ export class ShapeObject {
       surfaceTextures: new Map(this.#surfaceTextures),
     };
     const orientation = orientationOf(this.#appearance.operators ?? []);
-    const isBlurred = hasBlurredBuffers(stage, this.#appearance);
-    const displayed = { geometry, stage, drawn, drawMode, orientation, isBlurred };
+    const displayed = {
+      ...{ geometry, stage, drawn, drawMode, orientation },
+      isBlurred: isBlurred(stage, this.#appearance),
+    };
     const isSame = before?.drawMode === drawMode && before.orientation === orientation && before.drawn !== drawn;
     if (isSame && before.draws.replaceStage?.(drawn, patchContext) === true)
       return { ...displayed, draws: before.draws };

@@ -52,7 +52,7 @@ export function pickRequestOf(
   return { ...vertexFormatOf(stage, range, isBlurred), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
-/** `isBlurred`: as hasBlurredBuffers says. */
+/** `isBlurred`: whether vertices are drawn after the operator blur. */
 function vertexFormatOf(stage: Stage, range: DrawRange, isBlurred: boolean): VertexFormat {
   const isFromImages = stage.kind === "textures";
   return {
@@ -60,11 +60,10 @@ function vertexFormatOf(stage: Stage, range: DrawRange, isBlurred: boolean): Ver
     isInstanced: false,
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     attributeDefines: attributeDefinesOf(stage.attributes),
-    gridDefines: isFromImages
-      ? gridDefinesOf(stage.grid, stage.attributes.normal !== undefined)
-      : isBlurred
-        ? blurredDefinesOf(stage.coordImage?.grid)
-        : {},
+    gridDefines: {
+      ...(isFromImages && gridDefinesOf(stage.grid, stage.attributes.normal !== undefined)),
+      ...(isBlurred && blurredDefinesOf((isFromImages ? stage.grid : stage.coordImage?.grid) !== undefined)),
+    },
     normalDefines: normalDefinesOf(stage.normalFormat, !isFromImages && stage.attributes.normal?.components === 1),
   };
 }

@@ -81,7 +81,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
           uniforms.of(range),
           displayed.appearance,
           displayed.surfaceTextures,
-          operation.blurred !== undefined,
+          operation.isBlurred,
         ),
         release: () => undefined,
       }),
@@ -190,12 +190,12 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
 }
 
 function requestOf<Uniforms extends Partial<VertexUniforms>>(
-  { stage, context: { geometry, appearance, shared }, operation: { blurred } }: DrawnStage,
+  { stage, context: { geometry, appearance, shared }, operation: { isBlurred } }: DrawnStage,
   range: DrawRange,
   uniforms: Uniforms,
 ) {
   return {
-    ...materialRequestOf(stage, range, geometry, uniforms, shared, false, blurred !== undefined),
+    ...materialRequestOf(stage, range, geometry, uniforms, shared, false, isBlurred),
     ...facesOf(geometry, appearance),
   };
 }

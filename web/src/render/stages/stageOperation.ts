@@ -21,6 +21,8 @@ interface StoredBounds {
 
 export class StageOperation {
   readonly frame: OperatorFrame;
+  /** Whether the stage is drawn after the operator blur. */
+  readonly isBlurred: boolean;
   /** Where the shader cannot filter the vertices itself. */
   readonly blurred: BlurredVertices | undefined;
   readonly #stored: StoredBounds;
@@ -35,6 +37,7 @@ export class StageOperation {
     appearance: AppearanceDescription,
     buffers: BufferProvider,
   ) {
+    this.isBlurred = isBlurred(stage, appearance);
     if (hasBlurredBuffers(stage, appearance))
       this.blurred = new BlurredVertices(stage, stage.coordImage, geometry, patch, buffers);
     this.frame = operatorFrameOf(geometry, patch, stage.bounds);
@@ -81,8 +84,14 @@ export class StageOperation {
   }
 }
 
+/** Whether vertices are drawn after the operator blur, with shaders of their own. */
+export function isBlurred(stage: Stage, appearance: AppearanceDescription): boolean {
+  if (stage.kind === "buffers") return hasBlurredBuffers(stage, appearance);
+  return blurRadiusOf(appearance.operators ?? []) > 0;
+}
+
 /** Whether the vertices of a stage have to be filtered before the shader gets them. */
-export function hasBlurredBuffers(
+function hasBlurredBuffers(
   stage: Stage,
   { operators = [] }: AppearanceDescription,
 ): stage is BufferStage & { readonly coordImage: CoordImage } {
