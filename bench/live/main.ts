@@ -66,6 +66,7 @@ function printRow(...cells: (string | number)[]): void {
   console.log(`| ${cells.join(" | ")} |`);
 }
 
+const gridName = (grid: number): string => `${grid} x ${grid}`;
 const lineName = (isSlow: boolean): string => (isSlow ? "0.5 MB/s" : "unlimited");
 
 /** The server, and nginx where it is in front, run on the first core, the viewers on the others. */
@@ -201,21 +202,22 @@ function quantiles(sorted: number[], ...shares: number[]): string {
 }
 
 /** The runtime's FrameSource without a page: frames are received and decoded. */
-async function measureReceipt(isSlow: boolean, url: string): Promise<void> {
+async function measureReceipt(grid: number, isSlow: boolean, url: string): Promise<void> {
   const viewer = startViewer({ url });
   await pause(12_000);
   viewer.stop();
   const ages = viewer.ages.slice(10).sort((a, b) => a - b);
   const rateReached = (viewer.shown.length / 12).toFixed(1);
-  printRow(lineName(isSlow), "received", rateReached, viewer.skipped, quantiles(ages, 0.5, 0.95, 1));
+  printRow(gridName(grid), lineName(isSlow), "received", rateReached, viewer.skipped, quantiles(ages, 0.5, 0.95, 1));
 }
 
-async function measureAges(browser: Browser): Promise<void> {
+/** Of a fast line and of a slow one. */
+async function measureAges(browser: Browser, grid: number): Promise<void> {
   for (const isSlow of [false, true]) {
-    const stream = await startStream(["cloth", "--grid", "128", "--rate", `${rate}`], [tool]);
+    const stream = await startStream(["cloth", "--grid", `${grid}`, "--rate", `${rate}`], [tool]);
     const line = isSlow ? await startLine(stream.port, slowLine) : undefined;
     const port = line?.port ?? stream.port;
-    await measureReceipt(isSlow, `http://127.0.0.1:${port}/live/cloth`);
+    await measureReceipt(grid, isSlow, `http://127.0.0.1:${port}/live/cloth`);
     const page = await openPage(browser, port);
     await page.waitForFunction(() => (window as unknown as { ages: number[] }).ages.length > 10, undefined, {
       timeout: 120_000,
@@ -224,7 +226,8 @@ async function measureAges(browser: Browser): Promise<void> {
     await pause(10_000);
     const ages = (await agesOf(page)).slice(before).sort((a, b) => a - b);
     const skipped = await page.evaluate(() => (window as unknown as { skippedCount: () => number }).skippedCount());
-    printRow(lineName(isSlow), "page", (ages.length / 10).toFixed(1), skipped, quantiles(ages, 0.5, 0.95, 1));
+    const rateReached = (ages.length / 10).toFixed(1);
+    printRow(gridName(grid), lineName(isSlow), "page", rateReached, skipped, quantiles(ages, 0.5, 0.95, 1));
     await page.close();
     line?.close();
     await stream.stop();
@@ -277,8 +280,9 @@ console.log(`\nViewers at ${rate} Hz on 64 x 64 vertices: ${direct} directly, ${
 if (frameCount === 0) process.exit();
 const browser = await launchChromium();
 try {
-  console.log("| line | viewer | frames a second | skipped | age, median / 19 of 20 / oldest |\n|---|---|--:|--:|--:|");
-  await measureAges(browser);
+  printRow("vertices", "line", "viewer", "frames a second", "skipped", "age, median / 19 of 20 / oldest");
+  console.log("|---|---|---|--:|--:|--:|");
+  for (const grid of [64, 128]) await measureAges(browser, grid);
   console.log("\n| frames | heap | GPU bytes | age, median / 19 of 20 |\n|--:|--:|--:|--:|");
   await measureLongRun(browser);
 } finally {
