@@ -15,6 +15,10 @@ import type { BudgetRequest } from "../scheduler/budget.ts";
 /** A shared delivery as one of its members has joined it. */
 export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel"> & {
   setPlayback(playback: Playback): void;
+  /** Requests its files with the priorities of the last `request` of all deliveries. */
+  request(): void;
+  /** A shape shows it until `next` has loaded: its files now have the priorities of those of `next`, too. */
+  leadTo(next: GeometryDescription): void;
 };
 
 interface SharedDelivery {
@@ -23,11 +27,14 @@ interface SharedDelivery {
   /** The present stages and all errors, for members that join later. */
   readonly stages: Map<number, readonly [stage: Stage, drawn: GeometryDescription | undefined]>;
   readonly errors: DeliveryError[];
+  /** What a member's shape shows after this geometry. */
+  next: GeometryDescription | undefined;
 }
 
 export class GeometryDeliveries {
   readonly #pool: ResourcePool;
   readonly #shared = new Map<GeometryDescription, SharedDelivery>();
+  #priorityOf: (geometry: GeometryDescription) => FilePriority = () => () => undefined;
 
   constructor(pool: ResourcePool) {
     this.#pool = pool;
@@ -65,6 +72,12 @@ export class GeometryDeliveries {
       setPlayback(playback) {
         delivery.setPlayback?.(playback);
       },
+      request: () => {
+        delivery.request(priorityWithin(this.#priorityOf, geometry, shared));
+      },
+      leadTo(next) {
+        shared.next = next;
+      },
       cancel,
     };
   }
@@ -85,15 +98,18 @@ export class GeometryDeliveries {
 
   /** The GPU memory that the geometries require or hold. */
   budgetRequests(priorityOf: (geometry: GeometryDescription) => FilePriority): readonly (readonly BudgetRequest[])[] {
-    return Array.from(this.#shared).flatMap(([geometry, { delivery }]) =>
-      delivery.budgetRequests(priorityOf(geometry)),
+    return Array.from(this.#shared).flatMap(([geometry, shared]) =>
+      shared.delivery.budgetRequests(priorityWithin(priorityOf, geometry, shared)),
     );
   }
 
   /** Updates the priorities of all files. If `granted` is given, budget requests that are not in it are evicted. */
   request(priorityOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
-    for (const [geometry, { delivery }] of this.#shared) {
-      if (granted !== undefined || !delivery.isExhausted) delivery.request(priorityOf(geometry), granted);
+    this.#priorityOf = priorityOf;
+    for (const [geometry, shared] of this.#shared) {
+      const { delivery } = shared;
+      if (granted !== undefined || !delivery.isExhausted)
+        delivery.request(priorityWithin(priorityOf, geometry, shared), granted);
     }
   }
 
@@ -119,8 +135,19 @@ export class GeometryDeliveries {
         for (const listener of members) listener.onSettled();
       },
     });
-    const shared: SharedDelivery = { delivery, members, stages, errors };
+    const shared: SharedDelivery = { delivery, members, stages, errors, next: undefined };
     this.#shared.set(geometry, shared);
     return shared;
   }
+}
+
+/** The priorities of a geometry's files; those of the next geometry where the document no longer has this one. */
+function priorityWithin(
+  priorityOf: (geometry: GeometryDescription) => FilePriority,
+  geometry: GeometryDescription,
+  { next }: SharedDelivery,
+): FilePriority {
+  const own = priorityOf(geometry);
+  const ofNext = next && priorityOf(next);
+  return ofNext ? (patch, file) => own(patch, file) ?? ofNext(patch, file) : own;
 }

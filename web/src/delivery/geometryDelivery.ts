@@ -33,6 +33,8 @@ export interface DeliveryListener {
 /** A frame of a live stream, as the stream's publisher numbers it. */
 export interface LiveFrame {
   readonly number: number;
+  /** The number of the first frame with the same vertices and lattice. */
+  readonly epoch: number;
   /** Seconds of the publisher's clock. */
   readonly time: number;
 }

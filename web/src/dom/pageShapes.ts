@@ -41,6 +41,8 @@ interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
   onTextureImage(shape: PageShape, role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   onSettled(shape: PageShape): void;
   onGeometryReplaced(): void;
+  onReplacing(shape: PageShape, isReplacing: boolean): void;
+  onSwap(): void;
   onRemoved(shape: PageShape): void;
 }
 
@@ -94,6 +96,14 @@ export class PageShape extends LoadingShape {
     if (this.geometry === undefined) this.#loading.settle();
   }
 
+  protected override onReplacing(isReplacing: boolean): void {
+    this.#listener.onReplacing(this, isReplacing);
+  }
+
+  protected override onSwap(): void {
+    this.#listener.onSwap();
+  }
+
   protected override picturesOf({
     textures,
     cubeMap,
@@ -134,6 +144,8 @@ export class PageShapes extends LoadingShapes<PageShape> {
    * is the last to complete.
    */
   readonly #incomplete = new Set<PageShape>();
+  /** Shapes that display a geometry in place of the described one. */
+  readonly #replacing = new Set<PageShape>();
   /** Elements of shapes that the preview displays and that have not begun to load. */
   readonly #previewed: Set<SceneElement>;
   /**
@@ -276,6 +288,14 @@ export class PageShapes extends LoadingShapes<PageShape> {
         this.#settle(shape);
       },
       onGeometryReplaced: () => {
+        this.#renderer.expectReplacements();
+      },
+      onReplacing: (shape, isReplacing) => {
+        if (isReplacing) this.#replacing.add(shape);
+        else this.#replacing.delete(shape);
+        this.#renderer.isReplacing = this.#replacing.size > 0;
+      },
+      onSwap: () => {
         this.#renderer.expectReplacements();
       },
       onRemoved: (shape) => {

@@ -73,6 +73,14 @@ export class AppShape extends LoadingShape {
     this.missingPatches = new Set(this.geometry?.patches.keys());
   }
 
+  protected override onReplacing(): void {
+    // An app's renderer allocates memory, and frees it, as for its other objects.
+  }
+
+  protected override onSwap(): void {
+    // as above
+  }
+
   protected override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {
     this.object.setTexture(
       role,

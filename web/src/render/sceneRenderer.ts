@@ -312,6 +312,12 @@ export class SceneRenderer {
     this.#buffers.expectReplacements();
   }
 
+  /** While true, vertices that are uploaded wait for the GPU memory of those that they replace. */
+  set isReplacing(isReplacing: boolean) {
+    this.#textures.isReplacing = isReplacing;
+    this.#buffers.isReplacing = isReplacing;
+  }
+
   /** Frees GPU memory that is kept for others. */
   freeSpares(): void {
     this.#textures.freeSpares();

@@ -1,6 +1,8 @@
 // One shape of a scene while it loads: the deliveries of its geometry and of its
 // textures. A derived class for each host displays them. When the geometry changes, its last
 // stages stay displayed until all files of the new one have arrived, so that no frame is empty.
+// A script may change it faster than files load: then one that has begun to load is displayed,
+// too, and those described in between are never requested.
 
 import { DeliveryError } from "../delivery/deliveryError.ts";
 import type { LiveFrame } from "../delivery/geometryDelivery.ts";
@@ -36,7 +38,7 @@ interface GeometrySource {
 }
 
 /** A frame of a live stream that the shape displays. */
-export interface DisplayedFrame extends LiveFrame {
+export interface DisplayedFrame extends Omit<LiveFrame, "epoch"> {
   /** Number of frames between this one and the one before, of the same stream. */
   readonly skipped: number;
 }
@@ -54,6 +56,9 @@ export interface StageChange {
 
 const allFrames: Playback = { paused: false, rate: 0 };
 
+/** While an earlier geometry loads, files are requested this long after a script's last change, in milliseconds. */
+const pauseMs = 100;
+
 export abstract class LoadingShape {
   readonly element: SceneElement;
   readonly #deliveries: SceneDeliveries;
@@ -62,11 +67,15 @@ export abstract class LoadingShape {
   #source: GeometrySource | undefined;
   /** The geometry before, which is displayed until the described one is whole. */
   #replaced: GeometrySource | undefined;
+  /** One described between those two that had begun to load: it is displayed if it is whole first. */
+  #superseded: GeometrySource | undefined;
+  /** Runs while the described geometry waits for further changes. */
+  #pause: ReturnType<typeof setTimeout> | undefined;
   #describedTextures: readonly LoadedPicture[] = [];
   #isVisible: boolean;
   #playback: Playback = allFrames;
   /** The frame that was displayed last, and the address of its stream. */
-  #lastFrame: { readonly stream: string | undefined; readonly number: number } | undefined;
+  #lastFrame: (Pick<LiveFrame, "number" | "epoch"> & { readonly stream: string | undefined }) | undefined;
   /** Why the geometry is not drawn, until this has been reported; empty: nothing to report. */
   #problem: string;
 
@@ -95,6 +104,10 @@ export abstract class LoadingShape {
   protected abstract onFrame(frame: DisplayedFrame): void;
   /** The shape has another geometry. The stages of the one before are still displayed. */
   protected abstract onGeometryReplaced(): void;
+  /** The shape begins or ends to display a geometry in place of the described one. */
+  protected abstract onReplacing(isReplacing: boolean): void;
+  /** The delivery of the displayed geometry ends; before the next frame another one's stages replace its stages. */
+  protected abstract onSwap(): void;
   /** A texture has another image; undefined: none. The image before is not used after this call. */
   protected abstract onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void;
   protected abstract onError(error: DeliveryError): void;
@@ -163,27 +176,37 @@ export abstract class LoadingShape {
       this.#problem = ""; // reported once
       this.onError(new DeliveryError("unsupported", "", problem));
     }
-    const source = this.#source;
-    if (source !== undefined)
-      source.joined ??= this.#deliveries.geometries.join(source.geometry, {
-        onStage: (patch, stage, drawn = source.geometry) => {
-          this.#receiveStage(source, patch, stage, drawn);
-        },
-        onFrame: (frame) => {
-          if (source === (this.#replaced ?? this.#source)) this.#displayFrame(source, frame);
-          else source.frame = frame;
-        },
-        onError: (error) => {
-          if (source === this.#source) this.onError(error);
-        },
-        onSettled: () => {
-          if (source !== this.#source) return;
-          this.displayWhole();
-          this.onSettled();
-        },
-      });
-    source?.joined?.setPlayback(this.#playback);
+    if (this.#source !== undefined && this.#pause === undefined) this.#joinDelivery(this.#source);
+    this.#source?.joined?.setPlayback(this.#playback);
     this.#textures.follow(this.#describedTextures);
+  }
+
+  #joinDelivery(source: GeometrySource): void {
+    source.joined ??= this.#deliveries.geometries.join(source.geometry, {
+      onStage: (patch, stage, drawn = source.geometry) => {
+        this.#receiveStage(source, patch, stage, drawn);
+      },
+      onFrame: (frame) => {
+        if (source === this.#displayed) {
+          this.#displayFrame(source, frame);
+          return;
+        }
+        source.frame = frame;
+        this.#displayNewest();
+      },
+      onError: (error) => {
+        if (source === this.#source) this.onError(error);
+      },
+      onSettled: () => {
+        this.#displayNewest();
+        if (source === this.#source) this.onSettled();
+      },
+    });
+  }
+
+  /** The source whose stages are displayed as they arrive. */
+  get #displayed(): GeometrySource | undefined {
+    return this.#replaced ?? this.#source;
   }
 
   /**
@@ -191,7 +214,38 @@ export abstract class LoadingShape {
    * being loaded. If none of its files could be used, the one before stays.
    */
   displayWhole(): void {
-    if (this.#replaced !== undefined && this.#source?.stages.size !== 0 && this.isGeometrySettled) this.#swap();
+    const source = this.#source;
+    if (this.#replaced === undefined || source === undefined || !this.#isDisplayable(source)) return;
+    const before = this.#replaced;
+    this.#setReplaced(undefined);
+    this.#dropSuperseded();
+    this.#swap(before, source);
+  }
+
+  /** Displays the described geometry if it is whole, otherwise the superseded one if that is whole. */
+  #displayNewest(): void {
+    this.displayWhole();
+    const source = this.#superseded;
+    if (source?.joined?.isSettled !== true) return;
+    if (this.#isDisplayable(source)) {
+      const before = this.#replaced;
+      this.#superseded = undefined;
+      this.#setReplaced(source);
+      this.#swap(before, source);
+    } else if (source.stages.size === 0) {
+      this.#dropSuperseded(); // none of its files could be used
+    } else {
+      return; // its next frame is newer
+    }
+    this.#endPause();
+  }
+
+  /** Whether its files have arrived, and it does not take a stream back to an earlier frame. */
+  #isDisplayable({ geometry, stages, joined, frame }: GeometrySource): boolean {
+    if (stages.size === 0 || joined?.isSettled !== true) return false;
+    const last = this.#lastFrame;
+    const isSameEpoch = last?.stream === streamOf(geometry) && last?.epoch === frame?.epoch;
+    return !isSameEpoch || last === undefined || frame === undefined || frame.number >= last.number;
   }
 
   /** Leaves all deliveries and reports that textures have no images any more; `join` joins them again. */
@@ -209,58 +263,107 @@ export abstract class LoadingShape {
 
   #leaveGeometries(): void {
     for (const source of [this.#source, this.#replaced]) source?.joined?.cancel();
-    this.#replaced = undefined;
+    this.#setReplaced(undefined);
+    this.#dropSuperseded();
+    this.#stopPause();
   }
 
-  /** Returns the geometry whose delivery is no longer needed; undefined: the one before is still displayed. */
+  /** Returns the geometry whose delivery is no longer needed; undefined: it is still displayed, or goes on to load. */
   #replaceGeometry(geometry: GeometryDescription | undefined, problem: string): GeometrySource | undefined {
     const before = this.#source;
     this.#source = sourceOf(geometry);
     this.#problem = problem;
     this.onGeometryReplaced();
-    if (this.#replaced === undefined && geometry !== undefined && before !== undefined && before.stages.size > 0) {
-      this.#replaced = before;
+    if (geometry === undefined) return this.#clearGeometry(before);
+    if (before === undefined) return undefined;
+    if (this.#replaced === undefined && before.stages.size > 0) {
+      this.#setReplaced(before);
       return undefined;
     }
-    if (geometry !== undefined) return before;
+    const goesOn = this.#superseded === undefined && before.joined?.isSettled === false;
+    if (goesOn) this.#superseded = before;
+    this.#superseded?.joined?.leadTo(geometry);
+    if (this.#superseded !== undefined && this.#replaced !== undefined) this.#restartPause();
+    return goesOn ? undefined : before;
+  }
+
+  /** The shape has no geometry. Returns the source whose delivery is no longer needed. */
+  #clearGeometry(before: GeometrySource | undefined): GeometrySource | undefined {
     const displayed = this.#replaced ?? before;
-    this.#replaced = undefined;
+    this.#setReplaced(undefined);
+    this.#dropSuperseded();
+    this.#stopPause();
     if (displayed !== undefined) this.#clear(displayed, displayed.stages.keys());
     if (displayed !== before) displayed?.joined?.cancel();
     return before;
   }
 
+  #setReplaced(source: GeometrySource | undefined): void {
+    const wasReplacing = this.#replaced !== undefined;
+    this.#replaced = source;
+    if (wasReplacing !== (source !== undefined)) this.onReplacing(!wasReplacing);
+  }
+
+  #dropSuperseded(): void {
+    this.#superseded?.joined?.cancel();
+    this.#superseded = undefined;
+  }
+
+  #stopPause(): void {
+    clearTimeout(this.#pause);
+    this.#pause = undefined;
+  }
+
+  #restartPause(): void {
+    this.#stopPause();
+    this.#pause = setTimeout(() => {
+      this.#endPause();
+    }, pauseMs);
+  }
+
+  /** Requests the files of the described geometry, if that has waited. */
+  #endPause(): void {
+    if (this.#pause === undefined) return;
+    this.#stopPause();
+    this.join();
+    this.#source?.joined?.request();
+  }
+
   #receiveStage(source: GeometrySource, patch: number, stage: Stage | undefined, drawn: GeometryDescription): void {
     if (stage === undefined) source.stages.delete(patch);
     else source.stages.set(patch, [stage, drawn]);
-    if (source === (this.#replaced ?? this.#source)) this.onStage({ geometry: source.geometry, patch, stage, drawn });
-    if (source === this.#replaced && source.stages.size === 0) this.#swap(); // all of it has been evicted
+    if (source === this.#source && this.#replaced === undefined) this.#dropSuperseded(); // something is displayed now
+    if (source === this.#displayed) this.onStage({ geometry: source.geometry, patch, stage, drawn });
+    if (source !== this.#replaced || source.stages.size > 0) return;
+    this.#setReplaced(undefined); // all of it has been evicted
+    if (this.#source) this.#swap(source, this.#source);
   }
 
   /** Replaces the displayed stages at once: no frame is drawn in between. */
-  #swap(): void {
-    const [before, after] = [this.#replaced, this.#source];
-    this.#replaced = undefined;
-    if (before === undefined || after === undefined) return;
-    this.#clear(
-      before,
-      Array.from(before.stages.keys()).filter((patch) => !after.stages.has(patch)),
-    );
+  #swap(before: GeometrySource | undefined, after: GeometrySource): void {
+    const patches = Array.from(before?.stages.keys() ?? []);
+    if (before)
+      this.#clear(
+        before,
+        patches.filter((patch) => !after.stages.has(patch)),
+      );
+    // Its memory becomes that of the stages which replace it.
+    this.onSwap();
+    before?.joined?.cancel();
     for (const [patch, [stage, drawn]] of after.stages) this.onStage({ geometry: after.geometry, patch, stage, drawn });
     if (after.frame !== undefined) this.#displayFrame(after, after.frame);
-    before.joined?.cancel();
   }
 
   /**
    * Frames are numbered consecutively, so that none is missed in the count, whichever delivery of a stream they come
    * from: another form of the same stream has another delivery.
    */
-  #displayFrame({ geometry }: GeometrySource, frame: LiveFrame): void {
-    const stream = geometry.patches[0]?.coord[0]?.url;
+  #displayFrame({ geometry }: GeometrySource, { number, epoch, time }: LiveFrame): void {
+    const stream = streamOf(geometry);
     const last = this.#lastFrame?.stream === stream ? this.#lastFrame?.number : undefined;
-    if (frame.number === last) return;
-    this.#lastFrame = { stream, number: frame.number };
-    this.onFrame({ ...frame, skipped: last === undefined ? 0 : Math.max(0, frame.number - last - 1) });
+    if (number === last) return;
+    this.#lastFrame = { stream, number, epoch };
+    this.onFrame({ number, time, skipped: last === undefined ? 0 : Math.max(0, number - last - 1) });
   }
 
   #clear({ geometry, stages }: GeometrySource, patches: Iterable<number>): void {
@@ -269,6 +372,11 @@ export abstract class LoadingShape {
       this.onStage({ geometry, patch, stage: undefined, drawn });
     }
   }
+}
+
+/** The address of a live stream; for other geometry without meaning. */
+function streamOf({ patches: [patch] }: GeometryDescription): string | undefined {
+  return patch?.coord[0]?.url;
 }
 
 function sourceOf(geometry: GeometryDescription | undefined): GeometrySource | undefined {

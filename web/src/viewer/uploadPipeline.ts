@@ -1,6 +1,6 @@
 // Uploads images and arrays to the GPU. The browser decodes images outside of the main
 // thread. Images and arrays are uploaded in pieces before frames. JavaScript keeps no copy, except
-// of small arrays (render/uploads/bufferStore.ts).
+// of small arrays (render/uploads/bufferStore.ts) and of those that replace others.
 
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DataImage } from "../decode/image.ts";
@@ -41,12 +41,7 @@ export class UploadPipeline {
    */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.maxTextureSize);
-    try {
-      signal.throwIfAborted();
-      return { image: await this.#upload(bitmap, signal), channels };
-    } finally {
-      bitmap.close();
-    }
+    return { image: await this.#upload(bitmap, signal), channels };
   }
 
   /**
@@ -59,12 +54,7 @@ export class UploadPipeline {
     signal: AbortSignal,
   ): Promise<TextureImage> {
     const { bitmap, hasAlpha } = await decodeTextureImage(bytes, this.#renderer.maxTextureSize, sampling);
-    try {
-      signal.throwIfAborted();
-      return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
-    } finally {
-      bitmap.close();
-    }
+    return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
   }
 
   /** Uploads an array. Rejects with the signal's reason; nothing is then left on the GPU. */
@@ -75,6 +65,8 @@ export class UploadPipeline {
   }
 
   async #upload(bitmap: ImageBitmap, signal: AbortSignal, sampling?: SamplingDescription): Promise<DecodedImage> {
+    if (signal.aborted) bitmap.close();
+    signal.throwIfAborted();
     const { image, steps } = this.#renderer.beginTextureUpload(bitmap, sampling);
     await this.#finish(steps, image, signal);
     return image;

@@ -197,7 +197,7 @@ class StreamDelivery implements Delivery {
   #onFrame(frame: DecodedFrame, byteLength: number): void {
     const epoch = this.#newest;
     if (epoch === undefined) return;
-    const { number, time } = frame.header;
+    const { number, time, epoch: first } = frame.header;
     if (this.#transfer.state !== "ready") {
       this.#transfer.loadedBytes = this.#transfer.totalBytes = byteLength;
       this.#transfer.state = "ready";
@@ -206,7 +206,7 @@ class StreamDelivery implements Delivery {
     frame.display();
     const { vertices } = epoch.target;
     if (vertices !== undefined) epoch.content.resolve({ kind: "live", vertices });
-    epoch.frame = { number, time };
+    epoch.frame = { number, time, epoch: first };
     if (epoch === this.#displayed) this.#reportFrame(epoch);
   }
 

@@ -53,7 +53,6 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   const bitmap = await decodeWithBrowser(Uint8Array.from(atob(testPng), (character) => character.charCodeAt(0)));
   const { image, steps } = textures.begin(bitmap, renderer);
   while (steps.next().done !== true);
-  bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
     primitive: "points",

@@ -10,7 +10,7 @@ import type { ElementArray } from "../../stage/vertexArray.ts";
 import type { ElementType } from "../../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf, glTypeOf } from "../../stage/elementType.ts";
 import type { ArrayUse, GpuArray, WritableArray } from "../../stage/stage.ts";
-import { SpareMemory } from "./spareMemory.ts";
+import { maxWaitingBytes, SpareMemory } from "./spareMemory.ts";
 import type { BufferProvider, BufferUpload } from "./bufferProvider.ts";
 
 const bytesPerStep = 2 ** 18;
@@ -32,6 +32,12 @@ export class BufferStore implements BufferProvider {
     this.#gl.deleteBuffer(buffer);
   });
   #bytes = 0;
+  /**
+   * While geometries are being replaced, larger arrays wait, too, until a draw needs them: they then take the buffers
+   * of those before. Only as many as may be uploaded in one frame.
+   */
+  isReplacing = false;
+  #waitingBytes = 0;
 
   constructor(gl: WebGL2RenderingContext) {
     this.#gl = gl;
@@ -54,7 +60,9 @@ export class BufferStore implements BufferProvider {
 
   begin(array: ElementArray, use: ArrayUse): BufferUpload {
     const { byteLength } = array;
-    if (byteLength <= maxBytesKept)
+    const waits = byteLength > maxBytesKept && this.isReplacing && this.#waitingBytes + byteLength <= maxWaitingBytes;
+    if (waits) this.#waitingBytes += byteLength;
+    if (waits || byteLength <= maxBytesKept)
       return { bytes: this.#add(byteLength, use, { array, use }), steps: deferredUpload(byteLength) };
     const buffer = this.#allocate(byteLength, use);
     return { bytes: this.#add(byteLength, use, buffer), steps: uploadPieces(this.#gl, buffer, array) };
@@ -149,6 +157,7 @@ export class BufferStore implements BufferProvider {
         if (!this.#buffers.delete(bytes)) return;
         this.#bytes -= byteLength;
         if (held instanceof WebGLBuffer) this.#spare.release(spareKeyOf(byteLength, use), held);
+        else this.#endWait(byteLength);
       },
     };
     this.#buffers.set(bytes, held);
@@ -162,7 +171,13 @@ export class BufferStore implements BufferProvider {
     const buffer = this.#allocate(array.byteLength, use);
     for (const steps = uploadPieces(this.#gl, buffer, array); steps.next().done !== true;);
     this.#buffers.set(bytes, buffer);
+    this.#endWait(array.byteLength);
     return buffer;
+  }
+
+  /** An array that was kept is on the GPU, or closed. */
+  #endWait(byteLength: number): void {
+    if (byteLength > maxBytesKept) this.#waitingBytes -= byteLength;
   }
 
   #heldOf(bytes: GpuArray): WebGLBuffer | KeptArray {

@@ -1,6 +1,9 @@
 // GPU objects that are free and wait for other contents of the same size: while geometries are being replaced, the
-// memory of the one before becomes that of the one after next. Scripts may so change files many times a second
-// without new GPU objects.
+// memory of the one before becomes that of the next, whose contents have waited for it, or of the one after next. Scripts
+// may so change files many times a second without new GPU objects.
+
+/** Contents that may wait in JavaScript for a spare object: as many as the upload pipeline uploads before a frame. */
+export const maxWaitingBytes = 4 * 2 ** 20;
 
 /** Spare objects are freed this long after the last replacement. */
 const keptMs = 2000;

@@ -1,10 +1,11 @@
 // Uploads images as textures, strip by strip, so that no single step delays a frame. Texels keep the
-// bytes of the file. JavaScript keeps no copy.
+// bytes of the file. JavaScript keeps no copy, except of images that wait for the textures of those
+// that they replace.
 
 import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
 import type { DecodedImage, WritableImage } from "../../stage/decodedImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
-import { SpareMemory } from "./spareMemory.ts";
+import { maxWaitingBytes, SpareMemory } from "./spareMemory.ts";
 import { setDataSampling, setSampling } from "./textureSampling.ts";
 
 /** An image that is being uploaded. */
@@ -18,12 +19,24 @@ export interface TextureUpload {
   readonly steps: Generator<number, void, void>;
 }
 
+/** An image that is uploaded when a draw needs its texture. */
+interface WaitingImage {
+  readonly bitmap: ImageBitmap;
+  readonly renderer: WebGLRenderer;
+}
+
 /** Images of three channels have four on the GPU, too. */
 const bytesPerTexel = 4;
 const bytesPerStep = 2 ** 18;
 
 export class TextureStore {
-  readonly #textures = new WeakMap<DecodedImage, Texture>();
+  /**
+   * While geometries are being replaced, images of vertex data wait until a draw needs them: they then take the textures
+   * of those before. Only as many as may be uploaded in one frame.
+   */
+  isReplacing = false;
+  readonly #textures = new WeakMap<DecodedImage, Texture | WaitingImage>();
+  #waitingBytes = 0;
   readonly #spare = new SpareMemory<Texture>((texture) => {
     texture.dispose();
   });
@@ -46,8 +59,15 @@ export class TextureStore {
 
   /** The texture of an image. Throws RangeError if the image is not from this store, or is closed. */
   textureOf(image: DecodedImage): Texture {
-    const texture = this.#textures.get(image);
-    if (texture === undefined) throw new RangeError("the image is not on the GPU");
+    const held = this.#textures.get(image);
+    if (held === undefined) throw new RangeError("the image is not on the GPU");
+    if (held instanceof Texture) return held;
+    const { bitmap, renderer } = held;
+    const { width, height } = image;
+    this.#waitingBytes -= bytesOf(image);
+    const texture = this.#take(width, height);
+    this.#textures.set(image, texture);
+    for (const steps = uploadStrips(bitmap, texture, renderer); steps.next().done !== true;);
     return texture;
   }
 
@@ -55,56 +75,79 @@ export class TextureStore {
   makeWritable(width: number, height: number): WritableImage {
     const texture = emptyTexture(width, height);
     return {
-      image: this.#add(texture, width, height),
+      image: this.#add(texture, { width, height }),
       write: (texels) => {
         writeTexels(texture, texels);
       },
     };
   }
 
-  /**
-   * Begins the upload of a bitmap, which may be closed after the last step. Without `sampling`, texels are vertex data.
-   */
+  /** Begins the upload of a bitmap, which it takes over. Without `sampling`, texels are vertex data. */
   begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
-    const spare = sampling === undefined ? this.#spare.take(sizeKeyOf(width, height)) : undefined;
-    const texture = spare ?? emptyTexture(width, height);
+    if (sampling === undefined && this.isReplacing && this.#waitingBytes + bytesOf(bitmap) <= maxWaitingBytes) {
+      this.#waitingBytes += bytesOf(bitmap);
+      return { image: this.#add({ bitmap, renderer }, bitmap, true), steps: deferredUpload(bytesOf(bitmap)) };
+    }
+    const texture = sampling === undefined ? this.#take(width, height) : emptyTexture(width, height);
     if (sampling !== undefined) setSampling(texture, sampling);
-    const image = this.#add(texture, width, height, sampling === undefined);
-    return { image, steps: uploadStrips(new Texture(bitmap), texture, width, height, renderer) };
+    const image = this.#add(texture, bitmap, sampling === undefined, bitmap);
+    return { image, steps: uploadStrips(bitmap, texture, renderer) };
   }
 
-  /** `isReusable`: after it is closed, the texture may become that of another image of this size. */
-  #add(texture: Texture, width: number, height: number, isReusable = false): DecodedImage {
-    const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
+  #take(width: number, height: number): Texture {
+    return this.#spare.take(sizeKeyOf(width, height)) ?? emptyTexture(width, height);
+  }
+
+  /**
+   * `isReusable`: after it is closed, the texture may become that of another image of this size. `bitmap`: is being
+   * uploaded.
+   */
+  #add(held: Texture | WaitingImage, { width, height }: Size, isReusable = false, bitmap?: ImageBitmap): DecodedImage {
+    const hasMipmaps = held instanceof Texture && held.generateMipmaps;
+    const bytes = bytesOf({ width, height }) * (hasMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
     const image = {
       width,
       height,
       close: () => {
-        if (!this.#textures.delete(image)) return;
+        const held = this.#textures.get(image);
+        if (held === undefined) return;
+        this.#textures.delete(image);
         this.#bytes -= bytes;
-        if (isReusable) this.#spare.release(sizeKeyOf(width, height), texture);
-        else texture.dispose();
+        bitmap?.close();
+        if (!(held instanceof Texture)) {
+          this.#waitingBytes -= bytes;
+          held.bitmap.close();
+        } else if (isReusable) {
+          this.#spare.release(sizeKeyOf(width, height), held);
+        } else {
+          held.dispose();
+        }
       },
     };
-    this.#textures.set(image, texture);
+    this.#textures.set(image, held);
     return image;
   }
+}
+
+interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+function bytesOf({ width, height }: Size): number {
+  return width * height * bytesPerTexel;
 }
 
 function sizeKeyOf(width: number, height: number): string {
   return `${width} ${height}`;
 }
 
-/** Uploads `source` into `target` strip by strip; the last strip generates the mipmaps. */
-function* uploadStrips(
-  source: Texture,
-  target: Texture,
-  width: number,
-  height: number,
-  renderer: WebGLRenderer,
-): Generator<number, void, void> {
+/** Uploads a bitmap strip by strip, and closes it; the last strip generates the mipmaps. */
+function* uploadStrips(bitmap: ImageBitmap, target: Texture, renderer: WebGLRenderer): Generator<number, void, void> {
+  const { width, height } = bitmap;
+  const source = new Texture(bitmap);
   const { generateMipmaps } = target;
   renderer.initTexture(target);
   const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
@@ -114,6 +157,12 @@ function* uploadStrips(
     renderer.copyTextureToTexture(source, target, strip, strip.min);
     yield width * (strip.max.y - strip.min.y) * bytesPerTexel;
   }
+  bitmap.close();
+}
+
+/** Accounts for an upload that happens later, when a draw needs the image. */
+function* deferredUpload(byteLength: number): Generator<number, void, void> {
+  yield byteLength;
 }
 
 /** Replaces the texels of a data texture: three.js uploads them into the same texture before it draws it. */
