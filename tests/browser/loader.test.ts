@@ -9,14 +9,16 @@ import type { Page } from "playwright-core";
 import { bundleApp } from "./appBundles.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { until, withPage, type PageOptions, type View } from "./harness.ts";
+import { shapeOf } from "./generators/grids.ts";
 import { plainOf as liveBuffersOf, wave } from "./livePage.ts";
 import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
+import { mappedMesh, type Mapping } from "./mappedGrid.ts";
 import { readPly } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
 import { referenceSettingsOf, patchOfInput } from "./reference.ts";
 import { gate } from "./server.ts";
-import { ranksOfFiles } from "./siteDecoder.ts";
+import { ranksOfFiles, type PlainPatch } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
 import { TestStream } from "./testStream.ts";
 import { soakTest } from "./soak.ts";
@@ -127,7 +129,7 @@ describe("a scene in a three.js app has the same picture as plain buffers", () =
   }
 });
 
-test("a live stream in a three.js app is drawn, casts shadows and is picked as plain buffers", async () => {
+test("live streams and operators in a three.js app are drawn and cast shadows as plain buffers", async () => {
   let stream!: TestStream;
   const server = (server: View["server"]): void => {
     stream = new TestStream(server, "sheet");
@@ -137,30 +139,35 @@ test("a live stream in a three.js app is drawn, casts shadows and is picked as p
         <ImageGeometry coord="live/sheet" solid="false"/></Shape></Scene></X3D>`,
     );
   };
-  await withApp(siteOfGenerated("trefoil", "--profile", "classic"), { server }, async ({ page }) => {
-    for (const keepsVertices of [false, true]) {
-      stream.begin(wave(0));
-      stream.publish(wave(0));
-      await page.evaluate((keep) => {
+  await withApp(siteOfGenerated("trefoil", "--profile", "classic"), { server }, async ({ page, server }) => {
+    const setPlain = ({ positions, normals, triangles }: PlainPatch): Promise<void> =>
+      page.evaluate(
+        (mesh) => {
+          window.app.setPlain(mesh, { diffuseColor: [0.7, 0.6, 0.4], shininess: 0.2 });
+        },
+        {
+          positions: [...positions],
+          normals: [...normals!],
+          triangles: [...triangles],
+          isDoubleSided: true,
+          lines: [],
+        },
+      );
+    const reload = (keepsVertices: boolean): Promise<void> =>
+      page.evaluate((keep) => {
         window.app.dispose();
         window.app.loader.setKeepVertices(keep);
         return window.app.load();
       }, keepsVertices);
+    for (const keepsVertices of [false, true]) {
+      stream.begin(wave(0));
+      stream.publish(wave(0));
+      await reload(keepsVertices);
       for (const moment of [0, 2, 4]) {
         if (moment > 0) stream.publish(wave(moment));
-        const { positions, normals, triangles } = liveBuffersOf(wave(moment));
-        await page.evaluate(
-          (mesh) => {
-            window.app.setPlain(mesh, { diffuseColor: [0.7, 0.6, 0.4], shininess: 0.2 });
-          },
-          {
-            positions: [...positions],
-            normals: [...normals!],
-            triangles: [...triangles],
-            isDoubleSided: true,
-            lines: [],
-          },
-        );
+        const mesh = liveBuffersOf(wave(moment));
+        const { positions } = mesh;
+        await setPlain(mesh);
         const expected = await draw(page, "directional", "plain");
         let picture = await draw(page, "directional", "scene");
         await until("the frame is displayed", async () => {
@@ -184,6 +191,42 @@ test("a live stream in a three.js app is drawn, casts shadows and is picked as p
               `${String(ray!.point)} and ${String(gpu!.point)}`,
             );
           });
+      }
+    }
+
+    // Operators: the references are mapped by hand, in the sheet's box, whose centre is the origin.
+    const example = wave(0);
+    for (const [path, body] of example.files) server.put(path, body);
+    for (const [operators, map, blurRadius] of [
+      [
+        "negate(x) scale(0.7 0.9 0.8)",
+        ([x, y, z], [a, b, c]) => [
+          [-0.7 * x, 0.9 * y, 0.8 * z],
+          [-a / 0.7, b / 0.9, c / 0.8],
+        ],
+        0,
+      ],
+      [
+        "blur(3.5) swizzle(yxz)",
+        ([x, y, z], [a, b, c]) => [
+          [y, x, z],
+          [b, a, c],
+        ],
+        3.5,
+      ],
+    ] as readonly (readonly [string, Mapping, number])[]) {
+      const shape = shapeOf(example, `operators="${operators}" solid="false"`).replace(/ specularColor="[^"]*"/, "");
+      server.put("/scene.x3d", `<X3D><Scene>${shape}</Scene></X3D>`);
+      const mesh = mappedMesh(example, map, true, blurRadius);
+      await setPlain(mesh);
+      const expected = await draw(page, "directional", "plain");
+      const unshadowed = await draw(page, "directional", "plain", false);
+      const shadow = difference(expected, unshadowed).mean;
+      assert.ok(shadow > 0.3, `the shadow changes the reference by ${shadow}`);
+      for (const keepsVertices of [false, true]) {
+        await reload(keepsVertices);
+        const name = `loader ${operators}${keepsVertices ? " kept" : ""}`;
+        assertSamePicture(name, await draw(page, "directional", "scene"), expected, { mean: 0.06, offShare: 0.001 });
       }
     }
   });

@@ -2,23 +2,24 @@
 // decode, and no file is requested again.
 
 import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
+import { operatorsPage } from "../../examples/operators/page.ts";
 import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
-import { meshOf, shapeOf, sheet, surfaceOver } from "./generators/grids.ts";
-import { pictureSize, withPage, type View } from "./harness.ts";
-import { decodePng, type Picture } from "./png.ts";
+import { shapeOf, sheet } from "./generators/grids.ts";
+import { pictureSize, until, withPage, type View } from "./harness.ts";
+import { mappedMesh, type Mapping } from "./mappedGrid.ts";
+import { encodePng, type Picture } from "./png.ts";
+import { repository } from "./paths.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
 import { referencePicture, referenceSettingsOf } from "./reference.ts";
-import type { PlainPatch } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 const example = sheet();
 
-/** In units of the sheet's box, which is 2 wide around the origin: the point and the direction of a normal. */
-type Mapping = (point: Vec3, normal: Vec3) => readonly [point: Vec3, normal: Vec3];
-
-/** Lists of operators with their meaning, written out, whether they mirror, and the radius of their blur. */
+/** Lists of operators with their meaning in the sheet's box, which is 2 wide around the origin, written out, whether they mirror, and the radius of their blur. */
 const lists: readonly (readonly [
   operators: string,
   map: Mapping | undefined,
@@ -61,46 +62,16 @@ const lists: readonly (readonly [
   ],
 ];
 
-/** The weighted mean of the neighbours of each vertex: as many on both sides, where the grid ends. */
-function blurredPositions(positions: Float32Array, radius: number): Float32Array {
+/** The columns of the sheet as lines, in an index image of two bytes. */
+function columnLines(): { image: Buffer; vertexCount: number } {
   const { columns, rows } = example;
-  const reach = Math.ceil(radius);
-  return positions.map((_, i) => {
-    const [column, row] = [Math.floor(i / 3) % columns, Math.floor(i / 3 / columns)];
-    const across = Math.min(reach, column, columns - 1 - column);
-    const down = Math.min(reach, row, rows - 1 - row);
-    let [sum, total] = [0, 0];
-    for (let y = -down; y <= down; ++y)
-      for (let x = -across; x <= across; ++x) {
-        const weight = Math.exp((-2 * (x * x + y * y)) / radius ** 2);
-        sum += weight * positions[i + 3 * (y * columns + x)]!;
-        total += weight;
-      }
-    return sum / total;
+  const ends = Array.from({ length: columns * (rows - 1) }, (_, n) => [n, n + columns]).flat();
+  const height = Math.ceil(ends.length / 256);
+  const data = new Uint8Array(3 * 256 * height);
+  ends.forEach((vertex, n) => {
+    data.set([vertex & 255, vertex >> 8, 0], 3 * n);
   });
-}
-
-function mappedMesh(map: Mapping, isMirroring: boolean, blurRadius: number): PlainPatch {
-  const sharp = meshOf(
-    example,
-    [...example.files.values()].map((file) => decodePng(file)),
-  );
-  const plain = blurRadius > 0 ? surfaceOver(example, blurredPositions(sharp.positions, blurRadius)) : sharp;
-  const { normals } = plain;
-  const vectorAt = (array: ArrayLike<number>, n: number): Vec3 => [array[3 * n]!, array[3 * n + 1]!, array[3 * n + 2]!];
-  const positions = new Float32Array(plain.positions.length);
-  const mappedNormals = new Float32Array(plain.positions.length);
-  for (let n = 0; n < positions.length / 3; ++n) {
-    const [point, normal] = map(vectorAt(plain.positions, n), vectorAt(normals!, n));
-    positions.set(point, 3 * n);
-    mappedNormals.set(
-      normal.map((part) => part / Math.hypot(...normal)),
-      3 * n,
-    );
-  }
-  const triangles = plain.triangles.slice();
-  if (isMirroring) for (let n = 0; n < triangles.length; n += 3) triangles.subarray(n + 1, n + 3).reverse();
-  return { ...plain, positions, normals: mappedNormals, triangles };
+  return { image: encodePng({ width: 256, height, channels: 3, data }), vertexCount: ends.length };
 }
 
 function pageWith(attributes: string): string {
@@ -132,6 +103,7 @@ test("operators map the vertices of every pass", async () => {
     const html = pageWith(`decode="${decode}"`);
     const server = (server: View["server"]): void => {
       for (const [path, body] of example.files) server.put(path, body);
+      server.put("/lines.png", columnLines().image);
       server.when(/^\/$/, { replace: () => html });
     };
     await withPage(site(), { server }, async (view) => {
@@ -148,7 +120,7 @@ test("operators map the vertices of every pass", async () => {
         assert.ok(difference(picture, plain).mean > 0.5, `${operators}: nothing has changed`);
         ofPage.push(picture);
         if (map === undefined) continue;
-        const mesh = mappedMesh(map, isMirroring, blurRadius);
+        const mesh = mappedMesh(example, map, isMirroring, blurRadius);
         if (decode === "gpu")
           assertSamePicture(operators, picture, await referencePicture(html, [mesh]), boundsOfQuantised);
         let hits = 0;
@@ -170,9 +142,88 @@ test("operators map the vertices of every pass", async () => {
       });
       assertSamePicture(`without operators again on the ${decode}`, await view.picture(), plain, { mean: 0 });
       assert.equal(view.server.requests.length, requestCount, "files were requested again");
+
+      // Wide lines with a blur, which are instances.
+      const drawLines = (operators: string): Promise<Picture> =>
+        view.page
+          .evaluate(
+            ([operators, vertexCount]) => {
+              document
+                .querySelector("appearance")!
+                .insertAdjacentHTML("beforeend", '<LineProperties linewidthScaleFactor="5"></LineProperties>');
+              const geometry = document.querySelector("imagegeometry")!;
+              for (const name of ["implicitMeshMode", "implicitMeshSize"]) geometry.removeAttribute(name);
+              const attributes = { index: "lines.png", indexType: "Uint32", primType: "LINES", vertexCount, operators };
+              for (const [name, value] of Object.entries(attributes)) geometry.setAttribute(name, `${value}`);
+            },
+            [operators, columnLines().vertexCount] as const,
+          )
+          .then(() => view.promise("complete", "shape"))
+          .then(() => view.picture());
+      const [sharp, blurredLines] = [await drawLines(""), await drawLines("blur(4)")];
+      savePicture(`operators ${decode} blurred lines`, blurredLines);
+      assert.ok(difference(sharp, blurredLines).mean > 0.3, "lines are not blurred");
+      ofPage.push(sharp, blurredLines);
       pictures.push(ofPage);
     });
   }
-  for (const [n, [operators]] of lists.entries())
-    assertSamePicture(`${operators} on the cpu`, pictures[1]![n]!, pictures[0]![n]!, boundsOfQuantised);
+  for (const [n, name] of [...lists.map(([operators]) => operators), "lines", "blurred lines"].entries())
+    assertSamePicture(`${name} on the cpu`, pictures[1]![n]!, pictures[0]![n]!, boundsOfQuantised);
+});
+
+test("the page of `make operators` maps the vertices in sequence and those of a geometry image", async () => {
+  const grids = siteOfGenerated("trefoil", "--as", "geometry-image", "--grid", "96");
+  const folder = join(repository, "examples/operators");
+  const server = (server: View["server"]): void => {
+    server.when(/^\/$/, { replace: () => operatorsPage(pageOf(site()), pageOf(grids), "Image operators") });
+    for (const name of ["operators.js", "operators.css"]) server.put(`/${name}`, readFileSync(join(folder, name)));
+    for (const name of readdirSync(join(grids, "geometry")))
+      server.put(`/geometry/${name}`, readFileSync(join(grids, "geometry", name)));
+  };
+  await withPage(site(), { server, size: { width: 900, height: 600 } }, async (view) => {
+    const { page } = view;
+    await view.promise("complete");
+    const setSlider = (name: string, value: number): Promise<void> =>
+      page.locator(`input[name=${name}]`).evaluate((input, value) => {
+        (input as HTMLInputElement).value = `${value}`;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+      }, value);
+    const operators = (): Promise<(string | null)[]> =>
+      page.evaluate(() =>
+        Array.from(document.querySelectorAll("imagegeometry"), (geometry) => geometry.getAttribute("operators")),
+      );
+    const sharp = await view.picture();
+    await setSlider("gamma", 1.5);
+    await page.locator('input[name=negative][value="x"]').evaluate((box) => {
+      (box as HTMLInputElement).click();
+    });
+    assert.deepEqual(await operators(), ["gamma(1.5) negative(x)", "gamma(1.5) negative(x)"]);
+    const mapped = await view.picture();
+    savePicture("operators page mapped", mapped);
+    assert.ok(difference(sharp, mapped).mean > 1, "nothing has changed");
+    await page.getByRole("button", { name: "Reset" }).evaluate((button) => {
+      (button as HTMLButtonElement).click();
+    });
+    await until("the list is empty", async () => (await operators()).every((list) => list === ""));
+
+    const requestCount = view.server.requests.length;
+    const plain = await view.picture();
+    await setSlider("blur", 2);
+    const destroyed = await view.picture();
+    savePicture("operators page blurred sequence", destroyed);
+    assert.match(await page.locator(".note").innerText(), /neighbours are not neighbours on the surface/);
+    assert.equal(view.server.requests.length, requestCount, "files were requested again");
+
+    await page.getByLabel("a grid: a geometry image").evaluate((radio) => {
+      (radio as HTMLInputElement).click();
+    });
+    await view.promise("complete", "shape:nth-of-type(2)");
+    assert.match(await page.locator(".note").innerText(), /neighbours on the surface: the blur smooths it/);
+    const smooth = await view.picture();
+    savePicture("operators page blurred grid", smooth);
+    await setSlider("blur", 0);
+    const grid = await view.picture();
+    const [destruction, smoothing] = [difference(plain, destroyed).mean, difference(grid, smooth).mean];
+    assert.ok(smoothing > 0.02 && destruction > 5 * smoothing, `${destruction} and ${smoothing}`);
+  });
 });

@@ -4,6 +4,7 @@
 
 import {
   BufferAttribute,
+  InstancedBufferAttribute,
   InstancedBufferGeometry,
   InstancedInterleavedBuffer,
   InterleavedBufferAttribute,
@@ -22,8 +23,11 @@ export function wideLineGeometryOf(stage: Stage, range: DrawRange, buffers: Buff
   const geometry = outlineGeometry(lineCountOf(range));
   if (stage.kind === "textures") return geometry;
   const records = new LineRecords(stage);
-  records.add(stage, range, buffers);
+  const ends = records.add(stage, range, buffers);
   records.setOn(geometry);
+  // With the operator blur, shaders read vertices by their indices (stages/blurredVertices.ts).
+  if (stage.coordImage !== undefined)
+    geometry.setAttribute("vertexIndices", new InstancedBufferAttribute(Float32Array.from(ends), 2));
   return geometry;
 }
 
@@ -59,10 +63,11 @@ export class LineRecords {
     this.#columns = columnsOf(stage);
   }
 
-  /** Appends the lines of one draw. */
-  add(stage: BufferStage, range: DrawRange, buffers: BufferProvider): void {
+  /** Appends the lines of one draw. Returns the vertex indices of their begins and ends, alternately. */
+  add(stage: BufferStage, range: DrawRange, buffers: BufferProvider): Uint32Array {
     const ends = endsOf(stage, range, buffers);
     for (const column of this.#columns) appendVertices(column, stage, ends, buffers);
+    return ends;
   }
 
   clear(): void {

@@ -312,10 +312,18 @@ vec3 unitNormal(vec3 normal) {
 
 // Coordinates and, of grids, normals after the operator blur, in as many rows each (stages/blurredVertices.ts).
 uniform sampler2D blurredImage;
+#ifdef ${wideLinesDefine}
+  attribute vec2 vertexIndices;
+#endif
 
-vec3 blurredAt(int part) {
+vec3 blurredAt(int part, int end) {
+  #ifdef ${wideLinesDefine}
+    int index = int(vertexIndices[end]);
+  #else
+    int index = gl_VertexID;
+  #endif
   ivec2 size = textureSize(blurredImage, 0);
-  return texelFetch(blurredImage, ivec2(gl_VertexID % size.x, gl_VertexID / size.x + part * (size.y / 2)), 0).xyz;
+  return texelFetch(blurredImage, ivec2(index % size.x, index / size.x + part * (size.y / 2)), 0).xyz;
 }
 
 #endif
@@ -338,17 +346,21 @@ ${texCoordRoles.map(bufferTexCoordMacros).join("\n")}
   #endif
 #endif
 
-Vertex vertexAt(int end) {
+Vertex bufferVertexAt(int end) {
   #ifdef ${wideLinesDefine}
     if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd),
       ${texCoordRoles.map((role) => `END_${role}`).join(", ")});
   #endif
-  Vertex vertex = Vertex(position, unitNormal(normal), STORED_COLOR(color),
+  return Vertex(position, unitNormal(normal), STORED_COLOR(color),
     ${texCoordRoles.map((role) => `BUFFER_${role}`).join(", ")});
+}
+
+Vertex vertexAt(int end) {
+  Vertex vertex = bufferVertexAt(end);
   #ifdef ${blurredDefine}
-    vertex.position = blurredAt(0);
+    vertex.position = blurredAt(0, end);
     #ifdef BLURRED_NORMALS
-      vertex.normal = blurredAt(1);
+      vertex.normal = blurredAt(1, end);
     #endif
   #endif
   return vertex;

@@ -95,9 +95,7 @@ function hasBlurredBuffers(
   stage: Stage,
   { operators = [] }: AppearanceDescription,
 ): stage is BufferStage & { readonly coordImage: CoordImage } {
-  // Wide lines are instances, which know no index of their vertices.
-  const isWide = stage.draws.some((draw) => draw.isWide === true);
-  return stage.kind === "buffers" && stage.coordImage !== undefined && !isWide && blurRadiusOf(operators) > 0;
+  return stage.kind === "buffers" && stage.coordImage !== undefined && blurRadiusOf(operators) > 0;
 }
 
 /** Which faces of a geometry are drawn after its operators. Folded ones are visible from both sides. */
