@@ -109,7 +109,7 @@ async function assertScrubbed(view: View, site: string): Promise<void> {
     2,
   );
   await set(view, "clock", "fraction", "0.4");
-  await page.waitForTimeout(100);
+  await page.waitForTimeout(400); // until the attributes have followed
   const picture = await view.picture();
   const text = await page.evaluate(() => {
     const copy = document.querySelector("x3d")!.cloneNode(true) as Element;
@@ -121,7 +121,7 @@ async function assertScrubbed(view: View, site: string): Promise<void> {
   assertSamePicture("animation-scrubbed", picture, fresh, { mean: 0.05, offShare: 0.001 });
 }
 
-/** Geometry that moves takes no more memory from frame to frame. */
+/** Geometry that moves keeps its buffers, and has loaded once. */
 async function assertKeepsMemory(view: View): Promise<void> {
   const { page } = view;
   const memory = (): Promise<number[]> =>
@@ -131,6 +131,16 @@ async function assertKeepsMemory(view: View): Promise<void> {
       };
       return [statistics.geometries, statistics.textures, statistics.programs, statistics.bufferBytes];
     });
+  await page.evaluate(() => {
+    (globalThis as Record<string, unknown>).loads = 0;
+    document.querySelector("x3d")!.addEventListener(
+      "load",
+      () => {
+        (globalThis as unknown as { loads: number }).loads += 1;
+      },
+      { capture: true },
+    );
+  });
   let before: number[] = [];
   for (let step = 0; step < 8; step++) {
     await set(view, "wave", "set_fraction", String(step / 8));
@@ -138,6 +148,11 @@ async function assertKeepsMemory(view: View): Promise<void> {
     if (step === 3) before = await memory();
   }
   assert.deepEqual(await memory(), before);
+  assert.equal(await page.evaluate(() => (globalThis as Record<string, unknown>).loads), 0, "it has loaded again");
+  await until("its attribute has followed", async () => {
+    const points = await numbersOf(view, "points", "point");
+    return points.length === 9 && Math.abs(points[8]! - 2 * 0.875) < 1e-6;
+  });
 }
 
 async function assertPlays(view: View): Promise<void> {
@@ -150,14 +165,41 @@ async function assertPlays(view: View): Promise<void> {
   await page.evaluate(() => {
     document.querySelector("x3d")!.setAttribute("paused", "");
   });
-  await page.waitForTimeout(100);
+  await page.waitForTimeout(200); // until the attributes have followed
   const [frames, position] = [await framesOf(view), await numbersOf(view, "outer", "translation")];
   await page.waitForTimeout(400);
   assert.equal(await framesOf(view), frames, "a paused scene draws frames");
   assert.deepEqual(await numbersOf(view, "outer", "translation"), position);
+  await assertStandsWhileHidden(view);
   await page.evaluate(() => {
     document.querySelector("x3d")!.removeAttribute("paused");
   });
+}
+
+/** In a hidden tab nothing is drawn, and what moved goes on from where it was. */
+async function assertStandsWhileHidden(view: View): Promise<void> {
+  const { page } = view;
+  const setHidden = (isHidden: boolean): Promise<void> =>
+    page.evaluate((hidden) => {
+      Object.defineProperty(document, "hidden", { value: hidden, configurable: true });
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, isHidden);
+  const fraction = (): Promise<number> =>
+    page.evaluate(() => {
+      const clock = document.querySelector('[DEF="clock"]') as unknown as { getFieldValue: (name: string) => number };
+      return clock.getFieldValue("fraction_changed");
+    });
+  await setHidden(true);
+  await page.evaluate(() => {
+    document.querySelector("x3d")!.setAttribute("paused", "false");
+  });
+  const [frames, stood] = [await framesOf(view), await fraction()];
+  await page.waitForTimeout(600);
+  assert.deepEqual([await framesOf(view), await fraction()], [frames, stood], "a hidden tab plays");
+  await setHidden(false);
+  await until("it plays again", async () => (await framesOf(view)) > frames);
+  const after = await fraction();
+  assert.ok((after - stood + 1) % 1 < 0.25, `the clock has gone from ${stood} to ${after} while the tab was hidden`);
 }
 
 async function assertSensors(view: View): Promise<void> {

@@ -5,6 +5,7 @@ import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, Playback } from "../document/description.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
+import { deliverMoving } from "./movingDelivery.ts";
 import { deliverStream } from "./live/streamDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { Members } from "./members.ts";
@@ -82,6 +83,12 @@ export class GeometryDeliveries {
     };
   }
 
+  /** Whether every file of all geometries has loaded or failed. */
+  get areExhausted(): boolean {
+    for (const { delivery } of this.#shared.values()) if (!delivery.isExhausted) return false;
+    return true;
+  }
+
   /** Estimated bytes of all geometries on the GPU; files that several share count for each. */
   get storedBytes(): number {
     let bytes = 0;
@@ -113,12 +120,17 @@ export class GeometryDeliveries {
     }
   }
 
+  #deliver(geometry: GeometryDescription, listener: DeliveryListener): Delivery {
+    if (geometry.moving) return deliverMoving(geometry, geometry.moving, this.#pool, listener);
+    const deliver = geometry.encoding === "live" ? deliverStream : deliverGeometry;
+    return deliver(geometry, this.#pool, listener);
+  }
+
   #start(geometry: GeometryDescription): SharedDelivery {
     const members = new Members<DeliveryListener>();
     const stages: SharedDelivery["stages"] = new Map();
     const errors: DeliveryError[] = [];
-    const deliver = geometry.encoding === "live" ? deliverStream : deliverGeometry;
-    const delivery = deliver(geometry, this.#pool, {
+    const delivery = this.#deliver(geometry, {
       onStage(patch, stage, drawn) {
         if (stage === undefined) stages.delete(patch);
         else stages.set(patch, [stage, drawn]);

@@ -115,6 +115,14 @@ export class TextureDeliveries {
     return bytes;
   }
 
+  /** Whether every image that is to be displayed at last has loaded or failed. */
+  get areExhausted(): boolean {
+    for (const shared of this.#shared.values())
+      if (!isFullImageReady(shared) && shared.files.some(({ state }) => state !== "ready" && state !== "failed"))
+        return false;
+    return true;
+  }
+
   transfers(): Readonly<Transfer>[] {
     return Array.from(this.#shared.values()).flatMap(transfersOf);
   }

@@ -5,6 +5,7 @@ import { byVertexRole, byVertexRoleWith, texCoordRoles } from "../stage/attribut
 import { dataUrl } from "./dataUrl.ts";
 import type { AttributeDescription, Box3, GeometryDescription, Reference } from "./description.ts";
 import { fogDepthName } from "./description.ts";
+import type { MovingGeometry } from "./movingGeometry.ts";
 import type { VertexArrays } from "../tessellate/faces.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 
@@ -12,9 +13,29 @@ import type { Vec3 } from "./fieldTypes.ts";
 export function geometryOfArrays(
   arrays: VertexArrays | undefined,
   solid: boolean,
-  texCoordMappings: readonly string[] = [""],
+  texCoordMappings?: readonly string[],
 ): GeometryDescription | undefined {
   if (arrays === undefined || arrays.positions.length === 0) return undefined;
+  const geometry = describe(arrays, solid, texCoordMappings, dataReference);
+  return { ...geometry, patches: geometry.patches.map((patch) => ({ ...patch, box: boxAroundAll(arrays.positions) })) };
+}
+
+/** Geometry without files, whose vertices are those of `moving`. Its bounds change, and so are no part of it. */
+export function geometryOfMovingArrays(
+  moving: MovingGeometry,
+  solid: boolean,
+  texCoordMappings?: readonly string[],
+): GeometryDescription {
+  const noFile = { url: "", byteOffset: 0, byteStride: 0 };
+  return { ...describe(moving.arrays, solid, texCoordMappings, () => noFile), moving };
+}
+
+function describe(
+  arrays: VertexArrays,
+  solid: boolean,
+  texCoordMappings: readonly string[] = [""],
+  referenceTo: (array: Float32Array | Uint8Array) => Reference,
+): GeometryDescription {
   const {
     positions,
     normals,
@@ -57,16 +78,16 @@ export function geometryOfArrays(
     ...byVertexRoleWith("Type", (role) => (role === "color" ? "Uint8" : "Float32")),
     patches: [
       {
-        box: boxAroundAll(positions),
+        box: undefined,
         vertexCount: count,
         draws: [{ primitive, count }],
         implicitWidth: 1,
         implicitHeight: 1,
         grid: undefined,
         index: undefined,
-        coord: [dataReference(positions)],
-        ...byVertexRole((role) => array[role] && dataReference(array[role])),
-        attributes: fogDepths ? [dataReference(fogDepths)] : [],
+        coord: [referenceTo(positions)],
+        ...byVertexRole((role) => array[role] && referenceTo(array[role])),
+        attributes: fogDepths ? [referenceTo(fogDepths)] : [],
         value: [],
         lowBytes: {},
         data: undefined,

@@ -3,6 +3,7 @@
 import type { ElementType } from "../stage/elementType.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { Vec2, Vec3 } from "./fieldTypes.ts";
+import type { MovingGeometry } from "./movingGeometry.ts";
 
 export interface Box3 {
   readonly min: Vec3;
@@ -166,6 +167,8 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly patches: readonly PatchDescription[];
   /** The base mesh that stands in for the patches until they are loaded. */
   readonly base: Reference | undefined;
+  /** Geometry whose numbers are in the document and that animation moves: its vertices, in place of files. */
+  readonly moving?: MovingGeometry;
   /** Text only: the URL of the glyph atlas. */
   readonly glyphAtlas?: string;
 }

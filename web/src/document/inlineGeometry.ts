@@ -1,7 +1,7 @@
 // Reads geometry nodes whose numbers are in the document. Their arrays become BG in data: URLs, so that delivery treats
 // them like files, and an unchanged geometry has the same URL.
 
-import { geometryOfArrays } from "./arrayGeometry.ts";
+import { geometryOfArrays, geometryOfMovingArrays } from "./arrayGeometry.ts";
 import type { GeometryDescription, Warning } from "./description.ts";
 import type { Resolve, SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
@@ -21,6 +21,9 @@ import { texCoordModeOf, texCoordSetsOf } from "./readTexCoords.ts";
 import type { PlaneGeometry } from "../tessellate/geometry2d.ts";
 import { arc, circle, closedArc, disk, polyline, polypoint, rectangle, triangles2d } from "../tessellate/geometry2d.ts";
 import type { Values } from "./nodes.ts";
+import type { MovingValues } from "./movingValues.ts";
+import type { MovingAttribute, VertexLayout } from "./movingGeometry.ts";
+import { MovingGeometry } from "./movingGeometry.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
 import type { Solid } from "../tessellate/solids.ts";
@@ -47,15 +50,26 @@ const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[
 type PlaneReader = (
   element: SceneElement,
   warnings: Warning[],
+  moving: MovingValues | undefined,
 ) => { readonly geometry: PlaneGeometry; readonly solid: boolean };
+
+/** The fields of an element, with the numbers that animation has given them. */
+function readMovingFields<NodeFields extends Parameters<typeof readFields>[1]>(
+  element: SceneElement,
+  fields: NodeFields,
+  warnings: Warning[],
+  moving: MovingValues | undefined,
+): Values<NodeFields> {
+  return { ...readFields(element, fields, warnings), ...moving?.fieldsOf(element) };
+}
 
 /** A reader of the node's fields that makes geometry of them; lines and points have no `solid`. */
 function planeReader<Fields extends Parameters<typeof readFields>[1]>(
   fields: Fields,
   geometryOf: (values: Values<Fields>) => PlaneGeometry,
 ): PlaneReader {
-  return (element, warnings) => {
-    const values = readFields(element, fields, warnings);
+  return (element, warnings, moving) => {
+    const values = readMovingFields(element, fields, warnings, moving);
     return { geometry: geometryOf(values), solid: "solid" in values && values.solid === true };
   };
 }
@@ -110,11 +124,20 @@ const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => 
 
 /** Nodes whose vertices are computed from other fields. */
 const surfaces: Readonly<
-  Record<string, (element: SceneElement, childData: VertexData, warnings: Warning[]) => Surface | undefined>
+  Record<
+    string,
+    (
+      element: SceneElement,
+      childData: VertexData,
+      warnings: Warning[],
+      moving: MovingValues | undefined,
+    ) => Surface | undefined
+  >
 > = {
-  elevationgrid: (element, childData, warnings) =>
-    elevationGrid(readFields(element, nodeFields.ElevationGrid, warnings), childData),
-  extrusion: (element, _, warnings) => extrusion(readFields(element, nodeFields.Extrusion, warnings)),
+  elevationgrid: (element, childData, warnings, moving) =>
+    elevationGrid(readMovingFields(element, nodeFields.ElevationGrid, warnings, moving), childData),
+  extrusion: (element, _, warnings, moving) =>
+    extrusion(readMovingFields(element, nodeFields.Extrusion, warnings, moving)),
 };
 
 const primitives: Readonly<Record<string, VertexArrays["primitive"]>> = {
@@ -126,8 +149,16 @@ const primitives: Readonly<Record<string, VertexArrays["primitive"]>> = {
 export interface InlineGeometryReader {
   /** Whether it reads nodes of this lower-case name. */
   readonly reads: (name: string) => boolean;
-  /** Reads a geometry node; undefined for other nodes and for empty geometry. */
-  readonly read: (element: SceneElement, resolve: Resolve, warnings: Warning[]) => GeometryDescription | undefined;
+  /**
+   * Reads a geometry node; undefined for other nodes and for empty geometry. Where `moving` has numbers of its nodes,
+   * they count, and the geometry moves with them.
+   */
+  readonly read: (
+    element: SceneElement,
+    resolve: Resolve,
+    warnings: Warning[],
+    moving?: MovingValues,
+  ) => GeometryDescription | undefined;
 }
 
 export const inlineGeometryReader: InlineGeometryReader = {
@@ -139,44 +170,84 @@ function readInlineGeometry(
   element: SceneElement,
   resolve: Resolve,
   warnings: Warning[],
+  moving?: MovingValues,
 ): GeometryDescription | undefined {
+  const vertices = inlineVerticesOf(element, resolve, warnings, moving);
+  if (vertices?.arrays === undefined) return undefined;
+  const { arrays, solid, texCoordMappings, layout, nodes } = vertices;
+  const sources = [element, ...nodes.keys()];
+  if (moving === undefined || arrays.positions.length === 0 || !sources.some((node) => moving.has(node)))
+    return geometryOfArrays(arrays, solid, texCoordMappings);
+  const known = moving.geometryOf(element);
+  const wholeLayout = layout && { ...layout, nodes };
+  const geometry = known?.follow(arrays, wholeLayout)
+    ? known
+    : new MovingGeometry(arrays, wholeLayout, () => inlineVerticesOf(element, resolve, [], moving)?.arrays);
+  moving.join(sources, element, geometry);
+  return geometryOfMovingArrays(geometry, solid, texCoordMappings);
+}
+
+interface InlineVertices {
+  readonly arrays: VertexArrays | undefined;
+  readonly solid: boolean;
+  readonly texCoordMappings?: readonly string[] | undefined;
+  /** Undefined where arrays follow from the numbers in another way. */
+  readonly layout?: Omit<VertexLayout, "nodes"> | undefined;
+  /** The child nodes with numbers. */
+  readonly nodes: ReadonlyMap<SceneElement, MovingAttribute>;
+}
+
+const noNodes: ReadonlyMap<SceneElement, MovingAttribute> = new Map();
+
+function inlineVerticesOf(
+  element: SceneElement,
+  resolve: Resolve,
+  warnings: Warning[],
+  moving: MovingValues | undefined,
+): InlineVertices | undefined {
   const name = lowerNameOf(element);
   const readSolid = entryOf(solids, name),
     readPlane = entryOf(planeReaders, name),
     readRuns = entryOf(runReaders, name),
     readSurface = entryOf(surfaces, name);
-  if (readPlane) return planeGeometryOf(readPlane, element, warnings);
+  if (readPlane) return planeVerticesOf(readPlane(element, warnings, moving));
   if (!readSolid && !readRuns && !readSurface) return undefined;
   const solidMesh = readSolid?.(element, warnings);
-  const fields = readFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings);
+  const fields = readMovingFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings, moving);
   if (solidMesh)
-    return geometryOfArrays(vertexArraysOf("triangles", solidMesh.data, fansOf(solidMesh.faces)), fields.solid);
-  const childData = vertexDataOf(element, resolve, warnings);
+    return {
+      arrays: vertexArraysOf("triangles", solidMesh.data, fansOf(solidMesh.faces)),
+      solid: fields.solid,
+      nodes: noNodes,
+    };
+  const { data: childData, nodes } = vertexDataOf(element, resolve, warnings, moving);
   const texCoordMode = texCoordModeOf(element, resolve, warnings);
-  const surface = readSurface?.(element, childData, warnings);
+  const surface = readSurface?.(element, childData, warnings, moving);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });
   const data = surface?.data ?? childData,
     runs = surface?.faces ?? readRuns?.(fields, childData) ?? [];
   const isCreased = readSurface !== undefined || name === "indexedfaceset";
-  const arrays = arraysOfRuns(primitives[name] ?? "triangles", data, runs, fields, isCreased);
+  const { arrays, layout } = arraysOfRuns(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
-  return geometryOfArrays(arrays && withGeneratedTexCoords(arrays, texCoordMode), fields.solid, data.texCoordMappings);
+  return {
+    arrays: arrays && withGeneratedTexCoords(arrays, texCoordMode),
+    solid: fields.solid,
+    texCoordMappings: data.texCoordMappings,
+    layout: surface ? undefined : layout,
+    nodes,
+  };
 }
 
-function planeGeometryOf(
-  readPlane: PlaneReader,
-  element: SceneElement,
-  warnings: Warning[],
-): GeometryDescription | undefined {
-  const {
-    geometry: { primitive, data: ownData, faces: ownFaces },
-    solid,
-  } = readPlane(element, warnings);
-  if (primitive === "points") return geometryOfArrays(vertexArraysOf(primitive, ownData, ownFaces.flat()), solid);
-  if (primitive === "lines") return geometryOfArrays(vertexArraysOf(primitive, ownData, linesOf(ownFaces)), solid);
+function planeVerticesOf({
+  geometry: { primitive, data: ownData, faces: ownFaces },
+  solid,
+}: ReturnType<PlaneReader>): InlineVertices {
+  const nodes = noNodes;
+  if (primitive === "points") return { arrays: vertexArraysOf(primitive, ownData, ownFaces.flat()), solid, nodes };
+  if (primitive === "lines") return { arrays: vertexArraysOf(primitive, ownData, linesOf(ownFaces)), solid, nodes };
   const { data, faces } =
     ownData.texCoords.length > 0 ? { data: ownData, faces: ownFaces } : withDefaultTexCoords(ownData, ownFaces);
-  return geometryOfArrays(vertexArraysOf(primitive, data, fansOf(faces)), solid);
+  return { arrays: vertexArraysOf(primitive, data, fansOf(faces)), solid, nodes };
 }
 
 function arraysOfRuns(
@@ -185,20 +256,28 @@ function arraysOfRuns(
   runs: Runs,
   fields: Fields,
   isCreased: boolean,
-): VertexArrays | undefined {
-  if (primitive === "points") return vertexArraysOf(primitive, vertexData, runs.flat());
-  if (primitive === "lines") return vertexArraysOf(primitive, vertexData, linesOf(runs));
+): { readonly arrays: VertexArrays | undefined; readonly layout: Omit<VertexLayout, "nodes"> } {
+  const made = (
+    data: VertexData,
+    corners: readonly Corner[],
+    creasedNormals?: VertexLayout["creasedNormals"],
+  ): ReturnType<typeof arraysOfRuns> => ({
+    arrays: vertexArraysOf(primitive, data, corners),
+    layout: { corners, creasedNormals },
+  });
+  if (primitive === "points") return made(vertexData, runs.flat());
+  if (primitive === "lines") return made(vertexData, linesOf(runs));
   const oriented = fields.ccw ? runs : runs.map((run) => run.toReversed());
   const { data, faces } =
     vertexData.texCoords.length > 0
       ? { data: vertexData, faces: oriented }
       : withDefaultTexCoords(vertexData, oriented);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
-  if (data.normals.length > 0) return vertexArraysOf(primitive, data, cornersOf(faces));
+  if (data.normals.length > 0) return made(data, cornersOf(faces));
   // Sets of triangles are smooth across shared vertices; faces have hard edges up to creaseAngle.
   const angle = isCreased ? fields.creaseAngle : fields.normalPerVertex ? Math.PI : 0;
   const creased = withCreasedNormals(data, faces, angle);
-  return vertexArraysOf(primitive, creased.data, cornersOf(creased.faces));
+  return made(creased.data, cornersOf(creased.faces), creased.normals);
 }
 
 /** The first child with one of these lower-case names, its USE resolved. */
@@ -207,19 +286,33 @@ function childNamed(element: SceneElement, resolve: Resolve, ...names: string[])
   return child && resolve(child);
 }
 
-function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): VertexData {
+function vertexDataOf(
+  element: SceneElement,
+  resolve: Resolve,
+  warnings: Warning[],
+  moving: MovingValues | undefined,
+): { readonly data: VertexData; readonly nodes: ReadonlyMap<SceneElement, MovingAttribute> } {
   const coordinate = childNamed(element, resolve, "coordinate", "coordinatedouble");
   const normal = childNamed(element, resolve, "normal");
   const color = childNamed(element, resolve, "color", "colorrgba");
   const fogCoordinate = childNamed(element, resolve, "fogcoordinate");
-  return {
-    positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
-    normals: normal ? readFields(normal, nodeFields.Normal, warnings).vector : [],
-    ...texCoordSetsOf(element, resolve, warnings),
-    colors: color ? readFields(color, nodeFields.Color, warnings).color : [],
+  const texCoord = childNamed(element, resolve, "texturecoordinate");
+  const nodes = new Map<SceneElement, MovingAttribute>();
+  if (coordinate) nodes.set(coordinate, "positions");
+  if (normal) nodes.set(normal, "normals");
+  if (color) nodes.set(color, "colors");
+  if (texCoord) nodes.set(texCoord, "texCoords");
+  const texCoordSets = texCoordSetsOf(element, resolve, warnings);
+  const data: VertexData = {
+    positions: coordinate ? readMovingFields(coordinate, nodeFields.Coordinate, warnings, moving).point : [],
+    normals: normal ? readMovingFields(normal, nodeFields.Normal, warnings, moving).vector : [],
+    ...texCoordSets,
+    texCoords: moving?.numbersOf(texCoord, "point") ?? texCoordSets.texCoords,
+    colors: color ? readMovingFields(color, nodeFields.Color, warnings, moving).color : [],
     colorComponents: color && lowerNameOf(color) === "colorrgba" ? 4 : 3,
     fogDepths: fogCoordinate ? readFields(fogCoordinate, nodeFields.FogCoordinate, warnings).depth : [],
   };
+  return { data, nodes };
 }
 
 /** The runs of coordIndex between its -1s, with the indices of the other attributes (ISO/IEC 19775-1, 11.2.2.4). */

@@ -14,6 +14,7 @@ import type { Operator } from "./operators.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import { withCubeMapDirection } from "./readCubeMap.ts";
 import { texCoordNodesOf } from "./texCoordNodes.ts";
+import type { MovingValues } from "./movingValues.ts";
 import type { Refusals } from "./refused.ts";
 import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
@@ -27,6 +28,8 @@ export interface ShapeReadingContext {
   readonly warnings: Warning[];
   /** Undefined: geometry whose numbers are in the document is not drawn. */
   readonly inlineGeometry: InlineGeometryReader | undefined;
+  /** The numbers that animation has given geometry in the document. */
+  readonly moving: MovingValues;
   /** Undefined: what is not read is ignored without a word. */
   readonly refusals: Refusals | undefined;
   /** Undefined: Text is not drawn. */
@@ -191,7 +194,7 @@ const geometryReaders: Readonly<Record<string, typeof readBinaryGeometry>> = {
 
 /** Undefined for an element that is no geometry. */
 function readGeometry(
-  { geometries, inlineGeometry, refusals, text }: ShapeReadingContext,
+  { geometries, inlineGeometry, moving, refusals, text }: ShapeReadingContext,
   element: SceneElement,
   lookup: Lookup,
   warnings: Warning[],
@@ -205,7 +208,7 @@ function readGeometry(
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
   const fileGeometry = entryOf(geometryReaders, name)?.(element, resolve, warnings);
-  return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.read(element, resolve, warnings);
+  return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.read(element, resolve, warnings, moving);
 }
 
 /**

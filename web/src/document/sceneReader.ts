@@ -15,6 +15,7 @@ import type { Refusals } from "./refused.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { ElementInstance } from "./elementInstance.ts";
+import { MovingValues } from "./movingValues.ts";
 import type { InlinedDocument } from "./readNode.ts";
 import { isReadAsWhole, readNode } from "./readNode.ts";
 import type { ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
@@ -54,6 +55,7 @@ export class SceneReader {
   readonly #maxInstances: number;
   readonly #page: ElementTree;
   readonly #geometries = new GeometryCache();
+  readonly #moving = new MovingValues();
   readonly #inlinedTrees = new WeakMap<SceneElement, ElementTree>();
   /** By element: the instances that were read from it. */
   readonly #dependents = new Map<SceneElement, Set<ElementInstance>>();
@@ -78,6 +80,21 @@ export class SceneReader {
   /** Call where attributes of the element, or what the options return for it, may have changed. */
   touch(element: SceneElement): void {
     this.#touched.add(element);
+  }
+
+  /**
+   * Gives a list of numbers of a geometry node, or of its Coordinate and the like, other values than its attribute has.
+   * Returns whether that is all: the vertices of the geometry have moved. If not, call `touch`: the geometry that is read
+   * then moves with such values. They count until `touchAttribute`.
+   */
+  moveVertices(element: SceneElement, field: string, numbers: readonly number[]): boolean {
+    return this.#moving.set(element, field, numbers);
+  }
+
+  /** Call where an attribute has changed: as `touch`. */
+  touchAttribute(element: SceneElement): void {
+    this.#moving.forget(element);
+    this.touch(element);
   }
 
   /** Call where fonts may have changed. */
@@ -200,6 +217,7 @@ export class SceneReader {
       lookup,
       geometries: this.#geometries,
       inlineGeometry: this.#options.inlineGeometry,
+      moving: this.#moving,
       operators: this.#options.operators,
       refusals: this.#options.refusals,
       text: this.#options.text,

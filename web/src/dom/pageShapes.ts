@@ -88,6 +88,11 @@ export class PageShape extends LoadingShape {
 
   protected override onGeometryReplaced(): void {
     this.#listener.onGeometryReplaced();
+    if (this.geometry?.moving) {
+      // It begins to move: what it has loaded is in the document, and its events go on.
+      this.#stages = noStages(this.geometry);
+      return;
+    }
     const { waitingFrame } = this.#loading;
     this.#loading.abandon();
     this.#stages = noStages(this.geometry);

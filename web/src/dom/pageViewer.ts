@@ -14,6 +14,7 @@ import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { LodInstance } from "../scene/instances.ts";
+import type { TransformChange } from "../scene/instanceTree.ts";
 import { LodSelection } from "../scene/lodSelection.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
@@ -30,7 +31,7 @@ import { PageInlines } from "./pageInlines.ts";
 import { absoluteUrlOf, makePagePool } from "./pagePool.ts";
 import type { PageShape } from "./pageShapes.ts";
 import { displayedStageOf, PageShapes } from "./pageShapes.ts";
-import type { AnimatedValues } from "./sceneAnimation.ts";
+import type { DocumentChange } from "./sceneAnimation.ts";
 import { SceneAnimation } from "./sceneAnimation.ts";
 import { sceneSpaceOf } from "./sceneSpace.ts";
 import { ShapeVisibility } from "./shapeVisibility.ts";
@@ -183,8 +184,16 @@ export class PageViewer {
       this.#follow(this.#animation.follow(records));
     });
     this.#animation = new SceneAnimation(x3d, {
-      display: (values, isFrame) => {
-        this.#displayValues(values, isFrame);
+      moveTransforms: (changes) => {
+        this.#moveTransforms(changes);
+      },
+      moveVertices: ({ element, field, type, value }) =>
+        type.isList && type.size > 0 && this.#core.reader.moveVertices(element, field, value as readonly number[]),
+      read: (changes) => {
+        this.#readChanges(changes);
+      },
+      drawFrame: () => {
+        this.renderer.draw();
       },
       withoutReports: (write) => {
         this.#writeUnobserved(write);
@@ -202,30 +211,31 @@ export class PageViewer {
     const { reader } = this.#core;
     for (const { target, type } of records) {
       if (type === "childList") reader.rearrange(target as Element);
-      else reader.touch(target as Element);
+      else reader.touchAttribute(target as Element);
     }
     this.#core.read();
     for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
   }
 
-  /** Displays values that animation has written into attributes. */
-  #displayValues({ transforms, others }: AnimatedValues, isFrame: boolean): void {
-    for (const { element } of others) {
+  #moveTransforms(changes: readonly TransformChange[]): void {
+    this.#core.move(changes, () => {
+      const { moved, ...built } = this.renderer.move(changes);
+      this.#hasMoved = true;
+      if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
+      if (this.#displayed) this.cameraController.followMoves(this.#displayed);
+      return moved;
+    });
+  }
+
+  /** Reads attributes that animation has written. */
+  #readChanges(changes: readonly DocumentChange[]): void {
+    for (const { element } of changes) {
       this.#core.reader.touch(element);
       // The reader knows the ancestors of the page's own elements only.
       if (!this.#x3d.contains(element)) for (const part of partsAround(element)) this.#core.reader.touch(part);
     }
-    if (others.length > 0) this.#core.read();
-    if (transforms.size > 0)
-      this.#core.move(transforms.keys(), () => {
-        const { changes, ...built } = this.renderer.move(transforms);
-        this.#hasMoved = true;
-        if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
-        if (this.#displayed) this.cameraController.followMoves(this.#displayed);
-        return changes;
-      });
-    for (const { element, attribute } of others) this.#followBind(element, attribute);
-    if (isFrame) this.renderer.draw();
+    this.#core.read();
+    for (const { element, attribute } of changes) this.#followBind(element, attribute);
   }
 
   /** Follows the document from now on. */
@@ -344,6 +354,9 @@ export class PageViewer {
 
   #makeHost(): ViewerHost {
     return {
+      beforeRead: () => {
+        this.#animation.writeAttributes();
+      },
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
       display: (scene) => this.#display(scene),

@@ -1,12 +1,11 @@
 // Animates a page's scene where its document has nodes that send events. Only then the module that does it is loaded.
 
-import type { FieldChange } from "../animation/documentGraph.ts";
-import type { AnimatedElement } from "../animation/elements.ts";
+import type { DrawnFieldOf, FieldChange } from "../animation/documentGraph.ts";
 import type { AnimatedScene, PageAnimation } from "../animation/page/pageAnimation.ts";
-import type { SceneElement } from "../document/element.ts";
 import type { Field } from "../document/fieldTypes.ts";
 import { nodeFields } from "../document/nodes.ts";
 import type { TransformDescription } from "../document/description.ts";
+import type { TransformChange } from "../scene/instanceTree.ts";
 
 /** Names of elements that send or carry events. */
 const namesOfAnimation =
@@ -20,17 +19,23 @@ const fieldsOfTransform: ReadonlySet<string> = new Set<keyof TransformDescriptio
   "scaleOrientation",
 ]);
 
-/** What has received values in a frame. */
-export interface AnimatedValues {
-  /** The new values of Transforms, by their elements. */
-  readonly transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>;
-  /** Other fields: elements whose attributes have been written. */
-  readonly others: readonly { readonly element: Element; readonly attribute: string }[];
+/** A field of an element of the page. */
+export interface DocumentChange {
+  readonly element: Element;
+  /** X3D's name. */
+  readonly field: string;
+  readonly attribute: string;
+  readonly type: { readonly isList: boolean; readonly size: number };
+  readonly value: unknown;
 }
 
-export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" | "display"> {
-  /** Displays values, whose attributes have been written; draws at once where `isFrame`. */
-  display(values: AnimatedValues, isFrame: boolean): void;
+export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" | "move" | "read"> {
+  /** Moves Transforms. */
+  moveTransforms(changes: readonly TransformChange[]): void;
+  /** Gives a field of a geometry node or of its Coordinate other numbers; false: its attribute is to be read. */
+  moveVertices(change: DocumentChange): boolean;
+  /** Reads attributes that have been written. */
+  read(changes: readonly DocumentChange[]): void;
 }
 
 export class SceneAnimation {
@@ -93,6 +98,11 @@ export class SceneAnimation {
     for (const root of roots) if (!this.#inlined.has(root) && hasAnimation(root)) void this.#playInlined(root);
   }
 
+  /** Call before the document is read: writes attributes that are late. */
+  writeAttributes(): void {
+    for (const animation of this.#all) animation.writeAttributes();
+  }
+
   /** Call after each frame. */
   onFrame(): void {
     for (const animation of this.#all) animation.onFrame();
@@ -132,8 +142,9 @@ export class SceneAnimation {
       const scene: AnimatedScene = {
         ...this.#host,
         drawnFieldOf,
-        display: (changes, isFrame) => {
-          this.#host.display(valuesOf(changes), isFrame);
+        move: (changes) => this.#move(changes),
+        read: (changes) => {
+          this.#host.read(changes as unknown as readonly DocumentChange[]); // elements of a page are DOM elements
         },
       };
       const animation = new Animation(root, scene, this.#mayStartByItself);
@@ -146,6 +157,15 @@ export class SceneAnimation {
     }
   }
 
+  #move(changes: readonly FieldChange[]): readonly FieldChange[] {
+    const transforms = changes.filter(isOfTransform);
+    if (transforms.length > 0) this.#host.moveTransforms(transforms);
+    if (transforms.length === changes.length) return [];
+    return changes.filter(
+      (change) => !isOfTransform(change) && !this.#host.moveVertices(change as unknown as DocumentChange),
+    );
+  }
+
   #applyState(): void {
     for (const animation of this.#all) {
       animation.mayStartByItself = this.#mayStartByItself;
@@ -154,19 +174,8 @@ export class SceneAnimation {
   }
 }
 
-function valuesOf(changes: readonly FieldChange[]): AnimatedValues {
-  const transforms = new Map<SceneElement, Partial<TransformDescription>>();
-  const others: { element: Element; attribute: string }[] = [];
-  for (const { element, field, attribute, value } of changes) {
-    if (element.localName.toLowerCase() !== "transform" || !fieldsOfTransform.has(field)) {
-      others.push({ element: element as unknown as Element, attribute });
-      continue;
-    }
-    const known = transforms.get(element);
-    if (known) Object.assign(known, { [field]: value });
-    else transforms.set(element, { [field]: value });
-  }
-  return { transforms, others };
+function isOfTransform(change: FieldChange): change is FieldChange & TransformChange {
+  return change.isOfTransform;
 }
 
 function hasAnimation(element: Element): boolean {
@@ -195,7 +204,8 @@ const tables = new Map(
 );
 
 /** A field of the runtime's table. */
-function drawnFieldOf({ localName }: AnimatedElement, field: string): { name: string; type: string } | undefined {
-  const lower = field.toLowerCase();
-  return tables.get(localName.toLowerCase())?.get(lower);
-}
+const drawnFieldOf: DrawnFieldOf = ({ localName }, field) => {
+  const node = localName.toLowerCase();
+  const found = tables.get(node)?.get(field.toLowerCase());
+  return found && { ...found, isOfTransform: node === "transform" && fieldsOfTransform.has(found.name) };
+};

@@ -27,10 +27,10 @@ import type {
   SceneDescription,
   ShapeDescription,
   TextureRole,
-  TransformDescription,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { BackgroundInstance } from "../scene/instances.ts";
+import type { TransformChange } from "../scene/instanceTree.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
 import { SceneBackground } from "./frames/sceneBackground.ts";
 import { Batches } from "./batches/batches.ts";
@@ -49,7 +49,7 @@ import type { EnvironmentPicture, EnvironmentRole } from "./environment/sceneEnv
 import { SceneEnvironment } from "./environment/sceneEnvironment.ts";
 import { makeFogUniforms } from "./environment/fogs.ts";
 import { makeLightUniforms } from "./lights/sceneLights.ts";
-import type { BuiltScene } from "./shapes/sceneShapes.ts";
+import type { ChangedScene, MovedScene } from "./shapes/sceneShapes.ts";
 import { SceneShapes } from "./shapes/sceneShapes.ts";
 import { ScreenPicker } from "./picking/screenPicker.ts";
 import { ControllerQueries } from "./picking/controllerQueries.ts";
@@ -217,7 +217,7 @@ export class SceneRenderer {
   }
 
   /** Replaces the scene. GPU resources of shapes that it no longer has are freed. */
-  setScene(description: SceneDescription): BuiltScene {
+  setScene(description: SceneDescription): ChangedScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
     this.#background.follow(built.backgrounds);
@@ -231,8 +231,8 @@ export class SceneRenderer {
    * Gives Transforms of the scene other values, without a description of the whole scene. The next description must
    * have these values.
    */
-  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): BuiltScene {
-    const built = this.#shapes.move(transforms);
+  move(changes: Iterable<TransformChange>): MovedScene {
+    const built = this.#shapes.move(changes);
     this.#background.follow(built.backgrounds);
     this.#environment.follow(built.environmentLights);
     this.requestFrame();

@@ -1,7 +1,7 @@
 // Bounding boxes and spheres in scene coordinates.
 
-import type { Matrix4 } from "three";
-import { Box3, Sphere, Vector3 } from "three";
+import type { Box3, Matrix4 } from "three";
+import { Sphere, Vector3 } from "three";
 import type { Vec3 } from "../document/description.ts";
 
 /** GPUs cannot draw beyond this coordinate: squares of lengths must fit into single precision. */
@@ -9,20 +9,40 @@ const maxCoordinate = 1e18;
 
 /** Whether a GPU can draw the content of a box. Other boxes are left out of the bounds to which the camera fits. */
 export function isDrawable({ min, max }: Box3): boolean {
-  const isWithin = ({ x, y, z }: Vector3): boolean =>
-    Math.abs(x) < maxCoordinate && Math.abs(y) < maxCoordinate && Math.abs(z) < maxCoordinate;
-  return isWithin(min) && isWithin(max);
+  return isWithinReach(min) && isWithinReach(max);
 }
 
-/** The axis-aligned bounds of a transformed box. */
-export function transformedBox(sceneFromBox: Matrix4, { min, max }: { min: Vec3; max: Vec3 }): Box3 {
-  return new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(sceneFromBox);
+function isWithinReach({ x, y, z }: Vector3): boolean {
+  return Math.abs(x) < maxCoordinate && Math.abs(y) < maxCoordinate && Math.abs(z) < maxCoordinate;
 }
 
-/** The bounds of a box under every rotation about a point. */
-export function boxOfAllRotations({ min, max }: Box3, center: Vector3): Box3 {
-  const radius = new Vector3().subVectors(max, center).max(new Vector3().subVectors(center, min)).length();
-  return new Box3().setFromCenterAndSize(center, new Vector3().setScalar(2 * radius));
+/** Sets `target` to the axis-aligned bounds of a transformed box. */
+export function setTransformedBox(
+  target: Box3,
+  { elements: m }: Matrix4,
+  box: { readonly min: Vec3; readonly max: Vec3 },
+): Box3 {
+  // A row of the matrix takes its least value at the corner that has the lesser product along each axis.
+  let [minX, minY, minZ, maxX, maxY, maxZ] = [m[12], m[13], m[14], m[12], m[13], m[14]];
+  for (let axis = 0; axis < 3; ++axis) {
+    const [low, high] = [box.min[axis] ?? 0, box.max[axis] ?? 0];
+    const [x, y, z] = [m[4 * axis] ?? 0, m[4 * axis + 1] ?? 0, m[4 * axis + 2] ?? 0];
+    minX += Math.min(x * low, x * high);
+    maxX += Math.max(x * low, x * high);
+    minY += Math.min(y * low, y * high);
+    maxY += Math.max(y * low, y * high);
+    minZ += Math.min(z * low, z * high);
+    maxZ += Math.max(z * low, z * high);
+  }
+  target.min.set(minX, minY, minZ);
+  target.max.set(maxX, maxY, maxZ);
+  return target;
+}
+
+/** Extends a box to its bounds under every rotation about a point. */
+export function unionOfAllRotations(box: Box3, center: Vector3): void {
+  const radius = new Vector3().subVectors(box.max, center).max(new Vector3().subVectors(center, box.min)).length();
+  box.setFromCenterAndSize(center, new Vector3().setScalar(2 * radius));
 }
 
 /** The bounding sphere of a box; the unit sphere for an empty one. */

@@ -2,24 +2,33 @@
 // its description is the same object as before and its inherited state has not changed, so that an update costs as much
 // as the changed nodes, their siblings and their ancestors.
 
-import { Matrix4, Vector3, Vector4 } from "three";
+import { Box3, Matrix4 } from "three";
 import { deepEqual } from "../document/deepEqual.ts";
-import type { GroupDescription, NodeDescription, TransformDescription, Vec4 } from "../document/description.ts";
+import type { GroupDescription, NodeDescription, TransformDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { boxOfAllRotations, isDrawable, transformedBox } from "./bounds.ts";
+import { setTransformedBox } from "./bounds.ts";
 import { EffectScope, sceneScope } from "./effectScope.ts";
+import { matchChildren } from "./matchChildren.ts";
 import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
-import { emptySummary, NodeInstance, summaryOfBox } from "./nodeInstance.ts";
-import { mergeSummaries } from "./subtreeSummary.ts";
-import { lengthScaleOf, matrixOf } from "./transforms.ts";
+import { NodeInstance } from "./nodeInstance.ts";
+import { invalidateBounds } from "./subtreeBounds.ts";
+import { dependsOnTransforms, groupSummary, leafSummary } from "./subtreeSummary.ts";
+import { matrixOf } from "./transforms.ts";
 
-const none: readonly never[] = [];
+/** A field of a Transform has received a value of its type. */
+export interface TransformChange {
+  readonly element: SceneElement;
+  readonly field: keyof TransformDescription;
+  readonly value: readonly number[];
+}
 
 /** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
   onEnter(node: NodeInstance): void;
   /** The node's description or inherited state has changed. `hasMoved`: whether its transform has, too. */
   onChange(node: NodeInstance, hasMoved: boolean, previous: NodeDescription): void;
+  /** `move` has changed the transform of the node or of one around it, and nothing else. */
+  onMove(node: NodeInstance): void;
   onLeave(node: NodeInstance): void;
 }
 
@@ -28,6 +37,8 @@ export class InstanceTree {
   readonly #listener: InstanceTreeListener | undefined;
   /** The instances of each Transform. */
   readonly #transforms = new Map<SceneElement, Set<NodeInstance>>();
+  /** Used by `move`, and empty otherwise. */
+  readonly #moved: NodeInstance[] = [];
 
   constructor(listener?: InstanceTreeListener) {
     this.#listener = listener;
@@ -55,48 +66,48 @@ export class InstanceTree {
 
   /**
    * Gives Transforms other values, without a description of the whole scene, which `update` needs much longer for. The
-   * next description that `update` gets must have these values.
+   * next description that `update` gets must have these values. Allocates nothing for nodes that have moved before:
+   * matrices change in place.
    */
-  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): void {
-    const moved = new Set<NodeInstance>();
-    const around = new Set<NodeInstance>();
-    for (const [element, values] of transforms) {
+  move(changes: Iterable<TransformChange>): void {
+    const moved = this.#moved;
+    for (const { element, field, value } of changes)
       for (const node of this.#transforms.get(element) ?? []) {
-        const { description } = node;
-        if (description.kind !== "group" || !description.transform) continue;
-        node.description = { ...description, transform: { ...description.transform, ...values } };
-        moved.add(node);
-        for (let at = node.parent; at !== undefined && !around.has(at); at = at.parent) around.add(at);
+        // The type of the field has been checked where its value comes from.
+        (movingTransformOf(node) as Record<string, readonly number[]>)[field] = value;
+        if (node.isMoved) continue;
+        node.isMoved = true;
+        moved.push(node);
       }
+    const isSummaryOld = new Set<NodeInstance>();
+    for (const node of moved) {
+      if (!node.isMoved || isBelowMoved(node)) continue;
+      invalidateBounds(node);
+      this.#moveNode(node);
+      if (dependsOnTransforms(node.summary))
+        for (let at = node.parent; at && !isSummaryOld.has(at); at = at.parent) isSummaryOld.add(at);
     }
-    this.#moveIn(this.root, moved, around);
-  }
-
-  /** Moves nodes at or below `node`. `around`: their ancestors. */
-  #moveIn(node: NodeInstance, moved: ReadonlySet<NodeInstance>, around: ReadonlySet<NodeInstance>): void {
-    if (moved.has(node)) {
-      if (node.inherited) this.#moveNode(node, node.inherited);
-      return;
-    }
-    if (!around.has(node)) return;
-    for (const child of node.children) this.#moveIn(child, moved, around);
-    if (node.description.kind === "group" && node.inherited)
-      node.summary = groupSummary(node, node.description, node.inherited);
+    moved.length = 0;
+    if (isSummaryOld.size > 0) mergeAgain(this.root, isSummaryOld);
   }
 
   /** The node's own transform or one around it has changed. */
-  #moveNode(node: NodeInstance, inherited: InheritedState): void {
-    const { description } = node;
-    node.inherited = inherited;
-    setFrame(node, inherited.sceneFromNode);
-    this.#listener?.onChange(node, true, description);
-    if (description.kind !== "group") {
-      node.summary = leafSummary(node, inherited);
-      return;
-    }
-    const childState = childStateOf(node, description, inherited);
-    for (const child of node.children) this.#moveNode(child, childState);
-    node.summary = groupSummary(node, description, inherited);
+  #moveNode(node: NodeInstance): void {
+    const { description, inherited, parentFromNode, movingTransform } = node;
+    if (inherited === undefined) return;
+    if (parentFromNode) {
+      if (node.isMoved && movingTransform) matrixOf(movingTransform, parentFromNode);
+      // At the root that is the identity.
+      if (inherited.sceneFromNode === this.root.sceneFromNode) node.sceneFromNode.copy(parentFromNode);
+      else node.sceneFromNode.multiplyMatrices(inherited.sceneFromNode, parentFromNode);
+    } else if (node.sceneFromNode !== inherited.sceneFromNode) node.sceneFromNode.copy(inherited.sceneFromNode);
+    node.isMoved = false;
+    node.areBoundsCurrent = false;
+    if (node.box && description.kind === "group" && description.box)
+      setTransformedBox(node.box, node.sceneFromNode, description.box);
+    this.#listener?.onMove(node);
+    for (const child of node.children) this.#moveNode(child);
+    if (dependsOnTransforms(node.summary)) node.summary = summaryOf(node, inherited);
   }
 
   #updateNode(node: NodeInstance, description: NodeDescription, inherited: InheritedState): void {
@@ -107,6 +118,8 @@ export class InstanceTree {
       previouslyInherited?.sceneFromNode !== inherited.sceneFromNode ||
       !deepEqual(transformOf(previous), transformOf(description));
     node.description = description;
+    node.movingTransform = undefined;
+    node.areBoundsCurrent = false;
     this.#indexTransform(node, previous, description);
     node.inherited = inherited;
     if (hasMoved) setFrame(node, inherited.sceneFromNode);
@@ -161,7 +174,7 @@ function childStateOf(
 ): InheritedState {
   const { sceneFromNode } = node;
   const isGroupVisible = isVisible && group.visible;
-  node.box = isGroupVisible && group.box ? transformedBox(sceneFromNode, group.box) : undefined;
+  node.box = isGroupVisible && group.box ? setTransformedBox(new Box3(), sceneFromNode, group.box) : undefined;
   return {
     sceneFromNode,
     isVisible: isGroupVisible,
@@ -170,23 +183,31 @@ function childStateOf(
   };
 }
 
-/** The summary of a group whose children are up to date. */
-function groupSummary(
-  node: NodeInstance,
-  group: GroupDescription,
-  { isVisible, isUnbounded, effectScope: scopeAround }: InheritedState,
-): SubtreeSummary {
-  const { sceneFromNode, box } = node;
-  const isGroupVisible = isVisible && group.visible;
-  const summary = mergeSummaries(node.children, {
-    box: isUnbounded && box && isDrawable(box) ? box : undefined,
-    boundedGroups: box ? [node] : none,
-    anchors: group.anchor && isGroupVisible ? [group.anchor] : none,
-    billboards: group.billboardAxis ? [node] : none,
-    effectScopes: node.effectScope === scopeAround ? none : [node.effectScope],
-    lods: group.lod && isGroupVisible ? [{ ...group.lod, sceneFromLod: sceneFromNode }] : none,
-  });
-  return group.billboardAxis ? rotatingSummary(summary, sceneFromNode) : summary;
+/** The values of a Transform, to be changed in place. The description that the tree has got stays as it is. */
+function movingTransformOf(node: NodeInstance): object {
+  const { description } = node;
+  if (node.movingTransform) return node.movingTransform;
+  if (description.kind !== "group" || !description.transform) return {};
+  const transform = (node.movingTransform = { ...description.transform });
+  node.description = { ...description, transform };
+  return transform;
+}
+
+function isBelowMoved(node: NodeInstance): boolean {
+  for (let at = node.parent; at !== undefined; at = at.parent) if (at.isMoved) return true;
+  return false;
+}
+
+/** Merges summaries again, from the leaves up, at and below a node that is in `nodes` with all nodes around it. */
+function mergeAgain(node: NodeInstance, nodes: ReadonlySet<NodeInstance>): void {
+  if (!nodes.has(node) || !node.inherited) return;
+  for (const child of node.children) mergeAgain(child, nodes);
+  node.summary = summaryOf(node, node.inherited);
+}
+
+function summaryOf(node: NodeInstance, inherited: InheritedState): SubtreeSummary {
+  const { description } = node;
+  return description.kind === "group" ? groupSummary(node, description, inherited) : leafSummary(node, inherited);
 }
 
 function isSameState(a: InheritedState, b: InheritedState): boolean {
@@ -223,68 +244,6 @@ function setFrame(node: NodeInstance, sceneFromParent: Matrix4): void {
   else node.sceneFromNode = sceneFromParent;
 }
 
-function leafSummary(
-  { description, sceneFromNode }: NodeInstance,
-  { isVisible, isUnbounded, effectScope }: InheritedState,
-): SubtreeSummary {
-  switch (description.kind) {
-    case "shape": {
-      const box =
-        description.box && description.contributesToBounds && isUnbounded
-          ? transformedBox(sceneFromNode, description.box)
-          : undefined;
-      return box && isDrawable(box) ? summaryOfBox(box) : emptySummary;
-    }
-    case "viewpoint":
-      return {
-        ...emptySummary,
-        viewpoints: [
-          { element: description.element, viewpoint: description.viewpoint, sceneFromViewpoint: sceneFromNode },
-        ],
-      };
-    case "background":
-      return { ...emptySummary, backgrounds: [{ ...description, sceneFromBackground: sceneFromNode }] };
-    case "fog":
-      return { ...emptySummary, fogs: [{ ...description, scale: lengthScaleOf(sceneFromNode) }] };
-    case "localFog":
-      return description.enabled && isVisible
-        ? {
-            ...emptySummary,
-            localFogs: [{ fog: description.fog, scale: lengthScaleOf(sceneFromNode), scope: effectScope }],
-          }
-        : emptySummary;
-    case "clipPlane": {
-      const plane = description.enabled && isVisible ? scenePlaneOf(description.plane, sceneFromNode) : undefined;
-      return plane ? { ...emptySummary, clipPlanes: [{ plane, scope: effectScope }] } : emptySummary;
-    }
-    case "light":
-      return description.light.on && isVisible
-        ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, effectScope)] }
-        : emptySummary;
-    case "environmentLight":
-      return description.on && isVisible
-        ? {
-            ...emptySummary,
-            environmentLights: [lightInstance(description, sceneFromNode, effectScope)],
-          }
-        : emptySummary;
-    case "group":
-      return emptySummary;
-  }
-}
-
-/**
- * The summary of a billboard, whose bounds cover every rotation about its origin; boxes inside it have no fixed
- * position.
- */
-function rotatingSummary(summary: SubtreeSummary, sceneFromNode: Matrix4): SubtreeSummary {
-  return {
-    ...summary,
-    box: summary.box && boxOfAllRotations(summary.box, new Vector3().setFromMatrixPosition(sceneFromNode)),
-    boundedGroups: [],
-  };
-}
-
 /** Whether a node has an effect on its siblings and their descendants, and on nothing else. */
 function isScoped(description: NodeDescription): boolean {
   switch (description.kind) {
@@ -298,85 +257,4 @@ function isScoped(description: NodeDescription): boolean {
     default:
       return false;
   }
-}
-
-/** A plane of a node in scene coordinates; undefined where the node has no volume or the plane no direction. */
-function scenePlaneOf(plane: Vec4, sceneFromNode: Matrix4): Vector4 | undefined {
-  if (sceneFromNode.determinant() === 0) return undefined;
-  const scenePlane = new Vector4(...plane).applyMatrix4(sceneFromNode.clone().invert().transpose());
-  const length = Math.hypot(scenePlane.x, scenePlane.y, scenePlane.z);
-  return length > 0 ? scenePlane.divideScalar(length) : undefined;
-}
-
-function lightInstance<Light extends { readonly global: boolean }>(
-  light: Light,
-  sceneFromLight: Matrix4,
-  around: EffectScope,
-): { light: Light; sceneFromLight: Matrix4; scope: EffectScope } {
-  return { light, sceneFromLight, scope: light.global ? sceneScope : around };
-}
-
-/**
- * Finds for each description the child that had it before: one with the same description object, else a shape of the
- * same element or another node of the same kind, else a new one.
- */
-function matchChildren(
-  parent: NodeInstance,
-  descriptions: readonly NodeDescription[],
-): { kept: NodeInstance[]; removed: readonly NodeInstance[] } {
-  const { children } = parent;
-  let begin = 0;
-  while (begin < children.length && children[begin]?.description === descriptions[begin]) begin += 1;
-  let end = 0;
-  const maxEnd = Math.min(children.length, descriptions.length) - begin;
-  while (end < maxEnd && children.at(-1 - end)?.description === descriptions.at(-1 - end)) end += 1;
-  const unmatched = new UnmatchedChildren(children.slice(begin, children.length - end));
-  const middle = descriptions.slice(begin, descriptions.length - end);
-  const same = middle.map((description) => unmatched.takeSame(description));
-  const between = middle.map(
-    (description, index) => same[index] ?? unmatched.takeSimilar(description) ?? new NodeInstance(description, parent),
-  );
-  return {
-    kept: [...children.slice(0, begin), ...between, ...children.slice(children.length - end)],
-    removed: unmatched.rest,
-  };
-}
-
-/** Children for which no new description has been found yet. */
-class UnmatchedChildren {
-  readonly #remaining: Set<NodeInstance>;
-  readonly #byDescription: ReadonlyMap<NodeDescription, NodeInstance>;
-  readonly #byIdentity = new Map<unknown, NodeInstance[]>();
-
-  constructor(nodes: readonly NodeInstance[]) {
-    this.#remaining = new Set(nodes);
-    this.#byDescription = new Map(nodes.map((node) => [node.description, node]));
-    for (const node of nodes.toReversed()) {
-      const identity = identityOf(node.description);
-      const known = this.#byIdentity.get(identity);
-      if (known === undefined) this.#byIdentity.set(identity, [node]);
-      else known.push(node);
-    }
-  }
-
-  get rest(): readonly NodeInstance[] {
-    return Array.from(this.#remaining);
-  }
-
-  takeSame(description: NodeDescription): NodeInstance | undefined {
-    const node = this.#byDescription.get(description);
-    return node !== undefined && this.#remaining.delete(node) ? node : undefined;
-  }
-
-  takeSimilar(description: NodeDescription): NodeInstance | undefined {
-    const similar = this.#byIdentity.get(identityOf(description));
-    for (let node = similar?.pop(); node !== undefined; node = similar?.pop())
-      if (this.#remaining.delete(node)) return node;
-    return undefined;
-  }
-}
-
-/** Equal for nodes whose instances may be reused for one another. */
-function identityOf(description: NodeDescription): unknown {
-  return description.kind === "shape" ? description.element : description.kind;
 }

@@ -1,8 +1,7 @@
 // A node instance, which is one occurrence of a node in the scene, and the summary of its subtree.
 
-import type { Box3 } from "three";
-import { Matrix4 } from "three";
-import type { AnchorDescription, NodeDescription } from "../document/description.ts";
+import { Box3, Matrix4 } from "three";
+import type { AnchorDescription, NodeDescription, TransformDescription } from "../document/description.ts";
 import type {
   BackgroundInstance,
   ClipPlaneInstance,
@@ -16,10 +15,8 @@ import type {
 import type { EffectScope } from "./effectScope.ts";
 import { sceneScope } from "./effectScope.ts";
 
-/** What a subtree adds to its scene; lists are in document order. */
+/** What a subtree adds to its scene, shapes aside; in document order. Its matrices are copies. */
 export interface SubtreeSummary {
-  /** Bounds of visible shapes, in scene coordinates; undefined where there are none. */
-  readonly box: Box3 | undefined;
   /** Lights that are on and visible. */
   readonly lights: readonly LightInstance[];
   /** Those that are on and visible. */
@@ -44,26 +41,22 @@ export interface SubtreeSummary {
 }
 
 const none: readonly never[] = [];
-/** The summary of a shape with these bounds. A literal, because a scene that moves makes thousands in each frame. */
-export function summaryOfBox(box: Box3 | undefined): SubtreeSummary {
-  return {
-    box,
-    lights: none,
-    environmentLights: none,
-    viewpoints: none,
-    backgrounds: none,
-    fogs: none,
-    localFogs: none,
-    clipPlanes: none,
-    lods: none,
-    boundedGroups: none,
-    anchors: none,
-    billboards: none,
-    effectScopes: none,
-  };
-}
 
-export const emptySummary = summaryOfBox(undefined);
+/** Also tells that a subtree adds nothing that depends on its transform, except shapes. */
+export const emptySummary: SubtreeSummary = {
+  lights: none,
+  environmentLights: none,
+  viewpoints: none,
+  backgrounds: none,
+  fogs: none,
+  localFogs: none,
+  clipPlanes: none,
+  lods: none,
+  boundedGroups: none,
+  anchors: none,
+  billboards: none,
+  effectScopes: none,
+};
 
 /** What a node inherits from the groups around it. */
 export interface InheritedState {
@@ -75,24 +68,34 @@ export interface InheritedState {
   readonly effectScope: EffectScope;
 }
 
+type Mutable<Type> = { -readonly [Key in keyof Type]: Type[Key] };
+
 /** One occurrence of a node in the scene. */
 export class NodeInstance {
   readonly parent: NodeInstance | undefined;
   /** The latest description of the node. */
   description: NodeDescription;
   /**
-   * Transforms the node's coordinates, for a group those of its children, to the scene's. Replaced, never changed in
-   * place.
+   * Transforms the node's coordinates, for a group those of its children, to the scene's. Nodes share the object with the
+   * node around them unless they have a transform. An update of the tree replaces it, a move changes it in place.
    */
   sceneFromNode = new Matrix4();
-  /** The matrix of a Transform; undefined for other nodes. */
+  /** The matrix of a Transform; undefined for other nodes. Changed in place by a move. */
   parentFromNode: Matrix4 | undefined;
+  /** The values of a Transform that moves, which `description` has too; undefined before its first move. */
+  movingTransform: Mutable<TransformDescription> | undefined;
+  /** Whether a move has given the node other values, and has not moved it yet. */
+  isMoved = false;
   children: readonly NodeInstance[] = [];
   /** Bounds in scene coordinates, for visible groups whose description has a box. */
   box: Box3 | undefined;
   /** The innermost scope around the node; for a group: around its children. */
   effectScope = sceneScope;
   summary: SubtreeSummary = emptySummary;
+  /** Bounds of the visible shapes at and below the node: see boundsOf. */
+  readonly bounds = new Box3();
+  /** Whether nothing has changed since `bounds` were computed. */
+  areBoundsCurrent = false;
   /** Undefined before the first update. */
   inherited: InheritedState | undefined;
 

@@ -1,6 +1,6 @@
 // Lists the instances of a scene's nodes with their transforms, and the scene's bounds, for cameras and renderers.
 
-import { Box3 } from "three";
+import type { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
 import type {
   EnvironmentLightInstance,
@@ -11,6 +11,7 @@ import type {
 } from "./instances.ts";
 import { InstanceTree } from "./instanceTree.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
+import { boundsOf } from "./subtreeBounds.ts";
 
 /** Lists are in document order. */
 export interface SceneInstances {
@@ -31,9 +32,9 @@ export interface SceneInstances {
 /** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
-  const { box, lights, environmentLights, viewpoints, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
+  const { lights, environmentLights, viewpoints, clipPlanes, fogs, localFogs, lods, billboards } = root.summary;
   return {
-    box: box ?? new Box3(),
+    box: boundsOf(root),
     shapes: Array.from(shapesIn(root)),
     lights,
     environmentLights,

@@ -15,37 +15,43 @@ export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDes
   return new Matrix4().makeScale(...step).setPosition(...origin);
 }
 
-/** The matrix of an X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
-export function matrixOf(transform: TransformDescription): Matrix4 {
+const [position, size, axis] = [new Vector3(), new Vector3(), new Vector3()];
+const [turn, axes] = [new Quaternion(), new Quaternion()];
+const [rotationMatrix, axesMatrix, step] = [new Matrix4(), new Matrix4(), new Matrix4()];
+
+/** The matrix of an X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). Written to `target`, which it returns. */
+export function matrixOf(transform: TransformDescription, target = new Matrix4()): Matrix4 {
   const { translation, center, rotation, scaleOrientation, scale } = transform;
-  if (isZero(center) && scaleOrientation[3] === 0) {
-    return new Matrix4().compose(new Vector3(...translation), quaternionOf(rotation), new Vector3(...scale));
-  }
-  const rotationMatrix = rotationOf(rotation);
-  const scaleAxes = rotationOf(scaleOrientation);
-  const translate = (vector: readonly [number, number, number], sign: number) =>
-    new Matrix4().makeTranslation(vector[0] * sign, vector[1] * sign, vector[2] * sign);
-  return translate(translation, 1)
-    .multiply(translate(center, 1))
+  setQuaternion(turn, rotation);
+  if (isZero(center) && scaleOrientation[3] === 0)
+    return target.compose(position.fromArray(translation), turn, size.fromArray(scale));
+  setQuaternion(axes, scaleOrientation);
+  rotationMatrix.makeRotationFromQuaternion(turn);
+  axesMatrix.makeRotationFromQuaternion(axes);
+  const [x, y, z] = translation;
+  const [cx, cy, cz] = center;
+  return target
+    .makeTranslation(x + cx, y + cy, z + cz)
     .multiply(rotationMatrix)
-    .multiply(scaleAxes)
-    .multiply(new Matrix4().makeScale(...scale))
-    .multiply(scaleAxes.clone().invert())
-    .multiply(translate(center, -1));
+    .multiply(axesMatrix)
+    .multiply(step.makeScale(...scale))
+    .multiply(axesMatrix.invert())
+    .multiply(step.makeTranslation(-cx, -cy, -cz));
 }
 
 function isZero([x, y, z]: readonly [number, number, number]): boolean {
   return x === 0 && y === 0 && z === 0;
 }
 
-function quaternionOf([x, y, z, angle]: Rotation): Quaternion {
-  const axis = new Vector3(x, y, z);
-  return axis.lengthSq() === 0 ? new Quaternion() : new Quaternion().setFromAxisAngle(axis.normalize(), angle);
+/** The identity for an axis without length. */
+function setQuaternion(target: Quaternion, [x, y, z, angle]: Rotation): Quaternion {
+  axis.set(x, y, z);
+  return axis.lengthSq() === 0 ? target.identity() : target.setFromAxisAngle(axis.normalize(), angle);
 }
 
 /** The identity for an axis without length. */
 export function rotationOf(rotation: Rotation): Matrix4 {
-  return new Matrix4().makeRotationFromQuaternion(quaternionOf(rotation));
+  return new Matrix4().makeRotationFromQuaternion(setQuaternion(turn, rotation));
 }
 
 /** The rotation of a matrix, without its translation and scale; the identity where it flattens. */

@@ -1,9 +1,9 @@
 // Polygons, lines and points with indexed attributes, as X3D's geometry nodes have them, become vertex arrays.
 // Crease normals are those of src/import/x3d/faces.cpp: vectors/tessellation/creaseNormals.json tests both.
 
+import { CreasedNormals } from "./creasedNormals.ts";
 import { triangulate } from "./earClipping.ts";
 import type { Vec3 } from "./vectors.ts";
-import { cross, dot, minus } from "./vectors.ts";
 
 /** Attribute values that corners index; an empty list means that the geometry lacks the attribute. */
 export interface VertexData {
@@ -41,14 +41,14 @@ export interface Surface {
 export interface VertexArrays {
   readonly primitive: "triangles" | "lines" | "points";
   /** One vertex for each corner, drawn in order, without an index. */
-  readonly positions: Float32Array;
-  readonly normals: Float32Array | undefined;
-  readonly texCoords: Float32Array | undefined;
+  readonly positions: Float32Array<ArrayBuffer>;
+  readonly normals: Float32Array<ArrayBuffer> | undefined;
+  readonly texCoords: Float32Array<ArrayBuffer> | undefined;
   /** Sets of texture coordinates beside the first. */
-  readonly furtherTexCoords?: readonly Float32Array[];
-  readonly colors: Uint8Array | undefined;
+  readonly furtherTexCoords?: readonly Float32Array<ArrayBuffer>[];
+  readonly colors: Uint8Array<ArrayBuffer> | undefined;
   readonly colorComponents: 3 | 4;
-  readonly fogDepths?: Float32Array | undefined;
+  readonly fogDepths?: Float32Array<ArrayBuffer> | undefined;
 }
 
 /**
@@ -82,40 +82,19 @@ export function linesOf(polylines: readonly (readonly Corner[])[]): Corner[] {
   );
 }
 
-/**
- * Computes normals: each corner gets the mean of the unit normals of those faces around its position whose normal
- * deviates from its own face's by at most `creaseAngle`, in radians. A face without area adds nothing to the mean; a
- * mean without direction becomes +z.
- */
+/** Computes normals for each corner, as CreasedNormals says; `creaseAngle` in radians. */
 export function withCreasedNormals(
   data: VertexData,
   faces: readonly (readonly Corner[])[],
   creaseAngle: number,
-): { data: VertexData; faces: Corner[][] } {
-  const faceNormals = faces.map((face) => faceNormal(data.positions, face));
-  const facesAround = new Map<number, number[]>();
-  for (const [faceIndex, face] of faces.entries()) {
-    for (const { position } of face) {
-      const around = facesAround.get(position);
-      if (around === undefined) facesAround.set(position, [faceIndex]);
-      else around.push(faceIndex);
-    }
-  }
-  const minCosine = Math.cos(Math.min(creaseAngle, Math.PI)) - 1e-9;
-  const normals: number[] = [];
-  const creased = faces.map((face, faceIndex) =>
-    face.map((corner) => {
-      const own = faceNormals[faceIndex] ?? zero;
-      let sum = zero;
-      for (const other of facesAround.get(corner.position) ?? []) {
-        const normal = faceNormals[other] ?? zero;
-        if (other === faceIndex || dot(own, normal) >= minCosine) sum = plus(sum, normal);
-      }
-      normals.push(...(hasDirection(sum) ? unit(sum) : plusZ));
-      return { ...corner, normal: normals.length / 3 - 1 };
-    }),
+): { data: VertexData; faces: Corner[][]; normals: CreasedNormals } {
+  const normals = new CreasedNormals(
+    faces.map((face) => face.map(({ position }) => position)),
+    creaseAngle,
   );
-  return { data: { ...data, normals }, faces: creased };
+  let normal = 0;
+  const creased = faces.map((face) => face.map((corner) => ({ ...corner, normal: normal++ })));
+  return { data: { ...data, normals: Array.from(normals.compute(data.positions)) }, faces: creased, normals };
 }
 
 /**
@@ -145,41 +124,8 @@ export function withDefaultTexCoords(
   };
 }
 
-/**
- * The unit normal by Newell's method; zero for a face without area. Positions count from the first corner: far from the
- * origin, products of coordinates themselves would have no digits left for the face.
- */
-function faceNormal(positions: readonly number[], face: readonly Corner[]): Vec3 {
-  let sum = zero;
-  const first = vectorAt(positions, face[0]?.position ?? 0);
-  let before = zero;
-  for (const { position } of face.slice(1)) {
-    const after = minus(vectorAt(positions, position), first);
-    sum = plus(sum, cross(before, after));
-    before = after;
-  }
-  return hasDirection(sum) ? unit(sum) : zero;
-}
-
-const zero: Vec3 = [0, 0, 0];
-const plusZ: Vec3 = [0, 0, 1];
-
 function vectorAt(numbers: readonly number[], index: number): Vec3 {
   return [numbers[3 * index] ?? 0, numbers[3 * index + 1] ?? 0, numbers[3 * index + 2] ?? 0];
-}
-
-function plus(a: Vec3, b: Vec3): Vec3 {
-  return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-}
-
-function hasDirection(vector: Vec3): boolean {
-  const length = Math.hypot(...vector);
-  return length > 0 && Number.isFinite(length);
-}
-
-function unit(vector: Vec3): Vec3 {
-  const length = Math.hypot(...vector);
-  return [vector[0] / length, vector[1] / length, vector[2] / length];
 }
 
 /** The vertex arrays of the corners, in order; undefined where a corner names a value that `data` lacks. */

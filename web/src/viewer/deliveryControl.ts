@@ -7,7 +7,7 @@ import { filePriorityFor, texturePriorityFor } from "../delivery/filePriority.ts
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import { requestWithinBudget, storedBytesOf } from "../delivery/requestWithinBudget.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
-import type { ShapeInstance } from "../scene/instances.ts";
+import { shapeInstanceOf } from "../render/shapes/shapeChanges.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
@@ -39,7 +39,7 @@ export class DeliveryControl {
   /** GPU memory of all deliveries at the last requests. */
   #storedBytes = 0;
   /** Instances that have moved since the last requests. */
-  readonly #moved = new Map<NodeInstance, ShapeInstance | undefined>();
+  readonly #moved = new Set<NodeInstance>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStarted = false;
 
@@ -61,12 +61,10 @@ export class DeliveryControl {
     this.request();
   }
 
-  /** Schedules requests for instances that have moved; not in each frame, as some may move all the time. */
-  followMoves({ instances }: Pick<SceneChanges, "instances">): void {
-    for (const [node, instance] of instances) this.#moved.set(node, instance);
-    this.#timer ??= setTimeout(() => {
-      this.request();
-    }, cameraIntervalMs);
+  /** Schedules requests for shapes that have moved; not in each frame, as some may move all the time. */
+  followMoves(moved: Iterable<NodeInstance>): void {
+    for (const node of moved) this.#moved.add(node);
+    this.#requestSoon();
   }
 
   /** Sets the GPU memory that deliveries may take. */
@@ -90,9 +88,13 @@ export class DeliveryControl {
     if (this.#timer !== undefined) return;
     const storedBytes = storedBytesOf(this.#options.deliveries);
     const isOverBudget = storedBytes > this.#maxBytes && storedBytes !== this.#storedBytes;
-    if (!isOverBudget && isSameView(this.#options.view(), this.#view)) return;
-    this.#timer = setTimeout(() => {
-      this.request();
+    if (isOverBudget || !isSameView(this.#options.view(), this.#view)) this.#requestSoon();
+  }
+
+  #requestSoon(): void {
+    this.#timer ??= setTimeout(() => {
+      this.#timer = undefined;
+      if (!this.#isExhausted) this.request();
     }, cameraIntervalMs);
   }
 
@@ -122,8 +124,15 @@ export class DeliveryControl {
     requestWithinBudget(this.#options.deliveries, () => noPriority, noPriority);
   }
 
+  /** Whether every file has been loaded, and none has to leave. */
+  get #isExhausted(): boolean {
+    const { deliveries } = this.#options;
+    const { geometries, textures } = deliveries;
+    return geometries.areExhausted && textures.areExhausted && storedBytesOf(deliveries) <= this.#maxBytes;
+  }
+
   #followMoved(): void {
-    this.#instances.follow(this.#moved);
+    this.#instances.follow(Array.from(this.#moved, (node) => [node, shapeInstanceOf(node)] as const));
     this.#moved.clear();
   }
 

@@ -18,6 +18,8 @@ import { refusals } from "../document/refused.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
+import type { TransformChange } from "../scene/instanceTree.ts";
+import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
 import { measureRun } from "../text/glyphRendering.ts";
 import { textReader } from "../text/textGeometry.ts";
@@ -31,6 +33,8 @@ export const progressIntervalMs = 50;
 
 /** Displays a scene, and receives what happens to its files. */
 export interface ViewerHost {
+  /** The document is read next. */
+  beforeRead?(): void;
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
   /** Keys (textureKeyOf) of textures that the host displays around the viewer. */
@@ -140,6 +144,7 @@ export class ViewerCore<Shape extends LoadingShape> {
 
   /** Reads the document. If the scene has changed, displays it and requests its files. */
   read(): void {
+    this.#host.beforeRead?.();
     const before = this.#scene;
     const scene = (this.#scene = this.reader.read());
     if (scene === before) return;
@@ -157,10 +162,10 @@ export class ViewerCore<Shape extends LoadingShape> {
 
   /**
    * Moves Transforms whose attributes have been written: displays them without reading the document, which happens when
-   * something else changes. `display` moves them on the screen.
+   * something else changes. `display` moves them on the screen, and returns the instances of shapes that have moved.
    */
-  move(elements: Iterable<SceneElement>, display: () => Pick<SceneChanges, "instances">): void {
-    for (const element of elements) this.reader.touch(element);
+  move(changes: Iterable<TransformChange>, display: () => Iterable<NodeInstance>): void {
+    for (const { element } of changes) this.reader.touch(element);
     this.control.followMoves(display());
   }
 

@@ -6,7 +6,6 @@ import { geometryInstance } from "../delivery/filePriority.ts";
 import { textureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import type { ShapeInstance } from "../scene/instances.ts";
-import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 
 /** Keyed by the instance of the shape's node. */
 type Instances = Map<object, GeometryInstance>;
@@ -20,7 +19,7 @@ export class VisibleInstances {
   readonly #visible = new Map<object, ShapeInstance>();
 
   /** Updates instances that have been added, changed or removed (undefined). */
-  follow(instances: SceneChanges["instances"]): void {
+  follow(instances: Iterable<readonly [node: object, instance: ShapeInstance | undefined]>): void {
     for (const [node, instance] of instances) {
       const before = this.#visible.get(node);
       if (before !== undefined) this.#remove(node, before);

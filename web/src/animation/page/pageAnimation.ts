@@ -11,6 +11,7 @@ import type { LocalView } from "../viewSensors.ts";
 import { ViewSensor } from "../viewSensors.ts";
 import { inverseOf, product, rotationIn, transformPoint } from "./matrices.ts";
 import type { Matrix } from "./matrices.ts";
+import { LateAttributes } from "./lateAttributes.ts";
 import { OutputEvents } from "./outputEvents.ts";
 import type { PointerSpace } from "./pointerSensing.ts";
 import { PointerSensing } from "./pointerSensing.ts";
@@ -27,8 +28,15 @@ export interface SceneView {
 /** What the animation needs of the view of its scene. */
 export interface AnimatedScene extends PointerSpace {
   readonly drawnFieldOf: DrawnFieldOf;
-  /** Displays values that fields of drawn nodes have received, at once where `isFrame`. */
-  display(changes: readonly FieldChange[], isFrame: boolean): void;
+  /**
+   * Displays values that fields of drawn nodes have received, as far as the document need not be read for it. Returns
+   * the others.
+   */
+  move(changes: readonly FieldChange[]): readonly FieldChange[];
+  /** Reads attributes that have been written. */
+  read(changes: readonly FieldChange[]): void;
+  /** What `move` and `read` display is a frame, and is drawn at once. */
+  drawFrame(): void;
   /** Calls back so that the changes of attributes that it makes are not reported. */
   withoutReports(write: () => void): void;
   /** The view of the last frame; undefined before the first. */
@@ -48,11 +56,18 @@ export class PageAnimation {
   readonly #events = new OutputEvents();
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
+  readonly #attributes: LateAttributes;
+  readonly #listAttributes: LateAttributes;
   #viewSensors: readonly { readonly element: AnimatedElement; readonly sensor: ViewSensor }[] = [];
   #isInFrame = false;
 
   constructor(x3d: Element, scene: AnimatedScene, mayStartByItself: boolean) {
     this.#scene = scene;
+    const write = (changes: Iterable<FieldChange>): void => {
+      this.#write(changes);
+    };
+    this.#attributes = new LateAttributes(write, false);
+    this.#listAttributes = new LateAttributes(write, true);
     this.#player = new AnimationPlayer(
       x3d,
       {
@@ -62,11 +77,7 @@ export class PageAnimation {
       {
         drawnFieldOf: scene.drawnFieldOf,
         apply: (changes) => {
-          scene.withoutReports(() => {
-            for (const { element, attribute, type, value } of changes)
-              element.setAttribute(attribute, type.format(value));
-          });
-          scene.display(changes, this.#isInFrame);
+          this.#apply(changes);
         },
         writeAttribute: (element, field, text) => {
           scene.withoutReports(() => {
@@ -127,9 +138,36 @@ export class PageAnimation {
     });
   }
 
+  /** Call before the document is read: writes the attributes of what has moved; readers know the numbers of lists. */
+  writeAttributes(): void {
+    this.#attributes.writeNow();
+  }
+
   dispose(): void {
+    this.#attributes.dispose();
+    this.#listAttributes.dispose();
     this.#listeners.abort();
     this.#player.dispose();
+  }
+
+  #apply(changes: readonly FieldChange[]): void {
+    const read = this.#scene.move(changes);
+    const written = read.length > 0 ? new Set(read) : undefined;
+    for (const change of changes)
+      if (!written?.has(change)) (change.type.isList ? this.#listAttributes : this.#attributes).add(change);
+    if (written) {
+      this.#write(written);
+      this.#scene.read(read); // which calls writeAttributes
+    }
+    if (this.#isInFrame) this.#scene.drawFrame();
+    this.#attributes.schedule();
+    this.#listAttributes.schedule();
+  }
+
+  #write(changes: Iterable<FieldChange>): void {
+    this.#scene.withoutReports(() => {
+      for (const { element, attribute, type, value } of changes) element.setAttribute(attribute, type.format(value));
+    });
   }
 
   #localView(view: SceneView, element: AnimatedElement): LocalView | undefined {

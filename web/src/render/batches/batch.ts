@@ -1,7 +1,7 @@
 // A batch draws several members together. A member is one draw of a stage in one instance of its
 // shape.
 
-import type { BufferGeometry, Frustum, Material, Matrix4, Sphere } from "three";
+import type { BufferGeometry, Frustum, Material, Sphere } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isSurface } from "../primitives/primitives.ts";
@@ -23,8 +23,8 @@ export interface BatchedDraw {
   readonly vertexCount: number;
   /** Bounds of the vertices, in stored coordinates. */
   readonly bounds: Sphere;
-  readonly shapeFromStored: Matrix4;
-  /** Lattice step, in the shape's coordinates. */
+  /** The point of stored coordinates 0, and the lattice step, in the shape's coordinates. */
+  readonly origin: readonly [number, number, number];
   readonly step: readonly [number, number, number];
   readonly texCoordFrames: readonly number[];
   /** As valueFrameOf returns it. */

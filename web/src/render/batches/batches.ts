@@ -27,6 +27,7 @@ export class Batches {
   readonly #buffers: BufferProvider;
   readonly #table = new InstanceTable();
   readonly #members = new Set<Member>();
+  readonly #membersOf = new Map<ShapeGroup, Member[]>();
   /** Members of draws that blend. */
   readonly #blended = new Set<Member>();
   /** Batches by the key of their members. New members join the last batch of their key. */
@@ -41,9 +42,8 @@ export class Batches {
   /** Numbers that stand for stages in the keys of batches. */
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
-  readonly #invertedRoot = new Matrix4();
-  readonly #inverseOfRoot = new Matrix4();
-  readonly #rootFromStored = new Matrix4();
+  /** The numbers of a record that depend on the group. */
+  readonly #record = new Float64Array(instanceFields.texCoordFrames);
 
   constructor(materialFactory: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
     this.#materialFactory = materialFactory;
@@ -68,8 +68,11 @@ export class Batches {
     this.#table.write(member.instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
     this.#table.write(member.instanceIndex, instanceFields.material, numbers);
     this.#members.add(member);
+    const others = this.#membersOf.get(group);
+    if (others) others.push(member);
+    else this.#membersOf.set(group, [member]);
     if (draw.isBlended) this.#blended.add(member);
-    this.#write(member, this.#rootFromScene);
+    this.#write(member);
     this.#join(member);
     return member;
   }
@@ -81,15 +84,28 @@ export class Batches {
 
   remove(member: Member): void {
     this.#members.delete(member);
+    const others = this.#membersOf.get(member.group)?.filter((other) => other !== member) ?? [];
+    if (others.length > 0) this.#membersOf.set(member.group, others);
+    else this.#membersOf.delete(member.group);
     this.#blended.delete(member);
     member.batch?.remove(member);
     this.#table.release(member.instanceIndex);
     if (this.#members.size === 0) this.#disposeBatches(); // a restored context starts without objects of the lost one
   }
 
-  /** Call when the group has moved, has become visible or invisible, or has another effect scope. */
+  /** Call when the group has moved. */
+  follow(group: ShapeGroup): void {
+    const members = this.#membersOf.get(group);
+    if (members) for (const member of members) this.updateRecord(member);
+  }
+
+  /** Call when the member's group has moved, has become visible or invisible, or has another effect scope. */
   updateRecord(member: Member): void {
-    this.#updateRecordIn(this.#rootFromScene, member);
+    const { isMirrored } = member;
+    if (this.#write(member)) member.batch?.invalidateBounds();
+    if (member.isMirrored === isMirrored) return;
+    member.batch?.remove(member);
+    this.#join(member);
   }
 
   /** Call when the scene's bounding sphere has changed. */
@@ -104,8 +120,7 @@ export class Batches {
 
   /** Call when all groups have moved or effect scopes have new numbers. */
   updateAllRecords(): void {
-    const rootFromScene = this.#rootFromScene;
-    for (const member of this.#members) this.#updateRecordIn(rootFromScene, member);
+    for (const member of this.#members) this.updateRecord(member);
   }
 
   /** Call before a frame. `margin`: as in `frustumOf`. */
@@ -146,60 +161,41 @@ export class Batches {
     this.#empty.clear();
   }
 
-  /** Batches move rarely, their members often. */
-  get #rootFromScene(): Matrix4 {
-    if (!this.#invertedRoot.equals(this.root.matrixWorld)) {
-      this.#invertedRoot.copy(this.root.matrixWorld);
-      this.#inverseOfRoot.copy(this.root.matrixWorld).invert();
-    }
-    return this.#inverseOfRoot;
-  }
-
-  #updateRecordIn(rootFromScene: Matrix4, member: Member): void {
-    const { isMirrored } = member;
-    if (this.#write(member, rootFromScene)) member.batch?.invalidateBounds();
-    if (member.isMirrored === isMirrored) return;
-    member.batch?.remove(member);
-    this.#join(member);
-  }
-
-  /** Writes the matrix, lattice step, visibility and effect scope into the record. Returns whether one has changed. */
-  #write(member: Member, rootFromScene: Matrix4): boolean {
-    const {
-      draw: { shapeFromStored, bounds, step },
-      group,
-      instanceIndex,
-      sphere,
-    } = member;
-    const rootFromStored = this.#rootFromStored
-      .multiplyMatrices(rootFromScene, group.matrixWorld)
-      .multiply(shapeFromStored);
-    const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;
+  /**
+   * Writes the matrix, lattice step, visibility and effect scope into the record. Returns whether one has changed. The
+   * two products of matrices are written out: the root only translates, and stored coordinates are scaled and
+   * translated.
+   */
+  #write(member: Member): boolean {
+    const { draw, group, sphere } = member;
+    const { elements: m } = group.matrixWorld;
+    const { elements: root } = this.root.matrix;
+    const [stepX, stepY, stepZ] = draw.step;
+    const [originX, originY, originZ] = draw.origin;
     member.isVisible = group.visible;
-    member.isMirrored = rootFromStored.determinant() < 0;
+    member.isMirrored = isMirroring(m) !== stepX * stepY * stepZ < 0;
     // three.js detects mirroring by the object's matrix, so the object is mirrored, and the record
     // is multiplied by the same mirror.
     const mirror = member.isMirrored ? -1 : 1;
-    sphere.copy(bounds).applyMatrix4(rootFromStored);
-    const [stepX, stepY, stepZ] = step;
-    return this.#table.write(instanceIndex, instanceFields.matrix, [
-      mirror * xx,
-      mirror * yx,
-      mirror * zx,
-      mirror * ox,
-      xy,
-      yy,
-      zy,
-      oy,
-      xz,
-      yz,
-      zz,
-      oz,
-      stepX,
-      stepY,
-      stepZ,
-      member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0,
-    ]);
+    const record = this.#record;
+    record[0] = mirror * m[0] * stepX;
+    record[1] = mirror * m[4] * stepY;
+    record[2] = mirror * m[8] * stepZ;
+    record[3] = mirror * (m[0] * originX + m[4] * originY + m[8] * originZ + (m[12] - root[12]));
+    record[4] = m[1] * stepX;
+    record[5] = m[5] * stepY;
+    record[6] = m[9] * stepZ;
+    record[7] = m[1] * originX + m[5] * originY + m[9] * originZ + (m[13] - root[13]);
+    record[8] = m[2] * stepX;
+    record[9] = m[6] * stepY;
+    record[10] = m[10] * stepZ;
+    record[11] = m[2] * originX + m[6] * originY + m[10] * originZ + (m[14] - root[14]);
+    record[instanceFields.step] = stepX;
+    record[instanceFields.step + 1] = stepY;
+    record[instanceFields.step + 2] = stepZ;
+    record[instanceFields.visibleInScope] = member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0;
+    setSphere(sphere, draw.bounds, record, mirror);
+    return this.#table.write(member.instanceIndex, instanceFields.matrix, record);
   }
 
   #join(member: Member): void {
@@ -261,4 +257,26 @@ export class Batches {
     this.#stageNumbers.set(stage, number);
     return number;
   }
+}
+
+/** Bounds in the coordinates of the root. `record`: with rows of the matrix, the first one multiplied by `mirror`. */
+function setSphere(
+  sphere: Sphere,
+  { center: { x, y, z }, radius }: Sphere,
+  record: Float64Array,
+  mirror: number,
+): void {
+  const row = (first: number): number =>
+    (record[first] ?? 0) * x + (record[first + 1] ?? 0) * y + (record[first + 2] ?? 0) * z + (record[first + 3] ?? 0);
+  const scale = (column: number): number =>
+    (record[column] ?? 0) ** 2 + (record[column + 4] ?? 0) ** 2 + (record[column + 8] ?? 0) ** 2;
+  sphere.center.set(mirror * row(0), row(4), row(8));
+  sphere.radius = radius * Math.sqrt(Math.max(scale(0), scale(1), scale(2)));
+}
+
+/** Whether an affine matrix has a negative determinant. */
+function isMirroring(m: Matrix4["elements"]): boolean {
+  return (
+    m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]) < 0
+  );
 }

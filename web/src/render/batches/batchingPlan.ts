@@ -59,7 +59,9 @@ export class BatchingPlan {
   drawModesOf(geometry: GeometryDescription): DrawModes {
     if (!this.#hasManyInstances) return alone;
     const count = this.#countOf(geometry);
-    if (formatOf(geometry).storage !== "bytePlanes" && vertexCountOf(geometry) * count <= maxMergedVertices)
+    // A merged mesh copies vertices, which would not move.
+    const isFixed = geometry.moving === undefined;
+    if (isFixed && formatOf(geometry).storage !== "bytePlanes" && vertexCountOf(geometry) * count <= maxMergedVertices)
       return merged;
     return count > 1 ? instanced : opaqueAlone;
   }

@@ -45,7 +45,7 @@ export class InstanceTable {
   }
 
   /** Writes `numbers` into the record of an instance from float `first` on. Returns whether any has changed. */
-  write(instanceIndex: number, first: number, numbers: readonly number[]): boolean {
+  write(instanceIndex: number, first: number, numbers: ArrayLike<number>): boolean {
     const begin = instanceIndex * numbersPerInstance + first;
     let isChanged = false;
     for (let i = 0; i < numbers.length; ++i) {

@@ -17,6 +17,9 @@ export class InstancedBatch implements Batch {
   readonly #members = new Set<Member>();
   /** The last frame used the first ones; the others are invisible. */
   readonly #calls: InstancedCall[] = [];
+  /** Used in each frame anew. */
+  readonly #visible: Member[] = [];
+  #indices = new Uint32Array(0);
 
   constructor(resources: BatchResources, geometries: GeometryPool) {
     const {
@@ -53,24 +56,37 @@ export class InstancedBatch implements Batch {
   }
 
   update(frustum: Frustum): void {
-    const members = Array.from(this.#members).filter(
-      ({ isVisible, sphere }) => isVisible && frustum.intersectsSphere(sphere),
-    );
-    this.drawRuns(members.length > 0 ? [{ members, order: 0 }] : []);
+    const visible = this.#visible;
+    visible.length = 0;
+    for (const member of this.#members)
+      if (member.isVisible && frustum.intersectsSphere(member.sphere)) visible.push(member);
+    this.drawRuns(visible.length > 0 ? [{ members: visible, order: 0 }] : []);
   }
 
   drawRuns(runs: readonly Run[]): void {
     let count = 0;
     for (const { members, order } of runs) {
-      const instanceIndices = members.flatMap(({ instanceIndex }) => this.#passes.map((pass) => instanceIndex + pass));
-      for (let first = 0; first < instanceIndices.length; first += this.#maxInstances) {
-        const indices = instanceIndices.slice(first, first + this.#maxInstances);
-        const call = (this.#calls[count] ??= new InstancedCall(this.#geometry, this.#resources, indices.length));
-        call.show(indices, order);
+      const indices = this.#indicesOf(members);
+      for (let first = 0; first < indices.length; first += this.#maxInstances) {
+        const part = indices.subarray(first, first + this.#maxInstances);
+        const call = (this.#calls[count] ??= new InstancedCall(this.#geometry, this.#resources, part.length));
+        call.show(part, order);
         count += 1;
       }
     }
-    for (const call of this.#calls.slice(count)) call.object.visible = false;
+    for (let n = count; n < this.#calls.length; ++n) {
+      const call = this.#calls[n];
+      if (call) call.object.visible = false;
+    }
+  }
+
+  /** The records of the members, once for each pass; valid until the next call. */
+  #indicesOf(members: readonly Member[]): Uint32Array {
+    const count = members.length * this.#passes.length;
+    if (this.#indices.length < count) this.#indices = new Uint32Array(2 * count);
+    let n = 0;
+    for (const { instanceIndex } of members) for (const pass of this.#passes) this.#indices[n++] = instanceIndex + pass;
+    return this.#indices.subarray(0, count);
   }
 
   dispose(): void {
@@ -92,7 +108,7 @@ class InstancedCall {
     this.object = addObject(this.#instances.geometry);
   }
 
-  show(instanceIndices: readonly number[], order: number): void {
+  show(instanceIndices: Uint32Array, order: number): void {
     if (instanceIndices.length > this.#instances.capacity) {
       this.#instances.dispose();
       this.#instances = new InstancedGeometry(

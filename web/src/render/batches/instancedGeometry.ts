@@ -45,7 +45,7 @@ export class InstancedGeometry {
   }
 
   /** Sets the instances, at most `capacity`. */
-  setInstances(instanceIndices: readonly number[]): void {
+  setInstances(instanceIndices: Uint32Array): void {
     this.geometry.instanceCount = instanceIndices.length * this.#instancesPerShape;
     const previous = this.#instanceIndices.array;
     if (instanceIndices.every((index, n) => previous[n] === index)) return;

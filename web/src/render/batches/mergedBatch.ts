@@ -2,7 +2,7 @@
 // in every browser, also where WEBGL_multi_draw is missing.
 
 import type { Frustum } from "three";
-import { BufferGeometry, Sphere } from "three";
+import { Box3, BufferGeometry, Sphere } from "three";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { BatchResources, MergedGeometry } from "./batch.ts";
@@ -12,6 +12,7 @@ import { MergingBatch } from "./mergingBatch.ts";
 
 export class MergedBatch extends MergingBatch<MergedGeometry> {
   readonly #object: DrawnObject;
+  readonly #box = new Box3();
   readonly #sphere = new Sphere();
   #geometry = new BufferGeometry();
   #areBoundsCurrent = false;
@@ -60,7 +61,21 @@ export class MergedBatch extends MergingBatch<MergedGeometry> {
 
   #computeBounds(): void {
     this.#areBoundsCurrent = true;
-    this.#sphere.makeEmpty();
-    for (const { isVisible, sphere } of this.merged.members) if (isVisible) this.#sphere.union(sphere);
+    this.#box.makeEmpty();
+    for (const { isVisible, sphere } of this.merged.members) if (isVisible) extendBySphere(this.#box, sphere);
+    this.#box.getCenter(this.#sphere.center);
+    this.#sphere.radius = -1; // empty
+    for (const { isVisible, sphere } of this.merged.members)
+      if (isVisible)
+        this.#sphere.radius = Math.max(
+          this.#sphere.radius,
+          this.#sphere.center.distanceTo(sphere.center) + sphere.radius,
+        );
   }
+}
+
+/** Without the objects of three.js' union of spheres: members may move in every frame. */
+function extendBySphere({ min, max }: Box3, { center: { x, y, z }, radius }: Sphere): void {
+  min.set(Math.min(min.x, x - radius), Math.min(min.y, y - radius), Math.min(min.z, z - radius));
+  max.set(Math.max(max.x, x + radius), Math.max(max.y, y + radius), Math.max(max.z, z + radius));
 }

@@ -1,15 +1,14 @@
 // Mirrors a scene's instance tree (scene/) in three.js groups. Groups own nothing on the GPU; the
 // listener adds drawn objects to the groups of shapes.
 
-import type { Camera, Matrix4, Object3D } from "three";
-import { Box3, Group, Vector3 } from "three";
+import type { Box3, Camera, Object3D } from "three";
+import { Group, Matrix4, Vector3 } from "three";
 import { deepEqual } from "../../document/deepEqual.ts";
 import type {
   AnchorDescription,
   GroupDescription,
   NodeDescription,
   ShapeDescription,
-  TransformDescription,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import type {
@@ -25,9 +24,10 @@ import type {
 import { bindableOf } from "../../scene/bindable.ts";
 import { billboardRotation } from "../../scene/billboard.ts";
 import { numberEffectScopes } from "../../scene/effectScope.ts";
-import type { InstanceTreeListener } from "../../scene/instanceTree.ts";
-import type { NodeInstance } from "../../scene/nodeInstance.ts";
+import type { InstanceTreeListener, TransformChange } from "../../scene/instanceTree.ts";
+import type { NodeInstance, SubtreeSummary } from "../../scene/nodeInstance.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
+import { boundsOf } from "../../scene/subtreeBounds.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
@@ -38,8 +38,12 @@ export interface ShapeInstanceListener {
   onEnter(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
   /** Called when the description, the transform or the effect scope of an instance has changed. */
   onChange(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
+  /** Called when only the transform of an instance has changed: see `SceneGroups.move`. Default: nothing is told. */
+  onMove?(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
   /** Called when an instance has been removed. */
   onLeave(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
+  /** Whether the root is moved by nobody, so that matrices of the scene are world matrices. */
+  readonly isWorld?: boolean;
   /** Makes the object for a group of the scene; if it returns undefined, a plain Group is made. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
   /** Called when a billboard around the instance has rotated. */
@@ -63,6 +67,8 @@ export class SceneGroups implements InstanceTreeListener {
   #lightInstances: readonly LightInstance[] = [];
   #lights: SceneLights = makeLights([]);
   #boundedGroups: readonly BoundedGroup[] = [];
+  /** The summary that has been followed last. */
+  #summary: SubtreeSummary | undefined;
 
   constructor(listener: ShapeInstanceListener) {
     this.#listener = listener;
@@ -72,7 +78,7 @@ export class SceneGroups implements InstanceTreeListener {
 
   /** Bounds of all visible shapes, in scene coordinates. */
   get box(): Box3 {
-    return this.#tree.root.summary.box ?? new Box3();
+    return boundsOf(this.#tree.root);
   }
 
   /** Groups that can be culled as a whole. */
@@ -146,8 +152,8 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   /** Gives Transforms other values: see `InstanceTree.move`. Returns whether effect scopes have been renumbered. */
-  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): boolean {
-    this.#tree.move(transforms);
+  move(changes: Iterable<TransformChange>): boolean {
+    this.#tree.move(changes);
     return this.#followSummary();
   }
 
@@ -158,6 +164,8 @@ export class SceneGroups implements InstanceTreeListener {
 
   #followSummary(): boolean {
     const { summary } = this.#tree.root;
+    if (summary === this.#summary) return false;
+    this.#summary = summary;
     this.#boundedGroups = summary.boundedGroups.flatMap((node) => {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
@@ -169,6 +177,11 @@ export class SceneGroups implements InstanceTreeListener {
     this.#lights = makeLights(summary.lights);
     this.root.add(this.#lights.root);
     return areEffectScopesRenumbered;
+  }
+
+  /** Whether all groups share the matrices of their nodes: see shareMatrices. */
+  get #sharesAll(): boolean {
+    return this.#listener.isWorld === true && !this.hasBillboards;
   }
 
   /** Whether the scene has billboards. */
@@ -227,6 +240,17 @@ export class SceneGroups implements InstanceTreeListener {
       this.#listener.onChange(description, node, shapeGroup, before);
   }
 
+  onMove(node: NodeInstance): void {
+    const { description } = node;
+    const shapeGroup = description.kind === "shape" ? this.#shapeGroups.get(node) : undefined;
+    // Groups that share the matrices of their nodes have moved.
+    const group = shapeGroup ?? (this.#sharesAll ? undefined : this.#groups.get(node));
+    if (group === undefined) return;
+    if (group.matrixWorld !== node.sceneFromNode) applyTransform(node, group);
+    else if (group.children.length > 0 && shapeGroup) group.updateMatrixWorld(true);
+    if (shapeGroup && description.kind === "shape") this.#listener.onMove?.(description, node, shapeGroup);
+  }
+
   onLeave(node: NodeInstance): void {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup && node.description.kind === "shape") this.#listener.onLeave(node.description, node, shapeGroup);
@@ -251,26 +275,33 @@ export class SceneGroups implements InstanceTreeListener {
   ): void {
     if (description.kind === "group" && description.anchor) this.#anchors.set(group, description.anchor);
     else this.#anchors.delete(group);
-    applyDescription(node, description, group, hasMoved);
+    group.visible = description.visible;
+    if (!hasMoved) return;
+    if (this.#listener.isWorld === true) shareMatrices(node, group);
+    applyTransform(node, group);
   }
 }
 
-function applyDescription(
-  { parentFromNode }: NodeInstance,
-  description: GroupDescription | ShapeDescription,
-  group: Object3D,
-  hasMoved: boolean,
-): void {
-  group.visible = description.visible;
-  if (!hasMoved) return;
+/**
+ * Makes a group use the matrices of its node, which moves change in place. Not below billboards, which turn for each
+ * view.
+ */
+function shareMatrices({ parent, parentFromNode, sceneFromNode, description }: NodeInstance, group: Object3D): void {
+  const isFixed = parent === undefined || group.parent?.matrixWorld === parent.sceneFromNode;
+  const isBillboard = description.kind === "group" && description.billboardAxis !== undefined;
+  group.matrixWorld = isFixed && !isBillboard ? sceneFromNode : new Matrix4();
+  if (description.kind === "group") group.matrix = parentFromNode ?? new Matrix4();
+}
+
+function applyTransform({ parentFromNode, description }: NodeInstance, group: Object3D): void {
   if (description.kind === "shape") {
     // Its own matrix is the identity, and what batches draw has no objects in it.
     if (group.parent && group.children.length === 0) group.matrixWorld.copy(group.parent.matrixWorld);
     else group.updateMatrixWorld(true);
     return;
   }
-  if (parentFromNode) group.matrix.copy(parentFromNode);
-  else group.matrix.identity();
+  if (parentFromNode && parentFromNode !== group.matrix) group.matrix.copy(parentFromNode);
+  else if (!parentFromNode) group.matrix.identity();
   // Groups below this one are visited next, so only its own world matrix is updated.
   if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
 }

@@ -11,7 +11,6 @@ import type {
   SceneDescription,
   ShapeDescription,
   TextureRole,
-  TransformDescription,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import type {
@@ -20,6 +19,8 @@ import type {
   LodInstance,
   ViewpointInstance,
 } from "../../scene/instances.ts";
+import type { TransformChange } from "../../scene/instanceTree.ts";
+import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import { isDrawable, sphereAround } from "../../scene/bounds.ts";
 import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
@@ -52,7 +53,15 @@ export interface BuiltScene {
   readonly lods: readonly LodInstance[];
   /** Visible Anchors. */
   readonly anchors: readonly AnchorDescription[];
+}
+
+export interface ChangedScene extends BuiltScene {
   readonly changes: SceneChanges;
+}
+
+export interface MovedScene extends BuiltScene {
+  /** The instances of shapes that have moved; valid until the next call. */
+  readonly moved: readonly NodeInstance[];
 }
 
 export class SceneShapes {
@@ -63,6 +72,7 @@ export class SceneShapes {
   readonly #plan = new BatchingPlan();
   readonly #boundFogs = new BindingStack<SceneElement>();
   #changes = new ShapeChangeRecorder();
+  readonly #moved: NodeInstance[] = [];
   /** Shapes whose document does not state their bounds, so that their vertices determine them. */
   readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
@@ -79,6 +89,7 @@ export class SceneShapes {
     this.#context = context;
     this.#batches = context.batches;
     this.#graph = new SceneGroups({
+      isWorld: true,
       onEnter: (shape, instance, group) => {
         this.#objectOf(shape).addInstance(group, shape.host);
         if (shape.geometry) this.#plan.add(shape.geometry);
@@ -91,6 +102,10 @@ export class SceneShapes {
           if (shape.geometry) this.#plan.add(shape.geometry);
         }
         this.#changes.recordPresent(shape, instance);
+      },
+      onMove: (_, instance, group) => {
+        this.#batches.follow(group);
+        this.#moved.push(instance);
       },
       onLeave: (shape, instance, group) => {
         this.#shapes.get(shape.element)?.removeInstance(group);
@@ -128,20 +143,20 @@ export class SceneShapes {
   /**
    * Replaces the scene. GPU resources of shapes that it no longer has, or that have another geometry, are freed.
    */
-  setScene(description: SceneDescription): BuiltScene {
+  setScene(description: SceneDescription): ChangedScene {
     const areEffectScopesRenumbered = this.#graph.follow(description.root);
     this.#boundFogs.follow(this.#graph.fogs);
     this.#setEffects();
-    return this.#built(this.#applyChanges(), areEffectScopesRenumbered);
+    const changes = this.#applyChanges();
+    return { ...this.#built(areEffectScopesRenumbered), changes };
   }
 
-  /** Gives Transforms other values: see `InstanceTree.move`. In the scene that it returns only instances differ. */
-  move(transforms: ReadonlyMap<SceneElement, Partial<TransformDescription>>): BuiltScene {
-    const areEffectScopesRenumbered = this.#graph.move(transforms);
+  /** Gives Transforms other values: see `InstanceTree.move`. */
+  move(changes: Iterable<TransformChange>): MovedScene {
+    this.#moved.length = 0;
+    const areEffectScopesRenumbered = this.#graph.move(changes);
     if (areEffectScopesRenumbered || this.#graph.hasEffects) this.#setEffects();
-    const { instances } = this.#changes;
-    this.#changes = new ShapeChangeRecorder();
-    return this.#built({ shapes: new Map(), removed: [], instances }, areEffectScopesRenumbered);
+    return { ...this.#built(areEffectScopesRenumbered), moved: this.#moved };
   }
 
   /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
@@ -149,7 +164,7 @@ export class SceneShapes {
     return this.#graph.sceneFromTransform(element);
   }
 
-  #built(changes: SceneChanges, areEffectScopesRenumbered: boolean): BuiltScene {
+  #built(areEffectScopesRenumbered: boolean): BuiltScene {
     if (areEffectScopesRenumbered) this.#batches.updateAllRecords();
     const { box, boundedGroups, viewpoints, backgrounds, environmentLights, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
@@ -160,7 +175,7 @@ export class SceneShapes {
     }
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#extendBounds(object, bounds);
     this.#batches.setBoundingSphere(this.#sphere);
-    return { sphere: this.#sphere, viewpoints, backgrounds, environmentLights, lods, anchors, changes };
+    return { sphere: this.#sphere, viewpoints, backgrounds, environmentLights, lods, anchors };
   }
 
   /** Binds or unbinds a Fog, as X3D's set_bind does. Returns false if the element is none of the scene's. */

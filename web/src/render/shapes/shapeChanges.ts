@@ -14,6 +14,11 @@ export interface SceneChanges {
   readonly instances: ReadonlyMap<NodeInstance, ShapeInstance | undefined>;
 }
 
+/** The instance of a shape as it is now; undefined for other nodes. */
+export function shapeInstanceOf({ description, sceneFromNode, effectScope }: NodeInstance): ShapeInstance | undefined {
+  return description.kind === "shape" ? { shape: description, sceneFromShape: sceneFromNode, effectScope } : undefined;
+}
+
 /** Records the changes from which SceneChanges are made. */
 export class ShapeChangeRecorder {
   /** The last descriptions of changed shapes, including shapes that have been removed. */
@@ -22,7 +27,7 @@ export class ShapeChangeRecorder {
 
   recordPresent(shape: ShapeDescription, instance: NodeInstance): void {
     this.shapes.set(shape.element, shape);
-    this.instances.set(instance, { shape, sceneFromShape: instance.sceneFromNode, effectScope: instance.effectScope });
+    this.instances.set(instance, shapeInstanceOf(instance));
   }
 
   /** Records that one instance of a shape has been removed; others may remain. */

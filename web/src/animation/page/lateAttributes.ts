@@ -1,0 +1,62 @@
+// Writes the values of fields that move into attributes, so that scripts and style sheets see them. Text for a thousand
+// attributes takes longer than moving what they describe: so it is written at once after a rest, and otherwise ten times
+// a second, between frames. Lists are long: they are written when they have come to rest.
+
+import type { FieldChange } from "../documentGraph.ts";
+
+/** Milliseconds from a value to its text; of a list, from its last value. */
+const delay = 100;
+/** Milliseconds without values after which the next one is written at once. */
+const rest = 500;
+
+export class LateAttributes {
+  readonly #write: (changes: Iterable<FieldChange>) => void;
+  readonly #isForLists: boolean;
+  readonly #late = new Set<FieldChange>();
+  /** When the last value has come. */
+  #changedAt = -Infinity;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** `write` writes the present values of changes. */
+  constructor(write: (changes: Iterable<FieldChange>) => void, isForLists: boolean) {
+    this.#write = write;
+    this.#isForLists = isForLists;
+  }
+
+  /** A field has got a value: see `schedule`. */
+  add(change: FieldChange): void {
+    this.#late.add(change);
+  }
+
+  /** Writes the attributes of fields that have been added, now or later. */
+  schedule(): void {
+    if (this.#late.size === 0) return;
+    const now = performance.now();
+    const hasRested = now - this.#changedAt > rest;
+    this.#changedAt = now;
+    if (hasRested && !this.#isForLists) {
+      this.writeNow();
+      return;
+    }
+    if (this.#isForLists) clearTimeout(this.#timer);
+    if (this.#isForLists || this.#timer === undefined)
+      this.#timer = setTimeout(() => {
+        this.writeNow();
+      }, delay);
+  }
+
+  /** Writes all that are late. */
+  writeNow(): void {
+    clearTimeout(this.#timer);
+    this.#timer = undefined;
+    if (this.#late.size === 0) return;
+    const late = Array.from(this.#late);
+    this.#late.clear();
+    this.#write(late);
+  }
+
+  dispose(): void {
+    clearTimeout(this.#timer);
+    this.#late.clear();
+  }
+}
