@@ -13,7 +13,10 @@ constexpr int substeps = 8;         ///< many small steps stretch less than many
 constexpr float damping = 0.6F;     ///< share of the speed that is lost in a second
 constexpr float airResistance = 9;  ///< acceleration by air that flows along the normal, in 1/s
 constexpr float maxStretch = 1.02F; ///< of the distance to the vertex from which a column hangs
-constexpr float shearStiffness = 0.2F, bendResistance = 0.2F;
+// Cloth gives way to compression: were it as stiff as against stretching, rows that are pushed together would buckle at
+// the width of a cell, which shows as stripes. The folds that remain are as wide as the resistance to bending makes
+// them.
+constexpr float stretchStiffness = 0.4F, shearStiffness = 0.2F, compressionStiffness = 0.1F, bendResistance = 0.35F;
 constexpr float innerFriction = 0.5F; ///< 0..1, each frame
 
 /// A wind whose strength and direction change smoothly: sums of sines with random phases.
@@ -28,7 +31,7 @@ public:
   void setTime(float time) {
     const float gust = 1 + 0.6F * std::sin(0.9F * time + phases_[0]) + 0.4F * std::sin(2.3F * time + phases_[1]);
     const float turn = 0.9F * std::sin(0.4F * time + phases_[3]);
-    mean_ = Vec3f{std::sin(turn), 0, std::cos(turn)} * (1.6F * gust);
+    mean_ = Vec3f{std::sin(turn), 0, std::cos(turn)} * (1.4F * gust);
     ripplePhase_ = phases_[2] - 5 * time;
   }
 
@@ -43,6 +46,12 @@ private:
   Vec3f mean_;
   float ripplePhase_ = 0;
 };
+
+/// The share of an edge's vector by which its ends approach each other; negative where it is shorter than at rest.
+inline float correctionOf(float length, float rest, float stiffness) {
+  const float strain = 1 - rest / length;
+  return (strain > 0 ? stiffness : std::min(stiffness, compressionStiffness)) * strain;
+}
 
 /// One coordinate array for each axis, so that the compiler can vectorise loops over a row.
 struct Coordinates {
@@ -174,7 +183,7 @@ private:
 #pragma GCC ivdep
     for (std::uint32_t i = 0; i < count; ++i) {
       const float dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
-      const float scale = stiffness * (1 - rest / std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F));
+      const float scale = correctionOf(std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F), rest, stiffness);
       const float scaleA = scale * firstShare, scaleB = scale * (1 - firstShare);
       ax[i] += dx * scaleA;
       ay[i] += dy * scaleA;
@@ -194,7 +203,7 @@ private:
 #pragma GCC ivdep
     for (std::uint32_t i = 0; i < count; ++i) {
       const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], dz = z[i + 1] - z[i];
-      const float scale = 0.4F * (1 - spacing_ / std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F));
+      const float scale = correctionOf(std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F), spacing_, stretchStiffness);
       cx[i] = dx * scale;
       cy[i] = dy * scale;
       cz[i] = dz * scale;

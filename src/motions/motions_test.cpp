@@ -1,5 +1,7 @@
 #include "motions/motion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -52,6 +54,36 @@ TEST(Motion, OfClothStretchesNoEdgeMuch) {
     cloth->advance(1.0 / 30);
     for (std::uint32_t i = 0; i + 32 < 32 * 32; ++i)
       ASSERT_LT(length(cloth->positions()[i + 32] - cloth->positions()[i]), 1.5F * spacing) << "frame " << frame;
+  }
+}
+
+/// The share of vertices at which the curvature along their row changes its sign from one vertex to the next, by more
+/// than half a millimetre.
+double shareOfStripes(const Motion& motion) {
+  const std::uint32_t columns = motion.columns();
+  std::size_t count = 0, stripes = 0;
+  for (std::size_t i = columns; i + 3 < motion.positions().size(); ++i) {
+    if (i % columns + 3 >= columns)
+      continue;
+    const auto* p = &motion.positions()[i];
+    const Vec3f first = p[0] + p[2] - p[1] * 2, second = p[1] + p[3] - p[2] * 2;
+    ++count;
+    for (int axis = 0; axis < 3; ++axis)
+      if (first[axis] * second[axis] < 0 && std::min(std::abs(first[axis]), std::abs(second[axis])) > 0.0005F) {
+        ++stripes;
+        break;
+      }
+  }
+  return static_cast<double>(stripes) / static_cast<double>(count);
+}
+
+TEST(Motion, OfClothHasNoStripesOfTheWidthOfACell) {
+  const auto cloth = makeCloth(48, 1);
+  for (int frame = 1; frame <= 90; ++frame) {
+    cloth->advance(1.0 / 30);
+    if (frame % 15 == 0) {
+      EXPECT_LT(shareOfStripes(*cloth), 0.05) << "frame " << frame;
+    }
   }
 }
 
