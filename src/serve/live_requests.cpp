@@ -61,9 +61,16 @@ std::optional<std::uint64_t> numberOf(std::string_view text) {
                                                                                                 : std::nullopt;
 }
 
-/// `isShared`: whether caches may give the frame to all viewers who ask for the same URL.
-LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t number, unsigned framesAhead,
-                         bool isShared) {
+/// Leads a viewer who is late to the newest frame. An error instead of this would be a line on a browser's console.
+Response redirectToFrame(std::uint64_t number, std::string_view query, const Stream& stream) {
+  Response response = refuse(307, "The frame is no longer in the history.", &stream);
+  response.fields.emplace_back("Location", fmt::format("{}{}", number, query));
+  return response;
+}
+
+/// `query`: of the request. `isShared`: whether caches may give the frame to all viewers who ask for the same URL.
+LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t number, std::string_view query,
+                         unsigned framesAhead, bool isShared) {
   // The state comes first: if the frame is added after the look for it, the state is outdated and nobody waits for it.
   const Stream::State state = stream->state();
   if (const auto frame = stream->frame(number)) {
@@ -74,6 +81,8 @@ LiveReply replyWithFrame(const std::shared_ptr<Stream>& stream, std::uint64_t nu
     response.fields.emplace_back("Imgeo-Added", fmt::format("{:.1f}", frame->addedAt()));
     return response;
   }
+  if (number < state.oldest && state.newest)
+    return redirectToFrame(state.newest->number(), query, *stream);
   if (number < state.oldest)
     return refuse(410, "The frame is no longer in the history.", stream.get());
   if (state.hasEnded)
@@ -90,12 +99,17 @@ LiveReply replyWithImage(const std::shared_ptr<Stream>& stream) {
   return contentResponse("image/png", state.newest->image(), "no-store", stream.get());
 }
 
+/// What follows the path in a request's target: empty, or `?` and parameters.
+std::string_view queryOf(const RequestHead& request) {
+  return std::string_view(request.target).substr(std::min(request.target.find('?'), request.target.size()));
+}
+
 /// The token that a request states, as `Authorization: Bearer TOKEN` or as `?token=TOKEN` with %XX.
 std::string tokenOf(const RequestHead& request) {
   constexpr std::string_view scheme = "Bearer ", parameter = "token=";
   if (request.authorization.starts_with(scheme))
     return std::string(request.authorization.substr(scheme.size()));
-  std::string_view query = request.target.substr(std::min(request.target.find('?'), request.target.size()));
+  std::string_view query = queryOf(request);
   while (!query.empty()) {
     query.remove_prefix(1);
     const std::size_t end = std::min(query.find('&'), query.size());
@@ -174,7 +188,7 @@ LiveReply replyToViewer(live::Streams& streams, const std::vector<std::string>& 
     return refuse(404, "There is no such file of a stream.", nullptr);
   // A token in a header is no part of the URL, under which caches keep frames.
   const bool isShared = token.empty() || request.authorization.empty();
-  return replyWithFrame(stream, *number, streams.limits().framesAhead, isShared);
+  return replyWithFrame(stream, *number, queryOf(request), streams.limits().framesAhead, isShared);
 }
 
 Response announce(live::Streams& streams, const std::string& name, ByteSpan body) {

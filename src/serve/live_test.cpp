@@ -151,7 +151,7 @@ TEST_F(LiveServer, AnswersOneConnectionAgainAndAgain) {
   }
 }
 
-TEST_F(LiveServer, RefusesFramesThatAreGoneOrTooFarAhead) {
+TEST_F(LiveServer, LeadsFromFramesThatAreGoneToTheNewestAndRefusesThoseTooFarAhead) {
   live::StreamLimits limits;
   limits.history.frames = 3;
   limits.waitMs = 50;
@@ -161,8 +161,15 @@ TEST_F(LiveServer, RefusesFramesThatAreGoneOrTooFarAhead) {
     addFrame(*stream);
   const std::uint64_t next = stream->state().next;
   EXPECT_TRUE(hasStatus(getFrame(next - 3), 200));
-  EXPECT_TRUE(hasStatus(getFrame(next - 4), 410));
-  EXPECT_TRUE(hasStatus(getFrame(0), 410));
+  for (const std::uint64_t gone : {next - 4, std::uint64_t{0}}) {
+    const std::string answer = getFrame(gone);
+    EXPECT_TRUE(hasStatus(answer, 307)) << answer;
+    EXPECT_NE(answer.find(fmt::format("Location: {}\r\n", next - 1)), answer.npos);
+    EXPECT_NE(answer.find("Cache-Control: no-store\r\n"), answer.npos);
+    EXPECT_NE(answer.find("Access-Control-Allow-Origin: *\r\n"), answer.npos);
+  }
+  const std::string withToken = get(fmt::format("/live/cloth/frames/{}?token=a%20b", next - 4));
+  EXPECT_NE(withToken.find(fmt::format("Location: {}?token=a%20b\r\n", next - 1)), withToken.npos) << withToken;
   EXPECT_TRUE(hasStatus(getFrame(next + 8), 404));
   const std::string late = getFrame(next + 7);
   EXPECT_TRUE(hasStatus(late, 503));

@@ -87,7 +87,8 @@ export class TestStream {
         setTimeout(resolve, waitMs);
       });
     const body = this.#frames.get(number);
-    if (body === undefined) return { status: number > this.number ? 503 : 410, headers: this.#headers };
+    if (body === undefined && number > this.number) return { status: 503, headers: this.#headers };
+    if (body === undefined) return { status: 307, headers: { ...this.#headers, Location: `${this.number}` } };
     return { status: 200, headers: this.#headers, body: Buffer.from(body) };
   }
 

@@ -35,9 +35,13 @@ export function startViewer({ url, certificate = "", isHttp2 = false }: ViewerOp
     {
       url,
       fetch: async (target, init) => {
-        const response = await transport.fetch(target as string, init?.signal ?? undefined);
+        const address = target as string;
+        const answer = await transport.fetch(address, init?.signal ?? undefined);
+        const location = answer.headers.get("location"); // of a frame that is gone
+        const final = location === null ? address : new URL(location, address).href;
+        const response = location === null ? answer : await transport.fetch(final, init?.signal ?? undefined);
         const added = response.headers.get("imgeo-added");
-        if (added !== null) addedAt.set(Number(/\d+$/.exec(target as string)?.[0]), Number(added));
+        if (added !== null) addedAt.set(Number(/\d+$/.exec(final)?.[0]), Number(added));
         return response;
       },
       decode: async (bytes) => ({ header: (await frameImages(bytes)).header, display: () => undefined }),

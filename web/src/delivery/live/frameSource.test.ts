@@ -29,6 +29,10 @@ interface Line {
   readonly outage?: readonly [from: number, to: number];
   /** FrameSource.setRate. */
   readonly maxRate?: number;
+  /** The server's history: requests for earlier frames lead to the newest one. */
+  readonly historyFrames?: number;
+  /** Times at which the page is too busy to send a request for the frame that it has decided on. */
+  readonly busy?: readonly [from: number, to: number];
   /** When the first frame of the epoch comes. Before it, the newest frame is of another epoch. */
   readonly firstFrameAt?: number;
 }
@@ -36,9 +40,11 @@ interface Line {
 /** Follows a stream of 30 frames a second for a time, on a simulated clock; returns when each frame was displayed. */
 async function follow(line: Line, durationMs: number) {
   const { frameMs, isCached = false, isTimed = false, outage = [0, 0], firstFrameAt = 0 } = line;
+  const { historyFrames = Infinity, busy = [0, 0] } = line;
   let now = 0;
   let requests = 0;
   let waits = 0;
+  let redirects = 0;
   const sleepers: { readonly at: number; readonly wake: () => void }[] = [];
   const sleep = (ms: number, signal?: AbortSignal | null) =>
     new Promise<void>((resolve, reject) => {
@@ -73,7 +79,12 @@ async function follow(line: Line, durationMs: number) {
       };
       return new Response(JSON.stringify(state));
     }
-    const number = Number(url.split("/").at(-1));
+    let number = Number(url.split("/").at(-1));
+    if (now >= busy[0] && now < busy[1]) await sleep(busy[1] - now, signal);
+    if (number <= newest() - historyFrames) {
+      number = newest();
+      redirects += 1;
+    }
     if (number > newest() + 8) return new Response(null, { status: 404 });
     if (number > newest()) waits += 1;
     while (number > newest()) await sleep(timeOf(number) - now + 0.01, signal);
@@ -147,7 +158,7 @@ async function follow(line: Line, durationMs: number) {
     }
   }
   source.stop();
-  return { displayed, outages, requests, waits, maxOpenRequests };
+  return { displayed, outages, requests, waits, redirects, maxOpenRequests };
 }
 
 const maxAge = (frames: readonly { ageMs: number }[]) => Math.max(...frames.slice(5).map(({ ageMs }) => ageMs));
@@ -191,6 +202,17 @@ describe("a viewer", () => {
     const { displayed, outages, requests } = await follow({ frameMs: 1, firstFrameAt: 500 }, 600);
     assert.equal(displayed[0]?.number, 100);
     assert.ok(requests < 10, `${requests} requests`);
+    assert.deepEqual(outages, []);
+  });
+
+  test("whose frame is gone when the server gets the request goes on with the newest at once", async () => {
+    const line = { frameMs: 1, historyFrames: 30, busy: [1000, 2500] } as const;
+    const { displayed, outages, redirects } = await follow(line, 4000);
+    assert.ok(redirects > 0, "no frame was gone");
+    const next = displayed.find(({ at }) => at >= 2500);
+    assert.ok(next !== undefined && next.at < 2600 && next.ageMs < 2 * intervalMs, JSON.stringify(next));
+    const skipped = displayed.slice(1).reduce((sum, frame) => sum + frame.skipped + 1, 0);
+    assert.equal(skipped, (displayed.at(-1)?.number ?? 0) - (displayed[0]?.number ?? 0));
     assert.deepEqual(outages, []);
   });
 

@@ -216,20 +216,23 @@ export class FrameSource {
     if (hasWaited || newest > this.#expectedNewest(state)) this.#newest = { number: newest, at: now };
   }
 
-  async #requestFrame(number: number, state: StreamState, signal: AbortSignal): Promise<void> {
+  async #requestFrame(requested: number, state: StreamState, signal: AbortSignal): Promise<void> {
     const requestedAt = this.#options.now();
-    const bytes = await this.#get(`/frames/${number}`, maxFrameBytes, signal, {
+    let addedAt = NaN;
+    const bytes = await this.#get(`/frames/${requested}`, maxFrameBytes, signal, {
       onHeaders: (headers) => {
-        this.#noteNewest(state, number, requestedAt, Number(headers.get("imgeo-newest") ?? 0));
-        const addedAt = headers.get("imgeo-added");
-        if (addedAt !== null) this.#schedule?.noteFrame(number, Number(addedAt));
+        this.#noteNewest(state, requested, requestedAt, Number(headers.get("imgeo-newest") ?? 0));
+        addedAt = Number(headers.get("imgeo-added") ?? NaN);
       },
     });
     const byteLength = bytes.byteLength;
     const frame = await this.#options.decode(bytes, signal);
     signal.throwIfAborted();
     const { header } = frame;
-    if (header.number !== number) throw new DecodeError("malformed", `is frame ${header.number} and not ${number}`);
+    const { number } = header;
+    // A later one: the server has led from a frame that is gone to the newest one.
+    if (number < requested) throw new DecodeError("malformed", `is frame ${number} and not ${requested}`);
+    if (!Number.isNaN(addedAt)) this.#schedule?.noteFrame(number, addedAt);
     if (header.epoch !== state.epoch) throw new StateIsOld(true);
     if (!isSameLayout(header, state))
       throw new DecodeError("malformed", `has other vertices than "latest" states for epoch ${state.epoch}`);
