@@ -116,17 +116,58 @@ pugi::xml_node usedNode(const DocumentText& source, const FieldReader& fields) {
   return found->second;
 }
 
+/// Whether a URL, which may have a query with a token, names a live stream (docs/live.md).
+bool isStreamUrl(std::string_view url) {
+  constexpr std::string_view folder = "live/";
+  url = url.substr(0, url.find('?'));
+  const std::size_t first = std::min(url.rfind('/') + 1, url.size()); // npos + 1 is 0
+  const std::string_view name = url.substr(first), before = url.substr(0, first);
+  const bool isName = !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return isName && (before == folder || before.ends_with("/live/"));
+}
+
+constexpr const char* streamReason = "a live stream is in no file";
+
+/// Why the content of an element that holds an image is in no file; nothing where it may be in one.
+std::optional<std::string> reasonNotInFiles(const DocumentText& source, pugi::xml_node image) {
+  while (image) {
+    const std::vector<std::string> urls = FieldReader(source, image).strings("url");
+    const auto is = [&](const char* name) { return equalIgnoringCase(image.name(), name); };
+    if (!urls.empty() && isStreamUrl(urls[0]))
+      return streamReason;
+    if (is("MovieTexture") || is("video"))
+      return "movies are not drawn; images and live streams are";
+    if (is("canvas"))
+      return "a canvas has pixels only in a page";
+    if (is("PixelTexture"))
+      return "the pixels of a PixelTexture are not read as geometry; images are";
+    if (!urls.empty())
+      return {};
+    image = image.find_child([](const auto& child) { return holdsImage(child.name()); });
+  }
+  return {};
+}
+
+/// Why the images of one patch are in no file.
+std::optional<std::string> reasonImagesAreNotInFiles(const DocumentText& source, const pugi::xml_node& patch) {
+  if (const auto urls = FieldReader(source, patch).strings("coord"); !urls.empty() && isStreamUrl(urls[0]))
+    return streamReason;
+  for (const pugi::xml_node& child : patch.children())
+    if (holdsImage(child.name()))
+      if (const auto reason = reasonNotInFiles(source, usedNode(source, FieldReader(source, child))))
+        return reason;
+  return {};
+}
+
 /// The address of the image that an element holds: its `url` or `src`, or that of the element in it.
 std::string imageUrl(const DocumentText& source, pugi::xml_node node) {
   for (;;) {
     const FieldReader fields(source, node);
-    const auto is = [&](const char* name) { return equalIgnoringCase(node.name(), name); };
-    if (is("img"))
+    if (equalIgnoringCase(node.name(), "img"))
       if (std::string address = fields.text("src"); !address.empty())
         return address;
-    if (!is("ImageTexture") && !is("Texture"))
-      fields.fail(ErrorKind::unsupported,
-                  "<" + std::string(node.name()) + "> holds no geometry that can be read from a file");
     if (const std::vector<std::string> urls = fields.strings("url"); !urls.empty())
       return urls[0];
     node = node.find_child([](const pugi::xml_node& child) { return holdsImage(child.name()); });
@@ -391,10 +432,22 @@ bool readSolid(const FieldReader& fields) {
          orientationOf(readOperators(fields.text("operators"), true).operators) != Orientation::folded;
 }
 
+std::optional<std::string> reasonGeometryIsNotInFiles(const DocumentText& source, const pugi::xml_node& node) {
+  if (const auto reason = reasonImagesAreNotInFiles(source, node))
+    return reason;
+  for (const pugi::xml_node& child : node.children())
+    if (equalIgnoringCase(child.name(), "GeometryPatch"))
+      if (const auto reason = reasonImagesAreNotInFiles(source, child))
+        return reason;
+  return {};
+}
+
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, DocumentWarnings* warnings) {
   const FieldReader fields(source, node);
   GeometryDescription geometry;
   const Encoding encoding = encodingOf(fields);
+  if (const auto reason = reasonGeometryIsNotInFiles(source, node); reason && encoding == Encoding::classic)
+    fields.fail(ErrorKind::unsupported, *reason);
   geometry.encoding = encoding;
   const EncodingRow& row = rowOf(encoding);
   if (const std::string base = fields.text("base"); row.capabilities.base && !base.empty())

@@ -16,6 +16,10 @@ bool isGeometryNode(const char* name);
 /// The draws of a node's `primType` and `vertexCount`. One draw of 0 stands for all vertices or indices that there are.
 std::vector<Draw> readDraws(const FieldReader& fields);
 
+/// Why no file holds a geometry: its coordinates are a live stream, or one of its images a movie or a canvas. Nothing
+/// where files may hold it.
+std::optional<std::string> reasonGeometryIsNotInFiles(const DocumentText& source, const pugi::xml_node& node);
+
 /// Reads a geometry node with its patches, in either form of docs/formats/nodes.md: GeometryPatch children, or one
 /// patch in url fields or ImageTexture children of the node itself. Throws Error for geometry that a Lattice cannot
 /// express. A list of operators that cannot be read is a warning or, without `warnings`, an Error{malformed}.

@@ -287,7 +287,9 @@ private:
       } else if (isGeometryNode(child.name())) {
         if (shape)
           fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
-        shape = readGeometryOf(fields, FieldReader(source_, child));
+        const FieldReader geometry(source_, child);
+        if (isInFiles(geometry))
+          shape = readGeometryOf(fields, geometry);
       } else if (!std::string_view(child.name()).starts_with("Metadata") && !FieldReader(source_, child).has("USE")) {
         ++document_.otherElements[child.name()];
       }
@@ -302,6 +304,18 @@ private:
                             ? appearances_.unlit(appearance, hasColors(document_.geometries[shape->mesh]))
                             : appearance;
     return add(fields, *shape);
+  }
+
+  /// Whether files may hold a geometry; warns of one that they cannot hold.
+  bool isInFiles(const FieldReader& fields) {
+    if (const std::string use = fields.text("USE"); !use.empty())
+      return !geometriesNotInFiles_.contains(use);
+    const std::optional<std::string> reason = reasonGeometryIsNotInFiles(source_, fields.node());
+    if (!reason)
+      return true;
+    FieldReader(source_, fields.node(), &document_.warnings).warnOrFail(*reason, "its Shape is left out");
+    geometriesNotInFiles_.insert(fields.text("DEF"));
+    return false;
   }
 
   /// Reads a geometry node outside of any Shape, to whose patches Shapes refer.
@@ -379,6 +393,7 @@ private:
   };
   std::vector<RouteText> routes_;
   std::map<std::string, Shape> definedGeometries_;
+  std::set<std::string> geometriesNotInFiles_; ///< DEFs
   struct SharedGeometry {
     GeometryDescription geometry; ///< with patch 0
     bool solid = true;

@@ -257,9 +257,33 @@ TEST(ReadScene, RefusesImagesThatItCannotRead) {
   };
   const std::string normal = "<ImageTexture containerField='normal' url='n.png'/>";
   EXPECT_EQ(errorKindOf(images(normal + normal + normal)), ErrorKind::unsupported);
-  EXPECT_EQ(errorKindOf(images("<Texture containerField='coord'><canvas/></Texture>")), ErrorKind::unsupported);
-  EXPECT_EQ(errorKindOf(images("<MovieTexture containerField='coord' url='a.mp4'/>")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(images("<ImageTexture containerField='coord' USE='none'/>")), ErrorKind::malformed);
+}
+
+TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
+  const std::string movies = "movies are not drawn; images and live streams are",
+                    stream = "a live stream is in no file";
+  const std::pair<std::string, std::string> cases[] = {
+      {"><MovieTexture containerField='coord' url='a.mp4'/>", movies},
+      {"><Texture containerField='coord'><video src='a.mp4'/></Texture>", movies},
+      {"><GeometryPatch><video containerField='coord' src='a.mp4'/></GeometryPatch>", movies},
+      {"><Texture containerField='coord'><canvas/></Texture>", "a canvas has pixels only in a page"},
+      {"><PixelTexture containerField='coord'/>", "the pixels of a PixelTexture are not read as geometry; images are"},
+      {" coord='live/cloth'>", stream},
+      {" coord='https://a.example/live/cloth-1?token=a/b'>", stream},
+      {"><MovieTexture containerField='coord' url='live/cloth'/>", stream},
+      {"><ImageTexture containerField='coord' url='live/cloth'/>", stream},
+  };
+  for (const auto& [geometry, reason] : cases) {
+    SCOPED_TRACE(geometry);
+    const SceneDocument document = readScene("<X3D><Scene>\n<Shape><ImageGeometry DEF='g'" + geometry +
+                                                 "</ImageGeometry></Shape><Shape><ImageGeometry USE='g'/></Shape>"
+                                                 "<Shape><ImageGeometry coord='alive/c'/></Shape></Scene></X3D>",
+                                             "folder/s.x3d");
+    EXPECT_EQ(document.geometries.size(), 1u);
+    EXPECT_EQ(document.warnings,
+              std::vector<std::string>{"s.x3d:2: ImageGeometry: " + reason + "; its Shape is left out."});
+  }
 }
 
 TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {
