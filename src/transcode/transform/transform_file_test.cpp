@@ -80,6 +80,44 @@ TEST(TransformFile, WritesWhatAPageOfTheConvertedFileShowsWithTheSameOperators) 
   }
 }
 
+/// The standard deviation of the distances of a mesh's points from the origin.
+double roughnessOf(const SiteMesh& mesh) {
+  double sum = 0, squares = 0;
+  for (const auto& [x, y, z] : mesh.positions) {
+    const double radius = length(Vec3d{x, y, z});
+    sum += radius;
+    squares += radius * radius;
+  }
+  const auto count = static_cast<double>(mesh.positions.size());
+  return std::sqrt(squares / count - sum * sum / count / count);
+}
+
+TEST(TransformFile, SmoothsTheGeometryImagesOfASite) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() / name; };
+  Mesh bumpy = testing::sphere(40, 60);
+  testing::Random random(1);
+  for (Vec3f& position : bumpy.positions)
+    position = position * random.between(0.98F, 1.02F);
+  testing::writeMesh(path("bumpy.ply"), bumpy);
+  ConvertOptions options;
+  options.form = MeshForm::geometryImage;
+  options.grid = 128;
+  options.pictures = false;
+  convert(path("bumpy.ply"), path("site"), options);
+  const std::vector<SiteMesh> sharp = readSiteMeshes(path("site")).meshes;
+  transformFile(path("site"), path("smooth.ply"), "blur(2)", false);
+  addOperators(path("site"), "blur(2)");
+  const std::vector<SiteMesh> smooth = readSiteMeshes(path("site")).meshes;
+  ASSERT_EQ(sharp.size(), 1u);
+  ASSERT_EQ(smooth.size(), 1u);
+  EXPECT_LT(roughnessOf(smooth[0]), 0.8 * roughnessOf(sharp[0]));
+  // A page with the operators, its export and the transformed file are the same surface.
+  expectSiteEquals(path("site"), path("smooth.ply"));
+  exportSite(path("site"), path("out.ply"));
+  EXPECT_EQ(readFile(path("out.ply")), readFile(path("smooth.ply")));
+}
+
 TEST(TransformFile, OfASiteAddsOperatorsToThoseOfItsNodes) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& name) { return directory.path() / name; };
