@@ -211,7 +211,7 @@ async function measureReceipt(grid: number, isSlow: boolean, url: string): Promi
   printRow(gridName(grid), lineName(isSlow), "received", rateReached, viewer.skipped, quantiles(ages, 0.5, 0.95, 1));
 }
 
-/** Of a fast line and of a slow one. */
+/** Prints a row for a fast line and one for a slow line. */
 async function measureAges(browser: Browser, grid: number): Promise<void> {
   for (const isSlow of [false, true]) {
     const stream = await startStream(["cloth", "--grid", `${grid}`, "--rate", `${rate}`], [tool]);
