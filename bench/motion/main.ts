@@ -1,7 +1,8 @@
-// Measures what a frame of a scene of 1,000 moving Transforms costs on the page's main thread before it is drawn: one
-// TimeSensor, 1,000 interpolators, 2,000 ROUTEs, 1,000 attributes and matrices. Prints a Markdown table with the
-// processor time of the thread, mean of many frames, and the median and the minimum of their durations, which other
-// processes lengthen; beside a script that writes the same attributes.
+// Measures what a frame of a scene that moves costs on the page's main thread before it is drawn: 1,000 Transforms by
+// one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes; and a grid of
+// 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
+// frames, and the median and the minimum of their durations, which other processes lengthen. Then plays 10,000 frames
+// of each and prints the memory before and after.
 //
 //   scripts/bench motion
 
@@ -16,6 +17,7 @@ import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
 const rounds = 100;
+const frameCount = 10_000;
 const timeout = 120_000;
 
 type Kind = "PositionInterpolator" | "OrientationInterpolator";
@@ -45,9 +47,34 @@ function sceneText(kind: Kind, isShared: boolean): string {
 <TimeSensor DEF="clock"></TimeSensor>${shapes.join("\n")}</Scene></X3D>`;
 }
 
+const gridEdge = 100;
+
+/** A grid of gridEdge² points, which a wave moves. */
+function gridText(): string {
+  const indices = Array.from({ length: gridEdge * gridEdge }, (_, n) => n);
+  const points = (phase: number) =>
+    indices
+      .map((n) => {
+        const [x, y] = [n % gridEdge, Math.floor(n / gridEdge)];
+        return `${x} ${y} ${(3 * Math.sin(x / 9 + phase)).toFixed(2)}`;
+      })
+      .join(" ");
+  const faces = indices
+    .filter((n) => n % gridEdge < gridEdge - 1 && n < gridEdge * (gridEdge - 1))
+    .map((n) => `${n} ${n + 1} ${n + gridEdge + 1} ${n + gridEdge} -1`);
+  return `<X3D style="width:64px;height:48px;display:block" paused><Scene><Viewpoint position="50 50 150"></Viewpoint>
+<TimeSensor DEF="clock"></TimeSensor><Shape>${appearance}<IndexedFaceSet creaseAngle="3.2" coordIndex="${faces.join(" ")}">
+<Coordinate DEF="points" point="${points(0)}"></Coordinate></IndexedFaceSet></Shape>
+<CoordinateInterpolator DEF="wave" key="0 0.5 1" keyValue="${[0, 1, 2].map(points).join(" ")}"></CoordinateInterpolator>
+<ROUTE fromNode="clock" fromField="fraction_changed" toNode="wave" toField="set_fraction"></ROUTE>
+<ROUTE fromNode="wave" fromField="value_changed" toNode="points" toField="set_point"></ROUTE></Scene></X3D>`;
+}
+
+const routes = "ROUTEs from one TimeSensor";
+
 /** Self-contained functions that the page calls repeatedly. */
 const frames: Record<string, (round: number) => void> = {
-  "ROUTEs from one TimeSensor": (round) => {
+  [routes]: (round) => {
     document.querySelector("timesensor")!.setAttribute("set_fraction", String((round % 97) / 97));
   },
   "a script that writes 1,000 attributes": (round) => {
@@ -56,6 +83,31 @@ const frames: Record<string, (round: number) => void> = {
     });
   },
 };
+
+/** Bytes after everything that is no longer used has been freed. */
+async function memoryOf(page: Page): Promise<{ heap: number; gpu: number }> {
+  const session = await page.context().newCDPSession(page);
+  await session.send("HeapProfiler.collectGarbage");
+  const { usedSize } = await session.send("Runtime.getHeapUsage");
+  const gpu = await page.evaluate(() => {
+    const { statistics } = document.querySelector("x3d") as unknown as {
+      statistics: { bufferBytes: number; textureBytes: number };
+    };
+    return statistics.bufferBytes + statistics.textureBytes;
+  });
+  return { heap: usedSize, gpu };
+}
+
+/** The memory after 100 frames and after `frameCount`. */
+async function memoryRow(page: Page, name: string): Promise<string> {
+  await changeTimes(page, frames[routes]!, 100, 1);
+  const before = await memoryOf(page);
+  await changeTimes(page, frames[routes]!, frameCount - 100, 1);
+  const after = await memoryOf(page);
+  const megabytes = (bytes: number): string => `${(bytes / 1e6).toFixed(2)} MB`;
+  const cells = [before.heap, after.heap, before.gpu, after.gpu].map(megabytes);
+  return `| ${name} | ${cells.join(" | ")} |`;
+}
 
 async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
   const run = (count: number): Promise<number[]> => changeTimes(page, change, count, 20);
@@ -79,10 +131,12 @@ const scenes: Record<string, string> = {
   "positions, own shapes": sceneText("PositionInterpolator", false),
   "positions, one shape": sceneText("PositionInterpolator", true),
   "rotations, own shapes": sceneText("OrientationInterpolator", false),
+  "a grid of 10,000 points": gridText(),
 };
 const server = await startServer(directory);
 const browser = await launchChromium();
 try {
+  const memory: string[] = [];
   console.log(`| ${count} moving Transforms | processor time | median | minimum |\n|---|--:|--:|--:|`);
   for (const [scene, text] of Object.entries(scenes)) {
     writeFileSync(
@@ -92,9 +146,13 @@ try {
     const page = await browser.newPage();
     await goUntilComplete(page, server.origin, timeout);
     await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
-    for (const [name, change] of Object.entries(frames)) console.log(await row(page, `${scene}: ${name}`, change));
+    for (const [name, change] of Object.entries(frames))
+      if (name === routes || text.includes("<Transform")) console.log(await row(page, `${scene}: ${name}`, change));
+    memory.push(await memoryRow(page, scene));
     await page.close();
   }
+  console.log(`\n| ${frameCount} frames | heap after 100 | heap after all | GPU after 100 | GPU after all |`);
+  console.log(`|---|--:|--:|--:|--:|\n${memory.join("\n")}`);
 } finally {
   await browser.close();
   await server.close();

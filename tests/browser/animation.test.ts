@@ -248,11 +248,15 @@ async function assertSensors(view: View): Promise<void> {
   );
 }
 
-const inlined = `<X3D version="4.0"><Scene><Transform DEF="t">${shape(box)}</Transform><TimeSensor DEF="c" loop="true"></TimeSensor>
+const inlined = `<X3D version="4.0"><Scene><Group><TouchSensor DEF="touch"></TouchSensor>
+  <Transform DEF="t">${shape('<Box size="4 4 0.1"></Box>')}</Transform></Group>
+  <BooleanFilter DEF="press"></BooleanFilter><BooleanToggle DEF="runs" toggle="true"></BooleanToggle>
+  ${route("touch.isActive", "press.set_boolean")}${route("press.inputTrue", "runs.set_boolean")}${route("runs.toggle", "c.set_enabled")}
+  <TimeSensor DEF="c" loop="true"></TimeSensor>
   <PositionInterpolator DEF="i" key="0 1" keyValue="0 0 0 1 0 0"></PositionInterpolator>
   ${route("c.fraction_changed", "i.set_fraction")}${route("i.value_changed", "t.translation")}</Scene></X3D>`;
 
-/** An inlined document plays when the page's own clock does not. */
+/** An inlined document plays when the page's own clock does not, and its TouchSensor stops it. */
 async function assertInlinedPlays(view: View): Promise<void> {
   await set(view, "clock", "enabled", "false");
   await view.page.evaluate(() => {
@@ -263,6 +267,12 @@ async function assertInlinedPlays(view: View): Promise<void> {
   });
   const before = await framesOf(view);
   await until("the inlined document plays", async () => (await framesOf(view)) > before + 30);
+  await view.page.mouse.click(size.width / 2, size.height / 2);
+  await until("the touch has stopped it", async () => {
+    const frames = await framesOf(view);
+    await view.page.waitForTimeout(200);
+    return (await framesOf(view)) === frames;
+  });
   await view.page.evaluate(() => {
     document.querySelector("x3d")!.setAttribute("paused", "");
   });

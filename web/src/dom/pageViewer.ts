@@ -198,7 +198,7 @@ export class PageViewer {
       withoutReports: (write) => {
         this.#writeUnobserved(write);
       },
-      ...sceneSpaceOf(x3d, canvas, this.renderer, this.cameraController),
+      ...sceneSpaceOf(x3d, canvas, this.renderer, this.cameraController, (root) => this.#inlineOf(root)),
       warn: (message) => {
         this.#core.log.warn(message);
       },
@@ -268,6 +268,12 @@ export class PageViewer {
   #followInlined(): void {
     const roots = (this.#core.scene?.inlines ?? []).map(({ element }) => this.#core.inlines.documentOf(element)?.x3d);
     this.#animation.followInlined(roots.filter((root) => root instanceof Element));
+  }
+
+  /** The first Inline of the document with this root. */
+  #inlineOf(root: Element): Element | undefined {
+    const inlines = this.#core.scene?.inlines ?? [];
+    return inlines.find(({ element }) => this.#core.inlines.documentOf(element)?.x3d === root)?.element as Element;
   }
 
   #observe(): void {

@@ -12,13 +12,16 @@ export interface SceneSpace extends PointerSpace {
   view(): SceneView | undefined;
 }
 
+/** `inlineOf`: the Inline, the first one, of a document with this root. */
 export function sceneSpaceOf(
   x3d: Element,
   canvas: HTMLCanvasElement,
   renderer: SceneRenderer,
   cameraController: CameraController,
+  inlineOf: (root: Element) => Element | undefined,
 ): SceneSpace {
   return {
+    pointerTarget: x3d,
     view() {
       const { view } = renderer;
       if (view === undefined) return undefined;
@@ -37,9 +40,11 @@ export function sceneSpaceOf(
       return renderer.rayAt((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
     },
     sceneFromChildrenOf(element) {
-      for (let at: Element | null = element as unknown as Element; at !== null && at !== x3d; at = at.parentElement) {
+      let at: Element | null | undefined = element as unknown as Element;
+      while (at && at !== x3d) {
         const matrix = renderer.sceneFromTransform(at);
         if (matrix) return matrix.elements;
+        at = at.parentElement ?? inlineOf(at);
       }
       return identity;
     },

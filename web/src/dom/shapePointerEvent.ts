@@ -22,6 +22,8 @@ export interface ShapeEventProperties {
   readonly vertexId: number;
   /** Null on points and lines. */
   readonly triangleId: number | null;
+  /** The element of the shape, which may be in an inlined document: the target of the event is then the Inline. */
+  readonly shapeElement: Element;
   /** The following repeat the above under X3DOM's names. */
   readonly hitObject: Element;
   readonly hitPnt: readonly [number, number, number];
@@ -94,7 +96,7 @@ function initOf<Source, Name extends keyof Source>(source: Source, names: readon
   return Object.fromEntries(names.map((name) => [name, source[name]])) as Pick<Source, Name>;
 }
 
-function propertiesOf({ element, patch, triangle, vertex, position, normal }: Hit): ShapeEventProperties {
+function propertiesOf({ element, shape, patch, triangle, vertex, position, normal }: Hit): ShapeEventProperties {
   const { x, y, z } = position;
   return {
     worldPosition: vector3DOf(position),
@@ -102,6 +104,7 @@ function propertiesOf({ element, patch, triangle, vertex, position, normal }: Hi
     patch,
     vertexId: vertex,
     triangleId: triangle ?? null,
+    shapeElement: shape as Element,
     hitObject: element as Element,
     hitPnt: [x, y, z],
     worldX: x,

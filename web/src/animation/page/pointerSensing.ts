@@ -10,6 +10,8 @@ import type { Matrix } from "./matrices.ts";
 import { inverseOf, normalBefore, transformDirection, transformPoint } from "./matrices.ts";
 
 export interface PointerSpace {
+  /** Gets the pointer events of all shapes, those of inlined documents too. */
+  readonly pointerTarget: EventTarget;
   /** The ray of the last frame's camera at a position in the viewport (`clientX`, `clientY`), in scene coordinates. */
   rayAt(x: number, y: number): Ray | undefined;
   /** The transform from the coordinates of an element's children to the scene's. */
@@ -26,6 +28,8 @@ interface Vector {
 interface ShapeEvent extends PointerEvent {
   readonly worldPosition?: Vector;
   readonly worldNormal?: Vector | null;
+  /** The shape itself; the target is the Inline where it is in another document. */
+  readonly shapeElement?: Element;
 }
 
 interface SensorAt {
@@ -47,6 +51,7 @@ interface Press {
 }
 
 export class PointerSensing {
+  /** The root of the document. */
   readonly #x3d: Element;
   readonly #player: AnimationPlayer;
   readonly #space: PointerSpace;
@@ -59,7 +64,7 @@ export class PointerSensing {
     this.#player = player;
     this.#space = space;
     const listen = (type: string, listener: (event: ShapeEvent) => void): void => {
-      x3d.addEventListener(
+      space.pointerTarget.addEventListener(
         type,
         (event) => {
           listener(event as ShapeEvent);
@@ -75,7 +80,8 @@ export class PointerSensing {
         this.#hover(event);
       });
     listen("pointerout", (event) => {
-      if (event.relatedTarget === null || !(x3d as Node).contains(event.relatedTarget as Node)) this.#leave();
+      const { relatedTarget } = event;
+      if (relatedTarget === null || !(space.pointerTarget as Node).contains(relatedTarget as Node)) this.#leave();
     });
     const follow = (type: string, listener: (event: PointerEvent) => void): void => {
       window.addEventListener(
@@ -105,9 +111,11 @@ export class PointerSensing {
   }
 
   /** The enabled sensors that sense a shape: those beside it in the innermost group that has any. */
-  #sensorsOf(target: EventTarget | null): readonly SensorAt[] {
-    let at: Element | null = target instanceof Element && this.#x3d.contains(target) ? target : null;
-    for (; at !== null && at !== this.#x3d; at = at.parentElement) {
+  #sensorsOf({ target, shapeElement }: ShapeEvent): readonly SensorAt[] {
+    const sensed = [shapeElement, target].find(
+      (each): each is Element => each instanceof Element && this.#x3d.contains(each),
+    );
+    for (let at = sensed ?? null; at !== null && at !== this.#x3d; at = at.parentElement) {
       const sensors: SensorAt[] = [];
       for (const element of Array.from(at.children)) {
         const behaviour = this.#player.nodes.get(element)?.behaviour;
@@ -120,7 +128,7 @@ export class PointerSensing {
 
   #begin(event: ShapeEvent): void {
     if (event.button !== 0 || this.#press !== undefined || !event.worldPosition) return;
-    const sensors = this.#sensorsOf(event.target);
+    const sensors = this.#sensorsOf(event);
     if (sensors.length === 0) return;
     this.#hover(event);
     const holdsCamera = sensors.some(({ sensor }) => sensor.isDragged);
@@ -167,7 +175,7 @@ export class PointerSensing {
   }
 
   #hover(event: ShapeEvent): void {
-    const sensors = event.worldPosition ? this.#sensorsOf(event.target) : [];
+    const sensors = event.worldPosition ? this.#sensorsOf(event) : [];
     if (sensors.length === 0 && this.#over.length === 0) return;
     const left = this.#over.filter(({ sensor }) => !sensors.some((now) => now.sensor === sensor));
     this.#over = sensors;

@@ -28,6 +28,8 @@ import { frustumOf } from "../frames/viewFrustum.ts";
 export interface Hit {
   /** The page's element of the shape. */
   readonly element: SceneElement;
+  /** The element of the shape itself, which may be in an inlined document. */
+  readonly shape: SceneElement;
   /** The group of the shape instance that was hit. */
   readonly group: Group;
   /** Index of the patch in its geometry. */
@@ -46,6 +48,7 @@ export interface Hit {
 
 export interface PickCandidate {
   readonly element: SceneElement;
+  readonly shape: SceneElement;
   readonly patch: number;
   /** The group of one of the shape's instances. */
   readonly group: Group;
@@ -149,7 +152,7 @@ export class Picker {
   ): Hit | undefined {
     const candidate = candidates[(words[pickedWordOffsets.pickId] ?? 0) - 1];
     if (candidate === undefined) return undefined;
-    const { element, group, patch, pick, worldFromStored } = candidate;
+    const { element, shape, group, patch, pick, worldFromStored } = candidate;
     const floats = new Float32Array(words.buffer);
     const stored = new Vector3().fromArray(floats, pickedWordOffsets.position);
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
@@ -160,6 +163,7 @@ export class Picker {
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
     return {
       element,
+      shape,
       group,
       patch,
       vertex: pick.isBase ? -1 : vertex,

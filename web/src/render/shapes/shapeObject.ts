@@ -67,6 +67,7 @@ interface DisplayedPatch {
 
 export class ShapeObject {
   readonly #context: ShapeContext;
+  readonly #element: SceneElement;
   /** One group per instance, with the page's element for it. */
   readonly #groups = new Map<ShapeGroup, SceneElement>();
   readonly #patches = new Map<number, DisplayedPatch>();
@@ -83,6 +84,7 @@ export class ShapeObject {
 
   constructor(context: ShapeContext, shape: ShapeDescription) {
     this.#context = context;
+    this.#element = shape.element;
     this.#appearance = shape.appearance;
     this.#geometry = shape.geometry;
     this.#isPickable = shape.isPickable;
@@ -323,7 +325,7 @@ export class ShapeObject {
         draws: { picks },
       },
     ] of this.#patches) {
-      for (const pick of picks) for (const [group, element] of this.#groups) yield { patch, group, element, pick };
+      for (const pick of picks) for (const [group, element] of this.#groups) yield { patch, group, element, shape: this.#element, pick };
     }
   }
 
