@@ -14,7 +14,7 @@ export MOTION
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall terrain live operators test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall terrain live motion operators test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -45,6 +45,9 @@ terrain: build ## serve an elevation model, coloured by height [PORT=8080]
 
 live: build ## run a simulation and serve the page that draws it live [MOTION=cloth PORT=8080]
 	@scripts/demo --live
+
+motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF [PORT=8080]
+	@scripts/demo --motion
 
 operators: build ## serve image operators on geometry, with a slider for each (paper, section 7.4) [MODEL=statue.ply PORT=8080]
 	@scripts/demo --operators

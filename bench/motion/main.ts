@@ -2,7 +2,7 @@
 // one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes; and a grid of
 // 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
 // frames, and the median and the minimum of their durations, which other processes lengthen. Then plays 10,000 frames
-// of each and prints the memory before and after.
+// of two scenes and prints the memory before and after.
 //
 //   scripts/bench motion
 
@@ -133,6 +133,7 @@ const scenes: Record<string, string> = {
   "rotations, own shapes": sceneText("OrientationInterpolator", false),
   "a grid of 10,000 points": gridText(),
 };
+const memoryScenes = ["positions, own shapes", "a grid of 10,000 points"];
 const server = await startServer(directory);
 const browser = await launchChromium();
 try {
@@ -148,7 +149,7 @@ try {
     await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
     for (const [name, change] of Object.entries(frames))
       if (name === routes || text.includes("<Transform")) console.log(await row(page, `${scene}: ${name}`, change));
-    memory.push(await memoryRow(page, scene));
+    if (memoryScenes.includes(scene)) memory.push(await memoryRow(page, scene));
     await page.close();
   }
   console.log(`\n| ${frameCount} frames | heap after 100 | heap after all | GPU after 100 | GPU after all |`);

@@ -1,0 +1,42 @@
+// Converts scenes that move, and builds the page with all of them in build/motion, for any server: an X3D machine with
+// ROUTEs, and a glTF model with an animation.
+//
+//   node examples/motion/build.ts [OUTPUT]
+
+import { execFileSync } from "node:child_process";
+import { cpSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { orrery } from "./orrery.ts";
+import { motionPage } from "./page.ts";
+
+const here = import.meta.dirname;
+const repository = join(here, "../..");
+const [output = join(repository, "build/motion")] = process.argv.slice(2);
+
+function convert(source: string, folder: string): void {
+  const site = join(output, folder);
+  execFileSync(join(repository, "build/imgeo"), ["convert", source, "-o", site], { stdio: "ignore" });
+}
+
+rmSync(output, { recursive: true, force: true });
+mkdirSync(output, { recursive: true });
+for (const file of ["motion.css", "motion.js"]) cpSync(join(here, file), join(output, file));
+convert(join(here, "engine.x3d"), "engine");
+const model = join(output, "orrery.gltf");
+writeFileSync(model, orrery());
+convert(model, "orrery");
+writeFileSync(
+  join(output, "index.html"),
+  motionPage([
+    {
+      folder: "engine",
+      title: "A steam engine in X3D",
+      text: "A <code>TimeSensor</code> drives interpolators, whose values follow <code>ROUTE</code>s to the wheel, the rod, the piston and the valve. Touch the wheel to stop it and to start it again; drag the lamp.",
+    },
+    {
+      folder: "orrery",
+      title: "An orrery in glTF",
+      text: "The animation of a glTF file, converted to the same nodes: arms that turn, one within the other.",
+    },
+  ]),
+);
