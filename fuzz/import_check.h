@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "import/import.h"
+#include "scene/pose.h"
 #include "scene/shape_instances.h"
 
 #include <cmath>
@@ -27,6 +28,11 @@ inline void requireGraph(const Scene& scene) {
   for (const Node& node : graph.nodes) {
     for (const std::size_t child : node.children)
       require(child < graph.nodes.size());
+    if (const Humanoid* humanoid = std::get_if<Humanoid>(&node.content)) {
+      require(humanoid->joints.size() == humanoid->inverseBindings.size());
+      for (const std::size_t joint : humanoid->joints)
+        require(joint < graph.nodes.size() && std::holds_alternative<Transform>(graph.nodes[joint].content));
+    }
     if (const Shape* shape = std::get_if<Shape>(&node.content))
       require(shape->mesh < scene.meshes.size() &&
               (!shape->appearance || *shape->appearance < graph.appearances.size()));
@@ -44,6 +50,10 @@ inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
   try {
     const Imported imported = importBytes(bytes, name, {.attributes = {.all = true, .names = {}}});
     requireGraph(imported.scene);
+    if (imported.scene.graph.nodes.size() < 1000) { // poses take the joints of every vertex
+      Scene posed = imported.scene;
+      setMovingBoxes(posed);
+    }
     for (const Mesh& mesh : imported.scene.meshes) {
       require(isConsistent(mesh));
       for (const Vec3f& position : mesh.positions)

@@ -49,6 +49,8 @@ struct SiteInfo {
   std::size_t timeSensors = 0;          ///< TimeSensors: an animation has one
   std::size_t interpolators = 0;        ///< interpolators that are linear between their keys
   std::size_t routes = 0;               ///< ROUTEs
+  std::size_t skins = 0;                ///< HAnimHumanoids, whose joints move vertices
+  std::size_t displacers = 0;           ///< HAnimDisplacers: morph targets
   std::uint64_t documentBytes = 0;      ///< size of the document and of those that it inlines
   std::uint64_t containerBytes = 0;     ///< size of the geometry files
   std::uint64_t runtimeBytes = 0;       ///< size of the runtime's modules

@@ -33,6 +33,8 @@ Json jsonOf(const SiteInfo& info) {
             {"patches", info.patches},
             {"timeSensors", info.timeSensors},
             {"interpolators", info.interpolators},
+            {"skins", info.skins},
+            {"displacers", info.displacers},
             {"routes", info.routes},
             {"documentBytes", info.documentBytes},
             {"containerBytes", info.containerBytes},
@@ -95,13 +97,16 @@ void printGeometries(const std::vector<GeometryInfo>& geometries) {
       fmt::print("{}\n", textOf(*it));
 }
 
-/// "animation: 1 TimeSensor, 3 interpolators, 6 routes"
+/// "animation: 1 TimeSensor, 3 interpolators, 6 routes", and "moving vertices: 1 skin, 2 displacers"
 template <typename Info> void printAnimation(const Info& info) {
   if (info.timeSensors + info.interpolators + info.routes > 0)
     fmt::print("animation: {} {}, {} {}, {} {}\n", info.timeSensors,
                info.timeSensors == 1 ? "TimeSensor" : "TimeSensors", info.interpolators,
                info.interpolators == 1 ? "interpolator" : "interpolators", info.routes,
                info.routes == 1 ? "route" : "routes");
+  if (info.skins + info.displacers > 0)
+    fmt::print("moving vertices: {} {}, {} {}\n", info.skins, info.skins == 1 ? "skin" : "skins", info.displacers,
+               info.displacers == 1 ? "displacer" : "displacers");
 }
 
 void warn(const std::vector<std::string>& warnings) {
@@ -159,6 +164,8 @@ Json jsonOf(const SourceInfo& info) {
           {"points", info.elements.points},
           {"timeSensors", info.timeSensors},
           {"interpolators", info.interpolators},
+          {"skins", info.skins},
+          {"displacers", info.displacers},
           {"routes", info.routes},
           {"vertices", info.vertices},
           {"normals", info.normals},

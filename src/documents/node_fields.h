@@ -82,6 +82,11 @@ template <typename Visit> void visitFieldsOf(const TimeSensor*, auto& sensor, Vi
   visit("resumeTime", sensor.resumeTime);
 }
 
+template <typename Visit> void visitFieldsOf(const Displacer*, auto& displacer, Visit&& visit) {
+  visit("name", displacer.name);
+  visit("weight", displacer.weight);
+}
+
 template <typename Visit> void visitFieldsOf(const Material*, auto& material, Visit&& visit) {
   visit("diffuseColor", material.diffuseColor, Written::always);
   visit("specularColor", material.specularColor);

@@ -6,6 +6,7 @@
 #include "documents/field_reader.h"
 #include "documents/geometry_reader.h"
 #include "documents/node_fields_reader.h"
+#include "documents/skin_element.h"
 #include "markup/find_x3d.h"
 #include "markup/x3d_element.h"
 #include "scene/mf_string.h"
@@ -22,9 +23,9 @@ namespace {
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
 constexpr std::size_t maxDepth = 256;               // of nested elements, and of nodes through their USEs
 
-constexpr std::array nodeNames{"Shape",      "Group",          "Transform",
-                               "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
-                               "PointLight", "SpotLight",      "TimeSensor"};
+constexpr std::array nodeNames{
+    "Shape",      "Group",     "Transform",  "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
+    "PointLight", "SpotLight", "TimeSensor", "HAnimJoint", "HAnimHumanoid",  "HAnimDisplacer"};
 
 /// Whether a url is that of a document that `convert` has written: "0123456789abcdef.x3d".
 bool isNamedByContent(std::string_view url) {
@@ -157,8 +158,12 @@ private:
       return add(fields, readNode<Viewpoint>(fields));
     if (is("OrthoViewpoint"))
       return add(fields, readOrthoViewpoint(fields));
-    if (is("Group") || is("Transform"))
+    if (is("Group") || is("Transform") || is("HAnimJoint"))
       return readGrouping(fields, depth);
+    if (is("HAnimHumanoid"))
+      return readHumanoid(fields, depth);
+    if (is("HAnimDisplacer"))
+      return add(fields, readNode<Displacer>(fields));
     if (is("TimeSensor"))
       return add(fields, readNode<TimeSensor>(fields));
     if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(fields.node().name()))
@@ -191,12 +196,38 @@ private:
     return "";
   }
 
+  /// A humanoid whose joints are elsewhere in the document. One of another program is a Group.
+  std::size_t readHumanoid(const FieldReader& fields, std::size_t depth) {
+    if (!fields.has(inverseBindingsField))
+      return add(fields, Group{}, readChildren(fields.node(), depth + 1));
+    Humanoid humanoid;
+    std::vector<std::size_t> shapes;
+    for (const pugi::xml_node& child : fields.node().children()) {
+      const FieldReader childFields(source_, child, &document_.warnings);
+      if (!isJointElement(childFields)) {
+        if (const std::optional<std::size_t> shape = readChild(childFields, depth + 1))
+          shapes.push_back(*shape);
+        continue;
+      }
+      const std::optional<std::size_t> joint = usedNode(childFields, childFields.text("USE"));
+      if (!joint || !std::holds_alternative<Transform>(document_.graph.nodes[*joint].content))
+        childFields.fail(ErrorKind::malformed, "USE names no HAnimJoint that stands before");
+      humanoid.joints.push_back(*joint);
+    }
+    humanoid.inverseBindings = readInverseBindings(fields, humanoid.joints.size());
+    return add(fields, std::move(humanoid), std::move(shapes));
+  }
+
   std::size_t readGrouping(const FieldReader& fields, std::size_t depth) {
-    const bool isTransform = equalIgnoringCase(fields.node().name(), "Transform");
+    const bool isJoint = equalIgnoringCase(fields.node().name(), "HAnimJoint");
+    const bool isTransform = isJoint || equalIgnoringCase(fields.node().name(), "Transform");
     const std::size_t geometriesBefore = document_.geometries.size();
     std::vector<std::size_t> children = readChildren(fields.node(), depth + 1);
-    if (isTransform)
-      return add(fields, readNode<Transform>(fields), std::move(children));
+    if (isTransform) {
+      Transform transform = readNode<Transform>(fields);
+      transform.isJoint = isJoint;
+      return add(fields, transform, std::move(children));
+    }
     if (joinPatches(fields, children, geometriesBefore))
       return add(fields, document_.graph.nodes[children[0]].content);
     return add(fields, Group{}, std::move(children));
@@ -279,9 +310,15 @@ private:
   std::optional<std::size_t> readShape(const FieldReader& fields) {
     std::optional<Shape> shape;
     std::optional<std::size_t> appearance;
+    std::vector<std::size_t> displacers;
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element)
         continue;
+      if (equalIgnoringCase(child.name(), "HAnimDisplacer")) {
+        if (const auto displacer = readChild(FieldReader(source_, child, &document_.warnings), maxDepth))
+          displacers.push_back(*displacer);
+        continue;
+      }
       if (equalIgnoringCase(child.name(), "Appearance")) {
         appearance = appearances_.read(child);
       } else if (isGeometryNode(child.name())) {
@@ -303,7 +340,7 @@ private:
     shape->appearance = isUnlit_[shape->mesh]
                             ? appearances_.unlit(appearance, hasColors(document_.geometries[shape->mesh]))
                             : appearance;
-    return add(fields, *shape);
+    return add(fields, *shape, std::move(displacers));
   }
 
   /// Whether files may hold a geometry; warns of one that they cannot hold.
@@ -362,7 +399,8 @@ private:
     read.mesh = document_.geometries.size();
     read.solid = readSolid(fields);
     GeometryDescription geometry = readGeometry(source_, fields.node(), &document_.warnings);
-    geometry.box = shape.box();
+    const Box3d own = fields.box(); // a Shape whose vertices move has another one
+    geometry.box = own.empty() ? shape.box() : own;
     const bool hasPatches = std::ranges::any_of(
         fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });
     if (!hasPatches && geometry.box.empty())

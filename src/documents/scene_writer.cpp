@@ -6,6 +6,7 @@
 #include "documents/geometry_element.h"
 #include "documents/node_fields_writer.h"
 #include "documents/page_sanitizer.h"
+#include "documents/skin_element.h"
 #include "markup/find_x3d.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ Element contentElement(const Group&, const Attributes& names) {
   return {"Group", {names}};
 }
 Element contentElement(const Transform& transform, const Attributes& names) {
-  return nodeElement("Transform", transform, names);
+  return nodeElement(transform.isJoint ? "HAnimJoint" : "Transform", transform, names);
 }
 Element contentElement(const Shape&, const Attributes& names) {
   return {"Shape", {names}};
@@ -46,6 +47,13 @@ Element contentElement(const TimeSensor& sensor, const Attributes& names) {
 }
 Element contentElement(const Interpolator& interpolator, const Attributes& names) {
   return interpolatorElement(interpolator, names);
+}
+
+Element contentElement(const Humanoid& humanoid, const Attributes& names) {
+  return humanoidElement(humanoid, names);
+}
+Element contentElement(const Displacer& displacer, const Attributes& names) {
+  return nodeElement("HAnimDisplacer", displacer, names);
 }
 
 /// The requested DEF: `fallback` for an element without a name that is used more than once.
@@ -101,6 +109,10 @@ void SceneWriter::chooseNames() {
   for (const Route& route : graph.routes)
     for (const std::size_t end : {route.fromNode, route.toNode})
       ++nodeUses[end]; // so that it has a DEF
+  for (const std::size_t index : order)
+    if (const Humanoid* humanoid = std::get_if<Humanoid>(&graph.nodes[index].content))
+      for (const std::size_t joint : humanoid->joints)
+        nodeUses[joint] += 2;
   for (const std::size_t index : order) {
     if (!inlinesDocument(graph.nodes[index]))
       for (const std::size_t child : graph.nodes[index].children)
@@ -215,6 +227,9 @@ void SceneWriter::writeExtras(const Node& node) {
 
 void SceneWriter::writeChildren(const Node& node) {
   writeExtras(node);
+  if (const Humanoid* humanoid = std::get_if<Humanoid>(&node.content))
+    for (const std::size_t joint : humanoid->joints)
+      writer_.leaf(jointElement(nodeNames_[joint]));
   for (const std::size_t child : node.children)
     writeNode(child);
 }
@@ -336,7 +351,10 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
   const Attributes names = geometryNames_.defOrUse(2 * shape.mesh + !shape.solid);
   if (isUse(names))
     return writer_.leaf({rowOf(geometry).node.name, {names}});
-  const Element node = geometryElement(geometry, shape.solid, names, boxInGeometry(geometry));
+  const std::optional<Attributes> ownBox = boxInGeometry(geometry);
+  Element node = geometryElement(geometry, shape.solid, names, ownBox);
+  if (!shape.movingBox.empty() && !ownBox) // the Shape has another one
+    node.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
   const bool hasPatchElements = !isSinglePatch(geometry);
   if (geometry.attributes.empty() && !hasPatchElements)
     return writer_.leaf(node);
@@ -359,8 +377,8 @@ void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   Element element{"Shape", {names, furtherFields(node)}};
   if (geometry.isShared)
     element.groups.push_back({{"patch", patchReference(geometry, sharedGeometries_.at(sharedKeyOf(shape)))}});
-  else if (!boxInGeometry(geometry))
-    element.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
+  else if (!shape.movingBox.empty() || !boxInGeometry(geometry))
+    element.groups.push_back(boxAttributes(shape.movingBox.empty() ? geometry.box : shape.movingBox, geometry.lattice));
   writer_.open(element);
   writeChildren(node);
   writeAppearanceOf(shape);

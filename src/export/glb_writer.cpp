@@ -5,6 +5,7 @@
 #include "export/export.h"
 #include "export/gltf_animations.h"
 #include "export/gltf_arrays.h"
+#include "export/gltf_deformation.h"
 #include "export/gltf_light.h"
 #include "export/gltf_material.h"
 #include "scene/mf_string.h"
@@ -32,13 +33,14 @@ public:
     for (const std::size_t root : scene.graph.roots)
       if (const std::optional<std::size_t> node = addNode(root))
         roots.push_back(*node);
-    animations = gltfAnimations(scene.graph, gltfNodes_, arrays);
+    addSkins();
+    animations = gltfAnimations(scene, {gltfNodes_, shapeNodes_}, arrays);
   }
 
   GltfArrays arrays;
   Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
   Json images = Json::array(), samplers = Json::array(), textures = Json::array(), cameras = Json::array();
-  Json lights = Json::array(), animations = Json::array();
+  Json lights = Json::array(), animations = Json::array(), skins = Json::array();
 
 private:
   /// Adds a node and its descendants. Returns its index; nothing if there is no shape, viewpoint or light among them.
@@ -46,13 +48,18 @@ private:
     const Node& node = scene_.graph.nodes[index];
     if (animatedNodes_.contains(index))
       return addAnimatedNode(index);
+    if (std::holds_alternative<Displacer>(node.content))
+      return {};
     Json json = Json::object();
+    std::optional<std::size_t> shapeIndex;
     if (!node.name.empty())
       json["name"] = node.name;
-    if (const Shape* shape = std::get_if<Shape>(&node.content)) {
-      json["mesh"] = meshIndexOf(*shape, node.name);
+    if (std::holds_alternative<Shape>(node.content)) {
+      json["mesh"] = meshIndexOf(index);
+      shapeIndex = index;
     } else if (const Node* onlyShape = onlyShapeOf(node)) {
-      json["mesh"] = meshIndexOf(std::get<Shape>(onlyShape->content), onlyShape->name);
+      json["mesh"] = meshIndexOf(node.children[0]);
+      shapeIndex = node.children[0];
       if (node.name.empty() && !onlyShape->name.empty())
         json["name"] = onlyShape->name;
       if (const Transform* transform = std::get_if<Transform>(&node.content))
@@ -64,15 +71,54 @@ private:
       json["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       lights.push_back(light->json);
     } else {
+      const std::size_t firstShape = shapesInOrder_.size();
       Json children = addChildren(node);
-      if (children.empty())
+      if (children.empty() && !isJoint(node))
         return {};
-      json["children"] = std::move(children);
+      if (std::holds_alternative<Humanoid>(node.content))
+        skinned_.push_back(
+            {index, {shapesInOrder_.begin() + static_cast<std::ptrdiff_t>(firstShape), shapesInOrder_.end()}});
+      if (!children.empty())
+        json["children"] = std::move(children);
       if (const Transform* transform = std::get_if<Transform>(&node.content))
         addTransform(json, *transform);
     }
+    if (shapeIndex)
+      addWeights(json, *shapeIndex);
     nodes.push_back(std::move(json));
+    if (isJoint(node))
+      gltfNodes_[index].push_back(nodes.size() - 1);
+    if (shapeIndex) {
+      shapeNodes_[*shapeIndex].push_back(nodes.size() - 1);
+      shapesInOrder_.push_back(nodes.size() - 1);
+    }
     return nodes.size() - 1;
+  }
+
+  static bool isJoint(const Node& node) {
+    const Transform* transform = std::get_if<Transform>(&node.content);
+    return transform && transform->isJoint;
+  }
+
+  /// The weights of a shape's morph targets.
+  void addWeights(Json& json, std::size_t shapeIndex) const {
+    for (const std::size_t displacer : displacersOf(scene_, shapeIndex))
+      json["weights"].push_back(std::get<Displacer>(scene_.graph.nodes[displacer].content).weight);
+  }
+
+  /// Adds the skins of the humanoids, when all joints have their nodes.
+  void addSkins() {
+    for (const auto& [humanoid, shapes] : skinned_) {
+      const Node& node = scene_.graph.nodes[humanoid];
+      Json skin = gltfSkin(arrays, std::get<Humanoid>(node.content), gltfNodes_);
+      if (skin.is_null())
+        continue;
+      skins.push_back(std::move(skin));
+      if (!node.name.empty())
+        skins.back()["name"] = node.name;
+      for (const std::size_t shape : shapes)
+        nodes[shape]["skin"] = skins.size() - 1;
+    }
   }
 
   /// Adds the children of a node; returns their indices.
@@ -89,17 +135,18 @@ private:
     const Node& node = scene_.graph.nodes[index];
     const Transform& transform = std::get<Transform>(node.content);
     Json children = addChildren(node);
-    if (children.empty())
+    if (children.empty() && !transform.isJoint)
       return {};
     const auto vector = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
-    if (transform.center != Vec3d{}) {
+    if (transform.center != Vec3d{} && !children.empty()) {
       nodes.push_back({{"translation", vector(transform.center * -1)}, {"children", std::move(children)}});
       children = Json::array({nodes.size() - 1});
     }
-    Json json{{"children", std::move(children)},
-              {"translation", vector(transform.translation + transform.center)},
+    Json json{{"translation", vector(transform.translation + transform.center)},
               {"rotation", quaternionOf(transform.rotation)},
               {"scale", vector(transform.scale)}};
+    if (!children.empty())
+      json["children"] = std::move(children);
     if (!node.name.empty())
       json["name"] = node.name;
     nodes.push_back(std::move(json));
@@ -113,6 +160,8 @@ private:
         !(std::holds_alternative<Transform>(node.content) || std::holds_alternative<Group>(node.content)))
       return nullptr;
     const Node& child = scene_.graph.nodes[node.children[0]];
+    if (isJoint(node))
+      return nullptr;
     const bool haveBothNames = !node.name.empty() && !child.name.empty();
     return std::holds_alternative<Shape>(child.content) && !haveBothNames ? &child : nullptr;
   }
@@ -144,8 +193,14 @@ private:
     json["matrix"] = std::move(matrix);
   }
 
-  std::size_t meshIndexOf(const Shape& shape, const std::string& name) {
-    const auto [found, isNew] = meshIndices_.try_emplace({shape.mesh, shape.appearance, shape.solid}, meshes.size());
+  std::size_t meshIndexOf(std::size_t shapeIndex) {
+    const Shape& shape = std::get<Shape>(scene_.graph.nodes[shapeIndex].content);
+    const std::string& name = scene_.graph.nodes[shapeIndex].name;
+    std::vector<std::string> targetNames;
+    for (const std::size_t displacer : displacersOf(scene_, shapeIndex))
+      targetNames.push_back(std::get<Displacer>(scene_.graph.nodes[displacer].content).name);
+    const auto [found, isNew] =
+        meshIndices_.try_emplace({shape.mesh, shape.appearance, shape.solid, targetNames}, meshes.size());
     if (!isNew)
       return found->second;
     const Mesh& mesh = scene_.meshes.at(shape.mesh);
@@ -155,6 +210,8 @@ private:
     Json withMaterial = primitive;
     withMaterial["material"] = materialIndexOf(shape, mesh);
     Json json{{"primitives", Json::array({std::move(withMaterial)})}};
+    for (const std::string& target : targetNames)
+      json["extras"]["targetNames"].push_back(target);
     if (!name.empty())
       json["name"] = name;
     meshes.push_back(std::move(json));
@@ -205,13 +262,19 @@ private:
 
   const Scene& scene_;
   std::vector<Json> primitives_; ///< by index of the mesh
-  std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool>, std::size_t>
-      meshIndices_;                                                  ///< by mesh, appearance and solid
-  std::map<std::string, std::size_t> materialIndices_;               ///< by the JSON text
+  std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool, std::vector<std::string>>, std::size_t>
+      meshIndices_;                                    ///< by mesh, appearance, solid and the names of morph targets
+  std::map<std::string, std::size_t> materialIndices_; ///< by the JSON text
   std::map<std::size_t, std::optional<std::size_t>> textureIndices_; ///< nothing for images of other formats
   std::map<std::size_t, std::size_t> imageIndices_;
   std::set<std::size_t> animatedNodes_;
-  std::map<std::size_t, std::vector<std::size_t>> gltfNodes_; ///< of animated nodes
+  std::map<std::size_t, std::vector<std::size_t>> gltfNodes_, shapeNodes_; ///< of animated nodes and joints; of shapes
+  std::vector<std::size_t> shapesInOrder_;                                 ///< nodes of the file with a mesh
+  struct Skinned {
+    std::size_t humanoid;
+    std::vector<std::size_t> shapes; ///< nodes of the file
+  };
+  std::vector<Skinned> skinned_;
 };
 
 void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t padding) {
@@ -267,6 +330,8 @@ Bytes writeGlb(const Scene& scene) {
     root["extensionsUsed"].push_back("KHR_lights_punctual");
     root["extensions"]["KHR_lights_punctual"]["lights"] = gltf.lights;
   }
+  if (!gltf.skins.empty())
+    root["skins"] = gltf.skins;
   if (!gltf.animations.empty())
     root["animations"] = gltf.animations;
   root["accessors"] = arrays.accessors;

@@ -1,5 +1,7 @@
 #include "export/gltf_animations.h"
 
+#include "export/gltf_deformation.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +11,6 @@
 namespace imgeo {
 
 namespace {
-
-constexpr int keyComponentType = 5126; // floats
 
 /// The path of glTF for the field of a Transform that a route names; nullptr for another field.
 const char* pathOf(std::string_view field) {
@@ -35,22 +35,68 @@ bool canBeWritten(const Interpolator& interpolator, const char* path) {
          faultOf(interpolator).empty();
 }
 
-std::vector<Channel> channelsOf(const SceneGraph& graph) {
-  std::vector<Channel> channels;
+/// Calls visit(sensor, interpolator, route) for each route from an interpolator that a TimeSensor drives.
+template <typename Visit> void visitDriven(const SceneGraph& graph, Visit visit) {
   for (const Route& clock : graph.routes) {
     if (!std::holds_alternative<TimeSensor>(graph.nodes[clock.fromNode].content) ||
         clock.fromField != "fraction_changed" || clock.toField != "set_fraction")
       continue;
-    const auto* interpolator = std::get_if<Interpolator>(&graph.nodes[clock.toNode].content);
-    for (const Route& route : graph.routes) {
-      const auto* transform = std::get_if<Transform>(&graph.nodes[route.toNode].content);
-      const char* path = pathOf(route.toField);
-      if (interpolator && transform && path && route.fromNode == clock.toNode &&
-          transform->scaleOrientation.angle == 0 && canBeWritten(*interpolator, path))
-        channels.push_back({clock.fromNode, clock.toNode, route.toNode, path});
-    }
+    if (const auto* interpolator = std::get_if<Interpolator>(&graph.nodes[clock.toNode].content))
+      for (const Route& route : graph.routes)
+        if (route.fromNode == clock.toNode)
+          visit(clock.fromNode, *interpolator, route);
   }
+}
+
+std::vector<Channel> channelsOf(const SceneGraph& graph) {
+  std::vector<Channel> channels;
+  visitDriven(graph, [&](std::size_t sensor, const Interpolator& interpolator, const Route& route) {
+    const auto* transform = std::get_if<Transform>(&graph.nodes[route.toNode].content);
+    const char* path = pathOf(route.toField);
+    if (transform && path && transform->scaleOrientation.angle == 0 && canBeWritten(interpolator, path))
+      channels.push_back({sensor, route.fromNode, route.toNode, path});
+  });
   return channels;
+}
+
+/// The animation of the weights of a shape's displacers: nullptr for those that it does not change.
+struct WeightChannel {
+  std::size_t sensor, shape;
+  std::vector<const Interpolator*> interpolators; ///< by displacer
+};
+
+std::vector<WeightChannel> weightChannelsOf(const Scene& scene, std::size_t shape) {
+  const std::vector<std::size_t> displacers = displacersOf(scene, shape);
+  if (displacers.empty())
+    return {};
+  std::map<std::size_t, WeightChannel> channels; ///< by sensor
+  visitDriven(scene.graph, [&](std::size_t sensor, const Interpolator& interpolator, const Route& route) {
+    const auto displacer = std::ranges::find(displacers, route.toNode);
+    if (displacer == displacers.end() || !route.toField.ends_with("weight") ||
+        interpolator.kind != InterpolatorKind::scalar || interpolator.keys.empty() || interpolator.keys.front() < 0 ||
+        !faultOf(interpolator).empty())
+      return;
+    WeightChannel& channel = channels.try_emplace(sensor, WeightChannel{sensor, shape, {}}).first->second;
+    channel.interpolators.resize(displacers.size());
+    channel.interpolators[static_cast<std::size_t>(displacer - displacers.begin())] = &interpolator;
+  });
+  std::vector<WeightChannel> list;
+  for (auto& [sensor, channel] : channels)
+    list.push_back(std::move(channel));
+  return list;
+}
+
+/// The value of a ScalarInterpolator at a key of any of several; at a step before (`isAfter` false) or after it.
+float scalarAt(const Interpolator& interpolator, float key, bool isAfter) {
+  const std::vector<float>& keys = interpolator.keys;
+  const auto found = isAfter ? std::ranges::upper_bound(keys, key) : std::ranges::lower_bound(keys, key);
+  const auto next = static_cast<std::size_t>(found - keys.begin());
+  if (next == keys.size())
+    return interpolator.values.back();
+  if (keys[next] == key || next == 0)
+    return interpolator.values[next];
+  const float t = (key - keys[next - 1]) / (keys[next] - keys[next - 1]);
+  return std::lerp(interpolator.values[next - 1], interpolator.values[next], t);
 }
 
 class AnimationWriter {
@@ -62,6 +108,35 @@ public:
     const auto& interpolator = std::get<Interpolator>(graph_.nodes[channel.interpolator].content);
     const std::size_t input = addKeys(interpolator.keys, seconds);
     samplers.push_back({{"input", input}, {"output", addValues(channel, interpolator)}, {"interpolation", "LINEAR"}});
+    return samplers.size() - 1;
+  }
+
+  /// Adds a sampler for the weights of a shape: with all keys of its displacers, steps twice.
+  std::size_t addWeightSampler(const WeightChannel& channel, const std::vector<double>& rest, double seconds,
+                               Json& samplers) {
+    std::map<float, bool> keys; ///< whether some interpolator steps there
+    for (const Interpolator* interpolator : channel.interpolators)
+      for (std::size_t i = 0; interpolator && i < interpolator->keys.size(); ++i)
+        keys[interpolator->keys[i]] |= i > 0 && interpolator->keys[i] == interpolator->keys[i - 1];
+    std::vector<float> times, values;
+    const auto add = [&](float key, bool isAfter) {
+      times.push_back(key);
+      for (std::size_t i = 0; i < rest.size(); ++i)
+        values.push_back(channel.interpolators[i] ? scalarAt(*channel.interpolators[i], key, isAfter)
+                                                  : static_cast<float>(rest[i]));
+    };
+    for (const auto& [key, isStep] : keys) {
+      add(key, false);
+      if (isStep)
+        add(key, true);
+    }
+    const std::size_t input = addKeys(times, seconds);
+    arrays_.begin();
+    for (const float value : values)
+      appendLittle(arrays_.bytes, value);
+    const std::size_t output = arrays_.end(0, floatType, "SCALAR", values.size());
+    arrays_.views.back().erase("target");
+    samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
     return samplers.size() - 1;
   }
 
@@ -78,7 +153,7 @@ private:
     arrays_.begin();
     for (const float time : times)
       appendLittle(arrays_.bytes, time);
-    const std::size_t accessor = arrays_.end(0, keyComponentType, "SCALAR", times.size());
+    const std::size_t accessor = arrays_.end(0, floatType, "SCALAR", times.size());
     arrays_.views.back().erase("target"); // only vertex data has one
     arrays_.accessors.back()["min"] = {times.front()};
     arrays_.accessors.back()["max"] = {times.back()};
@@ -104,8 +179,7 @@ private:
         appendLittle(arrays_.bytes, static_cast<float>(number));
     }
     const bool isRotation = interpolator.kind == InterpolatorKind::orientation;
-    const std::size_t accessor =
-        arrays_.end(0, keyComponentType, isRotation ? "VEC4" : "VEC3", values.size() / components);
+    const std::size_t accessor = arrays_.end(0, floatType, isRotation ? "VEC4" : "VEC3", values.size() / components);
     arrays_.views.back().erase("target");
     return accessor;
   }
@@ -123,26 +197,44 @@ std::set<std::size_t> gltfAnimatedNodes(const SceneGraph& graph) {
   return nodes;
 }
 
-Json gltfAnimations(const SceneGraph& graph, const std::map<std::size_t, std::vector<std::size_t>>& gltfNodes,
-                    GltfArrays& arrays) {
+Json gltfAnimations(const Scene& scene, const GltfNodes& gltfNodes, GltfArrays& arrays) {
+  const SceneGraph& graph = scene.graph;
   AnimationWriter writer(graph, arrays);
   std::vector<std::pair<std::size_t, Json>> animations; ///< by TimeSensor
+  const auto animationOf = [&](std::size_t sensor) -> Json& {
+    const auto found = std::ranges::find(animations, sensor, [](const auto& each) { return each.first; });
+    if (found != animations.end())
+      return found->second;
+    Json animation{{"samplers", Json::array()}, {"channels", Json::array()}};
+    if (const std::string& name = graph.nodes[sensor].name; !name.empty())
+      animation["name"] = name;
+    return animations.emplace_back(sensor, std::move(animation)).second;
+  };
+  const auto secondsOf = [&](std::size_t sensor) {
+    return std::get<TimeSensor>(graph.nodes[sensor].content).cycleInterval;
+  };
+  const auto addChannels = [](Json& animation, std::size_t sampler, const std::vector<std::size_t>& nodes,
+                              const char* path) {
+    for (const std::size_t node : nodes)
+      animation["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
+  };
   for (const Channel& channel : channelsOf(graph)) {
-    const auto nodes = gltfNodes.find(channel.node);
-    if (nodes == gltfNodes.end())
+    const auto nodes = gltfNodes.transforms.find(channel.node);
+    if (nodes == gltfNodes.transforms.end())
       continue;
-    auto found = std::ranges::find(animations, channel.sensor, [](const auto& each) { return each.first; });
-    if (found == animations.end()) {
-      Json animation{{"samplers", Json::array()}, {"channels", Json::array()}};
-      if (const std::string& name = graph.nodes[channel.sensor].name; !name.empty())
-        animation["name"] = name;
-      found = animations.insert(animations.end(), {channel.sensor, std::move(animation)});
+    Json& animation = animationOf(channel.sensor);
+    addChannels(animation, writer.addSampler(channel, secondsOf(channel.sensor), animation["samplers"]), nodes->second,
+                channel.path);
+  }
+  for (const auto& [shape, nodes] : gltfNodes.shapes) {
+    std::vector<double> rest;
+    for (const std::size_t displacer : displacersOf(scene, shape))
+      rest.push_back(std::get<Displacer>(graph.nodes[displacer].content).weight);
+    for (const WeightChannel& channel : weightChannelsOf(scene, shape)) {
+      Json& animation = animationOf(channel.sensor);
+      addChannels(animation, writer.addWeightSampler(channel, rest, secondsOf(channel.sensor), animation["samplers"]),
+                  nodes, "weights");
     }
-    Json& animation = found->second;
-    const double seconds = std::get<TimeSensor>(graph.nodes[channel.sensor].content).cycleInterval;
-    const std::size_t sampler = writer.addSampler(channel, seconds, animation["samplers"]);
-    for (const std::size_t node : nodes->second)
-      animation["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", channel.path}}}});
   }
   Json list = Json::array();
   for (auto& [sensor, animation] : animations)

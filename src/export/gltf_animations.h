@@ -14,9 +14,12 @@ namespace imgeo {
 /// orientation interpolators to, which a TimeSensor drives. Those with a scaleOrientation are not among them.
 std::set<std::size_t> gltfAnimatedNodes(const SceneGraph& graph);
 
-/// The animations, one for each TimeSensor. `gltfNodes`: the nodes of the file by those of the scene. Adds keys to
-/// `arrays`.
-Json gltfAnimations(const SceneGraph& graph, const std::map<std::size_t, std::vector<std::size_t>>& gltfNodes,
-                    GltfArrays& arrays);
+/// The nodes of the file by those of the scene.
+struct GltfNodes {
+  const std::map<std::size_t, std::vector<std::size_t>>&transforms, &shapes;
+};
+
+/// The animations, one for each TimeSensor. Adds keys to `arrays`.
+Json gltfAnimations(const Scene& scene, const GltfNodes& gltfNodes, GltfArrays& arrays);
 
 } // namespace imgeo

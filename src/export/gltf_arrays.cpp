@@ -1,5 +1,6 @@
 #include "export/gltf_arrays.h"
 
+#include "export/gltf_deformation.h"
 #include "scene/color.h"
 
 #include <algorithm>
@@ -11,8 +12,7 @@ namespace imgeo {
 namespace {
 
 // Constants of glTF, named as in its specification.
-constexpr int arrayBuffer = 34962, elementArrayBuffer = 34963;
-constexpr int unsignedShort = 5123, unsignedInt = 5125, floatType = 5126;
+constexpr int elementArrayBuffer = 34963, unsignedInt = 5125;
 
 std::size_t addPositions(GltfArrays& arrays, const Mesh& mesh) {
   Vec3f min = mesh.positions[mesh.wedgePositions[0]], max = min;
@@ -108,11 +108,14 @@ Json gltfPrimitive(GltfArrays& arrays, const Mesh& mesh) {
       attributes[row.gltfName] = addAttribute(arrays, mesh, row.role);
   });
   for (const NamedAttribute& attribute : mesh.namedAttributes)
-    attributes["_" + attribute.name] = addNamedAttribute(arrays, attribute);
+    if (!isOfDeformation(attribute.name))
+      attributes["_" + attribute.name] = addNamedAttribute(arrays, attribute);
   constexpr int modes[] = {0, 1, 4}; // POINTS, LINES, TRIANGLES
-  return {{"attributes", attributes},
-          {"indices", addIndices(arrays, mesh)},
-          {"mode", modes[cornersPerElement(mesh.topology) - 1]}};
+  Json primitive{{"attributes", attributes},
+                 {"indices", addIndices(arrays, mesh)},
+                 {"mode", modes[cornersPerElement(mesh.topology) - 1]}};
+  addDeformation(arrays, mesh, primitive);
+  return primitive;
 }
 
 } // namespace imgeo

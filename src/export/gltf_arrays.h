@@ -10,6 +10,9 @@ namespace imgeo {
 
 using Json = nlohmann::ordered_json;
 
+// Constants of glTF, named as in its specification.
+inline constexpr int arrayBuffer = 34962, unsignedShort = 5123, floatType = 5126;
+
 /// The binary chunk of a GLB file, and the buffer views and accessors that describe it.
 class GltfArrays {
 public:

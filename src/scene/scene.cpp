@@ -93,6 +93,8 @@ std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_
       for (FieldImage& image : generic->images)
         image.image += firstImage;
       shift(generic->document, firstInlined);
+    } else if (Humanoid* humanoid = std::get_if<Humanoid>(&node.content)) {
+      shiftAll(humanoid->joints, firstNode);
     }
     graph.nodes.push_back(std::move(node));
   }

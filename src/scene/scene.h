@@ -9,6 +9,7 @@
 #include "scene/appearance.h"
 #include "scene/lights.h"
 #include "scene/mesh.h"
+#include "scene/skin.h"
 #include "scene/transform.h"
 #include "scene/viewpoint.h"
 
@@ -31,6 +32,8 @@ struct Shape {
   std::size_t mesh = 0;                  ///< index into Scene::meshes
   std::optional<std::size_t> appearance; ///< index into SceneGraph::appearances; absent: the source has none
   bool solid = true;                     ///< false: its triangles are visible from both sides
+  /// For a shape whose vertices move: a box around it in all animations; empty for other shapes.
+  Box3d movingBox = {};
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
@@ -62,7 +65,7 @@ struct GenericNode {
 };
 
 using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight, PointLight,
-                                 SpotLight, TimeSensor, Interpolator, GenericNode>;
+                                 SpotLight, TimeSensor, Interpolator, Humanoid, Displacer, GenericNode>;
 
 struct Node {
   std::string name; ///< becomes its DEF; if several nodes have the same name, a number is appended to the later ones

@@ -22,6 +22,7 @@ struct Transform {
   Vec3d scale{1, 1, 1};
   Rotation scaleOrientation; ///< orientation of the axes along which `scale` scales
   Vec3d center;
+  bool isJoint = false; ///< an HAnimJoint, which moves vertices of a Humanoid's shapes
   friend bool operator==(const Transform&, const Transform&) = default;
 };
 

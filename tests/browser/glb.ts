@@ -30,6 +30,26 @@ export class GlbWriter {
     return this.#accessors.length - 1;
   }
 
+  /** Adds numbers as floats, such as keys, weights and matrices; returns the index of their accessor. */
+  floats(numbers: readonly number[], type: "SCALAR" | "VEC3" | "VEC4" | "MAT4"): number {
+    const components = { SCALAR: 1, VEC3: 3, VEC4: 4, MAT4: 16 }[type];
+    this.#accessors.push({
+      bufferView: this.bufferView(Buffer.from(Float32Array.from(numbers).buffer)),
+      componentType: 5126,
+      count: numbers.length / components,
+      type,
+      ...(type === "SCALAR" && { min: [Math.min(...numbers)], max: [Math.max(...numbers)] }),
+    });
+    return this.#accessors.length - 1;
+  }
+
+  /** Adds four joints of each vertex; returns the index of their accessor. */
+  joints(numbers: readonly number[]): number {
+    const bufferView = this.bufferView(Buffer.from(Uint8Array.from(numbers)));
+    this.#accessors.push({ bufferView, componentType: 5121, count: numbers.length / 4, type: "VEC4" });
+    return this.#accessors.length - 1;
+  }
+
   /** Adds indices of vertices; returns the index of their accessor. */
   indices(numbers: readonly number[]): number {
     const bufferView = this.bufferView(Buffer.from(Uint16Array.from(numbers).buffer));

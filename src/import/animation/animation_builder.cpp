@@ -16,7 +16,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 /// Fields of X3D's nodes, in the order of AnimatedField.
-constexpr const char* fieldNames[] = {"translation", "rotation", "scale", "weights"};
+constexpr const char* fieldNames[] = {"translation", "rotation", "scale", "weight"};
 
 InterpolatorKind interpolatorKindOf(AnimatedField field) {
   switch (field) {
@@ -203,12 +203,13 @@ std::size_t AnimationBuilder::sensor() {
 }
 
 /// Whether a node is not a group, or has a descendant that is not: a Shape, a light or a Viewpoint, which its movement
-/// affects.
+/// affects. Joints move vertices.
 bool AnimationBuilder::showsAnything(std::size_t node) {
   const auto [found, isNew] = showsAnything_.try_emplace(node);
   if (isNew) {
     const NodeContent& content = graph_.nodes[node].content;
-    const bool isGroup = std::holds_alternative<Group>(content) || std::holds_alternative<Transform>(content);
+    const Transform* transform = std::get_if<Transform>(&content);
+    const bool isGroup = std::holds_alternative<Group>(content) || (transform && !transform->isJoint);
     found->second = !isGroup || std::ranges::any_of(graph_.nodes[node].children,
                                                     [&](std::size_t child) { return showsAnything(child); });
   }

@@ -12,7 +12,7 @@
 
 namespace imgeo {
 
-/// What a channel of a source animates. `weights` are the factors of a shape's morph targets.
+/// What a channel of a source animates; `weights`: the weight of one Displacer.
 enum class AnimatedField : std::uint8_t { translation, rotation, scale, weights };
 
 /// How values follow from keys, with glTF's meaning: cubicSpline has an in-tangent and an out-tangent for each key.
@@ -40,8 +40,8 @@ public:
   /// does plays by itself, the others do not.
   void begin(const std::string& name, double seconds);
 
-  /// Animates a field of a node with these keys, unless the node has nothing below it that is seen or lights: joints of
-  /// skins. Channels with the same `source` share an interpolator; it may be null.
+  /// Animates a field of a node with these keys, unless the node has nothing below it that is seen or lights, and no
+  /// joint of a skin. Channels with the same `source` share an interpolator; it may be null.
   void animate(std::size_t node, AnimatedField field, const AnimationKeys& keys, const void* source);
 
 private:

@@ -1,6 +1,7 @@
 #include "import/assimp/assimp.h"
 #include "import/archive/zip.h"
 #include "import/assimp/animations.h"
+#include "import/assimp/deformation.h"
 #include "import/assimp/files.h"
 #include "import/assimp/library.h"
 #include "import/assimp/materials.h"
@@ -104,6 +105,7 @@ public:
 
   Imported read(std::string format) {
     imported_.format = std::move(format);
+    joints_ = boneNames(source_);
     for (unsigned i = 0; i < source_.mNumMeshes; ++i)
       readMesh(i);
     for (unsigned i = 0; i < source_.mNumCameras; ++i)
@@ -115,6 +117,7 @@ public:
         moved_.insert(source_.mAnimations[i]->mChannels[c]->mNodeName.C_Str());
     if (source_.mRootNode)
       readRoot(*source_.mRootNode);
+    addHumanoids();
     readAnimations();
     addWarnings();
     return std::move(imported_);
@@ -137,16 +140,24 @@ private:
     Node node;
     node.name = nameOf(source.mName);
     const Affine3d map = mapOf(source.mTransformation);
-    const bool isMoved = moved_.contains(source.mName.C_Str());
+    const bool isJoint = joints_.contains(source.mName.C_Str());
+    const bool isMoved = isJoint || moved_.contains(source.mName.C_Str());
     if (!isFinite(map))
       ++lostTransforms_;
     else if (isMoved)
       node.content = rounded(unskewedTransformOf(map));
     else if (map != Affine3d{})
       node.content = rounded(transformOf(map));
+    if (isJoint) {
+      if (!std::holds_alternative<Transform>(node.content))
+        node.content = Transform{};
+      std::get<Transform>(node.content).isJoint = true;
+    }
     for (unsigned i = 0; i < source.mNumMeshes; ++i)
-      for (const std::size_t shape : shapesOf_.at(source.mMeshes[i]))
-        node.children.push_back(shape);
+      if (const unsigned mesh = source.mMeshes[i]; isSkinned_.at(mesh))
+        skinned_.insert(mesh);
+      else
+        node.children.insert(node.children.end(), shapesOf_[mesh].begin(), shapesOf_[mesh].end());
     addCamera(source, node);
     addLight(source, node);
     for (unsigned i = 0; i < source.mNumChildren; ++i)
@@ -156,6 +167,20 @@ private:
     if (isMoved && isTransform)
       movedNodes_.emplace(source.mName.C_Str(), index);
     return index;
+  }
+
+  /// Adds a humanoid for each mesh with bones, behind all joints. As in glTF the transform of its node does not count.
+  void addHumanoids() {
+    for (const unsigned mesh : skinned_) {
+      Humanoid humanoid = humanoidOf(*source_.mMeshes[mesh], movedNodes_);
+      if (humanoid.joints.empty()) {
+        ++damagedSkins_;
+        for (const std::size_t shape : shapesOf_[mesh])
+          graph().roots.push_back(shape);
+        continue;
+      }
+      addRoot(graph(), {nameOf(source_.mMeshes[mesh]->mName), std::move(humanoid), shapesOf_[mesh], ""});
+    }
   }
 
   void readAnimations() {
@@ -171,6 +196,7 @@ private:
     std::vector<std::size_t>& shapes = shapesOf_.emplace_back();
     const std::optional<std::size_t> appearance = materials_.appearance(source.mMaterialIndex);
     const std::vector<unsigned> texCoordSets = keptTexCoordSets(source, appearance);
+    std::vector<std::size_t> displacers; ///< shared by the shapes
     for (const Topology topology : allTopologies) {
       Mesh mesh;
       mesh.topology = topology;
@@ -178,18 +204,28 @@ private:
       if (mesh.corners.empty())
         continue;
       addVertices(source, texCoordSets, mesh);
-      if (topology == Topology::triangles && mesh.normals.empty())
+      if (topology == Topology::triangles && mesh.normals.empty() && !isDeformed(mesh))
         mesh = withCreaseNormals(mesh, creaseAngle);
       Shape shape;
       shape.mesh = imported_.scene.meshes.size();
       shape.appearance = appearance;
       shape.solid = materials_.isSolid(source.mMaterialIndex);
       imported_.scene.meshes.push_back(std::move(mesh));
-      shapes.push_back(addNode(graph(), {nameOf(source.mName), shape, {}, ""}));
+      const std::size_t targets = displacementCount(imported_.scene.meshes.back());
+      while (displacers.size() < targets)
+        displacers.push_back(displacerNode(*source.mAnimMeshes[displacers.size()]));
+      std::vector<std::size_t> own(displacers.begin(), displacers.begin() + static_cast<std::ptrdiff_t>(targets));
+      shapes.push_back(addNode(graph(), {nameOf(source.mName), shape, std::move(own), ""}));
     }
-    skins_ += source.mNumBones > 0;
-    morphTargets_ += source.mNumAnimMeshes > 0;
+    isSkinned_.push_back(std::ranges::any_of(shapes, [&](std::size_t shape) {
+      return jointSetCount(imported_.scene.meshes[shapeOf(graph(), shape).mesh]) > 0;
+    }));
     furtherColors_ += source.GetNumColorChannels() > 1;
+  }
+
+  std::size_t displacerNode(const aiAnimMesh& target) {
+    const std::string name = nameOf(target.mName);
+    return addNode(graph(), {name.empty() ? "displacer" : name, Displacer{name, target.mWeight}, {}, ""});
   }
 
   /// The sets of texture coordinates that textures use, the first where none uses any, and those that the user named.
@@ -242,12 +278,13 @@ private:
 
   /// Adds the vertices that the corners use, in the order of first use.
   void addVertices(const aiMesh& source, const std::vector<unsigned>& texCoordSets, Mesh& mesh) {
-    std::vector<std::uint32_t> local(source.mNumVertices, ~0u);
+    std::vector<std::uint32_t> local(source.mNumVertices, ~0u), vertices;
     for (std::uint32_t& corner : mesh.corners) {
       std::uint32_t& index = local[corner];
       if (index == ~0u) {
         index = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.wedgePositions.push_back(index);
+        vertices.push_back(corner);
         addVertex(source, corner, texCoordSets, mesh);
       }
       corner = index;
@@ -257,6 +294,10 @@ private:
     if (texCoordSets.size() > 1) // a single set serves all textures
       for (const unsigned set : texCoordSets)
         mesh.texCoordMappings.push_back(mappingOf(set));
+    if (source.mNumBones > 0)
+      damagedSkins_ += !addBones(source, vertices, mesh);
+    if (source.mNumAnimMeshes > 0)
+      damagedTargets_ += !addTargets(source, vertices, mesh);
   }
 
   void addVertex(const aiMesh& source, std::uint32_t vertex, const std::vector<unsigned>& texCoordSets, Mesh& mesh) {
@@ -345,8 +386,10 @@ private:
     add(otherChannels_, "animation of morph targets is", "animations of morph targets are");
     add(malformedChannels_, "animation of a node, whose keys are not in order or not finite, is",
         "animations of nodes, whose keys are not in order or not finite, are");
-    add(skins_, "skin is", "skins are");
-    add(morphTargets_, "mesh has morph targets, which are", "meshes have morph targets, which are");
+    add(damagedSkins_, "skin with damaged weights, or bones that are not in the scene, is",
+        "skins with damaged weights, or bones that are not in the scene, are");
+    add(damagedTargets_, "mesh has damaged or too many morph targets, which are",
+        "meshes have damaged or too many morph targets, which are");
     add(furtherTexCoords_, "mesh has texture coordinates that no texture uses, which are",
         "meshes have texture coordinates that no texture uses, which are");
     add(furtherColors_, "mesh has further colours, which are", "meshes have further colours, which are");
@@ -370,7 +413,10 @@ private:
   std::set<std::string> moved_; ///< names of the nodes that animations move
   std::map<std::string, std::size_t> movedNodes_;
   std::size_t otherChannels_ = 0, malformedChannels_ = 0;
-  std::size_t skins_ = 0, morphTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
+  std::set<std::string> joints_; ///< names of the nodes that are bones
+  std::vector<bool> isSkinned_;  ///< by mesh
+  std::set<unsigned> skinned_;   ///< meshes of nodes, with bones
+  std::size_t damagedSkins_ = 0, damagedTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
               lostTransforms_ = 0, fans_ = 0, unusableNormals_ = 0;
 };
 

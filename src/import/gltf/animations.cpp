@@ -4,12 +4,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <tuple>
 
 namespace imgeo::gltf {
 
 namespace {
 
-/// The field that a channel's path names; empty for weights, pointers, and paths of later versions.
+/// The field that a channel's path names; empty for pointers, and paths of later versions.
 std::optional<AnimatedField> fieldOfPath(const std::string& path) {
   if (path == "translation")
     return AnimatedField::translation;
@@ -17,7 +18,22 @@ std::optional<AnimatedField> fieldOfPath(const std::string& path) {
     return AnimatedField::rotation;
   if (path == "scale")
     return AnimatedField::scale;
+  if (path == "weights")
+    return AnimatedField::weights;
   return std::nullopt;
+}
+
+/// Whether a field is one of a node's transform.
+bool movesNode(std::optional<AnimatedField> field) {
+  return field && *field != AnimatedField::weights;
+}
+
+/// The keys of one of `count` displacers: samplers of glTF hold the weights of all of them for each key.
+AnimationKeys keysOfDisplacer(const AnimationKeys& all, std::size_t displacer, std::size_t count) {
+  AnimationKeys keys{all.interpolation, all.seconds, {}, 1};
+  for (std::size_t i = displacer; i < all.values.size(); i += count)
+    keys.values.push_back(all.values[i]);
+  return keys;
 }
 
 KeyInterpolation interpolationOf(const Value& sampler) {
@@ -39,7 +55,7 @@ std::set<std::size_t> movedNodes(Document& document) {
   for (std::size_t a = 0; a < animations.size(); ++a)
     for (std::size_t c = 0; c < animations[a]["channels"].size(); ++c) {
       const Value target = animations[a]["channels"][c]["target"];
-      if (!target["path"].json().is_string() || !fieldOfPath(target["path"].text()) ||
+      if (!target["path"].json().is_string() || !movesNode(fieldOfPath(target["path"].text())) ||
           !target["node"].json().is_number_unsigned())
         continue;
       if (const std::uint64_t node = target["node"].whole(); node < nodes.size() && !nodes[node].has("matrix"))
@@ -58,42 +74,43 @@ template <typename Read> void AnimationReader::attempt(const Read& read) {
   }
 }
 
-void AnimationReader::read(const std::map<std::size_t, std::size_t>& nodes) {
+void AnimationReader::read(const AnimatedNodes& nodes) {
   const Value animations = document_.array("animations");
   for (std::size_t i = 0; i < animations.size(); ++i)
     attempt([&] { readAnimation(animations[i], nodes); });
 }
 
-void AnimationReader::readAnimation(const Value& animation, const std::map<std::size_t, std::size_t>& nodes) {
+void AnimationReader::readAnimation(const Value& animation, const AnimatedNodes& nodes) {
   const Value channels = animation["channels"], samplers = animation["samplers"];
   struct ChannelKeys {
     Channel channel;
-    const AnimationKeys* keys;
+    const std::vector<AnimationKeys>* keys;
   };
   std::vector<ChannelKeys> read;
-  std::map<std::pair<std::size_t, AnimatedField>, AnimationKeys> keys;
+  std::map<std::tuple<std::size_t, AnimatedField, std::size_t>, std::vector<AnimationKeys>> keys;
   double seconds = 0;
   for (std::size_t i = 0; i < channels.size(); ++i)
     attempt([&] {
       const std::optional<Channel> channel = channelOf(channels[i], samplers, nodes);
       if (!channel)
         return;
-      const std::pair key{channel->sampler, channel->field};
+      const std::tuple key{channel->sampler, channel->field, channel->nodes.size()};
       auto found = keys.find(key);
       if (found == keys.end())
-        found = keys.emplace(key, keysOf(samplers[channel->sampler], channel->field)).first;
-      seconds = std::max<double>(seconds, found->second.seconds.back());
+        found = keys.emplace(key, keysOf(samplers[channel->sampler], channel->field, channel->nodes.size())).first;
+      seconds = std::max<double>(seconds, found->second.front().seconds.back());
       read.push_back({*channel, &found->second});
     });
   if (read.empty())
     return;
   builder_.begin(animation["name"].text(), seconds);
   for (const auto& [channel, channelKeys] : read)
-    builder_.animate(channel.node, channel.field, *channelKeys, channelKeys);
+    for (std::size_t i = 0; i < channel.nodes.size(); ++i)
+      builder_.animate(channel.nodes[i], channel.field, (*channelKeys)[i], &(*channelKeys)[i]);
 }
 
 std::optional<AnimationReader::Channel> AnimationReader::channelOf(const Value& channel, const Value& samplers,
-                                                                   const std::map<std::size_t, std::size_t>& nodes) {
+                                                                   const AnimatedNodes& nodes) {
   const Value target = channel["target"];
   const std::optional<AnimatedField> field = fieldOfPath(target["path"].text());
   if (!field) {
@@ -103,18 +120,22 @@ std::optional<AnimationReader::Channel> AnimationReader::channelOf(const Value& 
   const std::optional<std::size_t> node = target.index("node", document_.array("nodes"));
   if (!node) // the extension that says what else is animated is not known
     return {};
-  if (document_.array("nodes")[*node].has("matrix"))
+  if (movesNode(field) && document_.array("nodes")[*node].has("matrix"))
     target["node"].fail(ErrorKind::malformed, "names a node with a matrix, which cannot be animated");
   const std::optional<std::size_t> sampler = channel.index("sampler", samplers);
   if (!sampler)
     channel["sampler"].fail(ErrorKind::malformed, "is missing");
-  const auto found = nodes.find(*node);
-  if (found == nodes.end()) // it is in another scene of the file, or left out
-    return {};
-  return Channel{found->second, *sampler, *field};
+  // A node that is not found is in another scene of the file, or left out.
+  if (!movesNode(field)) {
+    const auto found = nodes.displacers.find(*node);
+    return found == nodes.displacers.end() ? std::nullopt : std::optional(Channel{found->second, *sampler, *field});
+  }
+  const auto found = nodes.transforms.find(*node);
+  return found == nodes.transforms.end() ? std::nullopt : std::optional(Channel{{found->second}, *sampler, *field});
 }
 
-AnimationKeys AnimationReader::keysOf(const Value& sampler, AnimatedField field) {
+/// The keys for each of the nodes that the field belongs to.
+std::vector<AnimationKeys> AnimationReader::keysOf(const Value& sampler, AnimatedField field, std::size_t nodeCount) {
   const auto accessorOf = [&](const char* name) {
     const std::optional<std::size_t> index = sampler.index(name, document_.array("accessors"));
     if (!index)
@@ -124,8 +145,8 @@ AnimationKeys AnimationReader::keysOf(const Value& sampler, AnimatedField field)
   const Accessor input = accessorOf("input"), output = accessorOf("output");
   AnimationKeys keys;
   keys.interpolation = interpolationOf(sampler);
-  keys.components = field == AnimatedField::rotation ? 4 : 3;
-  const std::size_t perKey = keys.interpolation == KeyInterpolation::cubicSpline ? 3 : 1;
+  keys.components = field == AnimatedField::rotation ? 4 : field == AnimatedField::weights ? 1 : 3;
+  const std::size_t perKey = (keys.interpolation == KeyInterpolation::cubicSpline ? 3 : 1) * nodeCount;
   if (input.components() != 1 || input.count() == 0)
     sampler["input"].fail(ErrorKind::malformed, "holds no times");
   if (output.components() != keys.components || output.count() != perKey * input.count())
@@ -145,7 +166,12 @@ AnimationKeys AnimationReader::keysOf(const Value& sampler, AnimatedField field)
         sampler["output"].fail(ErrorKind::malformed, fmt::format("value {} is not finite", i));
       keys.values.push_back(static_cast<float>(number));
     }
-  return keys;
+  if (field != AnimatedField::weights)
+    return {std::move(keys)};
+  std::vector<AnimationKeys> ofDisplacers;
+  for (std::size_t i = 0; i < nodeCount; ++i)
+    ofDisplacers.push_back(keysOfDisplacer(keys, i, nodeCount));
+  return ofDisplacers;
 }
 
 } // namespace imgeo::gltf

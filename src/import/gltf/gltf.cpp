@@ -115,9 +115,10 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
       warnings.push_back(fmt::format("{} not carried over{}.", counted(count, singular, plural), why));
   };
   add(animations.otherPaths, "animated property is", "animated properties are",
-      ": only transforms of nodes are animated");
-  add(nodes.skins, "skin is", "skins are", ": skinned meshes stay as they were modelled");
-  add(primitives.morphTargets, "mesh has morph targets, which are", "meshes have morph targets, which are");
+      ": only transforms of nodes and weights of morph targets are animated");
+  if (primitives.scaledWeights > 0)
+    warnings.push_back(fmt::format("The weights of joints of {} do not sum to one: they are scaled.",
+                                   counted(primitives.scaledWeights, "vertex", "vertices")));
   add(nodes.otherScenes, "further scene is", "further scenes are");
   if (!primitives.attributes.empty())
     warnings.push_back(
@@ -127,6 +128,7 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
       ": X3D's cannot scale before it rotates");
   std::ranges::copy(materials.images, std::back_inserter(warnings));
   std::ranges::copy(nodes.damage, std::back_inserter(warnings));
+  std::ranges::copy(primitives.damage, std::back_inserter(warnings));
   std::ranges::copy(animations.damage, std::back_inserter(warnings));
   warnOfNormals(warnings, primitives.unusableNormals);
 }
@@ -147,7 +149,7 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
 
   Imported imported;
   imported.format = isGlb(bytes) ? "GLB" : "glTF";
-  PrimitiveReader primitives(document, options.attributes);
+  PrimitiveReader primitives(document, options.attributes, options.strict);
   MaterialReader materials(document, imported.scene.graph, options.strict);
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);
   nodes.readScene();
@@ -155,7 +157,7 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   if (nodes.firstDamage && !nodes.hasShapes())
     throw Error(*nodes.firstDamage);
   AnimationReader animations(document, imported.scene.graph, options.strict);
-  animations.read(nodes.sceneNodes());
+  animations.read(nodes.animatedNodes());
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
   addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, animations.omissions,

@@ -113,8 +113,9 @@ void NodeReader::readScene() {
       scene_.graph.roots.push_back(*node);
   const Value meshes = document_.array("meshes");
   for (std::size_t i = 0; nodes.size() == 0 && i < meshes.size(); ++i)
-    if (const std::optional<std::size_t> node = meshNode(i, ""))
+    if (const std::optional<std::size_t> node = meshNode(i, std::nullopt, 0))
       scene_.graph.roots.push_back(*node);
+  addHumanoids();
 }
 
 NodeContent NodeReader::contentOf(const Value& node) const {
@@ -139,17 +140,22 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   Node node;
   node.name = value["name"].text();
   node.content = contentOf(value);
-  const bool isMoved = moved_.contains(index);
+  const bool isMoved = moved_.contains(index) || joints_.contains(index);
   if (isMoved && !std::holds_alternative<Transform>(node.content))
     node.content = Transform{};
+  if (joints_.contains(index))
+    std::get<Transform>(node.content).isJoint = true;
   if (const Transform* transform = std::get_if<Transform>(&node.content))
     scale *= std::cbrt(std::abs(affineOf(*transform).determinant()));
   node.extras = extrasOf(value);
   if (!value["extensions"]["KHR_node_visibility"]["visible"].boolean(true))
     node.fields = {{"visible", "false"}};
   if (const auto mesh = value.index("mesh", document_.array("meshes"))) {
-    omissions.skins += value.has("skin");
-    addInstances(value, *mesh, node.children);
+    std::optional<std::size_t> skin;
+    attempt([&] { skin = value.index("skin", document_.array("skins")); });
+    if (!skin || !addSkinned(index, *mesh, *skin))
+      if (const std::optional<std::size_t> shape = meshNode(*mesh, index, 0))
+        addInstances(value, *shape, node.children);
   }
   addCamera(value, node.children);
   addLight(value, scale, node.children);
@@ -168,18 +174,15 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
     return node.children[0];
   const std::size_t added = addNode(scene_.graph, std::move(node));
   if (isMoved)
-    sceneNodes_[index] = added;
+    animatedNodes_.transforms[index] = added;
   return added;
 }
 
-/// Adds the node's mesh, or its instances by EXT_mesh_gpu_instancing.
-void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<std::size_t>& children) {
-  const std::optional<std::size_t> shape = meshNode(mesh, node["name"].text());
-  if (!shape)
-    return;
+/// Adds the shape of a node, or its instances by EXT_mesh_gpu_instancing.
+void NodeReader::addInstances(const Value& node, std::size_t shape, std::vector<std::size_t>& children) {
   const Value instancing = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
   if (instancing.isAbsent()) {
-    children.push_back(*shape);
+    children.push_back(shape);
     return;
   }
   std::optional<std::size_t> count;
@@ -211,35 +214,108 @@ void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<s
         vector(translations, 0),
         {number(rotations, 0, 0), number(rotations, 1, 0), number(rotations, 2, 0), number(rotations, 3, 1)},
         vector(scales, 1));
-    children.push_back(addNode(scene_.graph, {"", transformOrGroup(transform), {*shape}, ""}));
+    children.push_back(addNode(scene_.graph, {"", transformOrGroup(transform), {shape}, ""}));
   }
 }
 
-/// The node of a mesh; one for all nodes that refer to the mesh.
-std::optional<std::size_t> NodeReader::meshNode(std::size_t index, const std::string& nodeName) {
-  if (const auto found = meshNodes_.find(index); found != meshNodes_.end())
-    return found->second;
-  const Value value = document_.array("meshes")[index], primitives = value["primitives"];
-  const std::string meshName = value["name"].text(), name = meshName == nodeName ? "" : meshName;
-  std::vector<std::size_t> shapes;
-  for (std::size_t i = 0; i < primitives.size(); ++i)
-    attempt([&] { shapes.push_back(shapeNode(primitives[i], primitives.size() == 1 ? name : "")); });
-  std::optional<std::size_t>& node = meshNodes_[index];
-  if (primitives.size() == 1 && !shapes.empty())
-    node = shapes[0];
-  else if (!shapes.empty())
-    node = addNode(scene_.graph, {name, Group{}, std::move(shapes), ""});
-  return node;
+std::optional<std::size_t> NodeReader::meshNode(std::size_t index, std::optional<std::size_t> user,
+                                                std::size_t jointCount) {
+  if (jointCount > 0 || targetCountOf(index) > 0)
+    return newMeshNode(index, user, jointCount);
+  const auto found = meshNodes_.find(index);
+  return found != meshNodes_.end() ? found->second : meshNodes_[index] = newMeshNode(index, user, 0);
 }
 
-std::size_t NodeReader::shapeNode(const Value& primitive, const std::string& name) {
+std::optional<std::size_t> NodeReader::newMeshNode(std::size_t index, std::optional<std::size_t> user,
+                                                   std::size_t jointCount) {
+  const Value value = document_.array("meshes")[index], primitives = value["primitives"];
+  const std::string nodeName = user ? document_.array("nodes")[*user]["name"].text() : "";
+  const std::string meshName = value["name"].text(), name = meshName == nodeName ? "" : meshName;
+  const std::vector<std::size_t> displacers = displacerNodes(index, user);
+  std::vector<std::size_t> shapes;
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    attempt([&] {
+      shapes.push_back(shapeNode(primitives[i], primitives.size() == 1 ? name : "", jointCount, displacers));
+    });
+  if (primitives.size() == 1 && !shapes.empty())
+    return shapes[0];
+  if (shapes.empty())
+    return {};
+  return addNode(scene_.graph, {name, Group{}, std::move(shapes), ""});
+}
+
+/// The morph targets of a mesh: all its primitives have as many.
+std::size_t NodeReader::targetCountOf(std::size_t mesh) const {
+  const Value primitives = document_.array("meshes")[mesh]["primitives"];
+  return primitives.size() > 0 ? primitives[std::size_t{0}]["targets"].size() : 0;
+}
+
+/// Adds the displacers of a mesh with morph targets, which all its shapes share.
+std::vector<std::size_t> NodeReader::displacerNodes(std::size_t mesh, std::optional<std::size_t> user) {
+  const Value value = document_.array("meshes")[mesh];
+  std::vector<Displacer> displacers(std::min(targetCountOf(mesh), maxDisplacers));
+  const Json none;
+  const Value node = user ? document_.array("nodes")[*user] : Value(none, "");
+  attempt([&] { displacers = displacersOf(node, value, displacers.size()); });
+  std::vector<std::size_t> nodes;
+  for (Displacer& displacer : displacers) {
+    const std::string name = displacer.name.empty() ? fmt::format("displacer{}", nodes.size()) : displacer.name;
+    nodes.push_back(addNode(scene_.graph, {name, std::move(displacer), {}, ""}));
+  }
+  if (user && !nodes.empty())
+    animatedNodes_.displacers[*user] = nodes;
+  return nodes;
+}
+
+/// Adds the shapes of a node with a skin. They belong to no node of the document: glTF ignores the node's transform.
+/// Returns false, with a warning, where the skin or its vertices are damaged: the mesh is then drawn as it was
+/// modelled.
+bool NodeReader::addSkinned(std::size_t node, std::size_t mesh, std::size_t skin) {
+  const std::size_t before = omissions.damage.size();
+  attempt([&] {
+    const std::size_t jointCount = readSkin(document_, skin).joints.size();
+    if (const std::optional<std::size_t> shape = meshNode(mesh, node, jointCount))
+      skinned_.push_back({node, skin, *shape});
+  });
+  if (omissions.damage.size() == before)
+    return true;
+  std::erase_if(skinned_, [&](const SkinnedShape& shape) { return shape.node == node; });
+  return false;
+}
+
+/// Adds a Humanoid for each node with a skin, behind all joints: documents define a node before they USE it.
+void NodeReader::addHumanoids() {
+  for (const auto& [node, skin, shape] : skinned_)
+    attempt([&] {
+      const Value value = document_.array("skins")[skin], user = document_.array("nodes")[node];
+      const Skin read = readSkin(document_, skin);
+      Humanoid humanoid{{}, read.inverseBindings};
+      for (const std::size_t joint : read.joints) {
+        const auto found = animatedNodes_.transforms.find(joint);
+        if (found == animatedNodes_.transforms.end())
+          value["joints"].fail(ErrorKind::malformed, fmt::format("names node {}, which is not in the scene", joint));
+        humanoid.joints.push_back(found->second);
+      }
+      Node added{value["name"].text("skin"), std::move(humanoid), {shape}, ""};
+      if (Node& group = scene_.graph.nodes[shape]; std::holds_alternative<Group>(group.content))
+        added.children = group.children;
+      if (!user["extensions"]["KHR_node_visibility"]["visible"].boolean(true))
+        added.fields = {{"visible", "false"}};
+      addRoot(scene_.graph, std::move(added));
+    });
+}
+
+std::size_t NodeReader::shapeNode(const Value& primitive, const std::string& name, std::size_t jointCount,
+                                  const std::vector<std::size_t>& displacers) {
   Shape shape;
   const std::optional<std::size_t> material = primitive.index("material", document_.array("materials"));
   const Value mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
-  shape.mesh = meshOf(primitive, texCoordSetsOf(material, mappings));
+  shape.mesh = meshOf(primitive, texCoordSetsOf(material, mappings), jointCount);
+  std::vector<std::size_t> own = displacers;
+  own.resize(std::min(own.size(), displacementCount(scene_.meshes[shape.mesh])));
   if (mappings.size() > 0)
-    return variantsNode(shape, material, mappings, name);
-  return addNode(scene_.graph, {name, withMaterial(shape, material), {}, ""});
+    return variantsNode(shape, material, mappings, name, own);
+  return addNode(scene_.graph, {name, withMaterial(shape, material), std::move(own), ""});
 }
 
 /// The sets of texture coordinates that a primitive's material uses, or its material in any variant.
@@ -267,7 +343,7 @@ Shape NodeReader::withMaterial(Shape shape, std::optional<std::size_t> material)
 /// KHR_materials_variants: a Switch whose first child is the shape with the primitive's own material, and whose child
 /// i + 1 is the shape with its material in variant i. Children with the same material are one node.
 std::size_t NodeReader::variantsNode(const Shape& shape, std::optional<std::size_t> material, const Value& mappings,
-                                     const std::string& name) {
+                                     const std::string& name, const std::vector<std::size_t>& displacers) {
   const Value names = document_.root()["extensions"]["KHR_materials_variants"]["variants"],
               materials = document_.array("materials");
   std::vector<std::optional<std::size_t>> materialOf(names.size() + 1, material);
@@ -285,8 +361,8 @@ std::size_t NodeReader::variantsNode(const Shape& shape, std::optional<std::size
   for (std::size_t i = 0; i < materialOf.size(); ++i) {
     const auto [found, isNew] = shapes.try_emplace(materialOf[i]);
     if (isNew)
-      found->second = addNode(scene_.graph,
-                              {i == 0 ? "" : names[i - 1]["name"].text(), withMaterial(shape, materialOf[i]), {}, ""});
+      found->second = addNode(scene_.graph, {i == 0 ? "" : names[i - 1]["name"].text(),
+                                             withMaterial(shape, materialOf[i]), displacers, ""});
     node.children.push_back(found->second);
   }
   return addNode(scene_.graph, std::move(node));
@@ -294,18 +370,19 @@ std::size_t NodeReader::variantsNode(const Shape& shape, std::optional<std::size
 
 /// The mesh of a primitive whose textures use these sets of texture coordinates; primitives that otherwise differ only
 /// in material and extras share one.
-std::size_t NodeReader::meshOf(const Value& primitive, const std::set<std::size_t>& texCoordSets) {
+std::size_t NodeReader::meshOf(const Value& primitive, const std::set<std::size_t>& texCoordSets,
+                               std::size_t jointCount) {
   Json key = primitive.json();
   if (!key.is_object())
     primitive.fail(ErrorKind::malformed, "is no object");
   key.erase("material");
   key.erase("extras");
   const std::set<std::size_t>& sets = texCoordSets.empty() ? std::set<std::size_t>{0} : texCoordSets;
-  const std::string text =
-      fmt::format("{} {}", key.dump(-1, ' ', false, Json::error_handler_t::replace), fmt::join(sets, " "));
+  const std::string text = fmt::format("{} {} {}", key.dump(-1, ' ', false, Json::error_handler_t::replace),
+                                       fmt::join(sets, " "), jointCount);
   if (const auto found = meshes_.find(text); found != meshes_.end())
     return found->second;
-  scene_.meshes.push_back(primitives_.read(primitive, texCoordSets));
+  scene_.meshes.push_back(primitives_.read(primitive, texCoordSets, jointCount));
   return meshes_[text] = scene_.meshes.size() - 1;
 }
 

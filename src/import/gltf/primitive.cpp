@@ -1,5 +1,6 @@
 #include "import/gltf/primitive.h"
 
+#include "import/gltf/deformation.h"
 #include "import/mesh/texcoord_mapping.h"
 #include "import/mesh/unit_normal.h"
 #include "import/text/text_scanner.h"
@@ -127,7 +128,7 @@ std::vector<std::uint32_t> PrimitiveReader::renumberVertices(std::vector<std::ui
   return vertices;
 }
 
-Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& texCoordSets) {
+Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& texCoordSets, std::size_t jointCount) {
   std::uint64_t mode = primitive["mode"].whole(triangles);
   if (mode > triangleFan)
     primitive["mode"].fail(ErrorKind::malformed, "is no mode that glTF has");
@@ -149,8 +150,24 @@ Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& 
   addVertices(primitive, data, vertices, mesh);
   addTexCoords(primitive, data, vertices, texCoordSets, mesh);
   addNamedAttributes(primitive, data, vertices, mesh);
-  omissions.morphTargets += primitive["targets"].size() > 0;
+  if (jointCount > 0)
+    omissions.scaledWeights += addJoints(primitive, data, vertices, jointCount, mesh);
+  addTargets(primitive, data, vertices, mesh);
   return mesh;
+}
+
+/// Adds the morph targets; damaged ones are left out together, unless strict.
+void PrimitiveReader::addTargets(const Value& primitive, const PrimitiveData& data,
+                                 const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
+  const std::size_t before = mesh.namedAttributes.size();
+  try {
+    addDisplacements(document_, primitive, data.vertexCount, vertices, mesh);
+  } catch (const Error& error) {
+    if (isStrict_ || error.kind() == ErrorKind::limit)
+      throw;
+    mesh.namedAttributes.resize(before);
+    omissions.damage.push_back(fmt::format("Left out its morph targets: {}.", error.what()));
+  }
 }
 
 void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& data,
@@ -227,21 +244,22 @@ void PrimitiveReader::addTexCoords(const Value& primitive, const PrimitiveData& 
     mesh.texCoordMappings.clear(); // a single set serves all textures
 }
 
-/// Application-specific attributes are named "_NAME". The remaining ones belong to skins and to sets of texture
-/// coordinates that no texture uses.
+/// Application-specific attributes are named "_NAME". Those of skins are read with the skin (deformation.h); the
+/// remaining ones are sets of texture coordinates that no texture uses.
 void PrimitiveReader::addNamedAttributes(const Value& primitive, const PrimitiveData& data,
                                          const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
   for (const PrimitiveData::Attribute& attribute : data.attributes) {
     const std::string& name = attribute.name;
     bool isRead = name == "POSITION" || name.starts_with("TEXCOORD_");
     visitAttributeRows([&](const auto& row) { isRead = isRead || name == row.gltfName; });
-    if (isRead)
+    const bool isOfSkin = name == "JOINTS_0" || name == "WEIGHTS_0" || name == "JOINTS_1" || name == "WEIGHTS_1";
+    if (isRead || isOfSkin)
       continue;
     const bool isFurther = name.starts_with("_") && attribute.components <= 4;
     const std::string furtherName = isFurther ? name.substr(1) : "";
     if (!furtherName.empty())
       furtherAttributes.insert(furtherName);
-    if (!isFurther || furtherName.empty() || !choice_.has(furtherName)) {
+    if (!isFurther || furtherName.empty() || !choice_.has(furtherName) || isOfDeformation(furtherName)) {
       omissions.attributes.insert(name);
       continue;
     }

@@ -32,17 +32,21 @@ struct PrimitiveData {
 
 /// Content of all primitives that was not carried over.
 struct PrimitiveOmissions {
-  std::uint64_t unusableNormals = 0, morphTargets = 0, skins = 0;
+  std::uint64_t unusableNormals = 0;
+  std::size_t scaledWeights = 0;    ///< vertices whose weights of joints did not sum to one
   std::set<std::string> attributes; ///< names of attributes that were left out
+  std::vector<std::string> damage;  ///< one warning for each primitive whose morph targets are left out
 };
 
 class PrimitiveReader {
 public:
-  PrimitiveReader(Document& document, const AttributeChoice& choice) : document_(document), choice_(choice) {}
+  PrimitiveReader(Document& document, const AttributeChoice& choice, bool isStrict)
+      : document_(document), choice_(choice), isStrict_(isStrict) {}
 
   /// Keeps the sets of texture coordinates that textures use, up to maxTexCoordSets of them; the first set if they use
-  /// none. Throws Error for a damaged primitive: an index out of range, coordinates that are not finite.
-  Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets);
+  /// none. `jointCount`: of the skin; 0 without one. Throws Error for a damaged primitive: an index out of range,
+  /// coordinates that are not finite.
+  Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets, std::size_t jointCount);
 
   PrimitiveOmissions omissions;
   std::set<std::string> furtherAttributes; ///< names of application-specific attributes without "_", kept or not
@@ -56,10 +60,13 @@ private:
                     const std::set<std::size_t>& sets, Mesh& mesh);
   void addNamedAttributes(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
                           Mesh& mesh);
+  void addTargets(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
+                  Mesh& mesh);
   std::vector<std::uint32_t> renumberVertices(std::vector<std::uint32_t>& corners, std::size_t vertexCount);
 
   Document& document_;
   const AttributeChoice& choice_;
+  bool isStrict_;
   std::vector<std::uint32_t> localVertex_; ///< index in the mesh by vertex of the accessors; unset between primitives
 };
 

@@ -357,7 +357,7 @@ ShapeResource readShapeResource(ByteSpan bytes, const std::string& name, const s
   const References references(ImportOptions{}, name); // everything is in the container
   Document document(upgrade.json(), upgrade.buffer(), references, name, bytes.size());
   const AttributeChoice stored{.all = false, .names = {storedColor + 1, storedTexCoord + 1}};
-  PrimitiveReader primitives(document, stored);
+  PrimitiveReader primitives(document, stored, true);
   ShapeResource resource;
   std::map<std::string, std::size_t> materials;
   std::map<std::pair<std::string, Topology>, std::size_t> shapes; ///< by material and kind of element
@@ -368,7 +368,7 @@ ShapeResource readShapeResource(ByteSpan bytes, const std::string& name, const s
       const Value location(primitive.json(), fmt::format("{}, mesh \"{}\"", name, meshes[i]["name"].text()));
       Mesh part;
       try {
-        part = primitives.read(primitive, {});
+        part = primitives.read(primitive, {}, 0);
       } catch (const Error& error) { // located in the JSON that the file does not have
         throw Error(error.kind(), location.location(), error.message());
       }

@@ -37,7 +37,9 @@ public:
     Bytes bytes;
     for (const T value : values)
       appendLittle(bytes, value);
-    const std::size_t components = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    const std::size_t components = type == "SCALAR" ? 1
+                                   : type == "MAT4" ? 16
+                                                    : static_cast<std::size_t>(type.back() - '0');
     json["accessors"].push_back({{"bufferView", addView(bytes)},
                                  {"componentType", componentType},
                                  {"count", values.size() / components},

@@ -26,6 +26,12 @@ void members(auto& archive, auto& v, const OrthoViewpoint*) {
 void members(auto& archive, auto& v, const Interpolator*) {
   archive(v.kind, v.keys, v.values);
 }
+void members(auto& archive, auto& v, const Humanoid*) {
+  archive(v.joints, v.inverseBindings);
+}
+void members(auto& archive, auto& v, const Displacer*) {
+  archive(v.name, v.weight);
+}
 void members(auto& archive, auto& v, const Route*) {
   archive(v.fromNode, v.fromField, v.toNode, v.toField);
 }

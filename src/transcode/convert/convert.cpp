@@ -8,6 +8,7 @@
 #include "imgeo/version.h"
 #include "import/warnings.h"
 #include "scene/fog_depths.h"
+#include "scene/pose.h"
 #include "scene/source_axes.h"
 #include "transcode/convert/peak_memory.h"
 #include "transcode/convert/precompress.h"
@@ -164,16 +165,20 @@ public:
     if (options_.target == Target::x3dom) {
       leaveOutTexCoords();
       leaveOutFogDepths();
+      leaveOutDeformations();
     }
     report_.prepareSeconds = step_.lapSeconds();
   }
 
   /// Samples the surfaces for the page's pictures and the default viewpoints, before the meshes are encoded.
   void sampleSurfaces() {
+    const std::optional<Scene> rest = atRest(scene_);
+    const Scene& scene = rest ? *rest : scene_;
     if (options_.pictures)
-      pictureSamples_ = pictureSamplesOf(scene_);
+      pictureSamples_ = pictureSamplesOf(scene);
     if (!scene_.graph.isComplete && (options_.view != StartView::automatic || !hasViewpoint(scene_.graph)))
-      viewSamples_ = viewSamplesOf(scene_);
+      viewSamples_ = viewSamplesOf(scene);
+    setMovingBoxes(scene_);
   }
 
   void encodeMeshes() {
@@ -269,6 +274,14 @@ private:
     if (meshes > 0)
       report_.warnings.push_back(
           fmt::format("X3DOM reads no depths in fog: those of {} are left out", counted(meshes, "mesh", "meshes")));
+  }
+
+  void leaveOutDeformations() {
+    const std::size_t meshes = removeDeformations(scene_);
+    if (meshes > 0)
+      report_.warnings.push_back(
+          fmt::format("X3DOM reads no joints and displacements of these geometries: {} {} at rest",
+                      counted(meshes, "mesh", "meshes"), meshes == 1 ? "stays" : "stay"));
   }
 
   /// Fog needs depths, whatever else is kept.

@@ -7,7 +7,8 @@ namespace imgeo {
 WorldBox worldBoxOf(const SceneDocument& document) {
   WorldBox world;
   for (const ShapeInstance& instance : shapeInstances(document.graph)) {
-    const Box3d& box = document.geometries[shapeOf(document.graph, instance.node).mesh].box;
+    const Shape& shape = shapeOf(document.graph, instance.node);
+    const Box3d& box = shape.movingBox.empty() ? document.geometries[shape.mesh].box : shape.movingBox;
     if (!isDrawable(instance.worldFromShape)) {
       ++world.undrawableShapes;
       continue;

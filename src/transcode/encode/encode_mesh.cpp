@@ -92,6 +92,7 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
   EncodedMesh result;
   std::vector<Vec3u> points = quantise(mesh.positions, lattice);
   result.collapsed.of(mesh.topology) = countCollapsedElements(mesh, points, lattice.bits);
+  const bool moves = isDeformed(mesh); // a base mesh would stand in for its form at rest
   PatchedMesh patched = cutIntoPatches(std::move(mesh), std::move(points), lattice, options.patchVertices);
 
   const EncodeOptions encoding = encodeOptionsFrom(options);
@@ -99,7 +100,7 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
   for (const Patch& patch : patched.patches)
     noteAttributes(result, patch, options);
   const EncodingRow& row = rowOf(encoding.encoding);
-  if (mayHaveBase && row.capabilities.base && options.primitives == Primitives::triangles)
+  if (mayHaveBase && !moves && row.capabilities.base && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
       result.base = row.sharing->prepareBase(*base, result.geometry, encoding);
   if (row.sharing != nullptr && patched.patches.size() == 1 &&

@@ -1,6 +1,7 @@
 #include "transcode/encode/encode_scene.h"
 
 #include "containers/encodings.h"
+#include "scene/skin.h"
 #include "transcode/encode/base_files.h"
 #include "transcode/encode/encode_report.h"
 #include "transcode/encode/geometry_images.h"
@@ -43,7 +44,7 @@ std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<st
 }
 
 EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
-  if (options.form == MeshForm::geometryImage)
+  if (options.form == MeshForm::geometryImage && !isDeformed(mesh))
     if (std::optional<EncodedMesh> encoded = encodeGeometryImages(mesh, options, files)) {
       done(mesh.elementCount());
       return *std::move(encoded);

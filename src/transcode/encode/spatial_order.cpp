@@ -2,6 +2,7 @@
 
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
+#include "scene/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +11,6 @@
 namespace imgeo {
 
 namespace {
-
-/// For each node the transform of its content to world coordinates, at the node's first instance.
-std::vector<Affine3d> worldFromNodes(const SceneGraph& graph) {
-  std::vector<Affine3d> worldFromNode(graph.nodes.size());
-  std::vector<bool> isKnown(graph.nodes.size());
-  for (const std::size_t node : nodesInOrder(graph)) { // parents before children
-    if (const Transform* transform = std::get_if<Transform>(&graph.nodes[node].content))
-      worldFromNode[node] = worldFromNode[node] * affineOf(*transform);
-    for (const std::size_t child : graph.nodes[node].children)
-      if (!isKnown[child]) {
-        isKnown[child] = true;
-        worldFromNode[child] = worldFromNode[node];
-      }
-  }
-  return worldFromNode;
-}
 
 /// Whether a position fits single precision. Untrusted transforms may lead to infinity.
 bool isRepresentable(Vec3d position) {

@@ -120,6 +120,8 @@ SiteInfo inspect(const fs::path& site) {
   info.warnings = document.scene.warnings;
   info.timeSensors = countNodes<TimeSensor>(document.scene.graph);
   info.interpolators = countNodes<Interpolator>(document.scene.graph);
+  info.skins = countNodes<Humanoid>(document.scene.graph);
+  info.displacers = countNodes<Displacer>(document.scene.graph);
   if (const auto routes = document.scene.otherElements.find("ROUTE"); routes != document.scene.otherElements.end())
     info.routes = routes->second;
 

@@ -16,6 +16,8 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   info.timeSensors = countNodes<TimeSensor>(imported.scene.graph);
   info.interpolators = countNodes<Interpolator>(imported.scene.graph);
   info.routes = imported.scene.graph.routes.size();
+  info.skins = countNodes<Humanoid>(imported.scene.graph);
+  info.displacers = countNodes<Displacer>(imported.scene.graph);
   const std::vector<ShapeInstance> instances = shapeInstances(imported.scene.graph);
   info.shapes = instances.size();
   for (const ShapeInstance& instance : instances)

@@ -17,6 +17,7 @@ struct SourceInfo {
   ElementCounts elements;
   std::size_t shapes = 0, vertices = 0;
   std::size_t timeSensors = 0, interpolators = 0, routes = 0; ///< as in SiteInfo
+  std::size_t skins = 0, displacers = 0;                      ///< as in SiteInfo
   bool normals = false, texCoords = false, colors = false;    ///< whether any mesh has them
   std::uint32_t texCoordSets = 0;      ///< the largest number of sets of texture coordinates of a mesh
   std::vector<std::string> attributes; ///< names of further vertex attributes

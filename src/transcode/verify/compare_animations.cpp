@@ -46,7 +46,8 @@ std::vector<RouteKey> routesOf(const SceneGraph& graph) {
     const auto isKept = [](const NodeContent& content) {
       return std::holds_alternative<TimeSensor>(content) || std::holds_alternative<Interpolator>(content);
     };
-    if (isKept(from) && isKept(to))
+    const bool isNumbered = isKept(to) || std::holds_alternative<Displacer>(to);
+    if (isKept(from) && isNumbered)
       keys.emplace_back(from.index(), numbers[route.fromNode], route.fromField, to.index(), numbers[route.toNode],
                         route.toField);
     else if (isKept(from) && std::holds_alternative<Transform>(to))

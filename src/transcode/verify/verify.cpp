@@ -16,6 +16,7 @@
 #include "transcode/verify/compare_mapped.h"
 #include "transcode/verify/compare_mesh.h"
 #include "transcode/verify/compare_resampled.h"
+#include "transcode/verify/compare_skins.h"
 
 #include <algorithm>
 #include <set>
@@ -149,8 +150,10 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);
     compareGeometryNodes(document.scene, imported.scene.graph, findings);
-    if (manifest)
+    if (manifest) {
       compareAnimations(document.scene, imported.scene.graph, findings);
+      compareSkins(document.scene.graph, imported.scene.graph, findings);
+    }
     if (checkFiles(document, report.isForeign, imported.scene.graph, findings))
       compareScenes(document, imported.scene, manifest, report, findings);
   } catch (const Error& error) {

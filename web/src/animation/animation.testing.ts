@@ -128,7 +128,7 @@ export function play(markup: string, mayStartByItself = true): TestScene {
       drawnFieldOf(element, field) {
         const fields = drawnFields[element.localName.toLowerCase()] ?? {};
         const name = Object.keys(fields).find((candidate) => candidate.toLowerCase() === field.toLowerCase());
-        return name === undefined ? undefined : { name, type: fields[name] ?? "", isOfTransform: false };
+        return name === undefined ? undefined : { name, type: fields[name] ?? "", isOfPose: false };
       },
       apply(changes: readonly FieldChange[]) {
         frames += 1;

@@ -19,8 +19,8 @@ export interface FieldChange {
   /** The name of the element's attribute. */
   readonly attribute: string;
   readonly type: FieldType;
-  /** Whether it is part of the transform of a Transform. */
-  readonly isOfTransform: boolean;
+  /** Whether it is displayed without reading the document: a field of a transform, or the weight of a displacer. */
+  readonly isOfPose: boolean;
   value: Value;
   /** Whether the value has not been handed on since it arrived. */
   isPending: boolean;
@@ -29,7 +29,7 @@ export interface FieldChange {
 export type DrawnFieldOf = (
   element: AnimatedElement,
   field: string,
-) => { readonly name: string; readonly type: string; readonly isOfTransform: boolean } | undefined;
+) => { readonly name: string; readonly type: string; readonly isOfPose: boolean } | undefined;
 
 export interface DocumentGraphOptions {
   /** A field of a node that is drawn, by a name in any case; undefined where the runtime does not read it. */
@@ -200,8 +200,8 @@ export class DocumentGraph {
         this.#drawnNodes.set(element, node);
       }
       const attribute = attributeNameIn(element, field) ?? field;
-      const isOfTransform = read?.isOfTransform === true;
-      const change: FieldChange = { element, field, attribute, type, isOfTransform, value: "", isPending: false };
+      const isOfPose = read?.isOfPose === true;
+      const change: FieldChange = { element, field, attribute, type, isOfPose, value: "", isPending: false };
       node.addField(candidate, { type, access: "inputOutput", defaultValue: undefined }, (value) => {
         change.value = value;
         if (change.isPending) return;

@@ -7,7 +7,7 @@ import { vertexRoles } from "../stage/attributeRows.ts";
 import type { ContentTarget } from "./resourcePool.ts";
 
 /** The arrays of a patch, in the order in which they become useful. PatchDescription has a member of each name. */
-export const attributeRoles = ["coord", "index", ...vertexRoles, "value"] as const;
+export const attributeRoles = ["coord", "index", "deformation", ...vertexRoles, "value"] as const;
 export type AttributeRole = (typeof attributeRoles)[number];
 
 /** What a file holds of a patch: a base mesh that stands in for it, the whole patch, or one attribute. */
@@ -37,6 +37,13 @@ export function cornerCountOf({ draws }: Pick<PatchDescription, "draws">): numbe
   return draws.reduce((sum, { count }) => sum + count, 0);
 }
 
+/** What moves vertices is needed before anything can be drawn. */
+function chunkOf(role: AttributeRole, plane: number): Chunk {
+  if (role === "deformation") return { type: "coord", plane: 0 };
+  if (role === "value") return { type: "color", plane };
+  return { type: plane > 0 ? "refinement" : role, plane };
+}
+
 type FileSizes = Pick<PatchFile, "expectedBytes" | "storedBytes">;
 
 /**
@@ -58,7 +65,7 @@ export function attributeFilesOf(
             plane,
             reference,
             target,
-            chunk: role === "value" ? { type: "color", plane } : { type: plane > 0 ? "refinement" : role, plane },
+            chunk: chunkOf(role, plane),
             ...sizesOf(role, reference, role === "index" ? cornerCount : patch.vertexCount),
           },
     );

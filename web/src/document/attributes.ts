@@ -42,7 +42,7 @@ export function readAttributes(element: SceneElement, encoding: Encoding, warnin
 }
 
 /** The files of one attribute among a patch's attribute files. */
-function filesOf(
+export function filesOf(
   attributes: readonly AttributeDescription[],
   attribute: AttributeDescription,
   references: readonly Reference[],

@@ -57,6 +57,26 @@ export interface ShapeDescription {
   readonly unreadableGeometry: string | undefined;
   /** Live streams only. */
   readonly playback?: Playback;
+  /** What moves the vertices; its geometry then has a `deformation`. */
+  readonly deformer?: DeformerDescription | undefined;
+}
+
+/** The joints of an HAnimHumanoid, which move the vertices of the shapes in it. */
+export interface SkinDescription {
+  /** Elements of Transforms, in the order in which vertices name them. */
+  readonly joints: readonly SceneElement[];
+  /**
+   * 16 numbers for each joint, column by column: from the coordinates of the shapes, as they were modelled, to those of
+   * the joint.
+   */
+  readonly inverseBindMatrices: readonly number[];
+}
+
+/** What moves the vertices of a shape. */
+export interface DeformerDescription {
+  readonly skin: SkinDescription | undefined;
+  /** HAnimDisplacers, in the order of the displacements. */
+  readonly displacers: readonly { readonly element: SceneElement; readonly weight: number }[];
 }
 
 /** How a live stream is followed. */

@@ -55,7 +55,8 @@ export class ElementInstance {
     const previous = this.#inherited;
     return previous?.visible === inherited.visible &&
       previous.contributesToBounds === inherited.contributesToBounds &&
-      previous.priority === inherited.priority
+      previous.priority === inherited.priority &&
+      previous.skin === inherited.skin
       ? this.#fragment
       : undefined;
   }

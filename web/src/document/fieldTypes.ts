@@ -149,6 +149,8 @@ export const SFImage = fieldMaker(sfImage);
 export const SFRotation = fieldMaker(tuple<Rotation>("SFRotation", 4));
 export const MFInt32 = fieldMaker(mfInt32);
 export const MFFloat = fieldMaker(mfFloat);
+/** 16 numbers for each matrix. */
+export const MFMatrix4f = fieldMaker<readonly number[]>({ name: "MFMatrix4f", parse: numbersIn });
 export const MFString = fieldMaker(mfString);
 export const MFText = fieldMaker(mfText);
 export const MFColor = fieldMaker(mfColor);

@@ -1,5 +1,6 @@
 // The geometry of a shape as plain data: its encoding, its patches, and where their data lies in files.
 
+import type { DeformationLayout } from "../stage/deformation.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { Vec2, Vec3 } from "./fieldTypes.ts";
@@ -77,6 +78,8 @@ export interface PatchDescription extends Readonly<Record<VertexRole, Reference 
   readonly attributes: readonly Reference[];
   /** The files of `GeometryDescription.value`. */
   readonly value: readonly Reference[];
+  /** The files of the attributes of `GeometryDescription.deformation`, one after the other. */
+  readonly deformation?: readonly Reference[];
 }
 
 /** A custom vertex attribute (FloatVertexAttribute). */
@@ -94,6 +97,12 @@ export interface AttributeDescription {
   readonly size: readonly number[];
   /** For values from a live stream: the range that it states; for several components, that of their length. */
   readonly streamedRange?: Vec2;
+}
+
+/** The attributes of a geometry that move its vertices, in the order of the texels of a `Deformation`. */
+export interface DeformationDescription {
+  readonly layout: DeformationLayout;
+  readonly attributes: readonly AttributeDescription[];
 }
 
 /** The use of the attribute whose values shaders read: they color the vertices, or are their depths in fog. */
@@ -164,6 +173,8 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly value: AttributeDescription | undefined;
   /** Default: color. */
   readonly valueUse?: ValueUse;
+  /** Present where joints or displacers may move the vertices. */
+  readonly deformation?: DeformationDescription;
   readonly patches: readonly PatchDescription[];
   /** The base mesh that stands in for the patches until they are loaded. */
   readonly base: Reference | undefined;

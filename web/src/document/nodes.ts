@@ -9,6 +9,7 @@ import {
   MFColor,
   MFFloat,
   MFInt32,
+  MFMatrix4f,
   MFString,
   MFText,
   optional,
@@ -115,6 +116,17 @@ const fogFields = {
   visibilityRange: SFFloat(0),
 };
 
+const transformFields = {
+  ...prioritized,
+  ...boundedObject,
+  ...visibleObject,
+  translation: SFVec3f([0, 0, 0]),
+  rotation: SFRotation([0, 0, 1, 0]),
+  scale: SFVec3f([1, 1, 1]),
+  center: SFVec3f([0, 0, 0]),
+  scaleOrientation: SFRotation([0, 0, 1, 0]),
+};
+
 export const nodeFields = {
   X3D: {
     /** Weights of file contents, for the order of requests. */
@@ -188,16 +200,14 @@ export const nodeFields = {
   LOD: { ...prioritized, ...boundedObject, ...visibleObject, center: SFVec3f([0, 0, 0]), range: MFFloat([]) },
   Inline: { ...prioritized, ...boundedObject, ...visibleObject, load: SFBool(true), url: MFString([]) },
   Switch: { ...prioritized, ...boundedObject, ...visibleObject, whichChoice: SFInt32(-1) },
-  Transform: {
-    ...prioritized,
-    ...boundedObject,
-    ...visibleObject,
-    translation: SFVec3f([0, 0, 0]),
-    rotation: SFRotation([0, 0, 1, 0]),
-    scale: SFVec3f([1, 1, 1]),
-    center: SFVec3f([0, 0, 0]),
-    scaleOrientation: SFRotation([0, 0, 1, 0]),
+  Transform: transformFields,
+  HAnimJoint: transformFields,
+  HAnimHumanoid: {
+    ...transformFields,
+    /** From the coordinates of its shapes, as they were modelled, to those of each joint. */
+    inverseBindMatrices: MFMatrix4f([]),
   },
+  HAnimDisplacer: { name: SFString(""), weight: SFFloat(0) },
   Shape: {
     ...prioritized,
     ...boundedObject,

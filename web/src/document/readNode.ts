@@ -1,6 +1,14 @@
 // Reads a node: its own fields at once; its descendants when the state that they inherit is known.
 
-import type { AnchorDescription, BackgroundNodeDescription, GroupDescription, NodeDescription } from "./description.ts";
+import type {
+  AnchorDescription,
+  BackgroundNodeDescription,
+  GroupDescription,
+  NodeDescription,
+  ShapeDescription,
+  SkinDescription,
+} from "./description.ts";
+import { isOnlyNamed, readSkin } from "./deformation.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -63,9 +71,16 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
       const { axisOfRotation, ...fields } = readFields(node, nodeFields.Billboard, warnings);
       return groupReader(node, fields, context, { billboardAxis: axisOfRotation });
     }
-    case "transform": {
+    case "transform":
+    case "hanimjoint": {
       const transform = readFields(node, nodeFields.Transform, warnings);
       return groupReader(node, transform, context, { transform, transformElement: node });
+    }
+    case "hanimhumanoid": {
+      const transform = readFields(node, nodeFields.HAnimHumanoid, warnings);
+      const skin = readSkin(node, context.childrenOf(node), context.lookup, warnings);
+      const drawn = { ...context, childrenOf: () => context.childrenOf(node).filter((child) => !isOnlyNamed(child)) };
+      return groupReader(node, transform, drawn, { transform, transformElement: node }, skin);
     }
     case "switch":
       return switchReader(node, context);
@@ -146,10 +161,11 @@ function lightReader(
 function shapeReader(element: SceneElement, node: SceneElement, context: NodeReadingContext): FragmentReader {
   const shape = readShape(element, context.host, node, context);
   const declarations = warningsOnly(context.warnings);
-  return ({ visible, contributesToBounds, priority }) => ({
+  return ({ visible, contributesToBounds, priority, skin }) => ({
     nodes: [
       {
         ...shape,
+        ...deformerOf(shape, skin),
         visible: visible && shape.visible,
         contributesToBounds: contributesToBounds && shape.contributesToBounds,
         priority: priority * shape.priority,
@@ -157,6 +173,14 @@ function shapeReader(element: SceneElement, node: SceneElement, context: NodeRea
     ],
     declarations,
   });
+}
+
+/** Its deformer with the skin of the HAnimHumanoid around it. */
+function deformerOf({ geometry, deformer }: ShapeDescription, skin: SkinDescription | undefined) {
+  if (geometry?.deformation === undefined) return undefined;
+  const own = geometry.deformation.layout.jointSets > 0 ? skin : undefined;
+  const displacers = deformer?.displacers ?? [];
+  return { deformer: own || displacers.length > 0 ? { skin: own, displacers } : undefined };
 }
 
 interface GroupFields {
@@ -178,6 +202,7 @@ function inheritedByChildren(fields: GroupFields, inherited: Inherited): Inherit
     visible: inherited.visible && visible,
     contributesToBounds: inherited.contributesToBounds && visible,
     priority: inherited.priority * fields.priority,
+    skin: inherited.skin,
   };
 }
 
@@ -209,10 +234,12 @@ function groupReader(
   fields: GroupFields,
   { warnings, childrenOf }: NodeReadingContext,
   traits?: GroupTraits,
+  skin?: SkinDescription,
 ): FragmentReader {
   const ownDeclarations = warningsOnly(warnings);
   return (inherited, readChildren) => {
-    const { nodes, declarations } = readChildren(childrenOf(node), inheritedByChildren(fields, inherited));
+    const inner = inheritedByChildren(fields, inherited);
+    const { nodes, declarations } = readChildren(childrenOf(node), skin ? { ...inner, skin } : inner);
     return { nodes: [groupOf(fields, nodes, traits)], declarations: joinDeclarations([ownDeclarations, declarations]) };
   };
 }

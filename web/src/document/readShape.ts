@@ -1,6 +1,7 @@
 // Reads a Shape without the state that it inherits from groups.
 
 import { colorMapOf, withValues } from "./attributes.ts";
+import { hasDeformation, readDisplacers, withDeformation, withMovingBox } from "./deformation.ts";
 import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
 import type { Box3, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
 import { fogDepthName } from "./description.ts";
@@ -87,6 +88,12 @@ export function readShape(
     priority: values.priority * priority,
     isPickable: values.isPickable,
     box: box && geometry && operators ? (context.operators?.boxOf(operators, geometry, box) ?? box) : box,
+    ...(geometry?.deformation && {
+      deformer: {
+        skin: undefined,
+        displacers: readDisplacers(node, geometry.deformation, (child) => resolveUse(child, context), warnings),
+      },
+    }),
     appearance:
       geometry?.glyphAtlas === undefined || context.text === undefined
         ? appearanceDescription
@@ -147,7 +154,16 @@ function readGeometryOf(
   const geometry = hasValues
     ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
     : boxed;
-  return { geometry, ...drawingFieldsOf(found.child, context, geometry) };
+  const deformed = hasDeformation(geometry)
+    ? geometries.variant(geometry, `deformed in ${JSON.stringify(box)}`, (plain) => deformedIn(plain, box))
+    : geometry;
+  return { geometry: deformed, ...drawingFieldsOf(found.child, context, deformed) };
+}
+
+/** The geometry with its deformation, which moves vertices within a box. */
+function deformedIn(geometry: GeometryDescription, box: Box3 | undefined): GeometryDescription {
+  const deformed = withDeformation(geometry);
+  return deformed.deformation && box ? withMovingBox(deformed, box) : deformed;
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */
@@ -232,10 +248,10 @@ function problemOf(children: readonly SceneElement[], context: ShapeReadingConte
   return `<${unknown.localName}> ${reason}`;
 }
 
-/** Whether a child of a Shape is a geometry, judged by its name: all but Appearance and metadata are. */
+/** Whether a child of a Shape is a geometry, judged by its name: all but Appearance, HAnimDisplacers and metadata are. */
 function isGeometry(child: SceneElement): boolean {
   const name = lowerNameOf(child);
-  return name !== "appearance" && !name.startsWith("metadata");
+  return name !== "appearance" && name !== "hanimdisplacer" && !name.startsWith("metadata");
 }
 
 /**

@@ -5,6 +5,7 @@ import type {
   InlineDescription,
   NavigationDescription,
   NodeDescription,
+  SkinDescription,
 } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import type { Warning } from "./nodes.ts";
@@ -42,6 +43,8 @@ export interface Inherited {
   /** Like `visible`, but counts every level of a LOD as visible. */
   readonly contributesToBounds: boolean;
   readonly priority: number;
+  /** That of the HAnimHumanoid around. */
+  readonly skin?: SkinDescription | undefined;
 }
 
 /** Reads these elements with the state that they inherit. */

@@ -14,7 +14,7 @@ import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { LodInstance } from "../scene/instances.ts";
-import type { TransformChange } from "../scene/instanceTree.ts";
+import type { PoseChange } from "../scene/instanceTree.ts";
 import { LodSelection } from "../scene/lodSelection.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
@@ -184,8 +184,8 @@ export class PageViewer {
       this.#follow(this.#animation.follow(records));
     });
     this.#animation = new SceneAnimation(x3d, {
-      moveTransforms: (changes) => {
-        this.#moveTransforms(changes);
+      movePoses: (changes) => {
+        this.#movePoses(changes);
       },
       moveVertices: ({ element, field, type, value }) =>
         type.isList && type.size > 0 && this.#core.reader.moveVertices(element, field, value as readonly number[]),
@@ -217,7 +217,7 @@ export class PageViewer {
     for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
   }
 
-  #moveTransforms(changes: readonly TransformChange[]): void {
+  #movePoses(changes: readonly PoseChange[]): void {
     this.#core.move(changes, () => {
       const { moved, ...built } = this.renderer.move(changes);
       this.#hasMoved = true;

@@ -1,23 +1,13 @@
 // Animates a page's scene where its document has nodes that send events. Only then the module that does it is loaded.
 
-import type { DrawnFieldOf, FieldChange } from "../animation/documentGraph.ts";
+import type { FieldChange } from "../animation/documentGraph.ts";
 import type { AnimatedScene, PageAnimation } from "../animation/page/pageAnimation.ts";
-import type { Field } from "../document/fieldTypes.ts";
-import { nodeFields } from "../document/nodes.ts";
-import type { TransformDescription } from "../document/description.ts";
-import type { TransformChange } from "../scene/instanceTree.ts";
+import type { PoseChange } from "../scene/instanceTree.ts";
+import { drawnFieldOf, isOfPose } from "../viewer/drawnFields.ts";
 
 /** Names of elements that send or carry events. */
 const namesOfAnimation =
   /^(route|easeineaseout|boolean(filter|toggle)|\w+(sensor|interpolator(2d)?|sequencer|trigger))$/i;
-
-const fieldsOfTransform: ReadonlySet<string> = new Set<keyof TransformDescription>([
-  "translation",
-  "rotation",
-  "scale",
-  "center",
-  "scaleOrientation",
-]);
 
 /** A field of an element of the page. */
 export interface DocumentChange {
@@ -30,8 +20,8 @@ export interface DocumentChange {
 }
 
 export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" | "move" | "read"> {
-  /** Moves Transforms. */
-  moveTransforms(changes: readonly TransformChange[]): void;
+  /** Moves Transforms and vertices. */
+  movePoses(changes: readonly PoseChange[]): void;
   /** Gives a field of a geometry node or of its Coordinate other numbers; false: its attribute is to be read. */
   moveVertices(change: DocumentChange): boolean;
   /** Reads attributes that have been written. */
@@ -158,11 +148,11 @@ export class SceneAnimation {
   }
 
   #move(changes: readonly FieldChange[]): readonly FieldChange[] {
-    const transforms = changes.filter(isOfTransform);
-    if (transforms.length > 0) this.#host.moveTransforms(transforms);
-    if (transforms.length === changes.length) return [];
+    const poses = changes.filter(isOfPose);
+    if (poses.length > 0) this.#host.movePoses(poses);
+    if (poses.length === changes.length) return [];
     return changes.filter(
-      (change) => !isOfTransform(change) && !this.#host.moveVertices(change as unknown as DocumentChange),
+      (change) => !isOfPose(change) && !this.#host.moveVertices(change as unknown as DocumentChange),
     );
   }
 
@@ -172,10 +162,6 @@ export class SceneAnimation {
       animation.isPaused = this.#isPaused || document.hidden;
     }
   }
-}
-
-function isOfTransform(change: FieldChange): change is FieldChange & TransformChange {
-  return change.isOfTransform;
 }
 
 function hasAnimation(element: Element): boolean {
@@ -195,17 +181,3 @@ function changesGraph({ type, target, attributeName }: MutationRecord): boolean 
     type === "childList" || /^(def|use)$/i.test(attributeName ?? "") || /^route$/i.test((target as Element).localName)
   );
 }
-
-const tables = new Map(
-  Object.entries<Readonly<Record<string, Field<unknown>>>>(nodeFields).map(([node, fields]) => [
-    node.toLowerCase(),
-    new Map(Object.entries(fields).map(([name, { type }]) => [name.toLowerCase(), { name, type: type.name }])),
-  ]),
-);
-
-/** A field of the runtime's table. */
-const drawnFieldOf: DrawnFieldOf = ({ localName }, field) => {
-  const node = localName.toLowerCase();
-  const found = tables.get(node)?.get(field.toLowerCase());
-  return found && { ...found, isOfTransform: node === "transform" && fieldsOfTransform.has(found.name) };
-};

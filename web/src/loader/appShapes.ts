@@ -9,7 +9,7 @@ import type { ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking/picker.ts";
-import type { ShapeInstanceListener } from "../render/shapes/sceneGroups.ts";
+import type { DeformedPose, ShapeInstanceListener } from "../render/shapes/sceneGroups.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import { ShapeChangeRecorder } from "../render/shapes/shapeChanges.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
@@ -153,6 +153,11 @@ export class AppShapes extends LoadingShapes<AppShape> implements ShapeInstanceL
     this.#changes = new ShapeChangeRecorder();
     const mergedShapes = Array.from(shapes.values(), (shape) => ({ ...shape, visible: this.#isVisible(shape) }));
     return { shapes: new Map(mergedShapes.map((shape) => [shape.element, shape])), removed: [], instances };
+  }
+
+  /** Moves the vertices of a shape. */
+  setPose({ element, matrices, weights }: DeformedPose): void {
+    this.#objects.get(element)?.object.setPose(matrices, weights);
   }
 
   /** Whether any patch displays something. */

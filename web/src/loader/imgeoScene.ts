@@ -2,6 +2,7 @@
 
 import type { Box3, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
 import { Group, Sphere } from "three";
+import type { AnimatedElement } from "../animation/elements.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
@@ -20,6 +21,7 @@ import { makeStandardMaterials } from "./standardMaterials.ts";
 import { appShapeContext } from "./appShapeContext.ts";
 import { ArrayBuffers } from "./arrayBuffers.ts";
 import { BitmapTextures, maxTextureSize } from "./bitmapTextures.ts";
+import { sceneClipsOf } from "./sceneClips.ts";
 import { SceneContents } from "./sceneContents.ts";
 import type { SceneHit } from "./scenePicking.ts";
 import { ScenePicker } from "./scenePicking.ts";
@@ -38,7 +40,7 @@ export interface ImgeoSceneEventMap extends Object3DEventMap {
 /** Where a scene's files come from, and how its shapes are drawn. */
 export interface ImgeoSceneOptions {
   /** The document's <X3D>, and its absolute URL. */
-  readonly x3d: SceneElement;
+  readonly x3d: SceneElement & AnimatedElement;
   readonly url: string;
   /** Makes a URL of the document absolute. */
   readonly urlOf: (url: string) => string;
@@ -108,6 +110,17 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       },
     );
     this.add(this.#contents.root);
+    const { clips, targets } = sceneClipsOf(
+      x3d,
+      (changes) => {
+        this.#contents.displayChanges(changes);
+      },
+      (message) => {
+        console.warn("imgeo:", message);
+      },
+    );
+    this.animations.push(...clips);
+    this.add(...targets);
     passOnShadows(this);
     this.#contents.start();
     this.#advance();

@@ -4,6 +4,7 @@
 
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
+import type { FieldChange } from "../animation/documentGraph.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { GroupDescription, SceneDescription } from "../document/description.ts";
@@ -13,6 +14,7 @@ import { SceneGroups } from "../render/shapes/sceneGroups.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { lodLevelAt } from "../scene/lodLevel.ts";
+import { isOfPose } from "../viewer/drawnFields.ts";
 import { sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
 import type { AppShape, AppShapesListener } from "./appShapes.ts";
 import { AppShapes } from "./appShapes.ts";
@@ -54,9 +56,11 @@ export class SceneContents {
   /** Whether a microtask will choose the levels of LODs after this frame. */
   #isLevelUpdateDue = false;
   #isStopped = false;
+  readonly #listener: AppShapesListener;
 
   /** Requests nothing, and does not call the listener, before `start`. */
   constructor({ x3d, url, urlOf, pool }: SceneSource, context: ShapeContext, listener: AppShapesListener) {
+    this.#listener = listener;
     const deliveries = sceneDeliveriesOf(pool);
     this.shapes = new AppShapes(context, deliveries, listener);
     this.#core = new ViewerCore<AppShape>({
@@ -116,6 +120,20 @@ export class SceneContents {
     return this.#core.inlines.isSettled && this.shapes.areSettled;
   }
 
+  /** Displays values that fields of nodes have received. Their attributes have been written. */
+  displayChanges(changes: readonly FieldChange[]): void {
+    const poses = changes.filter(isOfPose);
+    for (const change of changes) if (!isOfPose(change)) this.#core.reader.touch(change.element);
+    if (poses.length < changes.length) this.#core.read();
+    if (poses.length > 0)
+      this.#core.move(poses, () => {
+        this.#groups.move(poses);
+        this.#followGroups();
+        return []; // requests do not depend on the cameras of the app
+      });
+    this.#listener.onChange();
+  }
+
   start(): void {
     this.#core.load();
     this.#core.read();
@@ -134,11 +152,16 @@ export class SceneContents {
 
   #display({ root }: SceneDescription): SceneChanges {
     this.#groups.follow(withoutLights(root));
-    this.box.copy(this.#groups.box);
     // three.js visits children in order: the observer must come before the billboards that it turns.
     if (this.#groups.hasBillboards && this.#billboardCameraObserver.parent === null)
       this.root.add(this.#billboardCameraObserver, this.#groups.root);
+    this.#followGroups();
     return this.shapes.takeChanges();
+  }
+
+  #followGroups(): void {
+    this.box.copy(this.#groups.box);
+    for (const pose of this.#groups.poses()) this.shapes.setPose(pose);
   }
 
   #groupOf({ lod, inline }: GroupDescription): Object3D | undefined {

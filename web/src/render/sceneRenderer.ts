@@ -30,7 +30,7 @@ import type {
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { BackgroundInstance } from "../scene/instances.ts";
-import type { TransformChange } from "../scene/instanceTree.ts";
+import type { PoseChange } from "../scene/instanceTree.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
 import { SceneBackground } from "./frames/sceneBackground.ts";
 import { Batches } from "./batches/batches.ts";
@@ -228,10 +228,10 @@ export class SceneRenderer {
   }
 
   /**
-   * Gives Transforms of the scene other values, without a description of the whole scene. The next description must
-   * have these values.
+   * Gives Transforms and displacers of the scene other values, without a description of the whole scene. The next
+   * description must have these values.
    */
-  move(changes: Iterable<TransformChange>): MovedScene {
+  move(changes: Iterable<PoseChange>): MovedScene {
     const built = this.#shapes.move(changes);
     this.#background.follow(built.backgrounds);
     this.#environment.follow(built.environmentLights);

@@ -22,6 +22,16 @@ export interface TransformChange {
   readonly value: readonly number[];
 }
 
+/** The weight of an HAnimDisplacer has received a value. */
+export interface WeightChange {
+  readonly element: SceneElement;
+  readonly field: "weight";
+  readonly value: number;
+}
+
+/** What is displayed without a description of the scene. */
+export type PoseChange = TransformChange | WeightChange;
+
 /** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
   onEnter(node: NodeInstance): void;
@@ -67,14 +77,14 @@ export class InstanceTree {
   /**
    * Gives Transforms other values, without a description of the whole scene, which `update` needs much longer for. The
    * next description that `update` gets must have these values. Allocates nothing for nodes that have moved before:
-   * matrices change in place.
+   * matrices change in place. Weights are not the tree's: changes of other elements than Transforms are passed over.
    */
-  move(changes: Iterable<TransformChange>): void {
+  move(changes: Iterable<PoseChange>): void {
     const moved = this.#moved;
     for (const { element, field, value } of changes)
       for (const node of this.#transforms.get(element) ?? []) {
         // The type of the field has been checked where its value comes from.
-        (movingTransformOf(node) as Record<string, readonly number[]>)[field] = value;
+        (movingTransformOf(node) as Record<string, PoseChange["value"]>)[field] = value;
         if (node.isMoved) continue;
         node.isMoved = true;
         moved.push(node);

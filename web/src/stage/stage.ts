@@ -3,6 +3,7 @@
 
 import type { ByVertexRole } from "./attributeRows.ts";
 import type { Bounds, ElementArray, VertexArray } from "./vertexArray.ts";
+import type { Deformation } from "./deformation.ts";
 import type { ElementType } from "./elementType.ts";
 import type { DecodedImage } from "./decodedImage.ts";
 
@@ -163,6 +164,8 @@ export interface BufferStage extends StageHead {
   /** Normals of two numbers of 8 bits may also be one 16-bit word, whose low byte is the first. */
   readonly normalFormat: NormalFormat;
   readonly value: GpuValues | undefined;
+  /** What moves the vertices, if joints or displacers do. */
+  readonly deformation?: Deformation | undefined;
 }
 
 export type Stage = TextureStage | BufferStage;

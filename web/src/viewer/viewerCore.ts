@@ -18,7 +18,7 @@ import { refusals } from "../document/refused.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
-import type { TransformChange } from "../scene/instanceTree.ts";
+import type { PoseChange } from "../scene/instanceTree.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
 import { measureRun } from "../text/glyphRendering.ts";
@@ -161,10 +161,10 @@ export class ViewerCore<Shape extends LoadingShape> {
   }
 
   /**
-   * Moves Transforms whose attributes have been written: displays them without reading the document, which happens when
+   * Moves Transforms and vertices whose attributes have been written: displays them without reading the document, which happens when
    * something else changes. `display` moves them on the screen, and returns the instances of shapes that have moved.
    */
-  move(changes: Iterable<TransformChange>, display: () => Iterable<NodeInstance>): void {
+  move(changes: Iterable<PoseChange>, display: () => Iterable<NodeInstance>): void {
     for (const { element } of changes) this.reader.touch(element);
     this.control.followMoves(display());
   }

@@ -40,6 +40,8 @@ export interface PickDrawOptions {
     readonly blurred?: { readonly points: Float32Array<ArrayBuffer> } | undefined;
     pointOf(stored: Vector3): Vector3;
   };
+  /** Where joints and displacers move a vertex, in stored coordinates; undefined where nothing moves. */
+  readonly deformation?: { move(stored: Vector3, vertex: number): Vector3 } | undefined;
   /** Transforms stored coordinates into those of the shape. */
   readonly shapeFromStored: Matrix4;
   acquireResources(): PickResources;
@@ -79,9 +81,10 @@ export class PickDraw {
     return this.#options.operation.bounds;
   }
 
-  /** The point that is drawn for the coordinates of a vertex, in stored coordinates. */
-  pointOf(stored: Vector3): Vector3 {
-    return this.#options.operation.pointOf(stored);
+  /** The point that is drawn for the coordinates of a vertex with this index, in stored coordinates. */
+  pointOf(stored: Vector3, vertex: number): Vector3 {
+    const { operation, deformation } = this.#options;
+    return operation.pointOf(deformation ? deformation.move(stored, vertex) : stored);
   }
 
   get isDisposed(): boolean {

@@ -187,7 +187,7 @@ export class Picker {
     const contents = pick.contents();
     if (contents === undefined) return { number: 0, vertex, face };
     const { coord, index, coordStride, coordOffset } = contents;
-    const positionOf = (n: number) => pick.pointOf(new Vector3().fromArray(coord, coordOffset + n * coordStride));
+    const positionOf = (n: number) => pick.pointOf(new Vector3().fromArray(coord, coordOffset + n * coordStride), n);
     const found =
       pick.range.isWide === true
         ? primitiveAt(number, pick.range, index)

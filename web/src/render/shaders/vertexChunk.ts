@@ -14,6 +14,7 @@ import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from ".
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 import { operatorChunk } from "./operatorChunk.ts";
+import { deformationChunk } from "../deformation/deformationChunk.ts";
 import { replaceChunks } from "./replaceChunks.ts";
 import {
   blurredDefine,
@@ -401,7 +402,7 @@ export function addVertexReading(
     replaceChunks(shader.vertexShader, [
       [
         "#include <common>",
-        `#include <common>\n${readVertexChunk}${operatorChunk}${instanceVertexChunk}${wideLineChunk}`,
+        `#include <common>\n${readVertexChunk}${deformationChunk}${operatorChunk}${instanceVertexChunk}${wideLineChunk}`,
       ],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],

@@ -90,6 +90,8 @@ export interface VertexFormat {
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf returns them. */
   readonly normalDefines: Readonly<Record<string, string>>;
+  /** As deformationDefinesOf returns them; absent where vertices do not move. */
+  readonly deformationDefines?: Readonly<Record<string, string>> | undefined;
   /** Whether each instance has a record (shaders/instanceRecord.ts); otherwise the object's matrix transforms it. */
   readonly isInstanced: boolean;
   /** For wide lines, the distance in vertices from one line to the next; 0: no wide lines. */
@@ -98,7 +100,15 @@ export interface VertexFormat {
 
 /** The #defines of a material that reads vertices of this format. */
 export function vertexDefinesOf(
-  { isFromImages, attributeDefines, gridDefines, normalDefines, isInstanced, wideLineStep }: VertexFormat,
+  {
+    isFromImages,
+    attributeDefines,
+    gridDefines,
+    normalDefines,
+    deformationDefines,
+    isInstanced,
+    wideLineStep,
+  }: VertexFormat,
   readsNormals: boolean,
 ): Record<string, string> {
   return {
@@ -108,6 +118,7 @@ export function vertexDefinesOf(
     ...(isInstanced && { [instancesDefine]: "" }),
     ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
+    ...deformationDefines,
     ...(readsNormals && normalDefines),
   };
 }

@@ -32,7 +32,7 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Replaces `readVertex` in vertex shaders. Included after `vertexAt`, `operate` and `instancePosition`. */
+/** Replaces `readVertex` in vertex shaders. Included after `vertexAt`, `deform`, `operate` and `instancePosition`. */
 export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
@@ -99,6 +99,7 @@ void widenLine() {}
 
 Vertex readVertex() {
   Vertex vertex = vertexAt(0);
+  deform(vertex.position, vertex.normal);
   operate(vertex.position, vertex.normal);
   return vertex;
 }

@@ -9,6 +9,7 @@ import type {
   GroupDescription,
   NodeDescription,
   ShapeDescription,
+  SkinDescription,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import type {
@@ -24,7 +25,7 @@ import type {
 import { bindableOf } from "../../scene/bindable.ts";
 import { billboardRotation } from "../../scene/billboard.ts";
 import { numberEffectScopes } from "../../scene/effectScope.ts";
-import type { InstanceTreeListener, TransformChange } from "../../scene/instanceTree.ts";
+import type { InstanceTreeListener, PoseChange } from "../../scene/instanceTree.ts";
 import type { NodeInstance, SubtreeSummary } from "../../scene/nodeInstance.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
 import { boundsOf } from "../../scene/subtreeBounds.ts";
@@ -56,6 +57,16 @@ export interface BoundedGroup {
   readonly box: Box3;
 }
 
+/** What moves the vertices of a shape now. */
+export interface DeformedPose {
+  /** The shape's. */
+  readonly element: SceneElement;
+  /** One of each joint of its skin, for points in the shape's coordinates. */
+  readonly matrices: readonly Matrix4[];
+  /** One of each displacer. */
+  readonly weights: readonly number[];
+}
+
 export class SceneGroups implements InstanceTreeListener {
   readonly root = new Group();
   readonly #tree = new InstanceTree(this);
@@ -67,6 +78,10 @@ export class SceneGroups implements InstanceTreeListener {
   #lightInstances: readonly LightInstance[] = [];
   #lights: SceneLights = makeLights([]);
   #boundedGroups: readonly BoundedGroup[] = [];
+  /** Instances of shapes whose vertices move. */
+  readonly #deformed = new Set<NodeInstance>();
+  /** Weights that displacers have received since the last description. */
+  readonly #weights = new Map<SceneElement, number>();
   /** The summary that has been followed last. */
   #summary: SubtreeSummary | undefined;
 
@@ -147,12 +162,17 @@ export class SceneGroups implements InstanceTreeListener {
    * called for an instance whose scope just has another number.
    */
   follow(root: GroupDescription): boolean {
+    this.#weights.clear();
     this.#tree.update(root);
     return this.#followSummary();
   }
 
-  /** Gives Transforms other values: see `InstanceTree.move`. Returns whether effect scopes have been renumbered. */
-  move(changes: Iterable<TransformChange>): boolean {
+  /**
+   * Gives Transforms other values, see `InstanceTree.move`, and displacers other weights. Returns whether effect scopes
+   * have been renumbered.
+   */
+  move(changes: Iterable<PoseChange>): boolean {
+    for (const change of changes) if (change.field === "weight") this.#weights.set(change.element, change.value);
     this.#tree.move(changes);
     return this.#followSummary();
   }
@@ -160,6 +180,21 @@ export class SceneGroups implements InstanceTreeListener {
   /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
   sceneFromTransform(element: SceneElement): Matrix4 | undefined {
     return this.#tree.transformOf(element)?.sceneFromNode;
+  }
+
+  /** The poses of all shapes whose vertices move. Of several instances of a shape the first counts. */
+  *poses(): Generator<DeformedPose> {
+    const seen = new Set<SceneElement>();
+    for (const { description, sceneFromNode } of this.#deformed) {
+      if (description.kind !== "shape" || !description.deformer || seen.has(description.element)) continue;
+      seen.add(description.element);
+      const { skin, displacers } = description.deformer;
+      yield {
+        element: description.element,
+        matrices: skin ? jointMatrices(skin, sceneFromNode, (joint) => this.sceneFromTransform(joint)) : [],
+        weights: displacers.map(({ element, weight }) => this.#weights.get(element) ?? weight),
+      };
+    }
   }
 
   #followSummary(): boolean {
@@ -225,6 +260,7 @@ export class SceneGroups implements InstanceTreeListener {
     const group: ShapeGroup = new Group();
     group.effectScope = node.effectScope;
     this.#shapeGroups.set(node, group);
+    if (description.deformer) this.#deformed.add(node);
     this.#addGroup(node, description, group);
     this.#listener.onEnter(description, node, group);
   }
@@ -236,6 +272,8 @@ export class SceneGroups implements InstanceTreeListener {
     this.#applyDescription(node, description, group, hasMoved);
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup) shapeGroup.effectScope = node.effectScope;
+    if (description.kind === "shape" && description.deformer) this.#deformed.add(node);
+    else this.#deformed.delete(node);
     if (shapeGroup && description.kind === "shape" && before.kind === "shape")
       this.#listener.onChange(description, node, shapeGroup, before);
   }
@@ -257,6 +295,7 @@ export class SceneGroups implements InstanceTreeListener {
     this.#groups.get(node)?.removeFromParent();
     this.#groups.delete(node);
     this.#shapeGroups.delete(node);
+    this.#deformed.delete(node);
   }
 
   #addGroup(node: NodeInstance, description: GroupDescription | ShapeDescription, group: Object3D): void {
@@ -280,6 +319,21 @@ export class SceneGroups implements InstanceTreeListener {
     if (this.#listener.isWorld === true) shareMatrices(node, group);
     applyTransform(node, group);
   }
+}
+
+/** A joint that is not in the scene stays where the shape was modelled. */
+function jointMatrices(
+  { joints, inverseBindMatrices }: SkinDescription,
+  sceneFromShape: Matrix4,
+  sceneFromJoint: (joint: SceneElement) => Matrix4 | undefined,
+): Matrix4[] {
+  const shapeFromScene = sceneFromShape.clone().invert();
+  return joints.map((joint, index) => {
+    const sceneFrom = sceneFromJoint(joint);
+    if (sceneFrom === undefined) return new Matrix4();
+    const jointFromModel = new Matrix4().fromArray(inverseBindMatrices, 16 * index);
+    return jointFromModel.premultiply(sceneFrom).premultiply(shapeFromScene);
+  });
 }
 
 /**

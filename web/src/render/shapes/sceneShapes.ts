@@ -19,7 +19,7 @@ import type {
   LodInstance,
   ViewpointInstance,
 } from "../../scene/instances.ts";
-import type { TransformChange } from "../../scene/instanceTree.ts";
+import type { PoseChange } from "../../scene/instanceTree.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import { isDrawable, sphereAround } from "../../scene/bounds.ts";
 import type { Batches } from "../batches/batches.ts";
@@ -151,8 +151,8 @@ export class SceneShapes {
     return { ...this.#built(areEffectScopesRenumbered), changes };
   }
 
-  /** Gives Transforms other values: see `InstanceTree.move`. */
-  move(changes: Iterable<TransformChange>): MovedScene {
+  /** Gives Transforms and displacers other values: see `SceneGroups.move`. */
+  move(changes: Iterable<PoseChange>): MovedScene {
     this.#moved.length = 0;
     const areEffectScopesRenumbered = this.#graph.move(changes);
     if (areEffectScopesRenumbered || this.#graph.hasEffects) this.#setEffects();
@@ -175,6 +175,8 @@ export class SceneShapes {
     }
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#extendBounds(object, bounds);
     this.#batches.setBoundingSphere(this.#sphere);
+    for (const { element, matrices, weights } of this.#graph.poses())
+      this.#shapes.get(element)?.setPose(matrices, weights);
     return { sphere: this.#sphere, viewpoints, backgrounds, environmentLights, lods, anchors };
   }
 

@@ -1,6 +1,6 @@
 // A displayed shape: the draws of each patch's newest stage, in one group per instance.
 
-import type { Texture } from "three";
+import type { Matrix4, Texture } from "three";
 import { Vector3 } from "three";
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
@@ -33,6 +33,7 @@ import { makePatchDraws } from "../stages/patchDraws.ts";
 import { isBlurred } from "../stages/stageOperation.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
+import { ShapePose } from "../deformation/shapePose.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
 /** What all shapes of a scene share. */
@@ -81,6 +82,8 @@ export class ShapeObject {
   #removeGenerated: (() => void) | undefined;
   #box: ShapeDescription["box"];
   #isPickable: boolean;
+  /** Undefined where nothing moves the vertices. */
+  #pose: ShapePose | undefined;
 
   constructor(context: ShapeContext, shape: ShapeDescription) {
     this.#context = context;
@@ -89,6 +92,12 @@ export class ShapeObject {
     this.#geometry = shape.geometry;
     this.#isPickable = shape.isPickable;
     this.#box = shape.box;
+    this.#pose = poseOf(shape);
+  }
+
+  /** Moves the vertices. `matrices`: of each joint of its skin, for points in the shape's coordinates. */
+  setPose(matrices: readonly Matrix4[], weights: readonly number[]): void {
+    this.#pose?.set(matrices, weights);
   }
 
   /** Adds an instance. `host`: the page's element for it. */
@@ -143,7 +152,9 @@ export class ShapeObject {
   }
 
   /** Follows a changed description. Stages of the geometry before stay until `setStage` replaces them. */
-  setShape({ appearance, isPickable, geometry, box }: ShapeDescription): void {
+  setShape(shape: ShapeDescription): void {
+    const { appearance, isPickable, geometry, box } = shape;
+    this.#followDeformer(shape);
     this.#isPickable = isPickable;
     this.#box = box;
     this.#geometry = geometry;
@@ -158,6 +169,16 @@ export class ShapeObject {
     }
     if (this.#patches.size > 0) this.#generateCubeMap();
     if (!isSame) this.#applyAppearance();
+  }
+
+  /** Draws again where another number of joints or displacers moves the vertices. */
+  #followDeformer(shape: ShapeDescription): void {
+    const before = this.#pose;
+    const pose = poseOf(shape);
+    if (before?.jointCount === pose?.jointCount && before?.displacerCount === pose?.displacerCount) return;
+    this.#pose = pose;
+    this.redraw();
+    before?.dispose();
   }
 
   /** Sets how its geometry is drawn. */
@@ -285,6 +306,7 @@ export class ShapeObject {
       patch,
       appearance: withStreamedRange(this.#appearance, geometry),
       surfaceTextures: new Map(this.#surfaceTextures),
+      pose: this.#pose,
     };
     const orientation = orientationOf(this.#appearance.operators ?? []);
     const displayed = {
@@ -311,8 +333,8 @@ export class ShapeObject {
   #drawModeOf(stage: Stage): DrawMode {
     const { batching } = this.#context.materialFactory;
     const isHiddenFromItself = this.#appearance.cubeMap?.generated !== undefined;
-    const isMapped = (this.#appearance.operators ?? []).length > 0; // records of batches have no operators
-    return batching !== undefined && !isHiddenFromItself && !isMapped
+    const isMapped = (this.#appearance.operators ?? []).length > 0; // records of batches have no operators and poses
+    return batching !== undefined && !isHiddenFromItself && !isMapped && this.#pose === undefined
       ? drawModeOf(stage, this.#drawModes, this.#appearance, this.#surfaceTextures, batching)
       : "alone";
   }
@@ -346,5 +368,10 @@ export class ShapeObject {
   dispose(): void {
     this.clear();
     this.#groups.clear();
+    this.#pose?.dispose();
   }
+}
+
+function poseOf({ deformer }: ShapeDescription): ShapePose | undefined {
+  return deformer && new ShapePose(deformer.skin?.joints.length ?? 0, deformer.displacers.length);
 }

@@ -5,6 +5,7 @@ import type { MaterialFactory, SceneUniforms } from "../materials/materialFactor
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { TextureProvider } from "../uploads/textureProvider.ts";
+import type { ShapePose } from "../deformation/shapePose.ts";
 import type { GeometryPool } from "./geometryPool.ts";
 
 export interface PatchContext {
@@ -17,4 +18,6 @@ export interface PatchContext {
   readonly patch: PatchDescription;
   readonly appearance: AppearanceDescription;
   readonly surfaceTextures: SurfaceTextures;
+  /** Undefined where nothing moves the shape's vertices. */
+  readonly pose?: ShapePose | undefined;
 }

@@ -20,6 +20,7 @@ import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.t
 import { sideOf } from "../materials/materialFactory.ts";
 import { boundsOf } from "./stageBounds.ts";
 import { facesOf, StageOperation } from "./stageOperation.ts";
+import { StageDeformation } from "../deformation/stageDeformation.ts";
 
 /**
  * The displayed stage of a patch, in all instances of its shape: drawn by objects of its own (here) or in batches
@@ -50,39 +51,53 @@ interface DrawnStage {
   readonly context: PatchContext;
   readonly bounds: ReturnType<typeof boundsOf>;
   readonly operation: StageOperation;
+  readonly deformation: StageDeformation | undefined;
   readonly shapeFromStored: Matrix4;
 }
 
 function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
-  const { geometry, patch, appearance, buffers } = context;
+  const { geometry, patch, appearance, buffers, pose } = context;
   const bounds = boundsOf(geometry, patch, stage);
   const operation = new StageOperation(geometry, patch, stage, bounds, appearance, buffers);
-  return { stage, context, bounds, operation, shapeFromStored: shapeFromStoredOf(geometry, patch) };
+  const deformation =
+    stage.kind === "buffers" && stage.deformation && pose
+      ? new StageDeformation(stage.deformation, pose, geometry, patch)
+      : undefined;
+  return { stage, context, bounds, operation, deformation, shapeFromStored: shapeFromStoredOf(geometry, patch) };
+}
+
+function dispose({ operation, deformation }: DrawnStage): void {
+  operation.dispose();
+  deformation?.dispose();
 }
 
 /** Draws each draw of the stage by one object per instance. */
 export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
   const { materialFactory, buffers, geometries } = context;
   let drawn = drawnStageOf(stage, context);
-  const uniforms = uniformsOf(stage, context, blurredUniformsOf(drawn));
+  const uniforms = uniformsOf(stage, context, ownUniformsOf(drawn));
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
   const pickOf = (range: DrawRange, bufferGeometry: BufferGeometry, side: Side) => {
-    const { operation, shapeFromStored, stage } = drawn;
+    const { operation, deformation, shapeFromStored, stage } = drawn;
     return new PickDraw(stage, range, {
       buffers,
       operation,
+      deformation,
       shapeFromStored,
       acquireResources: () => ({
         geometry: bufferGeometry,
-        request: pickRequestOf(
-          stage,
-          range,
-          side,
-          uniforms.of(range),
-          displayed.appearance,
-          displayed.surfaceTextures,
-          operation.isBlurred,
-        ),
+        request: {
+          ...pickRequestOf(
+            stage,
+            range,
+            side,
+            uniforms.of(range),
+            displayed.appearance,
+            displayed.surfaceTextures,
+            operation.isBlurred,
+          ),
+          deformationDefines: deformation?.defines,
+        },
         release: () => undefined,
       }),
     });
@@ -153,13 +168,13 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     replaceStage(stage, context) {
       const next = drawnStageOf(stage, context);
       if (layoutOf(next) !== layoutOf(drawn) || !geometries.replace(drawn.stage, stage)) {
-        next.operation.dispose();
+        dispose(next);
         return false;
       }
-      drawn.operation.dispose();
+      dispose(drawn);
       drawn = next;
       displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
-      const nextUniforms = uniformsOf(stage, context, blurredUniformsOf(next));
+      const nextUniforms = uniformsOf(stage, context, ownUniformsOf(next));
       for (const draw of draws) {
         setBounds(draw.bufferGeometry, next);
         const own = draw.request.uniforms as Record<string, IUniform | undefined>;
@@ -183,25 +198,27 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         for (const material of materials.all) material.dispose();
         pick.dispose();
       }
-      drawn.operation.dispose();
+      dispose(drawn);
       geometries.release(drawn.stage);
     },
   };
 }
 
 function requestOf<Uniforms extends Partial<VertexUniforms>>(
-  { stage, context: { geometry, appearance, shared }, operation: { isBlurred } }: DrawnStage,
+  { stage, context: { geometry, appearance, shared }, operation: { isBlurred }, deformation }: DrawnStage,
   range: DrawRange,
   uniforms: Uniforms,
 ) {
   return {
     ...materialRequestOf(stage, range, geometry, uniforms, shared, false, isBlurred),
     ...facesOf(geometry, appearance),
+    deformationDefines: deformation?.defines,
   };
 }
 
-function blurredUniformsOf({ operation: { blurred } }: DrawnStage): Record<string, IUniform> {
-  return blurred ? { blurredImage: { value: blurred.texture } } : {};
+/** Uniforms of blurred or moving vertices. */
+function ownUniformsOf({ operation: { blurred }, deformation }: DrawnStage): Record<string, IUniform> {
+  return { ...(blurred && { blurredImage: { value: blurred.texture } }), ...deformation?.uniforms };
 }
 
 function setBounds(geometry: BufferGeometry, { bounds: { box, sphere } }: DrawnStage): void {

@@ -22,6 +22,7 @@ import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geome
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
+import { DeformationCollector } from "../../deformationCollector.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
@@ -40,6 +41,7 @@ export function bgStageBuilder(
 ): StageBuilder {
   const uploads = new ArrayUploads(storeBytes);
   let available: AvailableArrays = { attributes: {} };
+  const collector = new DeformationCollector(geometry);
   const normalFormat = normalFormatOf(geometry);
   const drawsWithoutIndex = (count: number) => drawnPrimitives(undefined, drawRangesFor(patch, count), geometry.ccw);
 
@@ -49,7 +51,7 @@ export function bgStageBuilder(
     async accept(file, content, signal) {
       if (content.kind !== "bytes" || file.role === "patch" || file.role === "base")
         throw new DecodeError("malformed", "is no typed array");
-      const range = rangeOf(geometry, patch, file.role, file.reference);
+      const range = rangeOf(geometry, patch, { role: file.role, plane: file.plane }, file.reference);
       const arrays = available; // `clear` replaces `available` while an upload runs
       if (file.role === "index") {
         // If the document states no vertexCount, only WebGL checks that indices are in range.
@@ -59,6 +61,10 @@ export function bgStageBuilder(
         return;
       }
       const vertices = vertexArrayOf(content.bytes, range);
+      if (file.role === "deformation") {
+        collector.add(file.plane, { vertices, min: [], step: [] }, patch.vertexCount);
+        return;
+      }
       const stored = await uploads.storeVertices(vertices, signal);
       if (file.role === "value") arrays.value = stored;
       else if (file.role !== "coord") arrays.attributes[file.role] = stored;
@@ -74,7 +80,7 @@ export function bgStageBuilder(
 
     stage(): BufferStage | undefined {
       const { coord, bounds, attributes, value, index } = available;
-      if (coord === undefined) return undefined;
+      if (coord === undefined || !collector.isWhole) return undefined;
       const name = attainedStageName(patch, { index, attributes, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
@@ -89,11 +95,12 @@ export function bgStageBuilder(
         attributes: { ...attributes },
         normalFormat,
         value: value && { ...value, maxStored: undefined },
+        deformation: collector.deformation,
       };
     },
 
     get storedBytes() {
-      return uploads.byteLength;
+      return uploads.byteLength + collector.byteLength;
     },
     drop: () => undefined,
     clear() {
@@ -102,6 +109,7 @@ export function bgStageBuilder(
       const normal = hasNormalsInCoords(geometry, patch) ? undefined : attributes.normal;
       uploads.retire(index?.stored, coord, ...Object.values({ ...attributes, normal }), value);
       available = { attributes: {} };
+      collector.clear();
     },
     sweep: () => {
       uploads.sweep();
@@ -132,7 +140,7 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Sta
 function rangeOf(
   geometry: GeometryDescription,
   patch: PatchDescription,
-  role: AttributeRole,
+  { role, plane }: { readonly role: AttributeRole; readonly plane: number },
   reference: Reference,
 ): ElementRange {
   if (!("byteOffset" in reference)) throw new DecodeError("malformed", "is referenced without a byte offset");
@@ -140,7 +148,7 @@ function rangeOf(
     type: elementTypeOf(geometry, role),
     byteOffset: reference.byteOffset,
     byteStride: reference.byteStride,
-    components: componentsOf(geometry, role),
+    components: componentsOf(geometry, role, plane),
     count: role === "index" ? cornerCountOf(patch) : patch.vertexCount,
   };
 }
@@ -151,11 +159,11 @@ export function byteStrideOf(reference: Reference): number {
 }
 
 export function elementTypeOf(geometry: GeometryDescription, role: AttributeRole): ElementType {
-  return role === "value" ? "Float32" : geometry[`${role}Type`];
+  return role === "value" || role === "deformation" ? "Float32" : geometry[`${role}Type`];
 }
 
-/** Number of components per element. */
-export function componentsOf(geometry: GeometryDescription, role: AttributeRole): 1 | 2 | 3 | 4 {
+/** Number of components per element. `plane`: which attribute of the deformation. */
+export function componentsOf(geometry: GeometryDescription, role: AttributeRole, plane = 0): 1 | 2 | 3 | 4 {
   switch (role) {
     case "index":
       return 1;
@@ -167,6 +175,8 @@ export function componentsOf(geometry: GeometryDescription, role: AttributeRole)
       return geometry.colorComponents;
     case "value":
       return geometry.value?.components ?? 1;
+    case "deformation":
+      return geometry.deformation?.attributes[plane]?.components ?? 4;
     default:
       return attributeRows[role].components;
   }

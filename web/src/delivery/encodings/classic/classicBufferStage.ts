@@ -20,6 +20,7 @@ import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";
 import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
 import type { Content, LiveArrays, LiveVertices } from "../../resourcePool.ts";
+import { DeformationCollector } from "../../deformationCollector.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
@@ -81,6 +82,8 @@ class AvailableArrays {
   attributePlaneCounts: Partial<Record<VertexRole, number>> = {};
   /** Undecoded images of the values, until all byte planes are available. */
   valuePlanes: (ImageFile | undefined)[] = [];
+  /** Undecoded images of the attributes that move vertices, until all planes of an attribute are available. */
+  deformationPlanes: (ImageFile | undefined)[] = [];
   value: GpuVertices | undefined;
   /** Vertices of a live stream. Where it has a role, they replace the decoded ones above. The stream frees them. */
   streamed: LiveArrays | undefined;
@@ -100,6 +103,7 @@ class BufferStageBuilder implements StageBuilder {
   readonly #patch: PatchDescription;
   readonly #run: BuilderTools["runJob"];
   readonly #uploads: ArrayUploads;
+  readonly #collector: DeformationCollector;
   #available = new AvailableArrays();
 
   constructor(geometry: GeometryDescription, patch: PatchDescription, { runJob, storeBytes }: BuilderTools) {
@@ -107,6 +111,7 @@ class BufferStageBuilder implements StageBuilder {
     this.#patch = patch;
     this.#run = runJob;
     this.#uploads = new ArrayUploads(storeBytes);
+    this.#collector = new DeformationCollector(geometry);
   }
 
   async accept(file: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
@@ -132,6 +137,9 @@ class BufferStageBuilder implements StageBuilder {
         available.valuePlanes[file.plane] = image;
         await this.#decodeValues(available, header, signal);
         return;
+      case "deformation":
+        await this.#decodeDeformation(available, file.plane, image, header, signal);
+        return;
       case "patch":
       case "base":
         return;
@@ -141,7 +149,7 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   get storedBytes(): number {
-    return this.#uploads.byteLength + (this.#available.streamed?.byteLength ?? 0);
+    return this.#uploads.byteLength + this.#collector.byteLength + (this.#available.streamed?.byteLength ?? 0);
   }
 
   drop(): void {
@@ -152,6 +160,7 @@ class BufferStageBuilder implements StageBuilder {
     const { indexedDraws, coord, attributes, slopeNormals, value } = this.#available;
     this.#uploads.retire(indexedDraws?.index, coord, ...Object.values(attributes), slopeNormals, value);
     this.#available = new AvailableArrays();
+    this.#collector.clear();
   }
 
   sweep(): void {
@@ -162,7 +171,7 @@ class BufferStageBuilder implements StageBuilder {
     const available = this.#available;
     const { attributes, streamed } = available;
     const coord = streamed?.coord ?? available.coord;
-    if (coord === undefined) return undefined;
+    if (coord === undefined || !this.#collector.isWhole) return undefined;
     const storedFormat =
       attributes.normal && this.#patch.lowBytes.normal === undefined
         ? normalFormatOf(this.#geometry)
@@ -198,6 +207,7 @@ class BufferStageBuilder implements StageBuilder {
       },
       normalFormat: streamed?.normal ? streamed.normalFormat : storedFormat,
       value,
+      deformation: this.#collector.deformation,
       ...(streamed && { bounds: this.#patch.box }),
     };
   }
@@ -293,6 +303,28 @@ class BufferStageBuilder implements StageBuilder {
     available.attributes[role] = decoded;
     available.attributePlaneCounts[role] = planes.length;
     if (planes.length === planeCount) available.attributePlanes[role] = [];
+  }
+
+  /** Decodes an attribute that moves vertices once all its planes are available. `plane`: among those of all of them. */
+  async #decodeDeformation(
+    { deformationPlanes }: AvailableArrays,
+    plane: number,
+    image: ImageFile,
+    header: ImageHeader,
+    signal: AbortSignal,
+  ): Promise<void> {
+    deformationPlanes[plane] = image;
+    const { attributes = [] } = this.#geometry.deformation ?? {};
+    let first = 0;
+    for (const [n, { components, min, size, fileCount }] of attributes.entries()) {
+      const isOfFile = plane >= first && plane < first + fileCount;
+      const planes = deformationPlanes.slice(first, first + fileCount).flatMap((file) => file ?? []);
+      first += fileCount;
+      if (!isOfFile || planes.length < fileCount) continue;
+      const layout = this.#layout(header, image);
+      const vertices = await this.#run("classicValues", { planes, components, min, size, ...layout }, signal);
+      this.#collector.add(n, { vertices, min: [], step: [] }, layout.count);
+    }
   }
 
   /** Decodes the values once all their planes are available. */

@@ -28,6 +28,7 @@ const bytesPerElement: Readonly<Record<AttributeRole, number>> = {
   coord: 2,
   ...byVertexRole((role) => attributeRows[role].classic.bytesPerVertex),
   value: 0.7,
+  deformation: 2,
 };
 
 /** Texels of an image as `imgeo convert` writes it: records in rows of 256, whose number is a power of two. */

@@ -3,7 +3,7 @@
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { DecodedImage } from "../../../stage/decodedImage.ts";
-import type { ByVertexRole } from "../../../stage/attributeRows.ts";
+import type { ByVertexRole, VertexRole } from "../../../stage/attributeRows.ts";
 import { attributeRows } from "../../../stage/attributeRows.ts";
 import type { TexelRange, TextureStage } from "../../../stage/stage.ts";
 import { isPairFormat } from "../../../stage/stage.ts";
@@ -69,6 +69,8 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
         return geometry.colorComponents;
       case "value":
         return geometry.value?.components ?? 1;
+      case "deformation": // is decoded in workers
+        return 4;
       case "index":
       case "patch":
       case "base":
@@ -87,7 +89,7 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       if (role === "coord") coordPlanes[plane] = undefined;
       else if (role === "value") valuePlanes[plane] = undefined;
       else if (role === "index") index = undefined;
-      else if (role !== "patch" && role !== "base") attributes = { ...attributes, [role]: undefined };
+      else if (isVertexRole(role)) attributes = { ...attributes, [role]: undefined };
     },
 
     clear() {
@@ -115,7 +117,7 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (file.role === "coord") coordPlanes[file.plane] = range;
       else if (file.role === "value") valuePlanes[file.plane] = range;
-      else if (file.role !== "patch" && file.role !== "base") attributes = { ...attributes, [file.role]: range };
+      else if (isVertexRole(file.role)) attributes = { ...attributes, [file.role]: range };
     },
 
     stage(): TextureStage | undefined {
@@ -160,6 +162,10 @@ export function textureStageBuilder(geometry: GeometryDescription, patch: PatchD
       };
     },
   };
+}
+
+function isVertexRole(role: PatchFile["role"]): role is VertexRole {
+  return role in attributeRows;
 }
 
 function texelCountOf(image: DecodedImage): number {

@@ -4,6 +4,7 @@
 import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
 import { drawnPrimitives } from "../../../decode/drawnPrimitives.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
+import type { Deformation } from "../../../stage/deformation.ts";
 import type { BufferStage, StageName, StatedDrawRange } from "../../../stage/stage.ts";
 import type {
   AttributeDescription,
@@ -15,6 +16,7 @@ import { latticeBitsOf } from "../../../document/encodings.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { drawRangesOf } from "../../stageBuilder.ts";
+import { DeformationCollector } from "../../deformationCollector.ts";
 
 export function compactStageBuilder(
   geometry: GeometryDescription,
@@ -25,6 +27,7 @@ export function compactStageBuilder(
   const uploads = new ArrayUploads(storeBytes);
   let baseStage: BufferStage | undefined;
   let fullStage: BufferStage | undefined;
+  const collector = new DeformationCollector(geometry);
   const store = async (
     name: StageName,
     buffers: PatchBuffers,
@@ -50,6 +53,7 @@ export function compactStageBuilder(
       coord: storedCoord,
       attributes: storedAttributes,
       value: value && storedValue && { ...storedValue, maxStored: 2 ** value.bits - 1 },
+      deformation: name === "full" ? deformationIn(buffers, geometry, collector) : undefined,
     };
   };
   const retire = (stage: BufferStage | undefined) => {
@@ -86,7 +90,7 @@ export function compactStageBuilder(
     },
     stage: () => fullStage ?? baseStage,
     get storedBytes() {
-      return uploads.byteLength;
+      return uploads.byteLength + collector.byteLength;
     },
     drop: (file) => {
       drop(file.role);
@@ -108,6 +112,22 @@ function patchAt<Decoded>(decoded: readonly Decoded[], reference: Reference): De
   if (patch === undefined)
     throw new DecodeError("malformed", `holds ${decoded.length} patches, of which none has number ${patchIndex}`);
   return patch;
+}
+
+/** What moves the vertices of a whole patch. */
+function deformationIn(
+  buffers: PatchBuffers,
+  geometry: GeometryDescription,
+  collector: DeformationCollector,
+): Deformation | undefined {
+  geometry.deformation?.attributes.forEach((attribute, n) => {
+    const values = valuesOf(buffers, geometry, attribute);
+    if (values === undefined) throw new DecodeError("malformed", `lacks the attribute "${attribute.name}"`);
+    const maxStored = 2 ** values.bits - 1;
+    const step = attribute.size.map((size) => size / maxStored);
+    collector.add(n, { vertices: values.vertices, min: attribute.min, step }, buffers.vertexCount);
+  });
+  return collector.deformation;
 }
 
 /** The values of the attribute that colours the geometry; undefined in a base mesh without them. */
