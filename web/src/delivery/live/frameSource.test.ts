@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
+import type { DecodeError } from "../../decode/decodeError.ts";
 import { encodeFrame } from "../../decode/frame/encodeFrame.testing.ts";
+import type { FrameHeader } from "../../decode/frame/frameHeader.ts";
 import { readFrameHeader } from "../../decode/frame/frameHeader.ts";
 import { FrameSource } from "./frameSource.ts";
 
@@ -33,6 +35,10 @@ interface Line {
   readonly historyFrames?: number;
   /** Times at which the page is too busy to send a request for the frame that it has decided on. */
   readonly busy?: readonly [from: number, to: number];
+  /** What the server puts into the header of a frame instead of what it should. */
+  readonly wrongly?: (number: number) => Partial<FrameHeader>;
+  /** The server comes back from the outage without its streams, and the publisher begins another epoch. */
+  readonly epochAfterOutage?: number;
   /** When the first frame of the epoch comes. Before it, the newest frame is of another epoch. */
   readonly firstFrameAt?: number;
 }
@@ -40,7 +46,7 @@ interface Line {
 /** Follows a stream of 30 frames a second for a time, on a simulated clock; returns when each frame was displayed. */
 async function follow(line: Line, durationMs: number) {
   const { frameMs, isCached = false, isTimed = false, outage = [0, 0], firstFrameAt = 0 } = line;
-  const { historyFrames = Infinity, busy = [0, 0] } = line;
+  const { historyFrames = Infinity, busy = [0, 0], wrongly = () => ({}), epochAfterOutage = 100 } = line;
   let now = 0;
   let requests = 0;
   let waits = 0;
@@ -53,8 +59,10 @@ async function follow(line: Line, durationMs: number) {
         reject(signal.reason as Error);
       });
     });
-  const timeOf = (number: number) => firstFrameAt + (number - 100) * intervalMs;
-  const newest = () => Math.max(99, 100 + Math.floor((now - firstFrameAt) / intervalMs));
+  const timeOf = (number: number) => firstFrameAt + (number - 100 - shift()) * intervalMs;
+  const epoch = () => (outage[1] > 0 && now >= outage[1] ? epochAfterOutage : 100);
+  const shift = () => epoch() - 100;
+  const newest = () => Math.max(99, 100 + Math.floor((now - firstFrameAt) / intervalMs)) + shift();
   let lineFreeAt = 0;
   const isOut = () => now >= outage[0] && now < outage[1];
   const answer = async (url: string, signal: AbortSignal | null | undefined): Promise<Response> => {
@@ -66,7 +74,7 @@ async function follow(line: Line, durationMs: number) {
       ];
       const state = {
         ...layout,
-        epoch: 100,
+        epoch: epoch(),
         number: newest(),
         next: newest() + 1,
         rate,
@@ -92,10 +100,10 @@ async function follow(line: Line, durationMs: number) {
     const headers = {
       "imgeo-added": `${timeOf(number) + serverClockMs}`,
       "imgeo-newest": `${isCached ? number : newest()}`,
-      "imgeo-epoch": number < 100 ? "50" : "100",
+      "imgeo-epoch": `${number < 100 ? 50 : epoch()}`,
     };
     const bytes = encodeFrame(
-      { ...layout, number, epoch: 100, time: 0, prediction: "planar" },
+      { ...layout, number, epoch: epoch(), time: 0, prediction: "planar", ...wrongly(number) },
       [1, 2, 3].map((value) => [value, value, value, value]),
     );
     const arrival = sleep(lineFreeAt - now, signal);
@@ -221,6 +229,32 @@ describe("a viewer", () => {
     assert.equal(outages.length, 1);
     assert.ok(displayed.some(({ at }) => at < 1000) && displayed.some(({ at }) => at > 4000));
     assert.ok(!displayed.some(({ at }) => at > 1100 && at < 4000));
+  });
+
+  test("goes on with the epoch of a server that was started again", async () => {
+    for (const epochAfterOutage of [50_000, 50]) {
+      const line = { frameMs: 1, outage: [1000, 2500], epochAfterOutage } as const;
+      const { displayed, outages } = await follow(line, 7000);
+      assert.equal(outages.length, 1);
+      const last = displayed.at(-1);
+      assert.ok(last !== undefined && last.at > 6900 && last.ageMs < 2 * intervalMs, JSON.stringify(last));
+      assert.ok(displayed.every(({ number, at }) => at < 2500 === number < 1000 || epochAfterOutage < 1000));
+    }
+  });
+
+  test("reports frames that are not those that it asked for once, displays none, and asks rarely", async () => {
+    for (const wrongly of [
+      (number: number) => ({ number: number - 1 }), // repeated, or out of order
+      () => ({ vertices: 8 }),
+      () => ({ columns: 4 }),
+      () => ({ epoch: 50 }),
+    ]) {
+      const { displayed, outages, requests } = await follow({ frameMs: 1, wrongly }, 6000);
+      assert.deepEqual(displayed, []);
+      assert.equal(outages.length, 1);
+      assert.equal((outages[0] as DecodeError).kind, "malformed");
+      assert.ok(requests < 40, `${requests} requests in 6 s`);
+    }
   });
 
   test("displays at most the frames that it wants, each the newest one", async () => {

@@ -102,6 +102,7 @@ export class FrameSource {
 
   async #run(signal: AbortSignal): Promise<void> {
     let pauseMs = firstPauseMs / 2;
+    let isUrgent = false;
     for (;;) {
       const shownBefore = this.#shown;
       try {
@@ -109,11 +110,12 @@ export class FrameSource {
         await this.#pull(state, signal);
       } catch (error) {
         if (signal.aborted) return;
-        if (error instanceof StateIsOld) {
-          if (error.isUrgent) continue;
-        } else {
-          this.#report(error);
-        }
+        // A server whose "latest" and frames never agree is not asked all the time.
+        const wasUrgent: boolean = isUrgent && this.#shown === shownBefore;
+        isUrgent = error instanceof StateIsOld && error.isUrgent && !wasUrgent;
+        if (isUrgent) continue;
+        if (wasUrgent) this.#report(new DecodeError("malformed", 'has frames of another epoch than "latest" states'));
+        else if (!(error instanceof StateIsOld)) this.#report(error);
       }
       pauseMs = this.#shown === shownBefore ? Math.min(2 * pauseMs, maxPauseMs) : firstPauseMs;
       // Viewers that lost the same server do not return at the same moment.
