@@ -10,11 +10,14 @@ export MODEL PORT
 MOTION ?= cloth
 export MOTION
 
+# Language of the example program of make waves: c++, c or python.
+IN ?= c++
+
 # Folder of make install:
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall terrain live motion operators test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall terrain live waves motion operators test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -45,6 +48,9 @@ terrain: build ## serve an elevation model, coloured by height [PORT=8080]
 
 live: build ## run a simulation and serve the page that draws it live [MOTION=cloth PORT=8080]
 	@scripts/demo --live
+
+waves: build ## publish a live stream from an example program [IN=python, c or c++]
+	@scripts/waves "$(IN)"
 
 motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF [PORT=8080]
 	@scripts/demo --motion
