@@ -190,7 +190,7 @@ test("an attribute that a script sets counts again", () => {
   const { reader, coordinate } = document;
   reader.moveVertices(coordinate, "point", moved);
   coordinate.attributes.set("point", square);
-  reader.touchAttribute(coordinate);
+  reader.touchAttribute(coordinate, "point");
   assert.equal(document.geometry.moving, undefined);
   assert.equal(arraysIn(document.geometry).positions[2], 0);
 });

@@ -5,6 +5,7 @@ import { shapesOf } from "./description.ts";
 import { RandomNumbers, EditedDocument, elementsIn } from "./edits.testing.ts";
 import type { SceneElement } from "./element.ts";
 import { elementsOf } from "./elements.testing.ts";
+import { operatorReader } from "./operatorReader.ts";
 import { readScene } from "./readScene.ts";
 import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
@@ -92,6 +93,34 @@ describe("a document that changes", () => {
       [true, true, true],
     );
   });
+});
+
+test("changed operators are applied to the geometry that was read", () => {
+  const x3d = elementsOf('<X3D><Scene><Shape><Sphere operators="negate(x)"/></Shape></Scene></X3D>');
+  const sphere = elementsIn(x3d).find(({ localName }) => localName === "Sphere");
+  assert.ok(sphere);
+  let readings = 0;
+  const inlineGeometry: typeof inlineGeometryReader = {
+    ...inlineGeometryReader,
+    read: (...args) => {
+      readings += 1;
+      return inlineGeometryReader.read(...args);
+    },
+  };
+  const reader = new SceneReader(x3d, { inlineGeometry, operators: operatorReader });
+  const [before] = shapesOf(reader.read().root);
+  sphere.attributes.set("operators", "scale(0.5)");
+  reader.touchAttribute(sphere, "operators");
+  const [after] = shapesOf(reader.read().root);
+  assert.ok(after?.geometry);
+  assert.equal(after.geometry, before?.geometry);
+  assert.deepEqual(after.appearance.operators, operatorReader.read("scale(0.5)", after.geometry).operators);
+  assert.equal(readings, 1);
+  sphere.attributes.set("radius", "2");
+  reader.touchAttribute(sphere, "operators");
+  reader.touchAttribute(sphere, "radius");
+  reader.touchAttribute(sphere, "operators");
+  assert.notEqual(shapesOf(reader.read().root)[0]?.geometry, before?.geometry);
 });
 
 test("groups that USE one another exponentially are cut off at the limit of instances", () => {

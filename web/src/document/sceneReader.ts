@@ -62,7 +62,8 @@ export class SceneReader {
   /** By name: the instances that have looked it up. */
   readonly #nameUsers = new Map<string, Set<ElementInstance>>();
   readonly #root: ElementInstance;
-  readonly #touched = new Set<SceneElement>();
+  /** With whether more than the operators of a geometry may have changed. */
+  readonly #touched = new Map<SceneElement, boolean>();
   readonly #rearranged = new Set<SceneElement>();
   #instanceCount = 0;
   /** The instances of which some children are left out. */
@@ -79,7 +80,7 @@ export class SceneReader {
 
   /** Call where attributes of the element, or what the options return for it, may have changed. */
   touch(element: SceneElement): void {
-    this.#touched.add(element);
+    this.#touched.set(element, true);
   }
 
   /**
@@ -91,8 +92,12 @@ export class SceneReader {
     return this.#moving.set(element, field, numbers);
   }
 
-  /** Call where an attribute has changed: as `touch`. */
-  touchAttribute(element: SceneElement): void {
+  /** Call where an attribute has changed: as `touch`. Operators change in every frame: geometry is not read again. */
+  touchAttribute(element: SceneElement, name: string | null): void {
+    if (name?.toLowerCase() === "operators") {
+      this.#touched.set(element, this.#touched.get(element) ?? false);
+      return;
+    }
     this.#moving.forget(element);
     this.touch(element);
   }
@@ -105,7 +110,7 @@ export class SceneReader {
   /** Call where children of the element may have been added, removed or reordered. */
   rearrange(element: SceneElement): void {
     this.#rearranged.add(element);
-    this.#touched.add(element);
+    this.touch(element);
   }
 
   /** The current scene; the same object as before where nothing has been touched. */
@@ -138,9 +143,9 @@ export class SceneReader {
 
   #invalidateTouched(): void {
     const page = this.#page;
-    for (const touched of this.#touched) {
+    for (const [touched, isGeometryTouched] of this.#touched) {
       for (let element: SceneElement | undefined = touched; element !== undefined; element = page.parentOf(element)) {
-        this.#geometries.touch(element);
+        if (isGeometryTouched) this.#geometries.touch(element);
         for (const instance of this.#dependents.get(element) ?? [])
           if (element === touched || instance.dependsOnDescendants) instance.invalidateReader();
       }

@@ -209,9 +209,9 @@ export class PageViewer {
   #follow(records: readonly MutationRecord[]): void {
     if (records.length === 0) return;
     const { reader } = this.#core;
-    for (const { target, type } of records) {
+    for (const { target, type, attributeName } of records) {
       if (type === "childList") reader.rearrange(target as Element);
-      else reader.touchAttribute(target as Element);
+      else reader.touchAttribute(target as Element, attributeName);
     }
     this.#core.read();
     for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
