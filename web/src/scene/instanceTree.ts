@@ -81,24 +81,40 @@ export class InstanceTree {
    */
   move(changes: Iterable<PoseChange>): void {
     const moved = this.#moved;
+    const isSummaryOld = new Set<NodeInstance>();
     for (const { element, field, value } of changes)
       for (const node of this.#transforms.get(element) ?? []) {
+        if (node.movingTransform === undefined) this.#ignoreBoxesAround(node, isSummaryOld);
         // The type of the field has been checked where its value comes from.
         (movingTransformOf(node) as Record<string, PoseChange["value"]>)[field] = value;
         if (node.isMoved) continue;
         node.isMoved = true;
         moved.push(node);
       }
-    const isSummaryOld = new Set<NodeInstance>();
     for (const node of moved) {
       if (!node.isMoved || isBelowMoved(node)) continue;
       invalidateBounds(node);
       this.#moveNode(node);
-      if (dependsOnTransforms(node.summary))
-        for (let at = node.parent; at && !isSummaryOld.has(at); at = at.parent) isSummaryOld.add(at);
+      if (dependsOnTransforms(node.summary)) addWithParents(node.parent, isSummaryOld);
     }
     moved.length = 0;
     if (isSummaryOld.size > 0) mergeAgain(this.root, isSummaryOld);
+  }
+
+  /**
+   * A box that the document states for a group is that of the scene at rest: from the first move inside on, the group's
+   * content counts in its place. Adds nodes whose summaries are to be merged again.
+   */
+  #ignoreBoxesAround(node: NodeInstance, isSummaryOld: Set<NodeInstance>): void {
+    for (let at = node.parent; at !== undefined; at = at.parent) {
+      if (at.box === undefined || at.ignoresBox) continue;
+      at.ignoresBox = true;
+      at.box = undefined;
+      invalidateBounds(at);
+      if (at.inherited?.isUnbounded === true) setUnbounded(at);
+      this.#listener?.onChange(at, false, at.description);
+      addWithParents(at, isSummaryOld);
+    }
   }
 
   /** The node's own transform or one around it has changed. */
@@ -184,7 +200,10 @@ function childStateOf(
 ): InheritedState {
   const { sceneFromNode } = node;
   const isGroupVisible = isVisible && group.visible;
-  node.box = isGroupVisible && group.box ? setTransformedBox(new Box3(), sceneFromNode, group.box) : undefined;
+  node.box =
+    isGroupVisible && group.box && !node.ignoresBox
+      ? setTransformedBox(new Box3(), sceneFromNode, group.box)
+      : undefined;
   return {
     sceneFromNode,
     isVisible: isGroupVisible,
@@ -201,6 +220,19 @@ function movingTransformOf(node: NodeInstance): object {
   const transform = (node.movingTransform = { ...description.transform });
   node.description = { ...description, transform };
   return transform;
+}
+
+/** No box around the content of a group counts any more. */
+function setUnbounded(group: NodeInstance): void {
+  for (const child of group.children) {
+    if (child.inherited) child.inherited = { ...child.inherited, isUnbounded: true };
+    child.areBoundsCurrent = false;
+    if (child.box === undefined) setUnbounded(child);
+  }
+}
+
+function addWithParents(node: NodeInstance | undefined, nodes: Set<NodeInstance>): void {
+  for (let at = node; at && !nodes.has(at); at = at.parent) nodes.add(at);
 }
 
 function isBelowMoved(node: NodeInstance): boolean {

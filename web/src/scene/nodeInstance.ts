@@ -87,7 +87,9 @@ export class NodeInstance {
   /** Whether a move has given the node other values, and has not moved it yet. */
   isMoved = false;
   children: readonly NodeInstance[] = [];
-  /** Bounds in scene coordinates, for visible groups whose description has a box. */
+  /** Whether something has moved inside the group, so that the box of its description does not count. */
+  ignoresBox = false;
+  /** Bounds in scene coordinates, for visible groups whose description has a box that counts. */
   box: Box3 | undefined;
   /** The innermost scope around the node; for a group: around its children. */
   effectScope = sceneScope;

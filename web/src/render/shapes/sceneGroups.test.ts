@@ -10,8 +10,10 @@ import { readScene } from "../../document/readScene.ts";
 import { inlineGeometryReader } from "../../document/inlineGeometry.ts";
 import { SceneReader } from "../../document/sceneReader.ts";
 import { matrixOf } from "../../scene/transforms.ts";
+import type { TransformChange } from "../../scene/instanceTree.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
+import type { ShapeInstanceListener } from "./sceneGroups.ts";
 import { SceneGroups } from "./sceneGroups.ts";
 
 const viewer = new PerspectiveCamera();
@@ -20,8 +22,10 @@ viewer.updateMatrixWorld();
 
 /** A SceneGroups, and the shape instances that it has reported. */
 class Watched {
+  readonly moved: NodeInstance[] = [];
   readonly shapes = new Map<NodeInstance, { shape: ShapeDescription; group: ShapeGroup }>();
-  readonly graph = new SceneGroups({
+  readonly graph: SceneGroups;
+  readonly #listener: ShapeInstanceListener = {
     onEnter: (shape, instance, group) => {
       assert.ok(!this.shapes.has(instance));
       this.shapes.set(instance, { shape, group });
@@ -33,7 +37,12 @@ class Watched {
     onLeave: (_, instance) => {
       assert.ok(this.shapes.delete(instance));
     },
-  });
+  };
+
+  /** `isWorld`: see ShapeInstanceListener. */
+  constructor(isWorld = false) {
+    this.graph = new SceneGroups({ ...this.#listener, isWorld });
+  }
 
   /** Everything that a renderer can see. */
   get seen(): unknown {
@@ -56,6 +65,11 @@ class Watched {
       shapes: shapes.sort(),
       groups: groups(root),
     };
+  }
+
+  /** The same without elements, which differ from document to document. */
+  get seenText(): string {
+    return JSON.stringify(this.seen, (name, value: unknown) => (name === "element" ? undefined : value));
   }
 }
 
@@ -99,6 +113,55 @@ test("shapes that have not changed are not reported again", () => {
   graph.follow(reader.read().root);
   assert.deepEqual(reported, ["second"]);
 });
+
+const movingDocument = (a: string, b: string, size: string): string => `<X3D><Viewpoint/>
+  <Transform translation="${a}"><Shape><Box size="2 2 2"/></Shape><PointLight global="true"/><Viewpoint position="0 0 1"/>
+    <Transform rotation="0 0 1 ${b}" center="1 0 0"><Shape><Sphere/></Shape><Group><Shape><Cone/></Shape></Group></Transform>
+  </Transform>
+  <Group bboxSize="${size}"><Transform translation="${a}"><Shape><Box/></Shape></Transform><Shape><Box size="1 9 1"/></Shape></Group>
+  <Billboard><Transform translation="${a}"><Shape><Box size="3 1 1"/></Shape></Transform></Billboard>
+  <Transform scale="2 2 2"><Group bboxSize="4 4 4"><Shape><Box/></Shape></Group></Transform></X3D>`;
+
+for (const isWorld of [false, true])
+  test(`moved Transforms are where a document with their values has them, and boxes around them no longer count${isWorld ? ", in groups that share matrices" : ""}`, () => {
+    const values = ["0 0 0", "5 1 0", "-3 0 8", "100 0 0", "5 1 0"];
+    const x3d = elementsOf(movingDocument("0 0 0", "0", "6 6 6"));
+    const reader = new SceneReader(x3d, { inlineGeometry: inlineGeometryReader });
+    const moving = new Watched(isWorld);
+    moving.graph.follow(reader.read().root);
+    const transforms = (root: typeof x3d): (typeof x3d)[] => [
+      ...(root.localName === "Transform" ? [root] : []),
+      ...root.children.flatMap(transforms),
+    ];
+    for (const [round, value] of values.entries()) {
+      const translation = value.split(" ").map(Number);
+      const rotation = [0, 0, 1, round];
+      moving.graph.move(
+        transforms(x3d).flatMap((element): TransformChange[] => [
+          ...(element.attributes.has("translation")
+            ? [{ element, field: "translation" as const, value: translation }]
+            : []),
+          ...(element.attributes.has("rotation") ? [{ element, field: "rotation" as const, value: rotation }] : []),
+        ]),
+      );
+      const fresh = new Watched();
+      // Without the box of the group in which something has moved.
+      fresh.graph.follow(
+        readScene(elementsOf(movingDocument(value, String(round), "-1 -1 -1")), {
+          inlineGeometry: inlineGeometryReader,
+        }).root,
+      );
+      assert.equal(moving.seenText, fresh.seenText, `round ${round}`);
+    }
+    for (const element of transforms(x3d)) {
+      if (element.attributes.has("translation")) element.attributes.set("translation", values.at(-1) ?? "");
+      if (element.attributes.has("rotation")) element.attributes.set("rotation", `0 0 1 ${values.length - 1}`);
+      reader.touch(element);
+    }
+    const before = moving.seenText;
+    moving.graph.follow(reader.read().root);
+    assert.equal(moving.seenText, before, "the document says the same");
+  });
 
 const identity = Object.fromEntries(
   Object.entries(nodeFields.Transform).map(([name, field]) => [name, field.defaultValue]),
