@@ -1,9 +1,11 @@
 #include "import/gltf/animations.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 namespace imgeo::gltf {
@@ -36,6 +38,29 @@ AnimationKeys keysOfDisplacer(const AnimationKeys& all, std::size_t displacer, s
   return keys;
 }
 
+struct PointedNode {
+  std::size_t node = 0;
+  AnimatedField field = AnimatedField::translation;
+};
+
+/// What KHR_animation_pointer names, where it is animated as a property of a node: "/nodes/3/rotation".
+std::optional<PointedNode> pointedNode(const Value& target) {
+  const std::string pointer = target["extensions"]["KHR_animation_pointer"]["pointer"].text();
+  constexpr std::string_view prefix = "/nodes/";
+  if (!pointer.starts_with(prefix))
+    return std::nullopt;
+  PointedNode pointed;
+  const char* const end = pointer.data() + pointer.size();
+  const auto [rest, error] = std::from_chars(pointer.data() + prefix.size(), end, pointed.node);
+  if (error != std::errc() || rest == end || *rest != '/')
+    return std::nullopt;
+  const std::optional<AnimatedField> field = fieldOfPath({rest + 1, end});
+  if (!field)
+    return std::nullopt;
+  pointed.field = *field;
+  return pointed;
+}
+
 KeyInterpolation interpolationOf(const Value& sampler) {
   const std::string name = sampler["interpolation"].text("LINEAR");
   if (name == "LINEAR")
@@ -55,6 +80,11 @@ std::set<std::size_t> movedNodes(Document& document) {
   for (std::size_t a = 0; a < animations.size(); ++a)
     for (std::size_t c = 0; c < animations[a]["channels"].size(); ++c) {
       const Value target = animations[a]["channels"][c]["target"];
+      if (const std::optional<PointedNode> pointed = pointedNode(target)) {
+        if (movesNode(pointed->field) && pointed->node < nodes.size() && !nodes[pointed->node].has("matrix"))
+          moved.insert(pointed->node);
+        continue;
+      }
       if (!target["path"].json().is_string() || !movesNode(fieldOfPath(target["path"].text())) ||
           !target["node"].json().is_number_unsigned())
         continue;
@@ -112,15 +142,19 @@ void AnimationReader::readAnimation(const Value& animation, const AnimatedNodes&
 std::optional<AnimationReader::Channel> AnimationReader::channelOf(const Value& channel, const Value& samplers,
                                                                    const AnimatedNodes& nodes) {
   const Value target = channel["target"];
-  const std::optional<AnimatedField> field = fieldOfPath(target["path"].text());
+  const std::optional<PointedNode> pointed = pointedNode(target);
+  const std::optional<AnimatedField> field = pointed ? pointed->field : fieldOfPath(target["path"].text());
   if (!field) {
     ++omissions.otherPaths;
     return {};
   }
-  const std::optional<std::size_t> node = target.index("node", document_.array("nodes"));
+  const Value all = document_.array("nodes");
+  const std::optional<std::size_t> node = pointed ? pointed->node : target.index("node", all);
+  if (pointed && pointed->node >= all.size())
+    target.fail(ErrorKind::malformed, fmt::format("names node {} of {}", pointed->node, all.size()));
   if (!node) // the extension that says what else is animated is not known
     return {};
-  if (movesNode(field) && document_.array("nodes")[*node].has("matrix"))
+  if (movesNode(field) && all[*node].has("matrix"))
     target["node"].fail(ErrorKind::malformed, "names a node with a matrix, which cannot be animated");
   const std::optional<std::size_t> sampler = channel.index("sampler", samplers);
   if (!sampler)

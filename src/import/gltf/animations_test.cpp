@@ -56,6 +56,32 @@ std::vector<double> valueAt(const Interpolator& interpolator, double fraction) {
   return value;
 }
 
+TEST(GltfAnimations, OfPointersToTransformsOfNodesAreLikeThoseOfNodes) {
+  AnimatedTriangle plain, pointed;
+  for (AnimatedTriangle* each : {&plain, &pointed})
+    each->add("rotation", {0, 2}, {0, 0, 0, 1, 0, 0, std::sqrt(0.5f), std::sqrt(0.5f)});
+  const auto point = [&](const char* pointer) {
+    pointed.channels[0]["target"] = {{"path", "pointer"},
+                                     {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+  };
+  point("/nodes/0/rotation");
+  const Imported imported = pointed.read();
+  EXPECT_TRUE(imported.warnings.empty()) << ::testing::PrintToString(imported.warnings);
+  EXPECT_EQ(interpolatorNamed(imported.scene.graph, "door-rotation"),
+            interpolatorNamed(plain.read().scene.graph, "door-rotation"));
+  point("/nodes/7/rotation");
+  EXPECT_NE(pointed.read().warnings.at(0).find("names node 7 of 1"), std::string::npos);
+  for (const char* other : {"/materials/0/pbrMetallicRoughness/baseColorFactor", "/nodes//scale",
+                            "/nodes/99999999999999999999/scale", "/nodes/0"}) {
+    point(other);
+    EXPECT_EQ(pointed.read().warnings,
+              std::vector<std::string>{
+                  "1 animated property is not carried over: only transforms of nodes and weights of morph "
+                  "targets are animated."})
+        << other;
+  }
+}
+
 TEST(GltfAnimations, BecomeATimeSensorInterpolatorsAndRoutes) {
   const Imported imported = AnimatedTriangle()
                                 .add("translation", {0, 1, 4}, {0, 0, 0, 1, 2, 3, 0, 0, 0})

@@ -3,6 +3,7 @@
 #include "import/assimp/assimp.h"
 #include "import/gltf/value.h"
 #include "import/references.h"
+#include "import/warnings.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -52,6 +53,17 @@ void inlineBufferViews(Json& json, const char* member, ByteSpan body, const std:
 
 } // namespace
 
+namespace {
+
+/// The number of animations in a document of glTF 1.0; 0 for malformed ones.
+std::size_t animationsIn(std::string_view json) {
+  const Json document = Json::parse(json, nullptr, false);
+  const auto found = document.is_object() ? document.find("animations") : document.end();
+  return found != document.end() && found->is_object() ? found->size() : 0;
+}
+
+} // namespace
+
 bool isGlb(ByteSpan bytes) {
   return bytes.size() >= 12 && loadLittle<std::uint32_t>(bytes.data()) == glbMagic;
 }
@@ -95,10 +107,16 @@ std::string jsonOfGlb1(ByteSpan bytes, const std::string& name) {
 }
 
 Imported readGltf1(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  if (!isGlb(bytes))
-    return readByAssimp(bytes, name, options, ".gltf");
-  const std::string json = jsonOfGlb1(bytes, name);
-  return readByAssimp(asBytes(json), name, options, ".gltf");
+  const std::string ofGlb = isGlb(bytes) ? jsonOfGlb1(bytes, name) : std::string();
+  const ByteSpan json = isGlb(bytes) ? asBytes(ofGlb) : bytes;
+  Imported imported = readByAssimp(json, name, options, ".gltf");
+  // Assimp 5.2 reads none of glTF 1.0, and does not say so.
+  const bool hasSensor = std::ranges::any_of(
+      imported.scene.graph.nodes, [](const Node& node) { return std::holds_alternative<TimeSensor>(node.content); });
+  if (const std::size_t animations = animationsIn(asText(json)); animations > 0 && !hasSensor)
+    imported.warnings.push_back(fmt::format("{} not carried over: those of glTF 1.0 are not read.",
+                                            counted(animations, "animation is", "animations are")));
+  return imported;
 }
 
 } // namespace imgeo

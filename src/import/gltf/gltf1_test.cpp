@@ -57,6 +57,13 @@ TEST(Gltf1, OfABinaryFileIsReadWithItsBuffer) {
   EXPECT_EQ(mesh.positions, (std::vector<Vec3f>{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}));
 }
 
+TEST(Gltf1, AnimationsAreNotReadAndAWarningSaysSo) {
+  Json json = triangleJson();
+  json["animations"] = {{"walk", {{"channels", Json::array()}, {"samplers", Json::object()}}}};
+  EXPECT_EQ(importBytes(glb1(json, triangleBody()), "old.glb", {}).warnings,
+            std::vector<std::string>{"1 animation is not carried over: those of glTF 1.0 are not read."});
+}
+
 TEST(Gltf1, OfABinaryFileHasItsBufferAndImagesAsDataUrls) {
   const Json json = Json::parse(jsonOfGlb1(glb1(triangleJson(), triangleBody()), "old.glb"));
   const Bytes body = triangleBody();
