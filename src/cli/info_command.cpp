@@ -225,6 +225,13 @@ bool refersToContainers(const std::filesystem::path& file) {
   return text.find("<imagegeometry") != text.npos || text.find("<binarygeometry") != text.npos;
 }
 
+/// Whether a PNG is an elevation model, of 16 bits: images of geometry have 8.
+bool holdsHeights(const std::filesystem::path& file) {
+  constexpr std::size_t bitDepthAt = 24;
+  const Bytes bytes = readFile(file);
+  return bytes.size() > bitDepthAt && bytes[bitDepthAt] == 16;
+}
+
 } // namespace
 
 int runInfo(const Arguments& arguments) {
@@ -234,7 +241,7 @@ int runInfo(const Arguments& arguments) {
   if (std::filesystem::is_directory(path, ignored) || extension == ".html" ||
       (extension == ".x3d" && refersToContainers(path)))
     return print(arguments, inspect(path), printSite);
-  if (extension == ".png" || extension == ".webp" || extension == ".bin")
+  if ((extension == ".png" && !holdsHeights(path)) || extension == ".webp" || extension == ".bin")
     return print(arguments, inspectGeometryFile(path), printGeometryFile);
   return print(arguments, inspectSource(path, arguments.has("outside")), printSource);
 }

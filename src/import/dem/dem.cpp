@@ -31,7 +31,7 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
 } // namespace
 
 bool holdsRawNumbers(const std::string& name) {
-  constexpr std::array<std::string_view, 4> extensions{".hgt", ".bil", ".flt", ".ace2"};
+  constexpr std::array<std::string_view, 5> extensions{".hgt", ".bil", ".flt", ".ace2", ".dat"};
   return std::ranges::find(extensions, extensionOf(name)) != extensions.end();
 }
 

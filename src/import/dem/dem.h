@@ -10,10 +10,10 @@
 
 namespace imgeo {
 
-inline constexpr std::array<std::string_view, 28> demExtensions{
-    ".tif", ".tiff", ".png", ".asc",    ".hgt", ".dem", ".dt0", ".dt1", ".dt2",  ".img",
-    ".bil", ".flt",  ".grd", ".bt",     ".hf2", ".nc",  ".xyz", ".pgm", ".sdat", ".gxf",
-    ".jp2", ".bag",  ".gtx", ".sigdem", ".isg", ".rst", ".byn", ".ace2"};
+inline constexpr std::array<std::string_view, 31> demExtensions{
+    ".tif", ".tiff",   ".png", ".asc", ".hgt", ".dem",  ".dt0", ".dt1",  ".dt2", ".img", ".bil",
+    ".flt", ".grd",    ".bt",  ".hf2", ".nc",  ".xyz",  ".pgm", ".sdat", ".gxf", ".jp2", ".bag",
+    ".gtx", ".sigdem", ".isg", ".rst", ".byn", ".ace2", ".dat", ".mtw",  ".ter"};
 
 /// Whether files of this name hold numbers without a header, whose first bytes may look like the mark of any format.
 bool holdsRawNumbers(const std::string& name);

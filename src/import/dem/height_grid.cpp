@@ -226,7 +226,8 @@ private:
   }
 
   void readHeights(HeightGrid& grid) const {
-    const double scale = numberOr(gdal().getRasterScale, 1), offset = numberOr(gdal().getRasterOffset, 0);
+    const double stated = numberOr(gdal().getRasterScale, 1), offset = numberOr(gdal().getRasterOffset, 0);
+    const double scale = stated != 0 ? stated : 1; // GDAL states 0 for BYN files without a scale
     grid.heights.resize(std::size_t{grid.columns} * grid.rows);
     std::vector<double> numbers(grid.columns), others(grid.columns);
     std::vector<std::uint8_t> isValid(grid.columns);
@@ -285,7 +286,9 @@ HeightGrid readHeightGrid(ByteSpan bytes, const std::string& name, const Referen
   addCompanions(files, path, fileName, references);
   closeFileSystem();
   gdal().errorReset();
-  const Dataset dataset(gdal().openEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, nullptr, nullptr));
+  // Northwood's grids have bands of colours before that of heights, unless one band is asked for.
+  constexpr const char* openOptions[] = {"BAND_COUNT=1", nullptr};
+  const Dataset dataset(gdal().openEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, openOptions, nullptr));
   if (!dataset)
     throw Error(
         ErrorKind::malformed, name,
