@@ -27,7 +27,8 @@ struct VerifyReport {
   double surfaceDistance = 0;        ///< the largest distance between their surfaces, as ResampledMesh has it
   double surfaceDistanceBound = 0;   ///< what the site states of it, for the mesh that comes closest to it
   std::size_t comparedMaterials = 0; ///< shapes whose materials were compared
-  double attributeError = 0;         ///< maximum error of further attributes, as a fraction of the allowed error
+  /// Maximum error of texture coordinates, colours and further attributes, as a fraction of the allowed error.
+  double attributeError = 0;
   std::vector<std::string> findings; ///< one sentence for each difference
 };
 
@@ -35,8 +36,9 @@ struct VerifyReport {
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
 /// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
 ///
-/// It compares only the surfaces of geometry images: their distance must be within what the site states. Geometry with
-/// operators must draw what the input has: vertices and centres of elements, not their normals, are compared.
+/// Of geometry images it compares the surfaces, whose distance must be within what the site states, and the vertices:
+/// each is on the input's surface, and has the attributes that the surface has there, within their rounding. Geometry
+/// with operators must draw what the input has: vertices and centres of elements, not their normals, are compared.
 ///
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.

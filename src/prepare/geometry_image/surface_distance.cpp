@@ -1,124 +1,15 @@
 #include "prepare/geometry_image/surface_distance.h"
 
-#include "base/narrow.h"
 #include "base/parallel.h"
+#include "prepare/geometry_image/triangle_tree.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 namespace imgeo {
 
 namespace {
-
-struct Triangle {
-  Vec3d a, b, c;
-};
-
-std::vector<Triangle> trianglesOf(const Mesh& mesh) {
-  std::vector<Triangle> triangles;
-  for (std::size_t corner = 0; corner + 2 < mesh.corners.size(); corner += 3)
-    triangles.push_back({Vec3d(mesh.cornerPosition(corner)), Vec3d(mesh.cornerPosition(corner + 1)),
-                         Vec3d(mesh.cornerPosition(corner + 2))});
-  return triangles;
-}
-
-/// The square of the distance of a point from a triangle, which may be degenerate (Ericson, "Real-Time Collision
-/// Detection", 5.1.5).
-double squaredDistance(Vec3d p, const Triangle& t) {
-  const auto squared = [](Vec3d v) { return dot(v, v); };
-  const auto toSegment = [&](Vec3d a, Vec3d b) {
-    const Vec3d ab = b - a;
-    const double whole = squared(ab), share = whole > 0 ? std::clamp(dot(p - a, ab) / whole, 0.0, 1.0) : 0;
-    return squared(p - (a + ab * share));
-  };
-  const Vec3d ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a, normal = cross(ab, ac);
-  const double area = squared(normal);
-  if (area > 0) {
-    const double v = dot(cross(ap, ac), normal) / area, w = dot(cross(ab, ap), normal) / area;
-    if (v >= 0 && w >= 0 && v + w <= 1) {
-      const double height = dot(ap, normal);
-      return height * height / area;
-    }
-  }
-  return std::min({toSegment(t.a, t.b), toSegment(t.b, t.c), toSegment(t.c, t.a)});
-}
-
-/// A tree of boxes over triangles.
-class TriangleTree {
-public:
-  explicit TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
-    assert(!triangles_.empty());
-    nodes_.reserve(triangles_.size());
-    build(triangles_);
-  }
-
-  double distance(Vec3d point) const {
-    std::array<std::uint32_t, 128> open{};
-    std::size_t count = 1;
-    double best = std::numeric_limits<double>::infinity();
-    while (count > 0) {
-      const Node& node = nodes_[open[--count]];
-      if (squaredDistance(point, node.box) >= best)
-        continue;
-      if (node.right == 0) {
-        for (std::uint32_t i = node.begin; i < node.end; ++i)
-          best = std::min(best, imgeo::squaredDistance(point, triangles_[i]));
-        continue;
-      }
-      std::uint32_t near = narrow<std::uint32_t>(&node - nodes_.data()) + 1, far = node.right;
-      if (squaredDistance(point, nodes_[far].box) < squaredDistance(point, nodes_[near].box))
-        std::swap(near, far);
-      open[count++] = far;
-      open[count++] = near;
-    }
-    return std::sqrt(best);
-  }
-
-private:
-  struct Node {
-    Box3d box;
-    std::uint32_t begin = 0, end = 0; ///< triangles of a leaf
-    std::uint32_t right = 0;          ///< the second child; the first follows its parent. 0: a leaf
-  };
-
-  static double squaredDistance(Vec3d point, const Box3d& box) {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double off = std::max({box.min[axis] - point[axis], 0.0, point[axis] - box.max[axis]});
-      sum += off * off;
-    }
-    return sum;
-  }
-
-  /// Halves a range of triangles at the median along its box's longest axis.
-  void build(std::span<Triangle> range) {
-    const std::size_t index = nodes_.size();
-    Node node;
-    for (const Triangle& triangle : range)
-      for (const Vec3d& point : {triangle.a, triangle.b, triangle.c})
-        node.box.add(point);
-    node.begin = narrow<std::uint32_t>(range.data() - triangles_.data());
-    node.end = narrow<std::uint32_t>(node.begin + range.size());
-    nodes_.push_back(node);
-    if (range.size() <= 4)
-      return;
-    const Vec3d size = node.box.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t half = range.size() / 2;
-    std::ranges::nth_element(range, range.begin() + static_cast<std::ptrdiff_t>(half), {},
-                             [axis](const Triangle& t) { return t.a[axis] + t.b[axis] + t.c[axis]; });
-    build(range.first(half));
-    nodes_[index].right = narrow<std::uint32_t>(nodes_.size());
-    build(range.subspan(half));
-  }
-
-  std::vector<Triangle> triangles_;
-  std::vector<Node> nodes_;
-};
 
 /// Points spread evenly over triangles: one in each of so many parts of equal area.
 std::vector<Vec3d> evenPoints(const std::vector<Triangle>& triangles, std::size_t count) {
@@ -189,7 +80,7 @@ std::size_t comparedPoints(const Mesh& a, const Mesh& b) {
 
 SurfaceDistance distanceBetween(const Mesh& a, const Mesh& b) {
   const std::size_t pointCount = comparedPoints(a, b);
-  const std::vector<Triangle> ofA = trianglesOf(a), ofB = trianglesOf(b);
+  const std::vector<Triangle> ofA = meshTriangles(a), ofB = meshTriangles(b);
   const SurfaceDistance there = distanceFrom(a, ofA, TriangleTree(ofB), pointCount),
                         back = distanceFrom(b, ofB, TriangleTree(ofA), pointCount);
   return {std::max(there.largest, back.largest), std::max(there.mean, back.mean)};

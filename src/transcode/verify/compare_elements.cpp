@@ -46,19 +46,6 @@ std::vector<LatticeElement> sortedElements(ElementList& list) {
   return elements;
 }
 
-double angleDegrees(Vec3f a, Vec3f b) {
-  const Vec3d p(a), q(b);
-  return std::atan2(length(cross(p, q)), dot(p, q)) * (180 / std::numbers::pi);
-}
-
-/// Largest differences between the attributes of an element of the input and one of the site.
-struct Distance {
-  double normalDegrees = 0;
-  std::array<Vec2<double>, maxTexCoordSets> texCoords;
-  double named = 0; ///< as a fraction of the allowed difference
-  double color = 0; ///< of a channel, 0 .. 1
-};
-
 /// A further attribute that both lists have, and the allowed difference of each component.
 struct NamedPair {
   const NamedAttribute& input;
@@ -88,15 +75,15 @@ public:
     const std::size_t turns = collapsed ? input_.cornerCount : 1;
     const std::vector<std::uint32_t> ofInput = distinct(input_, inputs), ofSite = distinct(site_, sites);
     if (ofInput.size() == 1 && ofSite.size() == 1) {
-      addToWorst(nearest(ofInput.front(), sortedCandidates(site_, ofSite, 1), site_, input_, turns), worst);
+      addDifference(nearest(ofInput.front(), sortedCandidates(site_, ofSite, 1), site_, input_, turns), worst);
       return;
     }
     const std::vector<Candidate> siteCandidates = sortedCandidates(site_, ofSite, turns),
                                  inputCandidates = sortedCandidates(input_, ofInput, turns);
     for (const std::uint32_t element : ofInput)
-      addToWorst(nearest(element, siteCandidates, site_, input_, 1), worst);
+      addDifference(nearest(element, siteCandidates, site_, input_, 1), worst);
     for (const std::uint32_t element : ofSite)
-      addToWorst(nearest(element, inputCandidates, input_, site_, 1), worst);
+      addDifference(nearest(element, inputCandidates, input_, site_, 1), worst);
   }
 
 private:
@@ -119,7 +106,7 @@ private:
     if (!named_.empty()) {
       const NamedPair& pair = named_.front();
       const NamedAttribute& attribute = &list == &input_ ? pair.input : pair.site;
-      return attribute.values[std::size_t{vertex} * attribute.components] / allowed(pair.bounds[0]);
+      return attribute.values[std::size_t{vertex} * attribute.components] / divisor(pair.bounds[0]);
     }
     return 0;
   }
@@ -150,10 +137,10 @@ private:
 
   /// The candidate of the other list with the smallest cost. Searches outwards from the element's key and stops where
   /// the difference of keys exceeds the smallest cost.
-  Distance nearest(std::uint32_t element, const std::vector<Candidate>& candidates, const ElementList& others,
-                   const ElementList& own, std::size_t ownTurns) const {
+  AttributeDifference nearest(std::uint32_t element, const std::vector<Candidate>& candidates,
+                              const ElementList& others, const ElementList& own, std::size_t ownTurns) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Distance best{180, {}, infinity, infinity}; // the result if every cost is NaN
+    AttributeDifference best{180, {}, infinity, infinity}; // the result if every cost is NaN
     best.texCoords.fill({infinity, infinity});
     double bestCost = infinity;
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
@@ -161,8 +148,8 @@ private:
       const auto tryOne = [&](const Candidate& candidate) {
         if (std::abs(candidate.key - ownKey) > bestCost)
           return false;
-        const Distance distance = between(own, element, ownTurn, others, candidate.element, candidate.turn);
-        if (const double c = cost(distance); c < bestCost)
+        const AttributeDifference distance = between(own, element, ownTurn, others, candidate.element, candidate.turn);
+        if (const double c = cost(distance, bounds_); c < bestCost)
           bestCost = c, best = distance;
         return bestCost > 0;
       };
@@ -175,14 +162,15 @@ private:
     return best;
   }
 
-  Distance between(const ElementList& a, std::uint32_t elementA, std::uint32_t turnA, const ElementList& b,
-                   std::uint32_t elementB, std::uint32_t turnB) const {
-    Distance distance;
+  AttributeDifference between(const ElementList& a, std::uint32_t elementA, std::uint32_t turnA, const ElementList& b,
+                              std::uint32_t elementB, std::uint32_t turnB) const {
+    AttributeDifference distance;
     for (std::uint32_t corner = 0; corner < a.cornerCount; ++corner) {
       const std::uint32_t va = a.elements[elementA][(corner + turnA) % a.cornerCount];
       const std::uint32_t vb = b.elements[elementB][(corner + turnB) % b.cornerCount];
       if (normals_)
-        distance.normalDegrees = std::max(distance.normalDegrees, angleDegrees(a.normals[va], b.normals[vb]));
+        distance.normalDegrees =
+            std::max(distance.normalDegrees, angleDegrees(Vec3d(a.normals[va]), Vec3d(b.normals[vb])));
       for (std::size_t set = 0; set < texCoordSets_; ++set) {
         const Vec2f ta = texCoordsOf(a, set)[va], tb = texCoordsOf(b, set)[vb];
         addToWorst({std::abs(double{ta.x} - tb.x), std::abs(double{ta.y} - tb.y)}, distance.texCoords[set]);
@@ -207,37 +195,12 @@ private:
     for (std::size_t c = 0; c < components; ++c)
       distance = std::max(distance, std::abs(double{pair.input.values[inputVertex * components + c]} -
                                              pair.site.values[siteVertex * components + c]) /
-                                        allowed(pair.bounds[c]));
+                                        divisor(pair.bounds[c]));
     return distance;
   }
 
-  /// The bound as a divisor: attributes that are stored exactly have the bound 0.
-  static double allowed(double bound) { return std::max(bound, 1e-300); }
-
-  /// At most 1 if all differences are within their bounds.
-  double cost(const Distance& distance) const {
-    double cost = distance.named;
-    if (colors_)
-      cost = std::max(cost, distance.color / bounds_.color);
-    if (normals_)
-      cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
-    for (std::size_t set = 0; set < texCoordSets_; ++set) {
-      const Vec2<double>&is = distance.texCoords[set], &bound = bounds_.texCoords[set];
-      cost = std::max({cost, is.x / bound.x, is.y / bound.y});
-    }
-    return cost;
-  }
-
-  static void addToWorst(const Vec2<double>& distance, Vec2<double>& worst) {
-    worst = {std::max(worst.x, distance.x), std::max(worst.y, distance.y)};
-  }
-
-  void addToWorst(const Distance& distance, ElementDifference& worst) const {
-    worst.normalDegrees = std::max(worst.normalDegrees, distance.normalDegrees);
-    for (std::size_t set = 0; set < maxTexCoordSets; ++set)
-      addToWorst(distance.texCoords[set], worst.texCoords[set]);
-    worst.named = std::max(worst.named, distance.named);
-    worst.color = std::max(worst.color, distance.color);
+  void addDifference(const AttributeDifference& distance, ElementDifference& worst) const {
+    addToWorst(distance, worst);
     worst.colorsDiffering += colors_ && distance.color > bounds_.color;
   }
 

@@ -3,9 +3,6 @@
 #include "base/parallel.h"
 #include "containers/encodings.h"
 #include "containers/grid.h"
-#include "containers/named_attributes.h"
-#include "containers/normals.h"
-#include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
 #include "transcode/verify/element_list.h"
@@ -15,47 +12,15 @@
 #include <cmath>
 #include <fmt/ranges.h>
 #include <limits>
-#include <map>
-#include <numbers>
 #include <set>
 
 namespace imgeo {
 
 namespace {
 
-/// Allowed error of normals, in degrees. For palettes and compact no formula bounds it: imgeo.json states it.
-double normalBoundDegrees(const GeometryDescription& geometry, const SiteManifest& manifest) {
-  const bool isStated = geometry.normalEncoding == NormalEncoding::palette || rowOf(geometry).hasMeasuredNormalError;
-  const double bound = isStated ? manifest.normalErrorDegrees : normalErrorBound(geometry) * (180 / std::numbers::pi);
-  return std::max(bound, 1e-5);
-}
-
 /// Type of the coordinates. For images any integer type will do: it only selects the exact lattice.
 ElementType coordTypeOf(const GeometryDescription& geometry) {
   return hasElementTypes(geometry.encoding) ? geometry.coordType : ElementType::uint32;
-}
-
-/// Allowed error of a colour's channel, 0 .. 1.
-double colorBound(const GeometryDescription& geometry, const StoredPrecision& precision) {
-  return colorErrorBound(geometry, std::max(precision.bits[VertexRole::color], 1u));
-}
-
-/// Allowed error of texture coordinates, by set.
-std::array<Vec2<double>, maxTexCoordSets> texCoordBounds(const GeometryDescription& geometry,
-                                                         const StoredPrecision& precision) {
-  std::array<Vec2<double>, maxTexCoordSets> bounds;
-  for (const VertexRole role : texCoordRoles)
-    bounds[texCoordSetOf(role)] = texCoordErrorBound(geometry, texCoordSetOf(role), std::max(precision.bits[role], 1u));
-  return bounds;
-}
-
-/// Allowed error of each component of the further attributes, by name.
-std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription& geometry) {
-  std::map<std::string, std::vector<double>> bounds;
-  for (const AttributeDescription& attribute : geometry.attributes)
-    for (std::uint32_t c = 0; c < attribute.components; ++c)
-      bounds[attribute.name].push_back(numberErrorBound(geometry.encoding, attribute, c));
-  return bounds;
 }
 
 std::vector<IndexedPatch> decodePatches(const ContainerReader& reader, const GeometryDescription& geometry) {
@@ -193,22 +158,7 @@ void addFindings(const ElementDifference& difference, const AttributeBounds& bou
   if (difference.extra > 0)
     findings.add("{} {} of the site are not in the input.", difference.extra, elements);
 
-  // Decoders compute in single precision, which may turn a normal by this much more.
-  constexpr double normalTolerance = 2e-5;
-  report.normalErrorDegrees = std::max(report.normalErrorDegrees, difference.normalDegrees);
-  if (difference.normalDegrees > bounds.normalDegrees + normalTolerance)
-    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.", difference.normalDegrees,
-                 bounds.normalDegrees);
-  for (std::size_t set = 0; set < maxTexCoordSets; ++set) {
-    const Vec2<double>&is = difference.texCoords[set], &bound = bounds.texCoords[set];
-    if (is.x > bound.x || is.y > bound.y)
-      findings.add("Texture coordinates{} are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
-                   "and {:.4g}.",
-                   set == 0 ? "" : fmt::format(" of set {}", set), is.x, is.y, bound.x, bound.y);
-  }
-  report.attributeError = std::max(report.attributeError, difference.named);
-  if (difference.named > 1)
-    findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.", difference.named);
+  reportAttributes(difference, bounds, report, findings);
   if (difference.colorsDiffering > 0)
     findings.add("{} {} have other colours: a channel is off by up to {:.3g} of 255, more than its rounding, {:.3g}.",
                  difference.colorsDiffering, elements, 255 * difference.color, 255 * bounds.color);
@@ -243,10 +193,7 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   const bool isUnindexed = std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
   const ElementKind kind{topology, isUnindexed};
   const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
-  const StoredPrecision precision = reader.precisionOf(geometry);
-  const AttributeBounds bounds{normalBoundDegrees(geometry, manifest.value_or(SiteManifest{})),
-                               texCoordBounds(geometry, precision), colorBound(geometry, precision),
-                               namedBounds(geometry)};
+  const AttributeBounds bounds = boundsOf(geometry, reader.precisionOf(geometry), manifest);
   const ElementDifference difference = compare(input, site, bounds);
   addCounts(difference, input, site, topology, report);
   addFindings(difference, bounds, topology, report, findings);

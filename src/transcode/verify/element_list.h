@@ -2,13 +2,11 @@
 // A mesh as the multiset of its elements on a lattice. In this form an input and a site's geometry can be compared:
 // neither the order of elements nor patches nor strips matter.
 
-#include "containers/geometry_description.h"
 #include "scene/mesh.h"
+#include "transcode/verify/attribute_difference.h"
 
 #include <array>
 #include <cstdint>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace imgeo {
@@ -43,21 +41,11 @@ ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, El
 /// The elements that decoded patches draw, joined.
 ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kind);
 
-/// Allowed differences between the attributes of equal elements.
-struct AttributeBounds {
-  double normalDegrees = 0;
-  std::array<Vec2<double>, maxTexCoordSets> texCoords; ///< by set
-  double color = 1e-6;                                 ///< of a channel, 0 .. 1; greater than 0
-  std::map<std::string, std::vector<double>> named; ///< by name of a further attribute; one number for each component
-};
-
-struct ElementDifference {
-  std::size_t missing = 0;                             ///< elements of the input that the site lacks
-  std::size_t extra = 0;                               ///< elements of the site that the input lacks
-  double normalDegrees = 0;                            ///< largest angle between an element and its best match
-  std::array<Vec2<double>, maxTexCoordSets> texCoords; ///< by set: largest difference along each axis, likewise
-  double named = 0;                ///< largest difference of a further attribute, as a fraction of its bound
-  double color = 0;                ///< largest difference of a colour's channel, 0 .. 1
+/// The differences of the elements of an input and of a site. Those of their attributes are between an element and its
+/// best match.
+struct ElementDifference : AttributeDifference {
+  std::size_t missing = 0;         ///< elements of the input that the site lacks
+  std::size_t extra = 0;           ///< elements of the site that the input lacks
   std::size_t colorsDiffering = 0; ///< elements without a match whose colours are within their bound
 };
 

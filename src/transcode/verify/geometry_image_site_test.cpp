@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
+#include <initializer_list>
+#include <tuple>
 
 namespace imgeo {
 namespace {
@@ -72,15 +74,14 @@ TEST(GeometryImageSite, IsExportedAsTheMeshOfItsGrids) {
   EXPECT_LE(verify(directory / "site", directory / "out.ply").surfaceDistance, 1e-4);
 }
 
-/// Moves one vertex of the site: changes the first of the high bytes of an image.
-void moveAVertex(const TemporaryDirectory& directory) {
+/// Changes the first byte of a texel in the middle of the first image that a field of the page names.
+void damageImage(const TemporaryDirectory& directory, const std::string& field, int change) {
   const std::string page = std::string(asText(readFile(directory / "site" / "index.html")));
-  const std::size_t begin = page.find("coord='\"") + 8;
-  const std::filesystem::path file = directory / "site" / page.substr(begin, page.find_first_of("#\"", begin) - begin);
+  const std::size_t begin = page.find_first_not_of("'\"", page.find(" " + field + "=") + field.size() + 2);
+  const std::filesystem::path file = directory / "site" / page.substr(begin, page.find_first_of("#\"'", begin) - begin);
   Image image = decodePng(readFile(file), file.string());
-  const std::size_t texel = image.pixels.size() / 2 / 3 * 3;
-  image.pixels[texel] =
-      static_cast<std::uint8_t>(image.pixels[texel] < 128 ? image.pixels[texel] + 60 : image.pixels[texel] - 60);
+  const std::size_t byte = image.pixels.size() / 2 / image.channels * image.channels;
+  image.pixels[byte] = static_cast<std::uint8_t>(image.pixels[byte] + (image.pixels[byte] < 128 ? change : -change));
   writeFile(file, encodePng(image, 1));
 }
 
@@ -104,11 +105,55 @@ TEST(GeometryImageSite, ThatIsFartherOffThanItStatesIsNotEqual) {
     EXPECT_FALSE(verified.equal);
     return fmt::format("{}", ::testing::PrintToString(verified.findings));
   };
-  EXPECT_NE(findingsAfter([&] { moveAVertex(directory); }), "");
+  EXPECT_NE(findingsAfter([&] { damageImage(directory, "coord", 60); }), "");
   EXPECT_NE(findingsAfter([&] {
               replaceInPage(directory, "surfaceDistance=\"", "0.0001 0.00001");
             }).find("more than the 0.0001 that the site states"),
             std::string::npos);
+}
+
+/// A torus with all attributes, whose colours change from vertex to vertex.
+Mesh coloredTorus() {
+  Mesh mesh = testing::torus(24, 12);
+  testing::Random random(3);
+  while (mesh.colors.size() < mesh.wedgeCount())
+    mesh.colors.emplace_back(random.color());
+  return mesh;
+}
+
+TEST(GeometryImageSite, HasTheAttributesThatItsSourceHasAtItsVertices) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", coloredTorus());
+  for (const std::uint32_t bits : {12u, 16u, 24u}) {
+    ConvertOptions options = geometryImages(40);
+    options.positionBits = bits;
+    convert(directory / "input.ply", directory / "site", options);
+    const VerifyReport verified = verify(directory / "site", directory / "input.ply");
+    EXPECT_TRUE(verified.equal) << bits << ::testing::PrintToString(verified.findings);
+    EXPECT_GT(verified.normalErrorDegrees, 0);
+    EXPECT_GT(verified.normalBoundDegrees, verified.normalErrorDegrees);
+    EXPECT_GT(verified.attributeError, 0.5);
+    EXPECT_LE(verified.attributeError, 1);
+  }
+}
+
+TEST(GeometryImageSite, WithOneDamagedVertexIsNotEqual) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", coloredTorus());
+  // An image of texture coordinates has their high bytes in its first two channels.
+  for (const auto& [field, change, finding] : std::initializer_list<std::tuple<const char*, int, const char*>>{
+           {"coord", 1, "1 of "},
+           {"normal", 3, "Normals are off by up to"},
+           {"texCoord", 1, "Texture coordinates are off by up to"},
+           {"color", 3, "1 of "}}) {
+    convert(directory / "input.ply", directory / "site", geometryImages(40));
+    damageImage(directory, field, change);
+    const VerifyReport verified = verify(directory / "site", directory / "input.ply");
+    EXPECT_FALSE(verified.equal) << field;
+    EXPECT_TRUE(
+        std::ranges::any_of(verified.findings, [&](const std::string& each) { return each.find(finding) == 0; }))
+        << field << ::testing::PrintToString(verified.findings);
+  }
 }
 
 TEST(GeometryImageSite, KeepsTheStatedMaximumError) {

@@ -115,7 +115,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     if (!description.operators.empty())
       compareMapped(reader, description, input.meshes[mesh], report, findings);
     else if (description.surfaceDistance)
-      compareResampled(reader, description, input.meshes[mesh], report, findings);
+      compareResampled(reader, description, input.meshes[mesh], manifest, report, findings);
     else
       compareMesh(reader, description, input.meshes[mesh], manifest, report, findings);
   }
