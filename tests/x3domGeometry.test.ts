@@ -197,3 +197,18 @@ test("every refused node is left out with one warning, and as the geometry of a 
     assert.deepEqual([scene.warnings.length, shapesOf(scene.root).length], [1, 0], name);
   }
 });
+
+test("the runtime and convert use the first images of a field that has too many, with one warning", () => {
+  for (const [field, used] of [
+    ["coord", 4],
+    ["normal", 2],
+    ["color", 3],
+  ] as const) {
+    const image = (name: string) => `<ImageTexture containerField="${name}" url="${imageUrl}"/>`;
+    const images = (field === "coord" ? "" : image("coord")) + image(field).repeat(used + 1);
+    const markup = `<Shape><ImageGeometry implicitMeshSize="3 1" vertexCount="3">${images}</ImageGeometry></Shape>`;
+    const expected = new RegExp(`only the first ${used} of ${used + 1} ${field}`);
+    for (const warnings of [warningsOf(markup), convertWarningsOf(markup)])
+      assert.equal(warnings.filter((warning) => expected.test(warning)).length, 1, `${field}: ${warnings.join("; ")}`);
+  }
+});

@@ -86,7 +86,7 @@ ByteLocation normalInCoords(const ByteLocation& coord) {
 }
 
 Reference normalInCoords(const Reference& coord) {
-  return {coord.url, normalInCoords(std::get<ByteLocation>(coord.location))};
+  return {coord.url, normalInCoords(std::get<ByteLocation>(coord.location)), coord.furtherUrls};
 }
 
 bool hasNormalsInCoords(const GeometryDescription& geometry) {

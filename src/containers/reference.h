@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace imgeo {
 
@@ -32,6 +33,7 @@ using FileLocation = std::variant<TexelLocation, PatchLocation, ByteLocation>;
 struct Reference {
   std::string url; ///< relative to the document
   FileLocation location;
+  std::vector<std::string> furtherUrls{}; ///< tried in order where `url` cannot be read: see chooseUrls()
   friend bool operator==(const Reference&, const Reference&) = default;
 };
 

@@ -55,11 +55,12 @@ std::size_t AppearanceReader::readTexture(const FieldReader& fields) {
     return *index;
   Texture texture;
   texture.name = fields.text("DEF");
-  const std::vector<std::string> urls = fields.strings("url");
-  const std::string url = urls.empty() ? "" : urls[0];
-  const auto [image, isNew] = images_.try_emplace(url, graph_.images.size());
+  std::vector<std::string> urls = fields.strings("url");
+  const auto [image, isNew] = images_.try_emplace(urls, graph_.images.size());
+  if (isNew && urls.empty())
+    urls.emplace_back();
   if (isNew)
-    graph_.images.push_back({url, {}, fields.text("preview")});
+    graph_.images.push_back({urls[0], {}, fields.text("preview"), {urls.begin() + 1, urls.end()}});
   texture.image = image->second;
   if (!fields.boolean("repeatS", true))
     texture.boundaryS = Boundary::clamp;

@@ -48,9 +48,10 @@ private:
   SceneGraph& graph_;
   DocumentWarnings& warnings_;
   /// Indices by DEF; of images, by url.
-  std::map<std::string, std::size_t> appearances_, textures_, images_;
-  std::map<std::string, DefinedMaterial> materials_; ///< by DEF
-  std::set<std::size_t> withoutMaterial_;            ///< indices of appearances
+  std::map<std::string, std::size_t> appearances_, textures_;
+  std::map<std::vector<std::string>, std::size_t> images_; ///< by URLs
+  std::map<std::string, DefinedMaterial> materials_;       ///< by DEF
+  std::set<std::size_t> withoutMaterial_;                  ///< indices of appearances
   /// Results of unlit(), by its parameters.
   std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> unlit_;
 };

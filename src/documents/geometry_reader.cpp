@@ -1,18 +1,16 @@
 #include "documents/geometry_reader.h"
 
-#include "base/data_url.h"
 #include "containers/encodings.h"
 #include "containers/grid.h"
 #include "containers/limits.h"
 #include "containers/stored_coords.h"
 #include "documents/geometry_element.h"
+#include "documents/patch_references.h"
 #include "documents/vertex_attribute_reader.h"
 #include "markup/find_x3d.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <functional>
 
 namespace imgeo {
 
@@ -39,57 +37,6 @@ NormalEncoding normalEncodingOf(const FieldReader& fields) {
   return NormalEncoding::rgb;
 }
 
-bool parseInteger(std::string_view text, std::uint32_t& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-/// Parses the ending "+S" of a url, X3DOM's stride. The ending is part of the file's name unless a '?' separates them.
-/// Any other '+' is an ordinary character, as it is in the base64 of a data: URL.
-Reference stridedReference(const std::string& url) {
-  const std::size_t plus = url.rfind('+');
-  ByteLocation location;
-  if (plus == std::string::npos || !parseInteger(std::string_view(url).substr(plus + 1), location.byteStride))
-    return {url, ByteLocation{}};
-  const bool isQuery = plus > 0 && url[plus - 1] == '?';
-  if (isDataUrl(url))
-    return {url, ByteLocation{}};
-  return {isQuery ? url.substr(0, plus - 1) : url, location};
-}
-
-/// Reads the fragment of a url; returns false if it is malformed.
-bool parseFragment(std::string_view fragment, TexelLocation& location) {
-  return parseInteger(fragment, location.firstTexel);
-}
-bool parseFragment(std::string_view fragment, PatchLocation& location) {
-  return parseInteger(fragment, location.patchIndex);
-}
-bool parseFragment(std::string_view fragment, ByteLocation& location) {
-  const std::size_t plus = fragment.find('+');
-  return plus != std::string_view::npos && parseInteger(fragment.substr(0, plus), location.byteOffset) &&
-         parseInteger(fragment.substr(plus + 1), location.byteStride);
-}
-
-/// Parses a reference: url or url#N in classic and compact; url, url+S, url?+S or url#O+S in BG, with the byte offset O
-/// and the stride S.
-Reference referenceOf(const FieldReader& fields, const std::string& url, Encoding encoding) {
-  Reference reference{url, rowOf(encoding).location};
-  const std::size_t hash = url.rfind('#'); // base64 has none
-  if (hash == std::string::npos && std::holds_alternative<ByteLocation>(reference.location))
-    return stridedReference(url);
-  reference.url = url.substr(0, hash);
-  if (reference.url.empty())
-    fields.fail(ErrorKind::malformed, "a reference has no url");
-  if (reference.url.find('#') != std::string::npos)
-    fields.fail(ErrorKind::malformed, "a reference has two fragments");
-  if (hash == std::string::npos)
-    return reference;
-  const std::string_view fragment = std::string_view(url).substr(hash + 1);
-  if (!std::visit([&](auto& location) { return parseFragment(fragment, location); }, reference.location))
-    fields.fail(ErrorKind::malformed, "a reference's fragment is not an index in its file");
-  return reference;
-}
-
 Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
   for (const Primitive primitive : {Primitive::points, Primitive::lines, Primitive::lineStrip, Primitive::lineLoop,
                                     Primitive::triangles, Primitive::triangleStrip, Primitive::triangleFan})
@@ -98,126 +45,8 @@ Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
   fields.fail(ErrorKind::unsupported, "primType is none of those we read");
 }
 
-/// Whether an element holds an image of an ImageGeometry, or would if it were of a kind that we read.
-bool holdsImage(const char* name) {
-  return std::ranges::any_of(std::initializer_list<const char*>{"ImageTexture", "Texture", "PixelTexture",
-                                                                "MovieTexture", "img", "canvas", "video"},
-                             [&](const char* known) { return equalIgnoringCase(name, known); });
-}
-
-/// The element that a USE names; the element itself without one.
-pugi::xml_node usedNode(const DocumentText& source, const FieldReader& fields) {
-  const std::string name = fields.text("USE");
-  if (name.empty())
-    return fields.node();
-  const auto found = source.defs.find(name);
-  if (found == source.defs.end())
-    fields.fail(ErrorKind::malformed, "USE names no node");
-  return found->second;
-}
-
-/// Whether a URL, which may have a query with a token, names a live stream (docs/live.md).
-bool isStreamUrl(std::string_view url) {
-  constexpr std::string_view folder = "live/";
-  url = url.substr(0, url.find('?'));
-  const std::size_t first = std::min(url.rfind('/') + 1, url.size()); // npos + 1 is 0
-  const std::string_view name = url.substr(first), before = url.substr(0, first);
-  const bool isName = !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-  return isName && (before == folder || before.ends_with("/live/"));
-}
-
-constexpr const char* streamReason = "a live stream is in no file";
-
-/// Why the content of an element that holds an image is in no file; nothing where it may be in one.
-std::optional<std::string> reasonNotInFiles(const DocumentText& source, pugi::xml_node image) {
-  while (image) {
-    const std::vector<std::string> urls = FieldReader(source, image).strings("url");
-    const auto is = [&](const char* name) { return equalIgnoringCase(image.name(), name); };
-    if (!urls.empty() && isStreamUrl(urls[0]))
-      return streamReason;
-    if (is("MovieTexture") || is("video"))
-      return "movies are not drawn; images and live streams are";
-    if (is("canvas"))
-      return "a canvas has pixels only in a page";
-    if (is("PixelTexture"))
-      return "the pixels of a PixelTexture are not read as geometry; images are";
-    if (!urls.empty())
-      return {};
-    image = image.find_child([](const auto& child) { return holdsImage(child.name()); });
-  }
-  return {};
-}
-
-/// Why the images of one patch are in no file.
-std::optional<std::string> reasonImagesAreNotInFiles(const DocumentText& source, const pugi::xml_node& patch) {
-  if (const auto urls = FieldReader(source, patch).strings("coord"); !urls.empty() && isStreamUrl(urls[0]))
-    return streamReason;
-  for (const pugi::xml_node& child : patch.children())
-    if (holdsImage(child.name()))
-      if (const auto reason = reasonNotInFiles(source, usedNode(source, FieldReader(source, child))))
-        return reason;
-  return {};
-}
-
-/// The address of the image that an element holds: its `url` or `src`, or that of the element in it.
-std::string imageUrl(const DocumentText& source, pugi::xml_node node) {
-  for (;;) {
-    const FieldReader fields(source, node);
-    if (equalIgnoringCase(node.name(), "img"))
-      if (std::string address = fields.text("src"); !address.empty())
-        return address;
-    if (const std::vector<std::string> urls = fields.strings("url"); !urls.empty())
-      return urls[0];
-    node = node.find_child([](const pugi::xml_node& child) { return holdsImage(child.name()); });
-    if (!node)
-      fields.fail(ErrorKind::malformed, "a texture of an ImageGeometry has no url");
-  }
-}
-
-void addImage(PatchDescription& patch, VertexRole role, const Reference& reference) {
-  if (patch.vertexAttributes[role])
-    patch.lowBytes[role].push_back(reference);
-  else
-    patch.vertexAttributes[role] = reference;
-}
-
-/// Reads a child that refers to an image of the patch as in X3DOM. Several images of texture coordinates are its sets.
-void readTexture(const DocumentText& source, const pugi::xml_node& node, Encoding encoding, PatchDescription& patch) {
-  const FieldReader fields(source, node);
-  const pugi::xml_node used = usedNode(source, fields);
-  const Reference reference = referenceOf(fields, imageUrl(source, used), encoding);
-  std::string role = fields.text("containerField");
-  if (role.empty())
-    role = FieldReader(source, used).text("containerField");
-  if (equalIgnoringCase(role, "coord")) {
-    patch.coord.push_back(reference);
-    return;
-  }
-  if (equalIgnoringCase(role, "index")) {
-    if (patch.index)
-      fields.fail(ErrorKind::unsupported, "an ImageGeometry has two images of indices");
-    patch.index = reference;
-    return;
-  }
-  const auto* known = std::ranges::find_if(
-      vertexRoles, [&](VertexRole candidate) { return equalIgnoringCase(role, nameOf(candidate)); });
-  if (known == vertexRoles.end())
-    fields.fail(ErrorKind::malformed, "an image of an ImageGeometry has no containerField that we know");
-  if (*known == VertexRole::texCoord) {
-    for (const VertexRole set : texCoordRoles)
-      if (!patch.vertexAttributes[set]) {
-        patch.vertexAttributes[set] = reference;
-        return;
-      }
-    fields.fail(ErrorKind::unsupported, "an ImageGeometry has more than four images of texture coordinates");
-  }
-  addImage(patch, *known, reference);
-}
-
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
-                           Vec2<std::uint32_t> implicitMeshSize) {
+                           Vec2<std::uint32_t> implicitMeshSize, DocumentWarnings* warnings) {
   const Encoding encoding = geometry.encoding;
   const FieldReader fields(source, node);
   PatchDescription patch;
@@ -225,34 +54,17 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   patch.vertexCount = fields.integer("recordCount", 0);
   patch.draws = readDraws(fields);
   patch.implicitMeshSize = implicitMeshSize;
-  const auto read = [&](const char* name, std::optional<Reference>& reference) {
-    if (const std::string url = fields.text(name); !url.empty())
-      reference = referenceOf(fields, url, encoding);
-  };
   const PatchStorage storage = rowOf(encoding).storage;
   if (storage == PatchStorage::packed) {
-    read("data", patch.data);
-    if (!patch.data)
+    const std::string url = fields.text("data");
+    if (url.empty())
       fields.fail(ErrorKind::malformed, "a patch of compact has no data");
+    patch.data = referenceOf(fields, url, encoding);
     return patch;
   }
-  read("index", patch.index);
-  for (const VertexRole role : vertexRoles)
-    for (const std::string& url : fields.strings(nameOf(role)))
-      addImage(patch, role, referenceOf(fields, url, encoding));
-  if (storage == PatchStorage::arrays &&
-      std::ranges::any_of(patch.lowBytes.values, std::not_fn(&std::vector<Reference>::empty)))
-    fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of each attribute");
-  for (const std::string& url : fields.strings("coord"))
-    patch.coord.push_back(referenceOf(fields, url, encoding));
-  if (storage == PatchStorage::bytePlanes)
-    for (const pugi::xml_node& child : node.children())
-      if (holdsImage(child.name()))
-        readTexture(source, child, encoding, patch);
+  readPatchReferences(source, node, encoding, warnings, patch);
   if (patch.coord.empty())
     fields.fail(ErrorKind::malformed, "there are no coordinates");
-  if (storage == PatchStorage::arrays && patch.coord.size() != 1)
-    fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of coordinates");
   std::vector<Reference> attributes;
   for (const std::string& url : fields.strings("attrib"))
     attributes.push_back(referenceOf(fields, url, encoding));
@@ -285,8 +97,6 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
   if (storage == PatchStorage::packed)
     return packedPositionBits;
   const std::size_t planes = geometry.patches[0].coord.size();
-  if (planes > 4)
-    fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
   for (const PatchDescription& patch : geometry.patches)
     if (patch.coord.size() != planes)
       fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
@@ -479,10 +289,10 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())
     if (equalIgnoringCase(child.name(), "GeometryPatch"))
-      geometry.patches.push_back(
-          readPatch(source, child, geometry, implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize)));
+      geometry.patches.push_back(readPatch(source, child, geometry,
+                                           implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize), warnings));
   if (geometry.patches.empty())
-    geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
+    geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize, warnings));
   if (row.storage == PatchStorage::bytePlanes)
     readImageBits(fields, geometry);
   if (row.storage == PatchStorage::bytePlanes)
@@ -503,14 +313,6 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     takeNormalsFromCoords(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;
-}
-
-std::optional<PatchName> parsePatchName(const std::string& text) {
-  const std::size_t hash = text.rfind('#');
-  PatchName name{text.substr(0, hash)};
-  if (hash == std::string::npos || !parseInteger(std::string_view(text).substr(hash + 1), name.index))
-    return {};
-  return name;
 }
 
 } // namespace imgeo

@@ -6,6 +6,7 @@
 #include "documents/field_reader.h"
 #include "documents/geometry_reader.h"
 #include "documents/node_fields_reader.h"
+#include "documents/patch_references.h"
 #include "documents/skin_element.h"
 #include "markup/find_x3d.h"
 #include "markup/x3d_element.h"
@@ -297,7 +298,7 @@ private:
   void addImages(const FieldReader& fields) {
     for (const std::string_view field : imageFieldsOf(fields.node().name()))
       if (const std::vector<std::string> urls = fields.strings(field.data()); !urls.empty())
-        document_.graph.images.push_back({urls[0], {}, fields.text("preview")});
+        document_.graph.images.push_back({urls[0], {}, fields.text("preview"), {urls.begin() + 1, urls.end()}});
   }
 
   void readBackground(const FieldReader& fields) {

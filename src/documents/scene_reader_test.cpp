@@ -200,7 +200,6 @@ TEST(ReadScene, RefusesGeometryWithoutALattice) {
   EXPECT_EQ(errorKindOf(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("positionBits='16'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("positionBits='7'", "a")), ErrorKind::malformed);
-  EXPECT_EQ(errorKindOf(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(geometry("primType='QUADS' vertexCount='3'", "a")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(geometry("", "")), ErrorKind::malformed);
 }
@@ -242,9 +241,8 @@ TEST(ReadScene, TakesThePrecisionOfAttributesFromTheirImagesUnlessTheNodeStatesI
   EXPECT_EQ(read("normal='n' normalEncoding='spherical'")[VertexRole::normal], 8u);
   EXPECT_EQ(read("normal='n' normalEncoding='spherical' normalBits='16'")[VertexRole::normal], 16u);
   EXPECT_EQ(read("texCoord='t' texCoordBits='8'")[VertexRole::texCoord], 8u);
-  for (const char* fields :
-       {"normal='n' normalBits='16'", "normal='n' normalBits='12'", "texCoord='t' texCoordBits='24'",
-        R"(texCoord='"t" "u" "v"')", R"(normal='"n" "o"' normalEncoding='octahedral')"})
+  for (const char* fields : {"normal='n' normalBits='16'", "normal='n' normalBits='12'",
+                             "texCoord='t' texCoordBits='24'", R"(normal='"n" "o"' normalEncoding='octahedral')"})
     EXPECT_EQ(
         errorKindOf(std::string("<X3D><Scene><Shape><ImageGeometry coord='a' ") + fields + "/></Shape></Scene></X3D>"),
         ErrorKind::unsupported)
@@ -255,8 +253,6 @@ TEST(ReadScene, RefusesImagesThatItCannotRead) {
   const auto images = [](const std::string& children) {
     return "<X3D><Scene><Shape><ImageGeometry coord='a'>" + children + "</ImageGeometry></Shape></Scene></X3D>";
   };
-  const std::string normal = "<ImageTexture containerField='normal' url='n.png'/>";
-  EXPECT_EQ(errorKindOf(images(normal + normal + normal)), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(images("<ImageTexture containerField='coord' USE='none'/>")), ErrorKind::malformed);
 }
 
@@ -284,6 +280,75 @@ TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
     EXPECT_EQ(document.warnings,
               std::vector<std::string>{"s.x3d:2: ImageGeometry: " + reason + "; its Shape is left out."});
   }
+}
+
+TEST(ReadScene, LeavesOutImagesOfAttributesThatItCannotRead) {
+  for (const char* image : {"<video containerField='normal'/>", "<Texture containerField='color'/>",
+                            "<ImageTexture containerField='texcoords' url='a.png'/>"}) {
+    const SceneDocument document = readScene("<X3D><Scene><Shape><ImageGeometry coord='a'>" + std::string(image) +
+                                                 "</ImageGeometry></Shape></Scene></X3D>",
+                                             "s.x3d");
+    const PatchDescription& patch = document.geometries.at(0).patches.at(0);
+    std::size_t files = 0;
+    visitReferences(patch, [&](Role, const Reference&) { ++files; });
+    EXPECT_EQ(files, 1u) << image;
+    ASSERT_EQ(document.warnings.size(), 1u) << image;
+    EXPECT_NE(document.warnings[0].find("left out"), std::string::npos) << document.warnings[0];
+  }
+}
+
+TEST(ReadScene, HasTheImagesOfChildrenInPlaceOfThoseOfTheFields) {
+  const SceneDocument document =
+      readScene("<X3D><Scene><Shape><ImageGeometry coord='a' normal='\"n\" \"o\"' color='c'>"
+                "<ImageTexture containerField='coord' url='b'/><ImageTexture containerField='normal' url='p'/>"
+                "</ImageGeometry></Shape></Scene></X3D>",
+                "s.x3d");
+  const PatchDescription& patch = document.geometries.at(0).patches.at(0);
+  ASSERT_EQ(patch.coord.size(), 1u);
+  EXPECT_EQ(patch.coord[0].url, "b");
+  EXPECT_EQ(patch.vertexAttributes[VertexRole::normal]->url, "p");
+  EXPECT_TRUE(patch.lowBytes[VertexRole::normal].empty());
+  EXPECT_EQ(patch.vertexAttributes[VertexRole::color]->url, "c");
+}
+
+TEST(ReadScene, KeepsTheFurtherUrlsOfAFile) {
+  const SceneDocument images = readScene(R"(<X3D><Scene><Shape><ImageGeometry index='"i.png" "j.png"'>
+      <ImageTexture containerField='coord' url='"a.png#3" "b.png#3" "c.png"'/></ImageGeometry></Shape></Scene></X3D>)",
+                                         "s.x3d");
+  const PatchDescription& patch = images.geometries.at(0).patches.at(0);
+  EXPECT_EQ(patch.coord.at(0), (Reference{"a.png", TexelLocation{3}, {"b.png"}}));
+  EXPECT_EQ(patch.index, (Reference{"i.png", TexelLocation{}, {"j.png"}}));
+  ASSERT_EQ(images.warnings.size(), 1u);
+  EXPECT_NE(images.warnings[0].find("different fragments"), std::string::npos);
+
+  const SceneDocument arrays = readScene(R"(<X3D><Scene><Shape><BinaryGeometry coordType='Uint16'
+      normalAsSphericalCoordinates='true' coord='"a.bin" "b.bin"'/></Shape></Scene></X3D>)",
+                                         "s.x3d");
+  const PatchDescription& binary = arrays.geometries.at(0).patches.at(0);
+  EXPECT_EQ(binary.coord.at(0), (Reference{"a.bin", ByteLocation{}, {"b.bin"}}));
+  EXPECT_EQ(binary.vertexAttributes[VertexRole::normal]->furtherUrls, std::vector<std::string>{"b.bin"});
+}
+
+TEST(ReadScene, WarnsOfImagesBeyondThoseThatAnAttributeHas) {
+  std::string text = "<X3D><Scene><Shape><ImageGeometry>";
+  for (const char* role : {"coord", "index", "normal", "color", "texCoord"})
+    for (int i = 0; i < 5; ++i)
+      text += std::string("<ImageTexture containerField='") + role + "' url='" + role + std::to_string(i) + ".png'/>";
+  const SceneDocument document = readScene(text + "</ImageGeometry></Shape></Scene></X3D>", "s.x3d");
+  const PatchDescription& patch = document.geometries.at(0).patches.at(0);
+  EXPECT_EQ(patch.coord.size(), 4u);
+  EXPECT_EQ(patch.index->url, "index0.png");
+  EXPECT_EQ(patch.lowBytes[VertexRole::normal].size(), 1u);
+  EXPECT_EQ(patch.lowBytes[VertexRole::color].size(), 2u);
+  EXPECT_EQ(patch.vertexAttributes[VertexRole::texCoord3]->url, "texCoord3.png");
+  ASSERT_EQ(document.warnings.size(), 5u);
+  for (const char* expected :
+       {"only the first 4 of 5 coord", "only the first 1 of 5 index", "only the first 2 of 5 normal",
+        "only the first 3 of 5 color", "only the first 4 of 5 texCoord"})
+    EXPECT_TRUE(std::ranges::any_of(document.warnings, [&](const std::string& warning) {
+      return warning.find(std::string("ImageGeometry: ") + expected + " images are used; the others are left out.") !=
+             warning.npos;
+    })) << expected;
 }
 
 TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {

@@ -113,6 +113,7 @@ struct ImageFile {
   std::string url;       ///< in a document: relative to it; in a source: the source's name for the image
   Bytes bytes{};         ///< the file's content; empty in a document that was read
   std::string preview{}; ///< url of a small version of the image, displayed until the image has loaded; may be empty
+  std::vector<std::string> furtherUrls{}; ///< in a document: tried in order where `url` names no file
   friend bool operator==(const ImageFile&, const ImageFile&) = default;
 };
 

@@ -1,5 +1,7 @@
 #include "import/x3d/container_geometry.h"
 
+#include "base/first_readable.h"
+#include "containers/choose_urls.h"
 #include "containers/encodings.h"
 #include "containers/read_mesh.h"
 #include "documents/geometry_reader.h"
@@ -56,6 +58,8 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
 /// The description of a node. Its Shape's box stands in for those of patches that have none.
 GeometryDescription ContainerGeometries::describe(pugi::xml_node node) const {
   GeometryDescription geometry = readGeometry(source_.documentText(), node, warnings_);
+  if (const std::vector<Error> errors = chooseUrls(geometry, fetch_); !errors.empty())
+    throw joined(errors);
   if (!geometry.operators.empty())
     geometry.box = FieldReader(source_.documentText(), node.parent()).box();
   return geometry;
@@ -90,16 +94,12 @@ gltf::ShapeResource ContainerGeometries::readExternal(pugi::xml_node node, bool 
   const std::vector<std::string> urls = parseStrings(node.attribute("url").value());
   if (urls.empty())
     throw Error(ErrorKind::malformed, source_.locationOf(node), "there is no url");
-  for (std::size_t i = 0;; ++i)
-    try {
-      // What follows '#' names a mesh of the file.
-      const std::size_t hash = std::min(urls[i].find('#'), urls[i].size());
-      const std::string file = urls[i].substr(0, hash), mesh = urls[i].substr(std::min(hash + 1, urls[i].size()));
-      return gltf::readShapeResource(fetch_(file), file, mesh, withMaterials);
-    } catch (const Error&) {
-      if (i + 1 == urls.size())
-        throw;
-    }
+  return firstReadable(urls, [&](const std::string& url) {
+    // What follows '#' names a mesh of the file.
+    const std::size_t hash = std::min(url.find('#'), url.size());
+    const std::string file = url.substr(0, hash), mesh = url.substr(std::min(hash + 1, url.size()));
+    return gltf::readShapeResource(fetch_(file), file, mesh, withMaterials);
+  });
 }
 
 std::map<std::uint32_t, ContainerGeometries::SharedPatch>

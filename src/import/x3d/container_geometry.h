@@ -32,7 +32,7 @@ std::vector<pugi::xml_node> geometriesOfPatches(const Source& source, pugi::xml_
 /// Reads the files that the geometry nodes of one document name.
 class ContainerGeometries {
 public:
-  /// `warnings`: of operators that cannot be read; without it they are an Error.
+  /// `warnings`: see readGeometry().
   ContainerGeometries(const Source& source, const References& references, DocumentWarnings* warnings)
       : source_(source), warnings_(warnings),
         fetch_([&references](const std::string& url) { return references.fetch(url); }), reader_(fetch_) {}
@@ -53,7 +53,7 @@ public:
                                                   const AttributeChoice& kept, std::set<std::string>& attributes) const;
 
   /// The content of the first url of an ExternalGeometry or, with its materials, of an ExternalShape that can be read.
-  /// Throws the Error of the last one, or Error{malformed} at the node where it has no url.
+  /// Throws the joined Errors of all, or Error{malformed} at the node where it has no url.
   gltf::ShapeResource readExternal(pugi::xml_node node, bool withMaterials) const;
 
 private:

@@ -1,7 +1,7 @@
 #include "import/x3d/node_images.h"
 
 #include "base/data_url.h"
-#include "base/error.h"
+#include "base/first_readable.h"
 #include "import/source_images.h"
 #include "scene/mf_string.h"
 
@@ -14,22 +14,23 @@ bool isRemote(const std::string& url) {
 }
 
 std::optional<std::size_t> NodeImages::read(const std::vector<std::string>& urls) {
-  const bool mayBeRemote = std::ranges::any_of(urls, isRemote);
-  for (std::size_t i = 0; i < urls.size(); ++i) {
-    if (const auto found = read_.find(urls[i]); found != read_.end())
+  std::vector<Error> errors;
+  for (const std::string& url : urls) {
+    if (const auto found = read_.find(url); found != read_.end())
       return found->second;
-    if (isRemote(urls[i]))
+    if (isRemote(url))
       continue;
     try {
-      ImageFile file{isDataUrl(urls[i]) ? "" : urls[i], references_.fetch(urls[i])};
-      requireImage(file.bytes, urls[i]);
+      ImageFile file{isDataUrl(url) ? "" : url, references_.fetch(url)};
+      requireImage(file.bytes, url);
       images_.push_back(std::move(file));
-      return read_[urls[i]] = images_.size() - 1;
-    } catch (const Error&) {
-      if (i + 1 == urls.size() && !mayBeRemote)
-        throw;
+      return read_[url] = images_.size() - 1;
+    } catch (const Error& error) {
+      errors.push_back(error);
     }
   }
+  if (!errors.empty() && std::ranges::none_of(urls, isRemote))
+    throw joined(errors);
   return {};
 }
 

@@ -20,7 +20,8 @@ public:
   NodeImages(const References& references, std::vector<ImageFile>& images) : references_(references), images_(images) {}
 
   /// The index of the image of the first URL that can be read, each URL read once; empty where none can and other hosts
-  /// may have it. Throws Error where none can and all URLs are local.
+  /// may have it. Throws the joined Errors of all where none can and all URLs are
+  /// local.
   std::optional<std::size_t> read(const std::vector<std::string>& urls);
 
 private:

@@ -1,5 +1,6 @@
 #include "import/x3d/scene_reader.h"
 
+#include "base/first_readable.h"
 #include "import/x3d/container_geometry.h"
 #include "import/x3d/faults.h"
 #include "import/x3d/inlines.h"
@@ -210,22 +211,26 @@ private:
 
   /// The document of the first URL of an Inline that can be read; empty where a URL of another host precedes it.
   std::optional<Inlines::Document> inlined(pugi::xml_node element) {
-    const std::vector<std::string> urls = parseStrings(element.attribute("url").value());
-    for (std::size_t i = 0; i < urls.size(); ++i) {
-      if (isRemote(urls[i])) {
+    std::vector<Error> errors;
+    for (const std::string& url : parseStrings(element.attribute("url").value())) {
+      if (isRemote(url)) {
         ++summary_.remoteInlines;
         return {};
       }
       try {
-        return inlines_.read(urls[i]);
+        return inlines_.read(url);
       } catch (const Error& error) {
-        if (error.kind() == ErrorKind::limit || (i + 1 == urls.size() && !error.location().empty()))
+        if (error.kind() == ErrorKind::limit)
           throw;
-        if (i + 1 == urls.size())
-          source_.fail(element, error.kind(), error.message());
+        errors.push_back(error);
       }
     }
-    return {};
+    if (errors.empty())
+      return {};
+    const Error error = joined(errors);
+    if (error.location().empty())
+      source_.fail(element, error.kind(), error.message());
+    throw error;
   }
 
   /// Makes the nodes of an Inline's document its children.

@@ -121,14 +121,17 @@ Shape ShapeReader::addShape(Mesh mesh, bool isSolid) {
 }
 
 std::optional<Shape> ShapeReader::shapeOfPatches(const std::vector<pugi::xml_node>& geometries) {
+  const std::size_t warningCount = imported_.warnings.size();
   std::optional<std::vector<Mesh>> meshes;
   try {
     meshes = containers_.read(geometries, keptAttributes_, attributes_);
   } catch (const Error&) {
-    return {}; // the Shape of the geometry that cannot be read has a warning
+    meshes.reset();
   }
-  if (!meshes || meshes->size() != 1 || meshes->front().corners.empty())
+  if (!meshes || meshes->size() != 1 || meshes->front().corners.empty()) {
+    imported_.warnings.resize(warningCount); // the Shapes, which are read one by one, have them again
     return {};
+  }
   return addShape(std::move(meshes->front()), isSolid(geometries[0]));
 }
 

@@ -1,6 +1,7 @@
 #include "import/x3d/shared_patches.h"
 
 #include "documents/geometry_reader.h"
+#include "documents/patch_references.h"
 #include "import/x3d/node_table.h"
 
 #include <algorithm>

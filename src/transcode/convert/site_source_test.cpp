@@ -6,6 +6,7 @@
 #include "scene/testing.h"
 #include "transcode/site/testing.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -179,6 +180,26 @@ TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {
   expectRefused(
       "<imagegeometry vertexcount=3><imagetexture containerfield=coord url=c.bin></imagetexture></imagegeometry>",
       "c.bin");
+}
+
+TEST_F(SourcePage, TakesTheFirstUrlOfAFileThatCanBeRead) {
+  const std::string fields = "vertexcount=3 size='2 2 0' position='1 1 0'";
+  writePage("<binarygeometry " + fields +
+            R"( coord='"lost.bin" "https://example.org/c.bin" "c.bin"'></binarygeometry>)");
+  const ConvertReport report = convertPage(true);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+  EXPECT_EQ(report.elements.triangles, 1u);
+  EXPECT_EQ(inspect(directory_ / "in").elements.triangles, 1u);
+  EXPECT_EQ(exportSite(directory_ / "in", directory_ / "out.ply").elements.triangles, 1u);
+  EXPECT_TRUE(verify(directory_ / "in", directory_ / "in/index.html").equal);
+
+  expectRefused("<binarygeometry " + fields + R"( coord='"lost.bin" "gone.bin"'></binarygeometry>)",
+                "lost.bin: cannot be read");
+  expectRefused("<binarygeometry " + fields + R"( coord='"lost.bin" "gone.bin"'></binarygeometry>)", "; gone.bin: ");
+  const SiteInfo info = inspect(directory_ / "in");
+  EXPECT_TRUE(std::ranges::any_of(info.warnings, [](const std::string& warning) {
+    return warning.find("lost.bin") != warning.npos && warning.find("gone.bin") != warning.npos;
+  })) << ::testing::PrintToString(info.warnings);
 }
 
 TEST(SourceDocument, IsReadWithTheFilesOfItsGeometry) {

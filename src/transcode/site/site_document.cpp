@@ -3,10 +3,12 @@
 #include "base/data_url.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "containers/choose_urls.h"
 #include "transcode/site/site_files.h"
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace imgeo {
 
@@ -55,6 +57,19 @@ bool leadsOutOfFolder(const std::string& url) {
   return path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
 }
 
+/// Chooses, of files with several URLs, the first that can be read. Where none can there is a warning, and the first
+/// stays.
+void chooseFiles(SiteDocument& document) {
+  const FetchFile fetch = fetchFrom(document);
+  for (GeometryDescription& geometry : document.scene.geometries)
+    for (const Error& error : chooseUrls(geometry, fetch))
+      document.scene.warnings.emplace_back(error.what());
+  for (ImageFile& image : document.scene.graph.images)
+    for (const std::string& url : std::exchange(image.furtherUrls, {}))
+      if (!image.url.empty() && !isDataUrl(image.url) && !exists(document, image.url))
+        image.url = url;
+}
+
 } // namespace
 
 SiteDocument openDocument(const fs::path& site) {
@@ -70,6 +85,7 @@ SiteDocument openDocument(const fs::path& site) {
   SiteDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}, {}};
   document.scene = readScene(document.text, file.string());
   addInlined(document);
+  chooseFiles(document);
   return document;
 }
 

@@ -182,7 +182,8 @@ class GeometryDelivery implements Delivery {
 
   #startRequest(patch: PatchState, tracked: TrackedFile, priority: number): void {
     const { reference, target, expectedBytes } = tracked.file;
-    const handle = this.#pool.acquire({ ...target, url: reference.url, priority, expectedBytes });
+    const { url, furtherUrls } = reference;
+    const handle = this.#pool.acquire({ ...target, url, furtherUrls, priority, expectedBytes });
     tracked.handle = handle;
     tracked.transfer = handle.transfer;
     tracked.aborter = new AbortController();

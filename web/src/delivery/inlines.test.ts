@@ -78,7 +78,7 @@ describe("documents that Inlines name", () => {
     );
   });
 
-  test("come from the first of their URLs that loads; the error is that of the last URL", async () => {
+  test("come from the first of their URLs that loads; the error names all", async () => {
     const scene = sceneOf(
       x3d(`<Inline DEF="a" url='"data:," "lost.x3d" "part.x3d"'/>`, `<Inline DEF="b" url='"lost.x3d" "data:,"'/>`),
       { "part.x3d": shape },
@@ -87,7 +87,7 @@ describe("documents that Inlines name", () => {
     assert.equal(scene.shapes(), 1);
     assert.deepEqual(scene.log.filter((line) => line.startsWith("end")).toSorted(), [
       "end a",
-      "end b: data:,: no file",
+      "end b: lost.x3d: the server answered 404; data:,: no file",
     ]);
     assert.ok(scene.inlines.isSettled);
   });

@@ -5,7 +5,7 @@ import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { InlinedDocument } from "../document/readScene.ts";
 import type { DeliveryError } from "./deliveryError.ts";
-import { asDeliveryError } from "./deliveryError.ts";
+import { asDeliveryError, joinedError } from "./deliveryError.ts";
 import { parseInlined } from "./inlinedDocument.ts";
 import type { Transfer } from "./progress.ts";
 import type { ResourceHandle, ResourcePool } from "./resourcePool.ts";
@@ -114,19 +114,20 @@ export class Inlines {
   /** Tries one URL after the other until one leads to a document. */
   async #load(element: SceneElement, load: InlineLoad, priority: number): Promise<void> {
     const isReplaced = () => this.#loads.get(element) !== load;
-    let failure: DeliveryError | undefined;
+    const failures: DeliveryError[] = [];
     for (const url of load.urls) {
       try {
         load.document = await this.#documentAt(url, load, priority);
         break;
       } catch (error) {
         if (isReplaced()) return;
-        failure = asDeliveryError(error, url);
+        failures.push(asDeliveryError(error, url));
       }
     }
     if (isReplaced()) return;
     load.isEnded = true;
-    this.#listener.onEnd(element, load.document === undefined ? failure : undefined);
+    const [first, ...others] = failures;
+    this.#listener.onEnd(element, load.document || !first ? undefined : joinedError([first, ...others]));
   }
 
   async #documentAt(relativeUrl: string, load: InlineLoad, priority: number): Promise<InlinedDocument> {

@@ -5,6 +5,7 @@
 import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage } from "../decode/image.ts";
+import { checkImage } from "../decode/imageFile.ts";
 import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
 import type { GpuValues, GpuVertices, NormalFormat, WritableArray } from "../stage/stage.ts";
 import type { ElementArray, IndexArray } from "../stage/vertexArray.ts";
@@ -15,6 +16,8 @@ import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
 import type { StoreBytes } from "./arrayUploads.ts";
+import type { DeliveryError } from "./deliveryError.ts";
+import { asDeliveryError, joinedError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
 
 export type Content =
@@ -26,12 +29,13 @@ export type Content =
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
- * The form that a file is decoded to: a texture, its own bytes, or either, as the GPU allows; a texture image; or all
+ * The form that a file is decoded to: a texture, its own bytes (of any file, or of an image), or either, as the GPU
+ * allows; a texture image; or all
  * patches or base meshes that it holds, which a job decodes; or what frames of a live stream fill (live/).
  */
 export type ContentTarget =
   | { readonly kind: "live" }
-  | { readonly kind: "texture" | "bytes" | "either" }
+  | { readonly kind: "texture" | "bytes" | "imageBytes" | "either" }
   | { readonly kind: "textureImage"; readonly sampling: SamplingDescription }
   | { readonly kind: "patches"; readonly job: FileJob<PatchBuffers[]> }
   | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> };
@@ -93,6 +97,8 @@ export type MakeTextureImage = (
 export type ResourceRequest = ContentTarget & {
   /** The URL as the document writes it, without its fragment. */
   readonly url: string;
+  /** Requested in order where the content of `url` cannot be loaded or decoded. */
+  readonly furtherUrls?: readonly string[] | undefined;
   /** Files of larger priority are requested first. Of several handles of a file the largest priority counts. */
   readonly priority: number;
   /** Estimated size of the file until the server states it; for patches and bases, of what this handle needs of it. */
@@ -195,7 +201,7 @@ export class ResourcePool {
 
   acquire(request: ResourceRequest): ResourceHandle {
     const { scheduler, resolve } = this.#options;
-    const key = JSON.stringify([resolve(request.url), ...keyOf(request)]);
+    const key = JSON.stringify([urlsOf(request).map((url) => resolve(url)), ...keyOf(request)]);
     const resource = this.#resources.get(key) ?? this.#start(key, request);
     const state = { priority: request.priority, expectedBytes: request.expectedBytes };
     resource.add(state);
@@ -348,8 +354,7 @@ class Resource {
     try {
       const file =
         request.kind === "bases" ? this.#options.prefetchedBases?.(this.#options.resolve(request.url)) : undefined;
-      const content =
-        (file && (await this.#takeOver(file))) ?? (await this.#decode(request, await this.#download(request.url)));
+      const content = (file && (await this.#takeOver(file))) ?? (await this.#firstContent(request));
       transfer.state = "ready";
       return content;
     } catch (error) {
@@ -359,6 +364,21 @@ class Resource {
       transfer.totalBytes = transfer.loadedBytes;
       this.#options.onTransfer();
     }
+  }
+
+  /** The content of the first URL that has one. */
+  async #firstContent(request: ResourceRequest): Promise<Content> {
+    const errors: DeliveryError[] = [];
+    const urls = urlsOf(request);
+    for (const url of urls) {
+      try {
+        return await this.#decode(request, await this.#download(url));
+      } catch (error) {
+        if (urls.length === 1 || this.#aborter.signal.aborted) throw error;
+        errors.push(asDeliveryError(error, url));
+      }
+    }
+    throw joinedError(errors as [DeliveryError, ...DeliveryError[]]);
   }
 
   /**
@@ -433,18 +453,25 @@ class Resource {
         return { kind: "bases", bases: await runOnMainThread(target.job, bytes, signal) };
       case "bytes":
         return { kind: "bytes", bytes };
+      case "imageBytes":
+        checkImage(bytes);
+        return { kind: "bytes", bytes };
       case "live":
         throw new RangeError("live streams are no files");
       case "texture":
         return { kind: "image", ...(await makeImage(bytes, signal)) };
       case "either":
-        if (!(await readsTextures())) return { kind: "bytes", bytes };
+        if (!(await readsTextures())) return this.#contentOf({ kind: "imageBytes" }, bytes);
         return { kind: "image", ...(await makeImage(bytes, signal)) };
     }
   }
 }
 
-/** Requests of one URL and one key share a resource. */
+function urlsOf({ url, furtherUrls = [] }: Pick<ResourceRequest, "url" | "furtherUrls">): readonly string[] {
+  return [url, ...furtherUrls];
+}
+
+/** Requests of the same URLs and one key share a resource. */
 function keyOf(target: ContentTarget): readonly string[] {
   if (target.kind === "textureImage") return [target.kind, JSON.stringify(target.sampling)];
   return "job" in target ? [target.kind, target.job] : [target.kind];

@@ -38,10 +38,9 @@ export type TexturePriority = (key: string, chunk: TextureChunk) => number | und
 /** A file of a texture, and its state. */
 interface TextureFile {
   readonly chunk: TextureChunk;
-  /** The URL to request; earlier URLs of the file have failed. */
-  url: string;
-  /** Tried in order where `url` fails. */
-  readonly furtherUrls: string[];
+  readonly url: string;
+  /** Requested in order where `url` fails. */
+  readonly furtherUrls: readonly string[];
   handle: ResourceHandle | undefined;
   state: "absent" | "requested" | "ready" | "failed";
   image: TextureImage | undefined;
@@ -173,19 +172,20 @@ export class TextureDeliveries {
   }
 
   #startRequest(shared: SharedTexture, file: TextureFile, priority: number): void {
-    const { url, chunk } = file;
+    const { url, furtherUrls, chunk } = file;
     file.handle = this.#pool.acquire({
       kind: "textureImage",
       url,
+      furtherUrls,
       sampling: shared.sampling,
       priority,
       expectedBytes: expected[chunk].bytes,
     });
     file.state = "requested";
-    void this.#receive(shared, file, file.handle, priority);
+    void this.#receive(shared, file, file.handle);
   }
 
-  async #receive(shared: SharedTexture, file: TextureFile, handle: ResourceHandle, priority: number): Promise<void> {
+  async #receive(shared: SharedTexture, file: TextureFile, handle: ResourceHandle): Promise<void> {
     // The file may have been released since, and requested again.
     const isReplaced = () => file.handle !== handle;
     try {
@@ -197,13 +197,6 @@ export class TextureDeliveries {
       updateDisplayed(shared);
     } catch (error) {
       if (isReplaced()) return;
-      const next = file.furtherUrls.shift();
-      if (next !== undefined) {
-        handle.release();
-        file.url = next;
-        this.#startRequest(shared, file, priority);
-        return;
-      }
       file.state = "failed";
       if (file.chunk === "texture") {
         shared.error = asDeliveryError(error, file.url);

@@ -115,7 +115,7 @@ describe("a texture", () => {
     assert.deepEqual(await second.eventsWithin(), ["color 256"]);
     assert.deepEqual(second.site.requested, ["missing.png", "broken.png", "b.png"]);
     const none = shapeWith([texture("missing.png", "absent.png")], {});
-    assert.deepEqual(await none.eventsWithin(), ["no absent.png"]);
+    assert.deepEqual(await none.eventsWithin(), ["no missing.png"]);
     assert.deepEqual(none.site.requested, ["missing.png", "absent.png"]);
   });
 

@@ -39,7 +39,7 @@ describe("a shape's colorBy", () => {
     const { geometry } = read(
       `colorBy="flow"`,
       `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
-      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib="h.bin f.bin#4+16"/></BinaryGeometry>`,
+      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib='"h.bin" "f.bin#4+16"'/></BinaryGeometry>`,
     );
     assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", byteOffset: 4, byteStride: 16 }]);
   });

@@ -56,9 +56,26 @@ describe("images that are children of an ImageGeometry", () => {
     });
     assert.deepEqual([patch.texCoord1, patch.texCoord3], [texel("texCoord1"), texel("texCoord3")]);
     assert.deepEqual(warnings, [
-      "only the first 3 of 4 color images are used",
       "only the first 4 of 5 texCoord images are used",
+      "only the first 3 of 4 color images are used",
     ]);
+  });
+
+  test("may have several URLs, which are tried in order; those with another fragment than the first are left out", () => {
+    const { patch, warnings } = readImages(`
+      <ImageTexture containerField="coord" url='"a.png#3" "b.png#3" "c.png"'/>
+      <ImageTexture containerField="index" url='"i.png" "j.png"'/>`);
+    assert.deepEqual(patch?.coord, [{ url: "a.png", firstTexel: 3, furtherUrls: ["b.png"] }]);
+    assert.deepEqual(patch.index, { url: "i.png", firstTexel: 0, furtherUrls: ["j.png"] });
+    assert.deepEqual(warnings, ["the URLs of a file have different fragments; only those like the first are used"]);
+  });
+
+  test("that cannot be read leave no coordinates where they are images of coordinates or indices", () => {
+    const video = (field: string) => `<MovieTexture containerField="${field}" url="a.mp4"/>`;
+    const coord = '<ImageTexture containerField="coord" url="a.png"/>';
+    for (const field of ["coord", "index"]) assert.deepEqual(readImages(video(field) + coord).patch?.coord, []);
+    const { patch, warnings } = readImages(video("normal") + coord);
+    assert.deepEqual([patch?.coord, patch?.normal, warnings.length], [[texel("a.png")], undefined, 1]);
   });
 
   test("are left out with a warning where they are movies, empty, or without a field", () => {

@@ -41,11 +41,18 @@ describe("a field", () => {
   }
 
   test("may have quoted or bare strings, with escaped quotes", () => {
-    const parse = (text: string) => nodeFields.GeometryPatch.coord.type.parse(text);
-    assert.deepEqual(parse('"a b.png" "c\\"d"'), ["a b.png", 'c"d']);
-    assert.deepEqual(parse("a.png b.png"), ["a.png", "b.png"]);
+    const parse = (text: string) => nodeFields.GeometryPatch.primType.type.parse(text);
+    assert.deepEqual(parse('"a b" "c\\"d"'), ["a b", 'c"d']);
+    assert.deepEqual(parse("a b"), ["a", "b"]);
     assert.deepEqual(parse(""), []);
     assert.equal(parse('"a" b'), undefined);
+  });
+
+  test("of URLs may be one bare URL, with spaces", () => {
+    const parse = (text: string) => nodeFields.GeometryPatch.coord.type.parse(text);
+    assert.deepEqual(parse('"a b.png" "c.png"'), ["a b.png", "c.png"]);
+    assert.deepEqual(parse(" a b.png "), ["a b.png"]);
+    assert.deepEqual(parse(" "), []);
   });
 });
 

@@ -90,7 +90,7 @@ const priorityWords: Readonly<Record<string, number>> = { high: 4, auto: 1, low:
 
 const sfString: FieldType<string> = { name: "SFString", parse: (text) => text };
 
-/** Quoted strings ("a" "b"); in text without quotes every word is a string, so that a single URL needs no quotes. */
+/** Quoted strings ("a" "b"); in text without quotes every word is a string. */
 const mfString: FieldType<readonly string[]> = {
   name: "MFString",
   parse(text) {
@@ -102,6 +102,12 @@ const mfString: FieldType<readonly string[]> = {
     });
     return rest.replace(separators, "") === "" ? strings : undefined;
   },
+};
+
+/** Like MFString, but text without quotes is one URL, as in X3DOM: it may have spaces. */
+const mfUrl: FieldType<readonly string[]> = {
+  name: "MFString",
+  parse: (text) => (text.includes('"') ? mfString.parse(text) : text.trim() === "" ? [] : [text.trim()]),
 };
 
 /** Like MFString, but text without quotes is one string. */
@@ -152,5 +158,6 @@ export const MFFloat = fieldMaker(mfFloat);
 /** 16 numbers for each matrix. */
 export const MFMatrix4f = fieldMaker<readonly number[]>({ name: "MFMatrix4f", parse: numbersIn });
 export const MFString = fieldMaker(mfString);
+export const MFUrl = fieldMaker(mfUrl);
 export const MFText = fieldMaker(mfText);
 export const MFColor = fieldMaker(mfColor);

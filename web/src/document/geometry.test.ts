@@ -4,7 +4,7 @@ import { missingBytesMidpoint, dequantizationOf } from "./dequantization.ts";
 import type { GeometryDescription } from "./description.ts";
 import { shapesOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
-import { referenceOf } from "./geometry.ts";
+import { referenceOf } from "./patchReferences.ts";
 import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 import { onlyShape, sceneOf, twoPatches } from "./scenes.testing.ts";
@@ -147,7 +147,7 @@ describe("a geometry", () => {
   });
 
   test("has the first four of more byte planes, with a warning", () => {
-    const scene = sceneOf('<Shape><ImageGeometry coord="a b c d e"/></Shape>');
+    const scene = sceneOf('<Shape><ImageGeometry coord=\'"a" "b" "c" "d" "e"\'/></Shape>');
     assert.deepEqual(
       shapesOf(scene.root)[0]?.geometry?.patches[0]?.coord.map(({ url }) => url),
       ["a", "b", "c", "d"],

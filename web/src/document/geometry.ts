@@ -12,15 +12,15 @@ import type {
   PairBits,
   PatchDescription,
   Primitive,
-  Reference,
   Warning,
 } from "./description.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { elementTypes } from "../stage/elementType.ts";
 import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
-import { byVertexRole, byVertexRoleWith, texCoordRoles, vertexRoles } from "../stage/attributeRows.ts";
+import { byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
+import type { ContainerImages } from "./containerImages.ts";
 import { containerImagesOf, isStreamUrl } from "./containerImages.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { Resolve, SceneElement } from "./element.ts";
@@ -28,6 +28,7 @@ import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { readPatchReferences, referenceOf } from "./patchReferences.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
@@ -138,7 +139,7 @@ function withNormalsInCoords(geometry: GeometryDescription): GeometryDescription
 /** The last two bytes of 16-bit coordinate records, which three components leave free. */
 function fourthElementOf({ coord: [coord] }: PatchDescription): ByteReference | undefined {
   if (coord === undefined || !("byteOffset" in coord)) return undefined;
-  return { url: coord.url, byteOffset: coord.byteOffset + 6, byteStride: coord.byteStride || 8 };
+  return { ...coord, byteOffset: coord.byteOffset + 6, byteStride: coord.byteStride || 8 };
 }
 
 /** Whether a patch's normals are pairs of bytes in the fourth element of its coordinate records. */
@@ -249,14 +250,14 @@ function readPatches(
     const imageWarnings: Warning[] = [];
     const images = containerImagesOf(element, resolve, imageWarnings);
     warnings.push(...imageWarnings);
-    const values = { ...readFields(element, nodeFields.GeometryPatch, warnings), ...images };
-    const patch = patchOf(element, withImplicitMeshCount(element, values, warnings), encoding, warnings);
+    const values = withImplicitMeshCount(element, readFields(element, nodeFields.GeometryPatch, warnings), warnings);
+    const patch = patchOf(element, values, images, encoding, warnings);
     // An image that cannot be read is why there are none.
     if (imageWarnings.length === 0) requireCoordinates(element, patch, encoding, warnings);
     return [patch];
   }
   return patchElements.map((child) => {
-    const patch = patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), encoding, warnings);
+    const patch = patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), {}, encoding, warnings);
     requireCoordinates(child, patch, encoding, warnings);
     return patch;
   });
@@ -276,14 +277,10 @@ function requireCoordinates(
 function patchOf(
   element: SceneElement,
   values: PatchValues,
+  images: ContainerImages,
   encoding: Encoding,
   warnings: Warning[],
 ): PatchDescription {
-  const reference = (text: string) => (text === "" ? undefined : referenceOf(text, encoding));
-  const { maxCoordFileCount } = encodingFormats[encoding];
-  if (values.coord.length > maxCoordFileCount)
-    warnings.push({ element, message: `only the first ${maxCoordFileCount} of ${values.coord.length} coord are used` });
-  const coord = values.coord.slice(0, maxCoordFileCount);
   return {
     box: boxOf(values),
     vertexCount: Math.max(0, values.recordCount),
@@ -291,33 +288,9 @@ function patchOf(
     implicitWidth: Math.max(1, Math.floor(values.implicitMeshSize[0])),
     implicitHeight: Math.max(1, Math.floor(values.implicitMeshSize[1] || values.implicitMeshSize[0])),
     grid: undefined,
-    index: reference(values.index),
-    coord: coord.map((url) => referenceOf(url, encoding)),
-    ...byVertexRole((role) => reference(values[role][0] ?? "")),
-    data: reference(values.data),
-    attributes: values.attrib.map((url) => referenceOf(url, encoding)),
+    ...readPatchReferences(element, values, images, encoding, warnings),
     value: [],
-    lowBytes: lowBytesOf(element, values, encoding, warnings),
   };
-}
-
-/** The images of an attribute after the first. */
-function lowBytesOf(
-  element: SceneElement,
-  values: PatchValues,
-  encoding: Encoding,
-  warnings: Warning[],
-): PatchDescription["lowBytes"] {
-  const roles = vertexRoles.filter((role) => values[role].length > 1);
-  return Object.fromEntries(
-    roles.flatMap((role) => {
-      const used = encodingFormats[encoding].maxAttributeFileCount(role);
-      if (values[role].length > used)
-        warnings.push({ element, message: `only the first ${used} of ${values[role].length} ${role} are used` });
-      const low = values[role].slice(1, used);
-      return low.length === 0 ? [] : [[role, low.map((url) => referenceOf(url, encoding))]];
-    }),
-  );
 }
 
 /** The paper's name for `implicitMeshSize`, which has the last word where both are stated. */
@@ -382,12 +355,4 @@ function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]
     if (count < 0) warnings.push({ element, message: `vertexCount ${count} is negative; nothing is drawn` });
     return { primitive: primitive ?? "triangles", count: Math.max(0, count) };
   });
-}
-
-/** A URL with its fragment: `#N` for images (a texel's, or in compact a patch's index), `#O+S` for typed arrays. */
-export function referenceOf(text: string, encoding: Encoding): Reference {
-  const url = text.trim();
-  const hash = url.lastIndexOf("#");
-  const format = encodingFormats[encoding];
-  return hash < 0 ? format.referenceOf(url, undefined) : format.referenceOf(url.slice(0, hash), url.slice(hash + 1));
 }

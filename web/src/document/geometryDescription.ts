@@ -21,23 +21,27 @@ export interface Draw {
   readonly count: number;
 }
 
-/** Texels of an image, from `firstTexel` on, row by row (classic). */
-export interface TexelReference {
+/** A file. */
+interface FileReference {
   readonly url: string;
+  /** Tried in order where `url` cannot be loaded. */
+  readonly furtherUrls?: readonly string[];
+}
+
+/** Texels of an image, from `firstTexel` on, row by row (classic). */
+export interface TexelReference extends FileReference {
   readonly firstTexel: number;
 }
 
 /** Elements of typed arrays (BG). */
-export interface ByteReference {
-  readonly url: string;
+export interface ByteReference extends FileReference {
   readonly byteOffset: number;
   /** Bytes from one element to the next; 0: tightly packed. */
   readonly byteStride: number;
 }
 
 /** A patch or a base mesh in a file that may hold several (compact). */
-export interface PatchReference {
-  readonly url: string;
+export interface PatchReference extends FileReference {
   /** Index of the patch, or of the base mesh, in the file. */
   readonly patchIndex: number;
 }

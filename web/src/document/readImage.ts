@@ -1,6 +1,6 @@
 // Reads texture nodes that hold an image.
 
-import { imageUrlIn } from "./containerImages.ts";
+import { imageUrlsIn } from "./containerImages.ts";
 import { dataUrl } from "./dataUrl.ts";
 import type { ImageDescription, SamplingDescription, WrapMode } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -44,8 +44,8 @@ type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "rep
 
 function readImage(element: SceneElement, warnings: Warning[]): ReadTexture {
   const { url, ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
-  const inner = url.length > 0 ? undefined : imageUrlIn(element, warnings);
-  return { ...rest, urls: inner === undefined ? url : [inner] };
+  const inner = url.length > 0 ? undefined : imageUrlsIn(element, warnings);
+  return { ...rest, urls: inner ?? url };
 }
 
 function readPixels(element: SceneElement, warnings: Warning[]): ReadTexture {

@@ -39,9 +39,9 @@ function texelCountOf({ implicitWidth }: PatchDescription, role: AttributeRole, 
 
 /** Images become textures if the GPU decodes vertices, and stay files if workers do. */
 function targetOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): ContentTarget {
-  if (!isDrawnFromImages(geometry, patch)) return { kind: "bytes" };
+  if (!isDrawnFromImages(geometry, patch)) return { kind: "imageBytes" };
   if (geometry.decode === "gpu") return { kind: "texture" };
-  return { kind: imageEdgeOf(patch) > maxTextureSize ? "bytes" : "either" };
+  return { kind: imageEdgeOf(patch) > maxTextureSize ? "imageBytes" : "either" };
 }
 
 /** The longest edge of the images of a patch, in texels. */
