@@ -34,6 +34,7 @@ struct Format {
   bool isLong = true; ///< only with IMGEO_SOAK
   const char* name = "hills";
   std::array<const char*, 3> options{};
+  bool needsSystem = false; ///< it stores no grid without a reference system
   bool isCreated = false;   ///< the driver copies no other dataset
   bool isFromSouth = false; ///< the format states that the first row is the southern one
 };
@@ -48,7 +49,10 @@ constexpr Format formats[] = {
     {.driver = "HFA", .extension = ".img", .isLong = false},
     {.driver = "NWT_GRD", .extension = ".grd", .isLong = false},
     {.driver = "AAIGrid", .extension = ".asc"},
-    {.driver = "BAG", .extension = ".bag"},
+    {.driver = "BAG",
+     .extension = ".bag",
+     .options = {"VAR_DATE=2026-01-01", "VAR_PROCESS_STEP_DESCRIPTION=none"},
+     .needsSystem = true},
     {.driver = "BT", .extension = ".bt"},
     {.driver = "BYN", .extension = ".byn", .type = GDT_Int16, .cell = 5 * second},
     {.driver = "DTED", .extension = ".dt0", .type = GDT_Int16, .columns = 121, .rows = 121, .cell = 30 * second},
@@ -67,7 +71,7 @@ constexpr Format formats[] = {
     {.driver = "RMF", .extension = ".mtw", .type = GDT_Float64, .options = {"MTW=YES"}},
     {.driver = "RST", .extension = ".rst"},
     {.driver = "SAGA", .extension = ".sdat"},
-    {.driver = "SIGDEM", .extension = ".sigdem", .type = GDT_Float64},
+    {.driver = "SIGDEM", .extension = ".sigdem", .type = GDT_Float64, .needsSystem = true},
     {.driver = "SRTMHGT",
      .extension = ".hgt",
      .type = GDT_Int16,
@@ -105,7 +109,9 @@ void fill(const WritingLibrary& library, GDALDatasetH dataset, const Format& for
   std::array<double, 6> transform{isInDegrees ? -84 - format.cell / 2 : 500000.0, format.cell, 0,
                                   isInDegrees ? 36 + format.cell / 2 : 4000000.0, 0,           -format.cell};
   library.setGeoTransform(dataset, transform.data());
-  library.setProjection(dataset, (isInDegrees ? nad83 : utm).c_str());
+  // Only where the format needs it: the process that reads the file could not open PROJ's database a second time.
+  if (isInDegrees || format.needsSystem)
+    library.setProjection(dataset, (isInDegrees ? nad83 : utm).c_str());
   std::vector<double> heights;
   for (int row = 0; row < format.rows; ++row)
     for (int column = 0; column < format.columns; ++column)

@@ -3,6 +3,7 @@
 #include "base/data_url.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/first_readable.h"
 #include "containers/choose_urls.h"
 #include "transcode/site/site_files.h"
 
@@ -57,13 +58,13 @@ bool leadsOutOfFolder(const std::string& url) {
   return path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
 }
 
-/// Chooses, of files with several URLs, the first that can be read. Where none can there is a warning, and the first
-/// stays.
+/// Chooses, of files with several URLs, the first that can be read. Throws Error, which names all, where none of the
+/// URLs of a file of geometry can.
 void chooseFiles(SiteDocument& document) {
   const FetchFile fetch = fetchFrom(document);
   for (GeometryDescription& geometry : document.scene.geometries)
-    for (const Error& error : chooseUrls(geometry, fetch))
-      document.scene.warnings.emplace_back(error.what());
+    if (const std::vector<Error> errors = chooseUrls(geometry, fetch); !errors.empty())
+      throw joined(errors);
   for (ImageFile& image : document.scene.graph.images)
     for (const std::string& url : std::exchange(image.furtherUrls, {}))
       if (!image.url.empty() && !isDataUrl(image.url) && !exists(document, image.url))

@@ -74,15 +74,25 @@ TEST(GeometryImageSite, IsExportedAsTheMeshOfItsGrids) {
   EXPECT_LE(verify(directory / "site", directory / "out.ply").surfaceDistance, 1e-4);
 }
 
-/// Changes the first byte of a texel in the middle of the first image that a field of the page names.
+/// Changes the first byte of a texel, a third down, of the first image that a field of the geometry names.
 void damageImage(const TemporaryDirectory& directory, const std::string& field, int change) {
   const std::string page = std::string(asText(readFile(directory / "site" / "index.html")));
-  const std::size_t begin = page.find_first_not_of("'\"", page.find(" " + field + "=") + field.size() + 2);
-  const std::filesystem::path file = directory / "site" / page.substr(begin, page.find_first_of("#\"'", begin) - begin);
-  Image image = decodePng(readFile(file), file.string());
-  const std::size_t byte = image.pixels.size() / 2 / image.channels * image.channels;
+  const std::size_t at = page.find(" " + field + "=", page.find("<ImageGeometry"));
+  ASSERT_NE(at, std::string::npos) << field;
+  const std::size_t begin = page.find_first_not_of("'\"", at + field.size() + 2);
+  const std::string url = page.substr(begin, page.find_first_of("#\"'", begin) - begin);
+  Image image = decodePng(readFile(directory / "site" / url), url);
+  const std::size_t byte = image.pixels.size() / 3 / image.channels * image.channels;
   image.pixels[byte] = static_cast<std::uint8_t>(image.pixels[byte] + (image.pixels[byte] < 128 ? change : -change));
-  writeFile(file, encodePng(image, 1));
+  const Bytes damaged = encodePng(image, 1);
+  const std::string name = "geometry/" + contentName(damaged) + ".png"; // names tell damage of files themselves
+  writeFile(directory / "site" / name, damaged);
+  for (const char* document : {"index.html", "scene.x3d"}) {
+    std::string text = std::string(asText(readFile(directory / "site" / document)));
+    for (std::size_t found = text.find(url); found != text.npos; found = text.find(url, found + name.size()))
+      text.replace(found, url.size(), name);
+    writeFile(directory / "site" / document, asBytes(text));
+  }
 }
 
 void replaceInPage(const TemporaryDirectory& directory, const std::string& what, const std::string& by) {
@@ -105,7 +115,7 @@ TEST(GeometryImageSite, ThatIsFartherOffThanItStatesIsNotEqual) {
     EXPECT_FALSE(verified.equal);
     return fmt::format("{}", ::testing::PrintToString(verified.findings));
   };
-  EXPECT_NE(findingsAfter([&] { damageImage(directory, "coord", 60); }), "");
+  EXPECT_NE(findingsAfter([&] { damageImage(directory, "coord", 60); }).find("A surface is off by"), std::string::npos);
   EXPECT_NE(findingsAfter([&] {
               replaceInPage(directory, "surfaceDistance=\"", "0.0001 0.00001");
             }).find("more than the 0.0001 that the site states"),
