@@ -36,7 +36,7 @@ struct VerifyReport {
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
 /// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
 ///
-/// Of geometry images it compares the surfaces, whose distance must be within what the site states, and the vertices:
+/// It compares the surfaces of geometry images, whose distance must be within what the site states, and the vertices:
 /// each is on the input's surface, and has the attributes that the surface has there, within their rounding. Geometry
 /// with operators must draw what the input has: vertices and centres of elements, not their normals, are compared.
 ///

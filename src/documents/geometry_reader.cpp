@@ -42,7 +42,8 @@ Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
                                     Primitive::triangles, Primitive::triangleStrip, Primitive::triangleFan})
     if (equalIgnoringCase(name, nameOf(primitive)))
       return primitive;
-  fields.fail(ErrorKind::unsupported, "primType is none of those we read");
+  fields.warnOrFail("primType is none of those we read", "TRIANGLES are drawn");
+  return Primitive::triangles;
 }
 
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
@@ -52,7 +53,7 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   PatchDescription patch;
   patch.box = fields.box();
   patch.vertexCount = fields.integer("recordCount", 0);
-  patch.draws = readDraws(fields);
+  patch.draws = readDraws(fields, FieldReader(source, node, warnings));
   patch.implicitMeshSize = implicitMeshSize;
   const PatchStorage storage = rowOf(encoding).storage;
   if (storage == PatchStorage::packed) {
@@ -224,16 +225,18 @@ bool isGeometryNode(const char* name) {
                              [&](const EncodingRow* row) { return equalIgnoringCase(name, row->node.name); });
 }
 
-std::vector<Draw> readDraws(const FieldReader& fields) {
+std::vector<Draw> readDraws(const FieldReader& fields, const FieldReader& lenient) {
   const std::vector<std::string> types = fields.strings("primType");
   std::vector<std::uint32_t> counts = fields.integers("vertexCount");
   if (counts.empty())
     counts = {0}; // X3DOM: all indices
   if (!types.empty() && types.size() != counts.size())
-    fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
+    lenient.warnOrFail("primType and vertexCount differ in their number of draws",
+                       types.size() < counts.size() ? "TRIANGLES are drawn for the others"
+                                                    : "the further primType are not used");
   std::vector<Draw> draws;
   for (std::size_t i = 0; i < counts.size(); ++i)
-    draws.push_back({types.empty() ? Primitive::triangles : primitiveNamed(fields, types[i]), counts[i]});
+    draws.push_back({i < types.size() ? primitiveNamed(lenient, types[i]) : Primitive::triangles, counts[i]});
   return draws;
 }
 

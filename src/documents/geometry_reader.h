@@ -15,7 +15,8 @@ namespace imgeo {
 bool isGeometryNode(const char* name);
 
 /// The draws of a node's `primType` and `vertexCount`. One draw of 0 stands for all vertices or indices that there are.
-std::vector<Draw> readDraws(const FieldReader& fields);
+/// As in pages, a draw without a primType that we know is one of triangles, with a warning of `lenient` or an Error.
+std::vector<Draw> readDraws(const FieldReader& fields, const FieldReader& lenient);
 
 /// Why no file holds a geometry: its coordinates or indices are a live stream, a movie or a canvas. Nothing where files
 /// may hold it.

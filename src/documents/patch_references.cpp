@@ -191,13 +191,13 @@ void readTexture(const DocumentText& source, const pugi::xml_node& child, Encodi
   }
 }
 
-/// The first `most` of some images. Of further ones there is a warning.
-std::vector<Reference> firstImages(const FieldReader& fields, std::vector<Reference> images, std::size_t most,
+/// The first `limit` of some images. Of further ones there is a warning.
+std::vector<Reference> firstImages(const FieldReader& fields, std::vector<Reference> images, std::size_t limit,
                                    const char* role) {
-  if (images.size() > most)
-    fields.warnOrFail(fmt::format("only the first {} of {} {} images are used", most, images.size(), role),
+  if (images.size() > limit)
+    fields.warnOrFail(fmt::format("only the first {} of {} {} images are used", limit, images.size(), role),
                       "the others are left out");
-  images.resize(std::min(images.size(), most));
+  images.resize(std::min(images.size(), limit));
   return images;
 }
 
@@ -223,8 +223,8 @@ void readTextures(const DocumentText& source, const pugi::xml_node& node, Encodi
     if (holdsImage(child.name()))
       readTexture(source, child, encoding, warnings, images);
   const FieldReader fields(source, node, warnings);
-  const auto first = [&](Role role, std::size_t most) {
-    return firstImages(fields, std::move(images[role]), most, nameOf(role));
+  const auto first = [&](Role role, std::size_t limit) {
+    return firstImages(fields, std::move(images[role]), limit, nameOf(role));
   };
   if (const auto index = first(Role::index, 1); !index.empty())
     patch.index = index[0];
@@ -240,7 +240,7 @@ void readTextures(const DocumentText& source, const pugi::xml_node& node, Encodi
 /// Reads the references of the fields `coord`, `normal` ... of a patch. Those of images are one for each byte of a
 /// number; the URLs of an array are those of one file.
 void readReferenceFields(const FieldReader& fields, Encoding encoding, PatchDescription& patch) {
-  const auto read = [&](const char* name, std::size_t most) -> std::vector<Reference> {
+  const auto read = [&](const char* name, std::size_t limit) -> std::vector<Reference> {
     const std::vector<std::string> urls = fields.strings(name);
     if (urls.empty())
       return {};
@@ -249,7 +249,7 @@ void readReferenceFields(const FieldReader& fields, Encoding encoding, PatchDesc
     std::vector<Reference> images;
     for (const std::string& url : urls)
       images.push_back(referenceOf(fields, url, encoding));
-    return firstImages(fields, std::move(images), most, name);
+    return firstImages(fields, std::move(images), limit, name);
   };
   if (const std::vector<std::string> urls = fields.strings("index"); !urls.empty())
     patch.index = referenceOf(fields, urls, encoding);

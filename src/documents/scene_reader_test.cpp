@@ -74,10 +74,9 @@ TEST(ReadScene, ReportsTheLineOfAMalformedField) {
     return before + "<ImageGeometry><GeometryPatch coord='a' " + fields +
            "></GeometryPatch></ImageGeometry></Shape></Scene></X3D>";
   };
-  for (const std::string fields :
-       {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'", "index='a#b'",
-        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'",
-        "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
+  for (const std::string fields : {"vertexCount='-1'", "vertexCount='4294967296'", "index='a#b'", "index='#5'",
+                                   "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'",
+                                   "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
     EXPECT_EQ(errorKindOf(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
 }
 
@@ -200,7 +199,6 @@ TEST(ReadScene, RefusesGeometryWithoutALattice) {
   EXPECT_EQ(errorKindOf(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("positionBits='16'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("positionBits='7'", "a")), ErrorKind::malformed);
-  EXPECT_EQ(errorKindOf(geometry("primType='QUADS' vertexCount='3'", "a")), ErrorKind::unsupported);
   EXPECT_EQ(errorKindOf(geometry("", "")), ErrorKind::malformed);
 }
 
@@ -256,6 +254,20 @@ TEST(ReadScene, RefusesImagesThatItCannotRead) {
   EXPECT_EQ(errorKindOf(images("<ImageTexture containerField='coord' USE='none'/>")), ErrorKind::malformed);
 }
 
+TEST(ReadScene, DrawsTrianglesWhereNoKnownPrimTypeIsStated) {
+  for (const auto& [fields, draws] : std::initializer_list<std::pair<const char*, std::size_t>>{
+           {"primType='QUADS' vertexCount='3'", 1},
+           {"primType='TRIANGLES' vertexCount='3 6'", 2},
+           {R"(primType='"TRIANGLES" "LINES"' vertexCount='3')", 1}}) {
+    const SceneDocument document = readScene(
+        std::string("<X3D><Scene><Shape><ImageGeometry coord='a' ") + fields + "/></Shape></Scene></X3D>", "s.x3d");
+    const std::vector<Draw>& read = document.geometries.at(0).patches.at(0).draws;
+    EXPECT_EQ(read.size(), draws) << fields;
+    EXPECT_TRUE(std::ranges::all_of(read, [](const Draw& draw) { return draw.primitive == Primitive::triangles; }));
+    EXPECT_EQ(document.warnings.size(), 1u) << fields;
+  }
+}
+
 TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
   const std::string movies = "movies are not drawn; images and live streams are",
                     stream = "a live stream is in no file";
@@ -297,7 +309,7 @@ TEST(ReadScene, LeavesOutImagesOfAttributesThatItCannotRead) {
   }
 }
 
-TEST(ReadScene, HasTheImagesOfChildrenInPlaceOfThoseOfTheFields) {
+TEST(ReadScene, HasTheImagesOfChildrenInsteadOfThoseOfTheFields) {
   const SceneDocument document =
       readScene("<X3D><Scene><Shape><ImageGeometry coord='a' normal='\"n\" \"o\"' color='c'>"
                 "<ImageTexture containerField='coord' url='b'/><ImageTexture containerField='normal' url='p'/>"

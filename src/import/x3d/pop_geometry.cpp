@@ -184,7 +184,7 @@ Mesh readPopGeometry(const Source& source, pugi::xml_node node, const FetchFile&
   geometry.lattice = popLattice(fields);
   geometry.coordType = uint32;
   patch.vertexCount = joined.count;
-  patch.draws = readDraws(fields);
+  patch.draws = readDraws(fields, fields);
   if (fields.boolean("indexedRendering", true))
     patch.index = Reference{add("indices", std::exchange(joined.indices, {})), ByteLocation{}};
   else if (patch.draws.size() == 1 && patch.draws[0].count == 0)

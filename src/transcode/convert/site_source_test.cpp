@@ -175,7 +175,6 @@ TEST_F(SourcePage, LosesGeometryWhoseFilesCannotBeReadWithOneWarning) {
   expectRefused(begin + "https://example.org/c.bin></binarygeometry>", "https://example.org/c.bin");
   expectRefused(begin + "c.bin coordtype=Float64></binarygeometry>", "coordType");
   expectRefused("<binarygeometry vertexcount=12 coord=c.bin></binarygeometry>", "c.bin");
-  expectRefused(begin + "c.bin primtype='QUADS'></binarygeometry>", "primType");
   expectRefused(
       "<imagegeometry vertexcount=3><imagetexture containerfield=coord url=c.bin></imagetexture></imagegeometry>",
       "c.bin");

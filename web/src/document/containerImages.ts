@@ -46,9 +46,9 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
     if (urls !== undefined) files[field].push(urls);
     else if (field === "coord" || field === "index") isDrawable = false;
   }
-  const warnOfFurther = (field: ImageField, most: number) => {
-    if (files[field].length > most)
-      warnings.push({ element, message: `only the first ${most} of ${files[field].length} ${field} images are used` });
+  const warnOfFurther = (field: ImageField, limit: number) => {
+    if (files[field].length > limit)
+      warnings.push({ element, message: `only the first ${limit} of ${files[field].length} ${field} images are used` });
   };
   warnOfFurther("index", 1);
   warnOfFurther("texCoord", texCoordRoles.length);

@@ -144,6 +144,12 @@ describe("a geometry", () => {
     assert.deepEqual(warningsOf('<BinaryGeometry coord="c.bin" primType="POINTS" vertexCount="3 6"/>'), [
       "primType has 1 of 2 draws; TRIANGLES are drawn for the others",
     ]);
+    assert.deepEqual(warningsOf(`<BinaryGeometry coord="c.bin" primType='"LINES" "POINTS"' vertexCount="2"/>`), [
+      "primType has 2 draws, vertexCount 1; the further ones are not used",
+    ]);
+    assert.deepEqual(warningsOf('<ImageGeometry coord="c.png" numColorComponents="2"/>'), [
+      'numColorComponents="2" is neither 3 nor 4; 3 are read',
+    ]);
   });
 
   test("has the first four of more byte planes, with a warning", () => {

@@ -49,7 +49,7 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
     attributes: readAttributes(element, encoding, warnings),
     encoding,
-    colorComponents: values.numColorComponents === 4 ? 4 : 3,
+    colorComponents: colorComponentsOf(element, values.numColorComponents, warnings),
     ...pairBitsOf(element, values, warnings),
     decode: choiceOf(element, "decode", values.decode, decodeModes, "auto", warnings),
     base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
@@ -58,6 +58,12 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
     patches: readPatches(element, encoding, resolve, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   });
+}
+
+function colorComponentsOf(element: SceneElement, count: number, warnings: Warning[]): 3 | 4 {
+  if (count !== 3 && count !== 4)
+    warnings.push({ element, message: `numColorComponents="${count}" is neither 3 nor 4; 3 are read` });
+  return count === 4 ? 4 : 3;
 }
 
 /** A live stream in place of files of coordinates (docs/live.md). */
@@ -339,6 +345,11 @@ const primitives: Readonly<Record<string, Primitive>> = {
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
   const { length } = values.primType;
+  if (length > values.vertexCount.length && attributeOf(element, "primType") !== undefined)
+    warnings.push({
+      element,
+      message: `primType has ${length} draws, vertexCount ${values.vertexCount.length}; the further ones are not used`,
+    });
   if (length < values.vertexCount.length)
     warnings.push({
       element,

@@ -27,21 +27,21 @@ export function readPatchReferences(
   encoding: Encoding,
   warnings: Warning[],
 ): Pick<PatchDescription, "index" | "coord" | "lowBytes" | "data" | "attributes" | VertexRole> {
-  const { storage, maxCoordFileCount, maxAttributeFileCount } = encodingFormats[encoding];
+  const format = encodingFormats[encoding];
   /** The URLs of each file that a field names: arrays have one file, images one for each byte of a number. */
   const filesOf = (urls: readonly string[]) =>
-    storage === "bytePlanes" ? urls.map((url) => [url]) : urls.length > 0 ? [urls] : [];
-  const read = (field: "coord" | VertexRole, most: number): readonly Reference[] => {
+    format.storage === "bytePlanes" ? urls.map((url) => [url]) : urls.length > 0 ? [urls] : [];
+  const read = (field: "coord" | VertexRole, limit: number): readonly Reference[] => {
     const files = images[field] ?? filesOf(values[field]);
-    if (files.length > most)
-      warnings.push({ element, message: `only the first ${most} of ${files.length} ${field} images are used` });
-    return files.slice(0, most).map((urls) => fileReference(element, urls, encoding, warnings));
+    if (files.length > limit)
+      warnings.push({ element, message: `only the first ${limit} of ${files.length} ${field} images are used` });
+    return files.slice(0, limit).map((urls) => fileReference(element, urls, encoding, warnings));
   };
-  const attributes = byVertexRole((role) => read(role, maxAttributeFileCount(role)));
+  const attributes = byVertexRole((role) => read(role, format.maxAttributeFileCount(role)));
   const [index = values.index] = images.index ?? [];
   return {
     index: index.length > 0 ? fileReference(element, index, encoding, warnings) : undefined,
-    coord: read("coord", maxCoordFileCount),
+    coord: read("coord", format.maxCoordFileCount),
     ...byVertexRole((role) => attributes[role][0]),
     lowBytes: Object.fromEntries(
       vertexRoles.flatMap((role) => (attributes[role].length > 1 ? [[role, attributes[role].slice(1)]] : [])),
