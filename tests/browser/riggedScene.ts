@@ -29,7 +29,7 @@ function surfaceOf(rows: number, columns: number, at: (row: number, angle: numbe
   for (let row = 0; row < rows; ++row)
     for (let column = 0; column < columns; ++column) {
       const [a, b] = [columns * row + column, columns * row + ((column + 1) % columns)];
-      vertices.indices.push(a, a + columns, b, b, a + columns, b + columns);
+      vertices.indices.push(a, b, a + columns, b, b + columns, a + columns);
     }
   return vertices;
 }
