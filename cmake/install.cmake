@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 # libimgeo.a holds the objects of all folders but the tool's own.
 set(library_objects)
-foreach(folder base content markup images scene import prepare containers documents export transcode)
+foreach(folder base motions content markup images scene import prepare containers live sequence documents export transcode)
   list(APPEND library_objects $<TARGET_OBJECTS:imgeo_${folder}>)
 endforeach()
 add_library(imgeo_library STATIC ${library_objects})
@@ -26,8 +26,7 @@ target_link_libraries(imgeo_library PRIVATE fmt::fmt TBB::tbb meshoptimizer::mes
   Threads::Threads ${CMAKE_DL_LIBS})
 
 # libimgeo-live.a adds the publishing of live streams to it (imgeo/live.h), with an HTTP server.
-add_library(imgeo_live_library STATIC $<TARGET_OBJECTS:imgeo_live> $<TARGET_OBJECTS:imgeo_serve>
-  $<TARGET_OBJECTS:imgeo_publish>)
+add_library(imgeo_live_library STATIC $<TARGET_OBJECTS:imgeo_serve> $<TARGET_OBJECTS:imgeo_publish>)
 set_target_properties(imgeo_live_library PROPERTIES OUTPUT_NAME imgeo-live EXPORT_NAME live LINKER_LANGUAGE CXX)
 target_link_libraries(imgeo_live_library PUBLIC imgeo_library)
 

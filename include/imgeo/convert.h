@@ -100,6 +100,7 @@ struct ConvertOptions {
   std::optional<double> basePercent{};   ///< compact: triangles of the base mesh in percent, 0..25; default: 2
   TextureOptions textures{};             ///< texture images
   SourceAxesOptions axes{};              ///< axes and unit of the source
+  double rate = 30;                      ///< frames per second of a sequence, above 0, at most 1000
   StartView view = StartView::automatic; ///< side from which the scene is shown first
   bool pictures = true;                  ///< draw the page's icon and the picture that previews of links show
   bool precompress = false;              ///< write FILE.br and FILE.gz for static hosts that compress nothing
@@ -185,6 +186,8 @@ struct ConvertReport {
   TextureReport textures;                              ///< texture images
   std::string x3domVersion;                            ///< target x3dom: the release that the page loads
   std::string x3domUrl;                                ///< target x3dom: URL of its script
+  std::size_t frames = 0;                              ///< frames of a sequence; 0: the site has none
+  std::uint64_t frameBytes = 0;                        ///< size of all frames
   std::vector<RoleBytes> roles;                        ///< sizes by role of the files
   double bytesPerTriangle = 0;                         ///< geometry files and nodes; 0 if there are no triangles
   PrecompressReport precompressed;                     ///< files compressed in advance, with option precompress
@@ -209,5 +212,11 @@ using Progress = std::function<void(double share, const std::string& step)>;
 /// for the input and the file system, and what `progress` throws. The target is unchanged then.
 ConvertReport convert(const std::filesystem::path& input, const std::filesystem::path& directory,
                       const ConvertOptions& options = {}, const Progress& progress = {});
+
+/// Converts the frames of a sequence, a file for each in their order, all with the elements of the first, into a site
+/// that plays them (docs/sequences.md). Otherwise as convert(); a single file is converted by it. The encoding is SIG
+/// classic. Throws Error{malformed} for a frame that has other elements than the first.
+ConvertReport convertSequence(const std::vector<std::filesystem::path>& frames, const std::filesystem::path& directory,
+                              const ConvertOptions& options = {}, const Progress& progress = {});
 
 } // namespace imgeo

@@ -26,6 +26,7 @@ struct VerifyReport {
   std::size_t resampledMeshes = 0;   ///< meshes that the site has as geometry images
   double surfaceDistance = 0;        ///< the largest distance between their surfaces, as ResampledMesh has it
   double surfaceDistanceBound = 0;   ///< what the site states of it, for the mesh that comes closest to it
+  std::size_t frames = 0;            ///< frames of a sequence that were compared
   std::size_t comparedMaterials = 0; ///< shapes whose materials were compared
   /// Maximum error of texture coordinates, colours and further attributes, as a fraction of the allowed error.
   double attributeError = 0;
@@ -48,5 +49,11 @@ struct VerifyReport {
 /// An Error that reading the site causes is a finding. Throws Error if the document or imgeo.json cannot be read, and
 /// for the input.
 VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input, bool outside = false);
+
+/// Compares a site that plays a sequence with the files of its frames, in their order: the same elements in each frame,
+/// their positions, and the normals and colours that frames have of the source, within the rounding of their bits. One
+/// file is compared by verify().
+VerifyReport verifySequence(const std::filesystem::path& site, const std::vector<std::filesystem::path>& frames,
+                            bool outside = false);
 
 } // namespace imgeo

@@ -107,7 +107,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
   if (arguments.has("help"))
     return arguments;
   for (const Flag& flag : command.flags)
-    if (flag.required && !flag.repeatable && arguments.values[flag.name].empty())
+    if (flag.required && (flag.repeatable ? arguments.lists[flag.name].empty() : arguments.values[flag.name].empty()))
       refuse(&command, fmt::format("{} is missing: imgeo {} {}",
                                    flag.positional ? flag.valueName : fmt::format("--{} {}", flag.name, flag.valueName),
                                    command.name, command.usage));

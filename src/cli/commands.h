@@ -14,6 +14,8 @@ int runTransform(const Arguments& arguments);
 int runSample(const Arguments& arguments);
 /// `imgeo sample MOTION --live`
 int runLiveSample(const Arguments& arguments);
+/// `imgeo sample MOTION --frames N -o DIR`
+int runFramesSample(const Arguments& arguments);
 int runServe(const Arguments& arguments);
 int runPublish(const Arguments& arguments);
 int runCompletion(const Arguments& arguments);

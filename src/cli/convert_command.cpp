@@ -4,6 +4,7 @@
 #include "cli/convert_options.h"
 #include "cli/convert_report.h"
 #include "cli/embed_snippet.h"
+#include "cli/input_files.h"
 #include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "imgeo/convert.h"
@@ -30,11 +31,11 @@ int runConvert(const Arguments& arguments) {
   ConvertReport report;
   {
     ProgressBar bar;
-    report = convert(arguments.text("input"), output, convertOptionsFrom(arguments),
-                     [&](double fraction, const std::string& step) {
-                       throwIfInterrupted();
-                       bar.show(fraction, step);
-                     });
+    report = convertSequence(inputFiles(arguments.list("input")), output, convertOptionsFrom(arguments),
+                             [&](double fraction, const std::string& step) {
+                               throwIfInterrupted();
+                               bar.show(fraction, step);
+                             });
   }
   for (const std::string& warning : report.warnings)
     fmt::print(stderr, "imgeo: warning: {}\n", warning);

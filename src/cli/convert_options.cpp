@@ -144,6 +144,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
                   .scale = factorFrom("--scale", arguments.text("scale")),
                   .exaggeration = factorFrom("--exaggerate", arguments.text("exaggerate")),
                   .metres = valueNamed(unitChoices, arguments.text("unit"))};
+  options.rate = factorFrom("--rate", arguments.text("rate"));
   options.view = valueNamed(viewChoices, arguments.text("view"));
   options.pictures = !arguments.has("no-pictures");
   options.effort = static_cast<int>(arguments.integer("effort"));

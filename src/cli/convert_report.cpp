@@ -112,6 +112,10 @@ void printWelding(const Arguments& arguments, const ConvertReport& report) {
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const EncodingRow& row = rowOf(report.encoding);
   printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
+  if (report.frames > 0)
+    printLine("sequence",
+              fmt::format("{} frames, {} a second: {}, {} each", grouped(report.frames), arguments.text("rate"),
+                          byteSize(report.frameBytes), byteSize(report.frameBytes / report.frames)));
   printLine("up", upOf(report.axes));
   if (report.axes.axes.scale != 1)
     printLine("scale",
@@ -198,7 +202,7 @@ std::string bytesPerTriangleOf(const ConvertReport& report) {
 
 std::string convertJson(const Arguments& arguments, const ConvertReport& report) {
   Json json;
-  json["input"] = arguments.text("input");
+  json["input"] = arguments.list("input").front();
   json["output"] = arguments.text("output");
   if (report.x3domUrl.empty())
     json["embed"] = embedSnippet(arguments.text("output"));
@@ -273,6 +277,9 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
                   {"degenerateElements", report.weld.degenerateElements},
                   {"duplicateElements", report.weld.duplicateElements},
                   {"drop", arguments.text("drop")}};
+  if (report.frames > 0)
+    json["sequence"] = {
+        {"frames", report.frames}, {"rate", std::stod(arguments.text("rate"))}, {"bytes", report.frameBytes}};
   json["roles"] = Json::array();
   for (const RoleBytes& role : report.roles)
     json["roles"].push_back({{"role", role.role}, {"files", role.files}, {"bytes", role.bytes}});

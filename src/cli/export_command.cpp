@@ -7,6 +7,7 @@
 #include "transcode/sample/sample_file.h"
 #include "transcode/transform/transform_file.h"
 
+#include <charconv>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -39,8 +40,39 @@ int print(const Arguments& arguments, const ExportReport& report) {
 
 } // namespace
 
+namespace {
+
+/// "out/cloth.ply" as "out/cloth-0012.ply".
+std::filesystem::path numbered(const std::filesystem::path& file, std::uint32_t frame) {
+  return file.parent_path() / fmt::format("{}-{:04}{}", file.stem().string(), frame, file.extension().string());
+}
+
+ExportReport exportAllFrames(const Arguments& arguments) {
+  const std::uint32_t count = frameCountOf(arguments.text("site"));
+  ExportReport sum;
+  for (std::uint32_t frame = 0; frame < count; ++frame) {
+    throwIfInterrupted();
+    const std::uint64_t bytes = sum.bytes;
+    sum = exportFrame(arguments.text("site"), frame, numbered(arguments.text("output"), frame));
+    sum.bytes += bytes;
+  }
+  return sum;
+}
+
+} // namespace
+
 int runExport(const Arguments& arguments) {
   handleSignals();
+  const std::string& frame = arguments.text("frame");
+  if (frame == "all")
+    return print(arguments, exportAllFrames(arguments));
+  if (!frame.empty()) {
+    std::uint32_t number = 0;
+    const auto [last, fault] = std::from_chars(frame.data(), frame.data() + frame.size(), number);
+    if (fault != std::errc{} || last != frame.data() + frame.size())
+      throw Error(ErrorKind::usage, "--frame", fmt::format("\"{}\" is neither a number nor all", frame));
+    return print(arguments, exportFrame(arguments.text("site"), number, arguments.text("output")));
+  }
   return print(arguments, exportSite(arguments.text("site"), arguments.text("output")));
 }
 
@@ -59,7 +91,7 @@ int runSample(const Arguments& arguments) {
     return runLiveSample(arguments);
   const std::string& what = arguments.text("sample");
   if (what != "hall")
-    throw Error(ErrorKind::usage, "", fmt::format("{} is a motion: imgeo sample {} --live", what, what));
+    return runFramesSample(arguments);
   if (arguments.text("output").empty())
     throw Error(ErrorKind::usage, "", "--output FILE is missing: imgeo sample hall -o FILE");
   const auto seats = static_cast<std::uint32_t>(arguments.integer("seats"));

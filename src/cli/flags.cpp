@@ -55,6 +55,8 @@ Command convertCommand() {
   Flag input =
       positional("input", "INPUT", ValueKind::file, formatHelp() + " file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
+  input.repeatable = true;
+  input.help += "; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers";
   Flag output{.name = "output",
               .aliases = {"-o"},
               .valueKind = ValueKind::directory,
@@ -68,7 +70,7 @@ Command convertCommand() {
               .help = "write a report of what was chosen and measured, as JSON"};
   return {
       .name = "convert",
-      .usage = "INPUT -o DIR [options]",
+      .usage = "INPUT... -o DIR [options]",
       .summary = "turn a mesh into a page that shows it progressively",
       .text = "Writes a static site: index.html, the scene as X3D, the runtime, and the mesh's vertex data in files "
               "named by their content. The directory takes its place in one step; killed at any moment, it is the old "
@@ -92,6 +94,11 @@ Command convertCommand() {
                  .valueName = "FACTOR",
                  .help = "then multiply its heights, as maps of terrain do",
                  .defaultValue = "1"},
+                {.name = "rate",
+                 .valueKind = ValueKind::text,
+                 .valueName = "FRAMES",
+                 .help = "sequences: frames per second",
+                 .defaultValue = "30"},
                 choice("unit", namesOf(unitChoices),
                        "the unit of the source's numbers, which become metres; auto: what the file says, otherwise m"),
                 choice("view", namesOf(viewChoices),
@@ -200,7 +207,7 @@ Command convertCommand() {
                    "imgeo convert house.glb -o site --textures webp --texture-size 2048",
                    "imgeo convert cloud.ply -o site -vp 20 --title \"The cave\"",
                    "imgeo convert scan.ply -o site --keep-attributes intensity",
-                   "imgeo convert dem.tif -o terrain --exaggerate 2",
+                   "imgeo convert dem.tif -o terrain --exaggerate 2", "imgeo convert frame-*.ply -o cloth --rate 25",
                    "curl -s https://example.org/part.stl | imgeo convert - -o site",
                    "imgeo convert statue.ply -o site --json | jq .bytesPerTriangle"}};
 }
@@ -217,18 +224,22 @@ Command infoCommand() {
 }
 
 Command verifyCommand() {
+  Flag input = positional("input", "INPUT", ValueKind::file,
+                          "the file it was converted from; for a sequence the files of all frames, or a pattern in "
+                          "quotes");
+  input.repeatable = true;
   return {.name = "verify",
-          .usage = "DIR INPUT [--json]",
+          .usage = "DIR INPUT... [--json]",
           .summary = "read a site back and prove that it equals its input",
           .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
                   "same elements in the same orientation, positions within half a step of the lattice, normals within "
                   "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
                   "pictures what imgeo.json says; in a site of another program only that it is there. Exits with 0 "
                   "only if all of that is so, with 3 if not.",
-          .flags = {positional("site", "DIR", ValueKind::directory, "the site"),
-                    positional("input", "INPUT", ValueKind::file, "the file it was converted from"), outsideFlag(),
+          .flags = {positional("site", "DIR", ValueKind::directory, "the site"), input, outsideFlag(),
                     jsonFlag("the result"), helpFlag()},
-          .examples = {"imgeo verify site statue.ply", "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
+          .examples = {"imgeo verify site statue.ply", "imgeo verify cloth frame-*.ply",
+                       "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
 
 Flag meshFileFlag() {
@@ -265,19 +276,22 @@ Command transformCommand() {
                    "imgeo transform site -o statue.glb --operators \"gamma(1.2) scale(0.8 1 0.8)\""}};
 }
 
+Flag textFlag(const std::string& name, const std::string& valueName, const std::string& help) {
+  return {.name = name, .valueKind = ValueKind::text, .valueName = valueName, .help = help};
+}
+
 Command exportCommand() {
   return {.name = "export",
-          .usage = "DIR -o FILE",
+          .usage = "DIR -o FILE [--frame N|all]",
           .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
           .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
                   "Reads sites that aopt wrote for X3DOM, too.",
           .flags = {positional("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"),
-                    meshFileFlag(), jsonFlag("what was written"), helpFlag()},
-          .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
-}
-
-Flag textFlag(const std::string& name, const std::string& valueName, const std::string& help) {
-  return {.name = name, .valueKind = ValueKind::text, .valueName = valueName, .help = help};
+                    meshFileFlag(),
+                    textFlag("frame", "N|all", "of a sequence: this frame, from 0; all: FILE-0000, FILE-0001 ..."),
+                    jsonFlag("what was written"), helpFlag()},
+          .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb",
+                       "imgeo export cloth -o frames/cloth.ply --frame all"}};
 }
 
 /// The options of commands that listen.
@@ -300,32 +314,33 @@ Flag viewTokenFlag() {
 Command sampleCommand() {
   Flag what =
       positional("sample", "SAMPLE", ValueKind::choice,
-                 "hall: rows of seats, stairs, columns, trusses, signs. With --live, cloth: in the wind; water: "
-                 "drops fall into a basin; turntable: a laser scanner turns in a street");
+                 "hall: rows of seats, stairs, columns, trusses, signs. Motions: cloth in the wind; water: drops fall "
+                 "into a basin; turntable: a laser scanner turns in a street");
   what.choices = {"hall", "cloth", "water", "turntable"};
   Flag output{.name = "output",
               .aliases = {"-o"},
               .valueKind = ValueKind::file,
               .valueName = "FILE",
-              .help = "of hall: the GLB file to write"};
+              .help = "of hall: the GLB file to write; of a motion: a folder for its frames"};
   Flag site{.name = "site",
             .valueKind = ValueKind::directory,
             .valueName = "DIR",
             .help = "with --live: serve this directory instead of a page that draws the motion"};
   return {.name = "sample",
-          .usage = "hall [--seats N] -o FILE | cloth|water|turntable --live",
-          .summary = "write a generated scene or publish a moving one",
+          .usage = "hall [--seats N] -o FILE | cloth|water|turntable --live|--frames N -o DIR",
+          .summary = "write a generated scene, or write or publish a moving one",
           .text = "All seats of the hall are one mesh in many places, so that the file stays small. With --live, a "
-                  "simulation runs until Ctrl-C and its vertices are a live stream.",
+                  "simulation runs until Ctrl-C and its vertices are a live stream; with --frames its frames are "
+                  "PLY files, which convert turns into a sequence.",
           .flags = {what,
                     integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"),
                     output,
                     {.name = "live", .help = "serve the motion as a live stream at /live/SAMPLE"},
-                    integer("grid", {}, 8, 2048, "128", "with --live: N x N vertices"),
-                    integer("rate", {}, 1, 1000, "30", "with --live: frames per second"),
+                    integer("grid", {}, 8, 2048, "128", "motions: N x N vertices"),
+                    integer("rate", {}, 1, 1000, "30", "motions: frames per second"),
                     integer("bits", {}, 8, 24, "16", "with --live: bits of a coordinate"),
-                    integer("seed", {}, 0, 4294967295, "1", "with --live: another number, another motion"),
-                    integer("frames", {}, 0, 1000000000, "0", "with --live: end after N frames; 0: never"),
+                    integer("seed", {}, 0, 4294967295, "1", "motions: another number, another motion"),
+                    integer("frames", {}, 0, 1000000000, "0", "motions: so many frames; with --live, 0: without end"),
                     portFlag("8090"),
                     hostFlag(),
                     site,
@@ -334,7 +349,8 @@ Command sampleCommand() {
                     jsonFlag("what was written"),
                     helpFlag()},
           .examples = {"imgeo sample hall --seats 2000 -o hall.glb && imgeo convert hall.glb -o site",
-                       "imgeo sample cloth --live --grid 256 --rate 30"}};
+                       "imgeo sample cloth --live --grid 256 --rate 30",
+                       "imgeo sample cloth --frames 300 -o frames && imgeo convert 'frames/*.ply' -o cloth"}};
 }
 
 Command serveCommand() {

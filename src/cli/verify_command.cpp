@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/input_files.h"
 #include "cli/terminal.h"
 #include "imgeo/verify.h"
 
@@ -27,6 +28,8 @@ void printJson(const VerifyReport& report) {
   json["normalErrorDegrees"] = report.normalErrorDegrees;
   json["normalBoundDegrees"] = report.normalBoundDegrees;
   json["attributeError"] = report.attributeError;
+  if (report.frames > 0)
+    json["frames"] = report.frames;
   if (report.resampledMeshes > 0)
     json["resampled"] = {{"meshes", report.resampledMeshes},
                          {"largestDistance", report.surfaceDistance},
@@ -47,6 +50,8 @@ void printText(const VerifyReport& report) {
                bold(fmt::format("{:10}", "surfaces")), grouped(report.resampledMeshes),
                report.resampledMeshes == 1 ? "mesh is" : "meshes are", report.surfaceDistance,
                report.surfaceDistanceBound);
+  if (report.frames > 0)
+    fmt::print("{} {} compared\n", bold(fmt::format("{:10}", "frames")), grouped(report.frames));
   if (report.positionBound > 0)
     fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n", bold(fmt::format("{:10}", "positions")),
                report.positionError, report.positionBound);
@@ -72,7 +77,8 @@ void printText(const VerifyReport& report) {
 } // namespace
 
 int runVerify(const Arguments& arguments) {
-  const VerifyReport report = verify(arguments.text("site"), arguments.text("input"), arguments.has("outside"));
+  const VerifyReport report =
+      verifySequence(arguments.text("site"), inputFiles(arguments.list("input")), arguments.has("outside"));
   if (arguments.has("json"))
     printJson(report);
   else

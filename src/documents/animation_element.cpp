@@ -27,6 +27,8 @@ std::vector<float> floatsOf(const std::vector<double>& numbers) {
 } // namespace
 
 Element interpolatorElement(const Interpolator& interpolator, const Attributes& names) {
+  if (!interpolator.url.empty())
+    return {nodeNameOf(interpolator.kind), {names, {{"containerField", "coord"}, {"url", interpolator.url}}}};
   return {nodeNameOf(interpolator.kind),
           {names, {{"key", textOf(interpolator.keys)}, {"keyValue", textOf(interpolator.values)}}}};
 }
@@ -37,7 +39,9 @@ Element routeElement(const Route& route, const std::string& fromName, const std:
 }
 
 Interpolator readInterpolator(InterpolatorKind kind, const FieldReader& fields) {
-  return {kind, floatsOf(fields.reals("key")), floatsOf(fields.reals("keyValue"))};
+  const std::vector<std::string> urls = fields.strings("url");
+  return {kind, floatsOf(fields.reals("key")), floatsOf(fields.reals("keyValue")),
+          urls.empty() || kind != InterpolatorKind::coordinate ? "" : urls[0]};
 }
 
 } // namespace imgeo

@@ -311,13 +311,13 @@ private:
   std::optional<std::size_t> readShape(const FieldReader& fields) {
     std::optional<Shape> shape;
     std::optional<std::size_t> appearance;
-    std::vector<std::size_t> displacers;
+    std::vector<std::size_t> children; // displacers and interpolators of frames
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element)
         continue;
       if (equalIgnoringCase(child.name(), "HAnimDisplacer")) {
         if (const auto displacer = readChild(FieldReader(source_, child, &document_.warnings), maxDepth))
-          displacers.push_back(*displacer);
+          children.push_back(*displacer);
         continue;
       }
       if (equalIgnoringCase(child.name(), "Appearance")) {
@@ -326,8 +326,10 @@ private:
         if (shape)
           fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
         const FieldReader geometry(source_, child);
-        if (isInFiles(geometry))
+        if (isInFiles(geometry)) {
           shape = readGeometryOf(fields, geometry);
+          std::ranges::copy(readFramesOf(child), std::back_inserter(children));
+        }
       } else if (!std::string_view(child.name()).starts_with("Metadata") && !FieldReader(source_, child).has("USE")) {
         ++document_.otherElements[child.name()];
       }
@@ -341,7 +343,20 @@ private:
     shape->appearance = isUnlit_[shape->mesh]
                             ? appearances_.unlit(appearance, hasColors(document_.geometries[shape->mesh]))
                             : appearance;
-    return add(fields, *shape, std::move(displacers));
+    return add(fields, *shape, std::move(children));
+  }
+
+  /// The interpolators of a geometry that have the frames of its vertices.
+  std::vector<std::size_t> readFramesOf(const pugi::xml_node& geometry) {
+    std::vector<std::size_t> nodes;
+    for (const pugi::xml_node& child : geometry.children())
+      if (interpolatorKindOf(child.name()) == InterpolatorKind::coordinate) {
+        const FieldReader fields(source_, child, &document_.warnings);
+        if (Interpolator interpolator = readInterpolator(InterpolatorKind::coordinate, fields);
+            !interpolator.url.empty())
+          nodes.push_back(add(fields, std::move(interpolator)));
+      }
+    return nodes;
   }
 
   /// Whether files may hold a geometry; warns of one that they cannot hold.

@@ -231,7 +231,8 @@ void SceneWriter::writeChildren(const Node& node) {
     for (const std::size_t joint : humanoid->joints)
       writer_.leaf(jointElement(nodeNames_[joint]));
   for (const std::size_t child : node.children)
-    writeNode(child);
+    if (!hasFrames(document_.graph.nodes[child]))
+      writeNode(child);
 }
 
 Attributes SceneWriter::furtherFields(const Node& node) const {
@@ -346,24 +347,29 @@ void SceneWriter::writeAppearanceOf(const Shape& shape) {
                   [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
 }
 
-void SceneWriter::writeGeometryOf(const Shape& shape) {
+/// `node`: the Shape. The interpolator that has the frames of its vertices is a child of the geometry's element.
+void SceneWriter::writeGeometryOf(const Node& node) {
+  const Shape& shape = std::get<Shape>(node.content);
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
   const Attributes names = geometryNames_.defOrUse(2 * shape.mesh + !shape.solid);
   if (isUse(names))
     return writer_.leaf({rowOf(geometry).node.name, {names}});
   const std::optional<Attributes> ownBox = boxInGeometry(geometry);
-  Element node = geometryElement(geometry, shape.solid, names, ownBox);
+  Element element = geometryElement(geometry, shape.solid, names, ownBox);
   if (!shape.movingBox.empty() && !ownBox) // the Shape has another one
-    node.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
+    element.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
   const bool hasPatchElements = !isSinglePatch(geometry);
   if (geometry.attributes.empty() && !hasPatchElements)
-    return writer_.leaf(node);
-  writer_.open(node);
+    return writer_.leaf(element);
+  writer_.open(element);
+  for (const std::size_t child : node.children)
+    if (hasFrames(document_.graph.nodes[child]))
+      writeNode(child);
   for (const AttributeDescription& attribute : geometry.attributes)
     writer_.leaf(vertexAttributeElement(attribute, geometry.encoding));
   for (std::size_t i = 0; i < geometry.patches.size() && hasPatchElements; ++i)
     writer_.leaf(patchElement(geometry.patches[i], geometry));
-  writer_.close(node);
+  writer_.close(element);
 }
 
 /// The box where the geometry's element has it, instead of the Shape: in dense documents.
@@ -383,7 +389,7 @@ void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   writeChildren(node);
   writeAppearanceOf(shape);
   if (!geometry.isShared)
-    writeGeometryOf(shape);
+    writeGeometryOf(node);
   writer_.close(element);
 }
 

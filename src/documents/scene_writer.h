@@ -74,7 +74,7 @@ private:
   void writeSceneSettings();
   void writeNode(std::size_t index);
   void writeAppearanceOf(const Shape& shape);
-  void writeGeometryOf(const Shape& shape);
+  void writeGeometryOf(const Node& node);
   void writeSharedGeometries();
   void writeRoutes();
   std::pair<std::string, bool> sharedKeyOf(const Shape& shape) const;

@@ -32,10 +32,16 @@ void addPlane(const std::uint8_t* plane, std::span<std::uint32_t> residuals) {
     residuals[i] = residuals[i] << 8 | plane[i];
 }
 
-} // namespace
+void addBefore(const Frame& before, Frame& frame) {
+  const std::size_t vertices = frame.layout.vertices;
+  for (const ComponentBits& attribute : attributesOf(frame.layout)) {
+    const std::uint32_t mask = (std::uint32_t{1} << attribute.bits) - 1;
+    for (std::size_t i = attribute.first * vertices; i < (attribute.first + attribute.count) * vertices; ++i)
+      frame.components[i] = (frame.components[i] + before.components[i]) & mask;
+  }
+}
 
-Frame decodeFrame(ByteSpan bytes, const std::string& location) {
-  const FrameHeader header = readFrameHeader(bytes, location);
+Frame decode(ByteSpan bytes, const FrameHeader& header, const std::string& location) {
   const auto planes = unpack(bytes.subspan(frameHeaderBytes), unpackedBytesOf(header.layout), location);
   Frame frame{header.layout, header.number, header.epoch, header.time, {}};
   const std::size_t vertices = header.layout.vertices;
@@ -50,6 +56,22 @@ Frame decodeFrame(ByteSpan bytes, const std::string& location) {
       restoreValues(components.subspan(i * vertices, vertices), header.prediction, header.layout.columns,
                     attribute.bits);
   }
+  return frame;
+}
+
+} // namespace
+
+Frame decodeFrame(ByteSpan bytes, const std::string& location) {
+  return decode(bytes, readFrameHeader(bytes, location), location);
+}
+
+Frame decodeFrame(ByteSpan bytes, const Frame* before, const std::string& location) {
+  const FrameHeader header = readFrameHeader(bytes, location, FrameContext::sequence);
+  if (header.isDifference && (before == nullptr || before->layout != header.layout))
+    throw Error(ErrorKind::malformed, location, "is a difference to a frame that is not there");
+  Frame frame = decode(bytes, header, location);
+  if (header.isDifference)
+    addBefore(*before, frame);
   return frame;
 }
 

@@ -14,15 +14,19 @@ namespace imgeo::live {
 
 namespace {
 
-/// Higher levels save 1 to 2 % of the bytes for two to five times the time (docs/formats/frame.md, "Choices").
-constexpr int compressionLevel = 1;
-
 /// Predictions are compared on this many vertices.
 constexpr std::uint32_t maxProbedVertices = 8192;
 
-libdeflate_compressor* compressor() {
-  using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
-  thread_local const Compressor instance(libdeflate_alloc_compressor(compressionLevel), &libdeflate_free_compressor);
+constexpr int maxCompressionLevel = 12;
+
+libdeflate_compressor* compressor(int level) {
+  struct Free {
+    void operator()(libdeflate_compressor* each) const { libdeflate_free_compressor(each); }
+  };
+  thread_local std::array<std::unique_ptr<libdeflate_compressor, Free>, maxCompressionLevel + 1> instances;
+  auto& instance = instances.at(static_cast<std::size_t>(level));
+  if (!instance)
+    instance.reset(libdeflate_alloc_compressor(level));
   if (!instance)
     throw std::bad_alloc();
   return instance.get();
@@ -59,7 +63,8 @@ std::uint64_t costOf(const Frame& frame, Prediction prediction) {
   return cost;
 }
 
-Bytes headerOf(const Frame& frame, Prediction prediction, std::size_t packedBytes) {
+/// `prediction`: the byte of the header.
+Bytes headerOf(const Frame& frame, std::uint32_t prediction, std::size_t packedBytes) {
   const FrameLayout& layout = frame.layout;
   Bytes header{'I', 'G', 'F', 1};
   appendLittle(header, narrow<std::uint32_t>(packedBytes));
@@ -69,7 +74,7 @@ Bytes headerOf(const Frame& frame, Prediction prediction, std::size_t packedByte
   appendLittle(header, layout.vertices);
   appendLittle(header, layout.columns);
   for (const std::uint32_t field : {layout.positionBits, layout.normalBits, layout.colorComponents,
-                                    layout.valueComponents, layout.valueBits, static_cast<std::uint32_t>(prediction)})
+                                    layout.valueComponents, layout.valueBits, prediction})
     header.push_back(narrow<std::uint8_t>(field));
   header.insert(header.end(), {0, 0});
   appendLittle(header, libdeflate_crc32(0, header.data(), header.size()));
@@ -95,7 +100,10 @@ Prediction choosePrediction(const Frame& frame) {
   return best;
 }
 
-Bytes encodeFrame(const Frame& frame, Prediction prediction) {
+namespace {
+
+/// `marks`: bits of the header's byte besides the prediction.
+Bytes encode(const Frame& frame, Prediction prediction, std::uint32_t marks, int level) {
   assert(frame.components.size() == std::size_t{componentCount(frame.layout)} * frame.layout.vertices);
   const std::size_t unpackedBytes = unpackedBytesOf(frame.layout);
   const auto planes = std::make_unique_for_overwrite<std::uint8_t[]>(unpackedBytes);
@@ -104,13 +112,32 @@ Bytes encodeFrame(const Frame& frame, Prediction prediction) {
   for (const ComponentBits& attribute : attributesOf(frame.layout))
     end = writePlanes(frame, attribute, prediction, residuals, end);
 
-  const std::size_t bound = libdeflate_gzip_compress_bound(compressor(), unpackedBytes);
+  libdeflate_compressor* deflate = compressor(level);
+  const std::size_t bound = libdeflate_gzip_compress_bound(deflate, unpackedBytes);
   const auto packed = std::make_unique_for_overwrite<std::uint8_t[]>(bound);
-  const std::size_t size = libdeflate_gzip_compress(compressor(), planes.get(), unpackedBytes, packed.get(), bound);
+  const std::size_t size = libdeflate_gzip_compress(deflate, planes.get(), unpackedBytes, packed.get(), bound);
   assert(size > 0);
-  Bytes bytes = headerOf(frame, prediction, size);
+  Bytes bytes = headerOf(frame, static_cast<std::uint32_t>(prediction) | marks, size);
   bytes.insert(bytes.end(), packed.get(), packed.get() + size);
   return bytes;
+}
+
+} // namespace
+
+Bytes encodeFrame(const Frame& frame, Prediction prediction, int compressionLevel) {
+  return encode(frame, prediction, 0, compressionLevel);
+}
+
+Bytes encodeDifference(const Frame& frame, const Frame& before, Prediction prediction, int compressionLevel) {
+  assert(frame.layout == before.layout);
+  Frame difference = frame;
+  const std::size_t vertices = frame.layout.vertices;
+  for (const ComponentBits& attribute : attributesOf(frame.layout)) {
+    const std::uint32_t mask = (std::uint32_t{1} << attribute.bits) - 1;
+    for (std::size_t i = attribute.first * vertices; i < (attribute.first + attribute.count) * vertices; ++i)
+      difference.components[i] = (frame.components[i] - before.components[i]) & mask;
+  }
+  return encode(difference, prediction, differenceBit, compressionLevel);
 }
 
 Bytes encodeFrame(const Frame& frame) {

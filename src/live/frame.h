@@ -12,6 +12,8 @@ namespace imgeo::live {
 constexpr std::uint32_t maxFrameVertices = std::uint32_t{1} << 22;
 constexpr std::size_t maxUnpackedBytes = std::size_t{1} << 26;
 constexpr std::size_t frameHeaderBytes = 52;
+/// Of the byte with the prediction, in frames of sequences.
+constexpr std::uint8_t differenceBit = 4;
 /// Largest frame number: the largest integer that JavaScript counts exactly.
 constexpr std::uint64_t maxFrameNumber = (std::uint64_t{1} << 53) - 1;
 
@@ -37,8 +39,12 @@ struct FrameHeader {
   std::uint64_t epoch = 0;  ///< number of the epoch's first frame, at most `number`
   double time = 0;          ///< in seconds, finite
   Prediction prediction = Prediction::none;
+  bool isDifference = false;     ///< its integers are differences to those of the frame before: only in sequences
   std::uint32_t packedBytes = 0; ///< length of the gzip stream behind the header
 };
+
+/// Where a frame is read from. Frames of sequences (docs/formats/sequence.md) may be differences.
+enum class FrameContext : std::uint8_t { stream, sequence };
 
 /// Components of a vertex, in their order: x y z, then those of normal, colour and values that the layout has.
 struct ComponentBits {
@@ -69,17 +75,27 @@ struct Frame {
 /// The prediction that encodeFrame() chooses: planar on a grid, otherwise the one with the smallest residuals.
 Prediction choosePrediction(const Frame& frame);
 
+/// Of deflate. Higher levels save 1 to 6 % of the bytes for two to ten times the time (docs/formats/frame.md,
+/// "Choices").
+constexpr int liveCompressionLevel = 1;
+
 /// The bytes of a frame. The layout is valid, every integer is less than 2^bits. Deterministic; equal values may have
 /// different bytes with another prediction.
-Bytes encodeFrame(const Frame& frame, Prediction prediction);
+Bytes encodeFrame(const Frame& frame, Prediction prediction, int compressionLevel = liveCompressionLevel);
 Bytes encodeFrame(const Frame& frame);
+
+/// The bytes of a frame as its difference to the frame before, which has the same layout. For sequences.
+Bytes encodeDifference(const Frame& frame, const Frame& before, Prediction prediction, int compressionLevel);
 
 /// Reads and checks the header and the length of a frame, without unpacking it. Safe for untrusted bytes. Throws
 /// Error{truncated, malformed, unsupported, limit} with `location`.
-FrameHeader readFrameHeader(ByteSpan bytes, const std::string& location);
+FrameHeader readFrameHeader(ByteSpan bytes, const std::string& location, FrameContext context = FrameContext::stream);
 
 /// Reads a frame. Safe for untrusted bytes; allocates at most 5 * 1032 bytes for each of them. Throws like
 /// readFrameHeader().
 Frame decodeFrame(ByteSpan bytes, const std::string& location);
+
+/// Reads a frame of a sequence. `before`: the frame before it; nullptr: there is none, and a difference is malformed.
+Frame decodeFrame(ByteSpan bytes, const Frame* before, const std::string& location);
 
 } // namespace imgeo::live

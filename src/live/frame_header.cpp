@@ -62,7 +62,7 @@ void checkLayout(const FrameLayout& layout, const std::string& location) {
                             layout.vertices, maxFrameVertices, maxUnpackedBytes));
 }
 
-FrameHeader readFrameHeader(ByteSpan bytes, const std::string& location) {
+FrameHeader readFrameHeader(ByteSpan bytes, const std::string& location, FrameContext context) {
   if (bytes.size() < frameHeaderBytes)
     throw Error(ErrorKind::truncated, location, "the frame ends within its header");
   const std::uint8_t* at = bytes.data();
@@ -80,9 +80,12 @@ FrameHeader readFrameHeader(ByteSpan bytes, const std::string& location) {
   header.time = loadLittle<double>(at + 24);
   header.layout = {
       loadLittle<std::uint32_t>(at + 32), loadLittle<std::uint32_t>(at + 36), at[40], at[41], at[42], at[43], at[44]};
-  header.prediction = static_cast<Prediction>(at[45]);
+  // docs/formats/sequence.md: the third bit of the prediction marks a difference.
+  header.isDifference = context == FrameContext::sequence && (at[45] & differenceBit) != 0;
+  const std::uint32_t prediction = at[45] - (header.isDifference ? differenceBit : 0);
+  header.prediction = static_cast<Prediction>(prediction);
   const bool isPlanar = header.prediction == Prediction::planar;
-  if (header.number > maxFrameNumber || header.epoch > header.number || !std::isfinite(header.time) || at[45] > 3 ||
+  if (header.number > maxFrameNumber || header.epoch > header.number || !std::isfinite(header.time) || prediction > 3 ||
       (isPlanar && header.layout.columns == 0) || at[46] != 0 || at[47] != 0)
     throw Error(ErrorKind::malformed, location, "a field of the frame's header is out of its range");
   checkLayout(header.layout, location);

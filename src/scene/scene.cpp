@@ -28,6 +28,11 @@ struct Traversal {
 
 } // namespace
 
+bool hasFrames(const Node& node) {
+  const Interpolator* interpolator = std::get_if<Interpolator>(&node.content);
+  return interpolator && !interpolator->url.empty();
+}
+
 std::size_t addNode(SceneGraph& graph, Node node) {
   graph.nodes.push_back(std::move(node));
   return graph.nodes.size() - 1;

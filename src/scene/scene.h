@@ -123,6 +123,9 @@ struct Scene {
 /// The fields of an X3D element whose URLs name images: `url` of an ImageTexture, `frontUrl` of a Background ...
 std::span<const std::string_view> imageFieldsOf(std::string_view element);
 
+/// Whether a node is an interpolator that has the frames of a sequence.
+bool hasFrames(const Node& node);
+
 /// Appends a node and returns its index. No node refers to it yet.
 std::size_t addNode(SceneGraph& graph, Node node);
 /// Appends a root node and returns its index.

@@ -44,7 +44,7 @@ async function referenceOf(patch: PlainPatch): Promise<Picture> {
 }
 
 /** In the page, before its document: keeps frames and outages of the shape and counts what allocates GPU memory. */
-function recordStream(): void {
+export function recordStream(): void {
   const counts = { objects: 0, images: 0, arrays: 0 };
   const [frames, outages] = [[] as unknown[], [] as unknown[]];
   Object.assign(window, { gpu: counts, frames, outages });

@@ -51,6 +51,22 @@ const converted = new Map<string, string>();
  * would cover a corner of every picture. PLY files have y up. Converts once a run for each set of arguments.
  */
 export function siteOf(input: string, ...options: string[]): string {
+  return siteOfFiles([input], ...options);
+}
+
+/** The same of the frames of a sequence. */
+export function siteOfFrames(name: string, frames: readonly PlainMesh[], ...options: string[]): string {
+  mkdirSync(outputDirectory, { recursive: true });
+  const files = frames.map((mesh, frame) => {
+    const path = join(outputDirectory, `${name}-${frame}.ply`);
+    writeFileSync(path, writePly(mesh));
+    return path;
+  });
+  return siteOfFiles(files, ...options);
+}
+
+function siteOfFiles(inputs: readonly string[], ...options: string[]): string {
+  const [input = ""] = inputs;
   const name = [basename(input).replace(/\..*/, ""), ...options].join("").replaceAll(/[^\w]+/g, "-");
   const known = converted.get(name);
   if (known !== undefined) return known;
@@ -59,7 +75,7 @@ export function siteOf(input: string, ...options: string[]): string {
   rmSync(directory, { recursive: true, force: true });
   mkdirSync(join(outputDirectory, "sites"), { recursive: true });
   const axes = input.endsWith(".ply") && !options.includes("--up") ? ["--up", "y"] : [];
-  execFileSync(converter, ["convert", input, "-o", directory, ...options, ...axes], {
+  execFileSync(converter, ["convert", ...inputs, "-o", directory, ...options, ...axes], {
     stdio: ["ignore", "ignore", "inherit"],
   });
   const page = join(directory, "index.html");

@@ -195,7 +195,7 @@ TEST_F(Faults, RefusesOptionsThatCannotBeHonoured) {
   refuse("--texture-quality", {"--texture-quality", "50", "--textures", "png"});
   refuse("--attribute-bits", {"--container", "bg", "--attribute-bits", "16"});
   refuse("did you mean --container?", {"--contaner", "bg"});
-  refuse("too many", {"another.ply"});
+  refuse("--profile", {"another.ply", "--profile", "compact"}); // the frames of a sequence
   refuse("--container is given more than once", {"--container", "bg", "--container", "sig"});
 }
 

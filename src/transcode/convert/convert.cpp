@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "containers/option_checks.h"
 #include "imgeo/site.h"
 #include "imgeo/version.h"
 #include "import/warnings.h"
@@ -15,6 +16,7 @@
 #include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/default_nodes.h"
 #include "transcode/encode/encode_scene.h"
+#include "transcode/encode/sequence.h"
 #include "transcode/encode/textures.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/picture/write_pictures.h"
@@ -69,6 +71,14 @@ std::string titleFrom(const fs::path& input) {
   return name.stem();
 }
 
+/// "frames/cloth.ply" for "frames/cloth-0001.ply".
+fs::path withoutNumber(const fs::path& frame) {
+  std::string stem = frame.stem();
+  while (!stem.empty() && std::string_view("0123456789-_. ").find(stem.back()) != std::string_view::npos)
+    stem.pop_back();
+  return stem.empty() ? frame : frame.parent_path() / (stem + frame.extension().string());
+}
+
 void requireAttributes(const Imported& imported, const ConvertOptions& options) {
   for (const std::string& name : options.keepAttributes.names)
     if (std::ranges::find(imported.attributes, name) == imported.attributes.end())
@@ -90,6 +100,24 @@ void nameScene(SceneGraph& graph, const std::string& statedTitle, const fs::path
   const std::vector<std::size_t> shapes = shapeNodes(graph);
   if (shapes.size() == 1 && graph.nodes[shapes[0]].name.empty())
     graph.nodes[shapes[0]].name = graph.title;
+}
+
+/// The options of a sequence, whose static files are SIG classic.
+ConvertOptions sequenceOptions(const std::vector<fs::path>& frames, ConvertOptions options) {
+  if (std::ranges::find(frames, fs::path("-")) != frames.end())
+    throw Error(ErrorKind::usage, "-", "standard input is one file; a sequence has one for each frame");
+  if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
+    refuseOption("--profile", "the static files of a sequence are SIG classic");
+  if (options.form != MeshForm::mesh)
+    refuseOption("--as", "the frames of a sequence are meshes");
+  if (options.target == Target::x3dom)
+    refuseOption("--target", "X3DOM plays no sequences of frames");
+  if (options.primitives != Primitives::triangles || !options.indexed)
+    refuseOption(options.indexed ? "--primitives" : "--index", "sequences have an index of triangles");
+  if (!(options.rate > 0 && options.rate <= 1000))
+    refuseOption("--rate", "a sequence has more than 0 and at most 1000 frames per second");
+  options.encoding = Encoding::classic;
+  return options;
 }
 
 /// Warns if more than 1 % of the elements collapsed on the lattice. Fewer are normal: scans contain slivers.
@@ -119,8 +147,11 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
 /// One conversion: each member function is one step of convert().
 class Conversion {
 public:
-  Conversion(const fs::path& input, const fs::path& directory, const ConvertOptions& options, const Progress& progress)
-      : input_(input), options_(options), progress_(progress), site_(directory, options.force) {}
+  /// `frames`: those of a sequence; otherwise one file.
+  Conversion(const std::vector<fs::path>& frames, const fs::path& directory, const ConvertOptions& options,
+             const Progress& progress)
+      : input_(frames.front()), frames_(frames), options_(options), progress_(progress),
+        site_(directory, options.force) {}
 
   void readSource() {
     reportProgress(0, "reading");
@@ -137,7 +168,9 @@ public:
     report_.axes = detectAxes(imported, options_.axes);
     scene_ = std::move(imported.scene);
     applySourceAxes(scene_.graph, report_.axes.axes);
-    nameScene(scene_.graph, options_.title, input_);
+    if (frames_.size() > 1)
+      surveyFrames();
+    nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
   }
 
   /// Fills in the options that depend on the source.
@@ -183,6 +216,8 @@ public:
 
   void encodeMeshes() {
     reportProgress(0.3, "writing");
+    if (frameFiles_)
+      return encodeFrames();
     std::size_t elementCount = 0, elementsDone = 0;
     for (const Mesh& mesh : scene_.meshes)
       elementCount += mesh.elementCount();
@@ -251,6 +286,29 @@ public:
   ConvertReport takeReport() { return std::move(report_); }
 
 private:
+  /// Reads all frames, for what they have in common.
+  void surveyFrames() {
+    frameFiles_.emplace(frames_, scene_, options_.outside);
+    std::size_t read = 0;
+    survey_ = frameFiles_->survey(
+        [&] { reportProgress(0.2 * static_cast<double>(++read) / static_cast<double>(frames_.size()), "reading"); });
+    report_.sourceBytes = survey_.bytes;
+    numberVertices(scene_.meshes.front());
+  }
+
+  void encodeFrames() {
+    std::size_t written = 0;
+    std::mutex writtenMutex;
+    ContentFiles files(site_.path(), geometryFolder);
+    document_ =
+        encodeSequence(std::move(scene_), *frameFiles_, survey_, options_, files, report_, [&](std::size_t count) {
+          const std::lock_guard lock(writtenMutex);
+          written += count;
+          reportProgress(0.3 + 0.69 * static_cast<double>(written) / static_cast<double>(frames_.size()), "writing");
+        });
+    report_.colorError += roundingOfColors_;
+  }
+
   void reportProgress(double fraction, const std::string& step) const {
     if (progress_)
       progress_(fraction, step);
@@ -328,14 +386,17 @@ private:
   }
 
   fs::path input_;
+  std::vector<fs::path> frames_;
   ConvertOptions options_;
   const Progress& progress_;
   StagedSite site_;
   ConvertReport report_;
   Stopwatch total_, step_;
   bool hasOnlyFirstTexCoords_ = false;
-  double roundingOfColors_ = 0;   ///< before they are encoded
-  Scene scene_;                   ///< until encodeMeshes
+  double roundingOfColors_ = 0; ///< before they are encoded
+  Scene scene_;                 ///< until encodeMeshes
+  std::optional<FrameFiles> frameFiles_;
+  FrameSurvey survey_;
   PictureSamples pictureSamples_; ///< from sampleSurfaces on
   ViewSamples viewSamples_;       ///< from sampleSurfaces on
   SceneDocument document_;        ///< from encodeMeshes on
@@ -343,13 +404,16 @@ private:
 
 } // namespace
 
-ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& options,
-                      const Progress& progress) {
-  resolved(options); // refuses contradictions before anything is written
-  if (input != "-")
-    requireOutside(input, directory);
+namespace {
 
-  Conversion conversion(input, directory, options, progress);
+ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory, const ConvertOptions& options,
+                  const Progress& progress) {
+  resolved(options); // refuses contradictions before anything is written
+  for (const fs::path& input : inputs)
+    if (input != "-")
+      requireOutside(input, directory);
+
+  Conversion conversion(inputs, directory, options, progress);
   conversion.readSource();
   conversion.resolveOptions();
   conversion.prepareMeshes();
@@ -361,6 +425,20 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   conversion.precompress();
   conversion.publish();
   return conversion.takeReport();
+}
+
+} // namespace
+
+ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& options,
+                      const Progress& progress) {
+  return run({input}, directory, options, progress);
+}
+
+ConvertReport convertSequence(const std::vector<fs::path>& frames, const fs::path& directory,
+                              const ConvertOptions& options, const Progress& progress) {
+  if (frames.empty())
+    throw Error(ErrorKind::usage, "", "a sequence has no frames");
+  return run(frames, directory, frames.size() > 1 ? sequenceOptions(frames, options) : options, progress);
 }
 
 } // namespace imgeo

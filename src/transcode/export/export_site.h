@@ -25,4 +25,11 @@ struct ExportReport {
 ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output,
                         std::span<const Operator> operators = {});
 
+/// Writes a frame of a site that plays one sequence as exportSite() writes a mesh. Throws Error{usage} for a site
+/// without a sequence and for a number that is not below that of its frames.
+ExportReport exportFrame(const std::filesystem::path& site, std::uint32_t frame, const std::filesystem::path& output);
+
+/// The number of frames of the sequence of a site. Throws Error{usage} where it plays none.
+std::uint32_t frameCountOf(const std::filesystem::path& site);
+
 } // namespace imgeo

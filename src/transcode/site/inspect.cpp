@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "containers/encodings.h"
 #include "imgeo/site.h"
+#include "transcode/site/sequences.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
@@ -108,6 +109,12 @@ SiteInfo inspect(const fs::path& site) {
   }
   for (const NamedFile& file : geometryFilesOf(document.scene))
     info.containerBytes += add(file.url, nameOf(file.role));
+  for (const SiteSequence& sequence : sequencesOf(document)) {
+    info.frames += sequence.index.frameCount();
+    info.frameBytes += add(sequence.url, "frames");
+    for (std::size_t file = 0; file < sequence.index.files.size(); ++file)
+      info.frameBytes += add(sequence.urlOf(file), "frames");
+  }
   const auto addImages = [&](const std::vector<std::string>& urls, const char* role) {
     for (const std::string& url : urls)
       if (exists(document, url))

@@ -1,6 +1,7 @@
 #include "transcode/verify/check_files.h"
 
 #include "base/file.h"
+#include "transcode/site/sequences.h"
 #include "transcode/site/site_files.h"
 #include "transcode/verify/compare_appearances.h"
 
@@ -25,6 +26,11 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
     urls.push_back(url);
   for (const NamedFile& file : geometryFilesOf(document.scene))
     urls.push_back(file.url);
+  for (const SiteSequence& sequence : sequencesOf(document)) {
+    urls.push_back(sequence.url);
+    for (std::size_t i = 0; i < sequence.index.files.size(); ++i)
+      urls.push_back(sequence.urlOf(i));
+  }
   for (const std::string& url : urls) {
     const fs::path file = fileOf(document, url);
     std::error_code ignored;

@@ -94,6 +94,33 @@ class Interpolator implements Behaviour {
   }
 }
 
+/**
+ * Ours: a CoordinateInterpolator with a url has the frames of a sequence (docs/sequences.md) in place of keys. Pages
+ * display the frame of each fraction that it receives; it sends the fraction and no coordinates.
+ */
+class CoordinateInterpolator implements Behaviour {
+  readonly #node: EventNode;
+  readonly #interpolator: Interpolator;
+
+  constructor(node: EventNode, interpolation: Interpolation) {
+    this.#node = node;
+    this.#interpolator = new Interpolator(node, interpolation);
+  }
+
+  receive(field: string, value: Value): void {
+    if (this.#node.valueOf("url") === "") this.#interpolator.receive(field, value);
+    else if (field === "set_fraction") this.#node.send(sequenceFraction, Math.max(0, Math.min(1, value as number)));
+  }
+}
+
+/** The event of a CoordinateInterpolator with a url. */
+const sequenceFraction = "fraction_changed";
+
+/** Whether an event makes a sequence display another frame. */
+export function isSequenceFraction({ localName }: { readonly localName: string }, field: string): boolean {
+  return field === sequenceFraction && localName.toLowerCase() === "coordinateinterpolator";
+}
+
 function linear({ values, stride }: Curve): Evaluation {
   return (from, to, weight) => {
     const [a, b] = [from * stride, to * stride];
@@ -247,7 +274,17 @@ function splineInterpolator(valueType: string, listType: string, size: number): 
 
 export const interpolators = {
   ColorInterpolator: interpolator("SFColor", "MFColor", { size: 3, evaluationOf: color }),
-  CoordinateInterpolator: interpolator("MFVec3f", "MFVec3f", { size: 3, hasLists: true, evaluationOf: linear }),
+  CoordinateInterpolator: nodeType(
+    {
+      set_fraction: inputOnly("SFFloat"),
+      key: inputOutput("MFFloat", []),
+      keyValue: inputOutput("MFVec3f", []),
+      url: inputOutput("SFString", ""),
+      value_changed: outputOnly("MFVec3f"),
+      [sequenceFraction]: outputOnly("SFFloat"),
+    },
+    (node) => new CoordinateInterpolator(node, { size: 3, hasLists: true, evaluationOf: linear }),
+  ),
   CoordinateInterpolator2D: interpolator("MFVec2f", "MFVec2f", { size: 2, hasLists: true, evaluationOf: linear }),
   EaseInEaseOut: interpolator("SFFloat", "MFVec2f", {
     size: 2,

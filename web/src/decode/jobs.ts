@@ -13,6 +13,7 @@ import { classicGrid, gridIndex } from "./classic/classicGrid.ts";
 import { compactBases, compactPatches } from "./compact/jobs.ts";
 import { frameArrays } from "./frame/frameArrays.ts";
 import { frameImages } from "./frame/frameImages.ts";
+import { sequenceFrames } from "./sequence/sequenceFrames.ts";
 
 export const jobs = {
   classicCoords,
@@ -27,6 +28,7 @@ export const jobs = {
   compactBases,
   frameImages,
   frameArrays,
+  sequenceFrames,
   gridIndex,
 } as const;
 

@@ -7,6 +7,8 @@ import type { Delivery, DeliveryListener, FilePriority } from "./geometryDeliver
 import { deliverGeometry } from "./geometryDelivery.ts";
 import { deliverMoving } from "./movingDelivery.ts";
 import { deliverStream } from "./live/streamDelivery.ts";
+import type { SequencePosition } from "./sequence/sequenceDelivery.ts";
+import { SequenceDelivery } from "./sequence/sequenceDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { Members } from "./members.ts";
 import type { Transfer } from "./progress.ts";
@@ -36,6 +38,9 @@ export class GeometryDeliveries {
   readonly #pool: ResourcePool;
   readonly #shared = new Map<GeometryDescription, SharedDelivery>();
   #priorityOf: (geometry: GeometryDescription) => FilePriority = () => () => undefined;
+  /** The last fraction of each interpolator of a sequence. */
+  readonly #fractions = new Map<number, number>();
+  #sequenceTime: number | undefined;
 
   constructor(pool: ResourcePool) {
     this.#pool = pool;
@@ -110,6 +115,26 @@ export class GeometryDeliveries {
     );
   }
 
+  /** An interpolator of a sequence has received a fraction, 0 … 1. */
+  setFraction(interpolator: number, fraction: number): void {
+    this.#fractions.set(interpolator, fraction);
+    this.#updatePositions();
+  }
+
+  /** Makes all sequences display the frame at this time, in seconds; undefined: they follow their interpolators. */
+  setSequenceTime(seconds: number | undefined): void {
+    this.#sequenceTime = seconds;
+    this.#updatePositions();
+  }
+
+  /** Of the longest sequence whose index has arrived, in seconds; 0 where there is none. */
+  get sequenceDuration(): number {
+    let longest = 0;
+    for (const { delivery } of this.#shared.values())
+      if (delivery instanceof SequenceDelivery) longest = Math.max(longest, delivery.duration);
+    return longest;
+  }
+
   /** Updates the priorities of all files. If `granted` is given, budget requests that are not in it are evicted. */
   request(priorityOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     this.#priorityOf = priorityOf;
@@ -121,7 +146,13 @@ export class GeometryDeliveries {
   }
 
   #deliver(geometry: GeometryDescription, listener: DeliveryListener): Delivery {
-    if (geometry.moving) return deliverMoving(geometry, geometry.moving, this.#pool, listener);
+    const { moving, sequence } = geometry;
+    if (moving) return deliverMoving(geometry, moving, this.#pool, listener);
+    if (sequence) {
+      const delivery = new SequenceDelivery(geometry, sequence, this.#pool, listener);
+      delivery.setPosition(this.#positionOf(sequence.interpolator));
+      return delivery;
+    }
     const deliver = geometry.encoding === "live" ? deliverStream : deliverGeometry;
     return deliver(geometry, this.#pool, listener);
   }
@@ -150,6 +181,18 @@ export class GeometryDeliveries {
     const shared: SharedDelivery = { delivery, members, stages, errors, next: undefined };
     this.#shared.set(geometry, shared);
     return shared;
+  }
+
+  #positionOf(interpolator: number): SequencePosition {
+    return this.#sequenceTime === undefined
+      ? { fraction: this.#fractions.get(interpolator) ?? 0 }
+      : { seconds: this.#sequenceTime };
+  }
+
+  #updatePositions(): void {
+    for (const [{ sequence }, { delivery }] of this.#shared)
+      if (sequence && delivery instanceof SequenceDelivery)
+        delivery.setPosition(this.#positionOf(sequence.interpolator));
   }
 }
 

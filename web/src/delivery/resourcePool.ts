@@ -66,10 +66,10 @@ export interface LiveArrays {
   readonly value: GpuValues | undefined;
   readonly byteLength: number;
   /**
-   * Makes `normal` follow from these triangles, in the displayed frame and all later ones. Rejects with the signal's
-   * reason.
+   * Makes `normal` follow from these triangles, in the displayed frame and all later ones. Rejects when the stream
+   * ends.
    */
-  deriveNormals(index: IndexArray, signal: AbortSignal): Promise<void>;
+  deriveNormals(index: IndexArray): Promise<void>;
 }
 
 /** The jobs that turn the bytes of a file into an Output. */

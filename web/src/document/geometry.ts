@@ -29,6 +29,7 @@ import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { readPatchReferences, referenceOf } from "./patchReferences.ts";
+import { readSequence } from "./sequence.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
@@ -44,7 +45,8 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     hasGrids && !isAutomatic
       ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
       : "sig";
-  return withStream({
+  const sequence = readSequence(element, resolve, warnings);
+  const geometry = withStream({
     ...commonFieldsOf(element, values, warnings),
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
     attributes: readAttributes(element, encoding, warnings),
@@ -58,6 +60,10 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
     patches: readPatches(element, encoding, resolve, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   });
+  if (sequence === undefined) return geometry;
+  if (geometry.encoding === "classic" && geometry.patches.length === 1) return { ...geometry, sequence };
+  warnings.push({ element, message: "a sequence moves the vertices of one patch of profile classic, not of this one" });
+  return geometry;
 }
 
 function colorComponentsOf(element: SceneElement, count: number, warnings: Warning[]): 3 | 4 {

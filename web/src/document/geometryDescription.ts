@@ -145,6 +145,14 @@ export interface TexCoordBox {
   readonly size: Vec2;
 }
 
+/** A CoordinateInterpolator with the frames of a sequence. */
+export interface SequenceDescription {
+  /** Of the index. */
+  readonly url: string;
+  /** The interpolator, as `interpolatorIdOf` numbers its element. */
+  readonly interpolator: number;
+}
+
 export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`, ElementType>> {
   readonly encoding: Encoding;
   /** Center and size of the box that stored integers are quantized over. */
@@ -186,4 +194,6 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly moving?: MovingGeometry;
   /** Text only: the URL of the glyph atlas. */
   readonly glyphAtlas?: string;
+  /** Frames that replace the coordinates; the geometry's own are those of the first. */
+  readonly sequence?: SequenceDescription;
 }

@@ -4,7 +4,9 @@
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import { progressOf } from "../delivery/progress.ts";
+import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
+import { interpolatorIdOf } from "../document/sequence.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import type { NavigatedScene } from "../navigation/cameraController.ts";
 import { CameraController } from "../navigation/cameraController.ts";
@@ -63,6 +65,7 @@ export class PageViewer {
   readonly #canvas: HTMLCanvasElement;
   readonly #scheduler = new Scheduler(slotCountFor(""));
   readonly #workers = pageWorkers();
+  readonly #deliveries: SceneDeliveries;
   readonly #core: ViewerCore<PageShape>;
   readonly #shapes: PageShapes;
   readonly #inlines = new PageInlines();
@@ -130,7 +133,7 @@ export class PageViewer {
         this.#progress.request();
       },
     });
-    const deliveries = sceneDeliveriesOf(pool);
+    const deliveries = (this.#deliveries = sceneDeliveriesOf(pool));
     this.#shapes = new PageShapes(
       this.renderer,
       deliveries,
@@ -194,6 +197,9 @@ export class PageViewer {
       },
       drawFrame: () => {
         this.renderer.draw();
+      },
+      showFraction: (interpolator, fraction) => {
+        deliveries.geometries.setFraction(interpolatorIdOf(interpolator), fraction);
       },
       withoutReports: (write) => {
         this.#writeUnobserved(write);
@@ -295,6 +301,11 @@ export class PageViewer {
   /** `isPaused`: animation stands. `mayStartByItself`: clocks run that no event has started. */
   setMotion(isPaused: boolean, mayStartByItself: boolean): void {
     this.#animation.setMotion(isPaused, mayStartByItself);
+  }
+
+  /** Makes all sequences display the frame at this time, in seconds; undefined: they follow their interpolators. */
+  setSequenceTime(seconds: number | undefined): void {
+    this.#deliveries.geometries.setSequenceTime(seconds);
   }
 
   /** Requests files from now on. */

@@ -321,6 +321,7 @@ export class ViewController {
     renderer.setExposure(settings.exposure);
     renderer.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
+    this.viewer.setSequenceTime(settings["sequence-time"]);
     this.#updateMotion();
     this.poster.reveal = settings.reveal;
     this.#updateDescription();

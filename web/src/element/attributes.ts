@@ -119,6 +119,8 @@ export const viewAttributes = {
   "draw-as": attribute(oneOf("surface", "points"), "surface"),
   /** Absent: animation runs, and what starts by itself does so unless the user prefers reduced motion. */
   paused: automatic(flag),
+  /** Seconds; absent: sequences follow their interpolators. */
+  "sequence-time": automatic(number),
   exposure: attribute(number, 1),
   budget: attribute(megabytes, 1e9),
 } as const;

@@ -175,6 +175,16 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     );
   }
 
+  /** Makes all sequences display the frame at this time, in seconds from their beginning; before the first call it is 0. */
+  setSequenceTime(seconds: number): void {
+    this.#contents.geometries.setSequenceTime(seconds);
+  }
+
+  /** The duration of the longest sequence whose index has been loaded, in seconds; 0 where there is none. */
+  get sequenceDuration(): number {
+    return this.#contents.geometries.sequenceDuration;
+  }
+
   /** Ends all requests. What is displayed stays. */
   abort(): void {
     this.#contents.stop();

@@ -5,6 +5,7 @@
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
 import type { FieldChange } from "../animation/documentGraph.ts";
+import type { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { GroupDescription, SceneDescription } from "../document/description.ts";
@@ -35,6 +36,7 @@ export interface SceneSource {
 export class SceneContents {
   /** Bounds of all visible shapes, as the documents describe them. */
   readonly box = new Box3();
+  readonly geometries: GeometryDeliveries;
   readonly shapes: AppShapes;
   /** The parent of all objects of the scene. */
   readonly root = new Group();
@@ -62,6 +64,7 @@ export class SceneContents {
   constructor({ x3d, url, urlOf, pool }: SceneSource, context: ShapeContext, listener: AppShapesListener) {
     this.#listener = listener;
     const deliveries = sceneDeliveriesOf(pool);
+    this.geometries = deliveries.geometries;
     this.shapes = new AppShapes(context, deliveries, listener);
     this.#core = new ViewerCore<AppShape>({
       x3d,

@@ -11,6 +11,7 @@ import type { LocalView } from "../viewSensors.ts";
 import { ViewSensor } from "../viewSensors.ts";
 import { inverseOf, product, rotationIn, transformPoint } from "./matrices.ts";
 import type { Matrix } from "./matrices.ts";
+import { isSequenceFraction } from "../interpolators.ts";
 import { LateAttributes } from "./lateAttributes.ts";
 import { OutputEvents } from "./outputEvents.ts";
 import type { PointerSpace } from "./pointerSensing.ts";
@@ -37,6 +38,8 @@ export interface AnimatedScene extends PointerSpace {
   read(changes: readonly FieldChange[]): void;
   /** What `move` and `read` display is a frame, and is drawn at once. */
   drawFrame(): void;
+  /** An interpolator with the frames of a sequence has received a fraction, 0 … 1. */
+  showFraction(interpolator: AnimatedElement, fraction: number): void;
   /** Calls back so that the changes of attributes that it makes are not reported. */
   withoutReports(write: () => void): void;
   /** The view of the last frame; undefined before the first. */
@@ -85,6 +88,7 @@ export class PageAnimation {
           });
         },
         onEvent: (element, field, type, value) => {
+          if (isSequenceFraction(element, field)) scene.showFraction(element, value as number);
           this.#events.send(element, field, type, value);
         },
         warn: (message) => {
@@ -109,10 +113,13 @@ export class PageAnimation {
     this.onFrame();
   }
 
-  /** A script has set or removed an attribute. Returns whether the element is a node of the animation, not drawn. */
+  /**
+   * A script has set or removed an attribute. Returns whether it concerns nothing that is drawn: it is that of a node of
+   * the animation, other than the url of a sequence.
+   */
   attributeChanged(element: Element, attribute: string): boolean {
     this.#player.attributeChanged(element, attribute);
-    return this.#player.nodes.has(element);
+    return this.#player.nodes.has(element) && attribute.toLowerCase() !== "url";
   }
 
   /** Stops all clocks, or lets them go on from where they were. */

@@ -5,7 +5,7 @@ import type { FrameHeader, Prediction } from "./frameHeader.ts";
 import { componentRunsOf, frameHeaderBytes, predictions, unpackedBytesOf } from "./frameHeader.ts";
 
 export function encodeFrame(
-  header: Omit<FrameHeader, "packedBytes">,
+  header: Omit<FrameHeader, "packedBytes" | "isDifference">,
   components: readonly ArrayLike<number>[],
 ): Uint8Array<ArrayBuffer> {
   const { vertices, prediction, columns } = header;

@@ -14,7 +14,35 @@ export interface Frame {
 
 /** Rejects with DecodeError. Safe for untrusted bytes; allocates memory in proportion to what they can unpack to. */
 export async function decodeFrame(bytes: Uint8Array<ArrayBuffer>): Promise<Frame> {
-  const header = readFrameHeader(bytes);
+  return await decode(bytes, readFrameHeader(bytes));
+}
+
+/** Decodes a frame of a sequence. `before`: the components of the frame before it; undefined: there is none. */
+export async function decodeFrameAfter(
+  bytes: Uint8Array<ArrayBuffer>,
+  before: Frame["components"] | undefined,
+): Promise<Frame> {
+  const header = readFrameHeader(bytes, true);
+  if (!header.isDifference) return decode(bytes, header);
+  const runs = componentRunsOf(header);
+  const isLayoutOfBefore =
+    before?.length === runs.reduce((sum, { count }) => sum + count, 0) &&
+    before.every(({ length }) => length === header.vertices);
+  if (!isLayoutOfBefore) throw new DecodeError("malformed", "is a difference to a frame that is not there");
+  const frame = await decode(bytes, header);
+  let component = 0;
+  for (const { count, bits } of runs)
+    for (const end = component + count; component < end; ++component)
+      addBefore(frame.components[component], before[component], 2 ** bits - 1);
+  return frame;
+}
+
+function addBefore(values: Uint32Array | undefined, before: Uint32Array | undefined, mask: number): void {
+  if (values === undefined || before === undefined) return;
+  for (let n = 0; n < values.length; ++n) values[n] = ((values[n] ?? 0) + (before[n] ?? 0)) & mask;
+}
+
+async function decode(bytes: Uint8Array<ArrayBuffer>, header: FrameHeader): Promise<Frame> {
   const unpacked = await unpack(bytes.subarray(frameHeaderBytes), unpackedBytesOf(header));
   const { vertices } = header;
   const components: Uint32Array<ArrayBuffer>[] = [];

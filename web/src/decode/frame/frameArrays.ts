@@ -4,6 +4,7 @@
 import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { Grid } from "../../stage/stage.ts";
 import { gridNormals, triangleNormals } from "../vertexNormals.ts";
+import type { Frame } from "./frame.ts";
 import { decodeFrame } from "./frame.ts";
 import type { ComponentRun, FrameHeader } from "./frameHeader.ts";
 import { componentRunsOf } from "./frameHeader.ts";
@@ -41,7 +42,10 @@ export interface FrameArrays {
 
 /** Rejects with DecodeError. */
 export async function frameArrays({ bytes, normalSource }: FrameArraysJob): Promise<FrameArrays> {
-  const { header, components } = await decodeFrame(bytes);
+  return arraysOfFrame(await decodeFrame(bytes), normalSource);
+}
+
+export function arraysOfFrame({ header, components }: Frame, normalSource: NormalSource | undefined): FrameArrays {
   const arrays: Partial<Record<ComponentRun["attribute"], VertexArray>> = {};
   let first = 0;
   for (const { attribute, count, bits } of componentRunsOf(header)) {

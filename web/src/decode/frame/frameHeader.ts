@@ -33,11 +33,15 @@ export interface FrameHeader extends FrameLayout {
   /** Seconds of the publisher's clock. */
   readonly time: number;
   readonly prediction: Prediction;
+  /** Its integers are differences to those of the frame before: only in sequences. */
+  readonly isDifference: boolean;
   /** Length of the gzip stream behind the header. */
   readonly packedBytes: number;
 }
 
 export const frameHeaderBytes = 52;
+/** Of the byte with the prediction, in frames of sequences. */
+const differenceBit = 4;
 export const maxFrameVertices = 2 ** 22;
 export const maxUnpackedBytes = 2 ** 26;
 
@@ -83,16 +87,17 @@ export function isLayout(layout: FrameLayout): boolean {
 
 /**
  * Reads and checks the header and the length of a frame, without unpacking it. Safe for untrusted bytes. Throws
- * DecodeError.
+ * DecodeError. `isOfSequence`: it may be a difference (docs/formats/sequence.md).
  */
-export function readFrameHeader(bytes: Uint8Array): FrameHeader {
+export function readFrameHeader(bytes: Uint8Array, isOfSequence = false): FrameHeader {
   if (bytes.length < frameHeaderBytes) throw new DecodeError("truncated", "is shorter than the header of a frame");
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (String.fromCharCode(...bytes.subarray(0, 3)) !== "IGF") throw new DecodeError("malformed", "is no frame");
   if (bytes[3] !== 1) throw new DecodeError("unsupported", `is a frame of version ${bytes[3] ?? 0}; 1 is read`);
   if (crc32(bytes.subarray(0, 48)) !== view.getUint32(48, true))
     throw new DecodeError("malformed", "has a damaged header");
-  const prediction = predictions[view.getUint8(45)];
+  const isDifference = isOfSequence && (view.getUint8(45) & differenceBit) !== 0;
+  const prediction = predictions[view.getUint8(45) - (isDifference ? differenceBit : 0)];
   const header = {
     packedBytes: view.getUint32(4, true),
     number: Number(view.getBigUint64(8, true)),
@@ -106,6 +111,7 @@ export function readFrameHeader(bytes: Uint8Array): FrameHeader {
     valueComponents: view.getUint8(43),
     valueBits: view.getUint8(44),
     prediction: prediction ?? "none",
+    isDifference,
   };
   const isValid =
     isLayout(header) &&

@@ -2,6 +2,7 @@
 // workers.
 
 import { DecodeError } from "../decodeError.ts";
+import type { Frame } from "./frame.ts";
 import { decodeFrame } from "./frame.ts";
 import type { ComponentRun, FrameHeader, FrameLayout } from "./frameHeader.ts";
 import { componentRunsOf } from "./frameHeader.ts";
@@ -35,7 +36,11 @@ export function frameImageSizeOf({ vertices, columns }: FrameLayout): { width: n
 
 /** Rejects with DecodeError. */
 export async function frameImages(bytes: Uint8Array<ArrayBuffer>): Promise<FrameImages> {
-  const { header, components } = await decodeFrame(bytes);
+  return imagesOfFrame(await decodeFrame(bytes));
+}
+
+/** Throws DecodeError for a frame that is too large for images. */
+export function imagesOfFrame({ header, components }: Frame): FrameImages {
   const { width, height } = frameImageSizeOf(header);
   if (width > maxEdge || height > maxEdge)
     throw new DecodeError("limit", `has a grid of ${width} x ${height} vertices; ${maxEdge} x ${maxEdge} are drawn`);

@@ -4,7 +4,7 @@ import type { FrameArrays, NormalSource } from "../../decode/frame/frameArrays.t
 import { frameImageSizeOf } from "../../decode/frame/frameImages.ts";
 import type { GpuVertices, WritableArray } from "../../stage/stage.ts";
 import { elementTypeOf } from "../../stage/elementType.ts";
-import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
+import type { VertexArray } from "../../stage/vertexArray.ts";
 import type { LiveArrays } from "../resourcePool.ts";
 import type { DecodedFrame, FrameTarget, TargetTools } from "./frameTarget.ts";
 
@@ -19,15 +19,26 @@ interface StoredAttribute {
 export class ArrayTarget implements FrameTarget {
   readonly #tools: TargetTools;
   readonly #stored: Partial<Record<Attribute, StoredAttribute>> = {};
+  readonly #aborter = new AbortController();
   #normalSource: NormalSource | undefined;
   /** The displayed frame. */
   #displayed: { readonly number: number; readonly bytes: Uint8Array<ArrayBuffer> } | undefined;
   vertices: LiveArrays | undefined;
 
-  /** `normalSource`: of frames without normals. */
-  constructor(tools: TargetTools, normalSource: NormalSource | undefined) {
+  readonly #decodeAgain: () => Promise<void>;
+
+  /**
+   * `normalSource`: of frames without normals. `decodeAgain` decodes and displays the displayed frame when this has
+   * changed; undefined: its bytes suffice.
+   */
+  constructor(tools: TargetTools, normalSource: NormalSource | undefined, decodeAgain?: () => Promise<void>) {
     this.#tools = tools;
     this.#normalSource = normalSource;
+    this.#decodeAgain = decodeAgain ?? (() => this.#decodeDisplayed());
+  }
+
+  get form(): { readonly kind: "arrays"; readonly normalSource: NormalSource | undefined } {
+    return { kind: "arrays", normalSource: this.#normalSource };
   }
 
   async decode(bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DecodedFrame> {
@@ -36,7 +47,7 @@ export class ArrayTarget implements FrameTarget {
       const frame = await this.#tools.runJob("frameArrays", { bytes, normalSource }, signal);
       if (normalSource !== this.#normalSource) continue; // the index has arrived meanwhile
       const display = (): void => {
-        this.#write(frame);
+        this.write(frame);
         this.#displayed = { number: frame.header.number, bytes };
       };
       return { header: frame.header, display };
@@ -44,19 +55,20 @@ export class ArrayTarget implements FrameTarget {
   }
 
   close(): void {
+    this.#aborter.abort();
     for (const attribute of attributes) this.#stored[attribute]?.writable.bytes.close();
   }
 
-  async #deriveNormals(index: IndexArray, signal: AbortSignal): Promise<void> {
-    this.#normalSource = { kind: "triangles", index };
+  async #decodeDisplayed(): Promise<void> {
     const displayed = this.#displayed;
     if (displayed === undefined) return;
-    const frame = await this.decode(displayed.bytes, signal);
+    const frame = await this.decode(displayed.bytes, this.#aborter.signal);
     // Frames that have been decoded since have normals already.
     if (this.#displayed?.number === displayed.number) frame.display();
   }
 
-  #write(frame: FrameArrays): void {
+  /** Replaces all vertices. */
+  write(frame: FrameArrays): void {
     for (const attribute of attributes) {
       const vertices = frame[attribute];
       if (vertices === undefined) continue;
@@ -92,7 +104,10 @@ export class ArrayTarget implements FrameTarget {
       get byteLength() {
         return attributes.reduce((sum, attribute) => sum + (stored[attribute]?.vertices.bytes.byteLength ?? 0), 0);
       },
-      deriveNormals: (index, signal) => this.#deriveNormals(index, signal),
+      deriveNormals: async (index) => {
+        this.#normalSource = { kind: "triangles", index };
+        await this.#decodeAgain();
+      },
     };
   }
 }

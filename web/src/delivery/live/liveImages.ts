@@ -9,6 +9,7 @@ import type { DecodedFrame, FrameTarget, TargetTools } from "./frameTarget.ts";
 export class ImageTarget implements FrameTarget {
   readonly #tools: TargetTools;
   #all: readonly WritableImage[] = [];
+  readonly form = { kind: "images" } as const;
   vertices: LiveImages | undefined;
 
   constructor(tools: TargetTools) {
@@ -20,10 +21,15 @@ export class ImageTarget implements FrameTarget {
     return {
       header: frame.header,
       display: () => {
-        if (this.vertices === undefined) this.#allocate(frame);
-        texelsOf(frame).forEach((texels, index) => this.#all[index]?.write(texels));
+        this.write(frame);
       },
     };
+  }
+
+  /** Replaces all vertices. */
+  write(frame: FrameImages): void {
+    if (this.vertices === undefined) this.#allocate(frame);
+    texelsOf(frame).forEach((texels, index) => this.#all[index]?.write(texels));
   }
 
   close(): void {

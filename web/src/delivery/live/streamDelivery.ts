@@ -5,32 +5,16 @@
 import type { GeometryDescription, Playback } from "../../document/description.ts";
 import type { BudgetRequest } from "../../scheduler/budget.ts";
 import { pause } from "../../scheduler/pause.ts";
-import type { Stage } from "../../stage/stage.ts";
 import { asDeliveryError } from "../deliveryError.ts";
 import { streamFilesOf } from "../encodings/live/liveDelivery.ts";
-import type { Delivery, DeliveryListener, FilePool, FilePriority, LiveFrame } from "../geometryDelivery.ts";
-import { deliverGeometry } from "../geometryDelivery.ts";
+import type { Delivery, DeliveryListener, FilePriority } from "../geometryDelivery.ts";
 import type { Transfer } from "../progress.ts";
-import type { Content, ResourceHandle, ResourcePool, ResourceRequest } from "../resourcePool.ts";
+import type { ResourcePool } from "../resourcePool.ts";
+import { FrameDelivery } from "./frameDelivery.ts";
 import { FrameSource } from "./frameSource.ts";
-import type { DecodedFrame, FrameTarget } from "./frameTarget.ts";
+import type { DecodedFrame } from "./frameTarget.ts";
 import { isPageHidden, onPageVisibility } from "./pageVisibility.ts";
-import { ArrayTarget } from "./liveArrays.ts";
-import { ImageTarget } from "./liveImages.ts";
 import type { StreamState } from "./streamState.ts";
-import { gridNormalsOf, withStreamState } from "./streamGeometry.ts";
-
-/** The delivery of the frames of one epoch. */
-interface EpochDelivery {
-  readonly geometry: GeometryDescription;
-  readonly delivery: Delivery;
-  /** Resolves with the vertices of the first frame. */
-  readonly content: PromiseWithResolvers<Content>;
-  readonly target: FrameTarget;
-  stage: Stage | undefined;
-  /** The newest frame, while the listener does not know that it is displayed. */
-  frame: LiveFrame | undefined;
-}
 
 /** Requests nothing before `request` is called. Never calls the listener before it returns. */
 export function deliverStream(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener): Delivery {
@@ -43,9 +27,9 @@ class StreamDelivery implements Delivery {
   readonly #listener: DeliveryListener;
   readonly #source: FrameSource;
   readonly #transfer: Transfer;
-  #displayed: EpochDelivery | undefined;
+  #displayed: FrameDelivery | undefined;
   /** The newest epoch, which is not displayed yet. */
-  #next: EpochDelivery | undefined;
+  #next: FrameDelivery | undefined;
   #priorityOf: FilePriority = () => undefined;
   /** Whether the shape is visible. */
   #isNeeded = false;
@@ -131,10 +115,10 @@ class StreamDelivery implements Delivery {
     this.#isCancelled = true;
     this.#stopListening();
     this.#source.stop();
-    for (const epoch of [this.#displayed, this.#next]) if (epoch) close(epoch);
+    for (const epoch of [this.#displayed, this.#next]) epoch?.close();
   }
 
-  get #newest(): EpochDelivery | undefined {
+  get #newest(): FrameDelivery | undefined {
     return this.#next ?? this.#displayed;
   }
 
@@ -160,36 +144,27 @@ class StreamDelivery implements Delivery {
   }
 
   #onEpoch(state: StreamState): void {
-    if (this.#next) close(this.#next);
-    const { maxTextureSize } = this.#pool;
-    const readsTextures = this.#readsTextures === true;
-    const geometry = withStreamState(this.#geometry, state, { readsTextures, maxTextureSize });
-    const content = Promise.withResolvers<Content>();
-    content.promise.catch(() => undefined); // there may be nobody who waits for it
-    const epoch: EpochDelivery = {
-      geometry,
-      content,
-      target:
-        geometry.decode === "gpu"
-          ? new ImageTarget(this.#pool)
-          : new ArrayTarget(this.#pool, gridNormalsOf(geometry, state)),
-      stage: undefined,
-      frame: undefined,
-      delivery: deliverGeometry(geometry, this.#poolWith(content.promise), {
-        onStage: (_, stage) => {
-          epoch.stage = stage;
-          if (epoch === this.#displayed) this.#listener.onStage(0, stage, geometry);
-          else this.#displayWhole();
-        },
-        onError: (error) => {
-          this.#listener.onError(error);
-        },
-        onSettled: () => {
-          this.#displayWhole();
-          if (epoch === this.#newest) this.#listener.onSettled();
-        },
-      }),
+    this.#next?.close();
+    const options = {
+      geometry: this.#geometry,
+      description: state,
+      readsTextures: this.#readsTextures === true,
+      pool: this.#pool,
+      transfer: this.#transfer,
     };
+    const epoch = new FrameDelivery(options, {
+      onStage: () => {
+        if (epoch === this.#displayed) this.#listener.onStage(0, epoch.stage, epoch.geometry);
+        else this.#displayWhole();
+      },
+      onError: (error) => {
+        this.#listener.onError(error);
+      },
+      onSettled: () => {
+        this.#displayWhole();
+        if (epoch === this.#newest) this.#listener.onSettled();
+      },
+    });
     this.#next = epoch;
     epoch.delivery.request(this.#priorityOf);
   }
@@ -197,20 +172,16 @@ class StreamDelivery implements Delivery {
   #onFrame(frame: DecodedFrame, byteLength: number): void {
     const epoch = this.#newest;
     if (epoch === undefined) return;
-    const { number, time, epoch: first } = frame.header;
     if (this.#transfer.state !== "ready") {
       this.#transfer.loadedBytes = this.#transfer.totalBytes = byteLength;
       this.#transfer.state = "ready";
       this.#transfer.error = undefined;
     }
-    frame.display();
-    const { vertices } = epoch.target;
-    if (vertices !== undefined) epoch.content.resolve({ kind: "live", vertices });
-    epoch.frame = { number, time, epoch: first };
+    epoch.display(frame);
     if (epoch === this.#displayed) this.#reportFrame(epoch);
   }
 
-  #reportFrame(epoch: EpochDelivery): void {
+  #reportFrame(epoch: FrameDelivery): void {
     if (epoch.frame !== undefined) this.#listener.onFrame?.(epoch.frame);
     epoch.frame = undefined;
   }
@@ -233,33 +204,7 @@ class StreamDelivery implements Delivery {
     this.#next = undefined;
     this.#listener.onStage(0, epoch.stage, epoch.geometry);
     this.#reportFrame(epoch);
-    if (before) close(before);
+    before?.close();
     this.#followNeeds();
   }
-
-  /** The pool, with the frames of an epoch as the content of the stream. */
-  #poolWith(content: Promise<Content>): FilePool {
-    const pool = this.#pool;
-    return {
-      runJob: pool.runJob,
-      storeBytes: pool.storeBytes,
-      maxTextureSize: pool.maxTextureSize,
-      acquire: (request: ResourceRequest): ResourceHandle =>
-        request.kind !== "live"
-          ? pool.acquire(request)
-          : {
-              transfer: this.#transfer,
-              content,
-              setPriority: () => undefined,
-              fail: () => undefined,
-              finish: () => undefined,
-              release: () => undefined,
-            },
-    };
-  }
-}
-
-function close({ delivery, target }: EpochDelivery): void {
-  delivery.cancel();
-  target.close();
 }

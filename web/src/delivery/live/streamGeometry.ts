@@ -7,7 +7,7 @@ import { isDrawnFromImages } from "../../document/drawnFromImages.ts";
 import type { NormalSource } from "../../decode/frame/frameArrays.ts";
 import { frameImageSizeOf } from "../../decode/frame/frameImages.ts";
 import { imageEdgeOf } from "../encodings/classic/classicDelivery.ts";
-import type { StreamState } from "./streamState.ts";
+import type { FrameDescription } from "../../decode/frame/frameDescription.ts";
 
 /** What the GPU can read. */
 export interface ImageReading {
@@ -24,7 +24,7 @@ export interface ImageReading {
  */
 export function withStreamState(
   geometry: GeometryDescription,
-  state: StreamState,
+  state: FrameDescription,
   reading: ImageReading,
 ): GeometryDescription {
   const { positionBits, origin, step, vertices, columns, box } = state;
@@ -73,7 +73,7 @@ export function withStreamState(
 function isReadFromImages(
   geometry: GeometryDescription,
   patch: PatchDescription,
-  state: StreamState,
+  state: FrameDescription,
   { readsTextures, maxTextureSize }: ImageReading,
 ): boolean {
   // Shaders know the neighbours of a vertex in a grid; those in an index, workers find.
@@ -87,7 +87,7 @@ function isReadFromImages(
 /** The normals of frames without stored ones, in a grid. */
 export function gridNormalsOf(
   { ccw, patches: [patch] }: GeometryDescription,
-  { normalBits }: StreamState,
+  { normalBits }: FrameDescription,
 ): NormalSource | undefined {
   if (patch?.grid === undefined || patch.normal !== undefined || normalBits > 0) return undefined;
   return { kind: "grid", grid: patch.grid, ccw };
@@ -104,7 +104,7 @@ function drawsOf(grid: PatchDescription["grid"], vertices: number): readonly Dra
 }
 
 /** Undefined where the stream has no values. */
-function withRange(value: AttributeDescription, state: StreamState): AttributeDescription | undefined {
+function withRange(value: AttributeDescription, state: FrameDescription): AttributeDescription | undefined {
   if (state.valueComponents === 0) return undefined;
   // Values fill their bits, images whole bytes.
   const stretch = (256 ** Math.ceil(state.valueBits / 8) - 1) / (2 ** state.valueBits - 1);

@@ -379,7 +379,7 @@ class BufferStageBuilder implements StageBuilder {
         signal,
       );
       const indexedDraws = { index: await this.#uploads.storeIndex(drawn.index, signal), draws: drawn.draws };
-      await this.#deriveNormals(available, drawn.index, drawn.draws, signal);
+      await this.#deriveNormals(available, drawn.index, drawn.draws);
       available.indexedDraws = indexedDraws;
     } catch (error) {
       if (signal.aborted) {
@@ -398,15 +398,10 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   /** Makes the normals of a live surface, where it has none, follow from its triangles. */
-  async #deriveNormals(
-    { streamed }: AvailableArrays,
-    index: IndexArray,
-    draws: readonly DrawRange[],
-    signal: AbortSignal,
-  ): Promise<void> {
+  async #deriveNormals({ streamed }: AvailableArrays, index: IndexArray, draws: readonly DrawRange[]): Promise<void> {
     const isSurface = draws.every(({ primitive }) => primitive === "triangles");
     if (streamed === undefined || streamed.normal || this.#patch.normal || !isSurface) return;
-    await streamed.deriveNormals(trianglesOf(index, draws), signal);
+    await streamed.deriveNormals(trianglesOf(index, draws));
   }
 
   #layout(

@@ -1,0 +1,79 @@
+#include "transcode/site/sequences.h"
+
+#include "base/file.h"
+#include "containers/unit_vectors.h"
+#include "sequence/sequence_file.h"
+
+#include <numeric>
+
+namespace imgeo {
+
+std::string SiteSequence::urlOf(std::size_t file) const {
+  return (std::filesystem::path(url).parent_path() / index.files.at(file).url).string();
+}
+
+void readFrames(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
+                const std::function<void(const live::Frame&)>& visit) {
+  const SequenceIndex& index = sequence.index;
+  for (std::size_t file = index.fileOf(first); file < index.files.size() && index.firstFrameOf(file) < end; ++file) {
+    const std::filesystem::path path = fileOf(document, sequence.urlOf(file));
+    decodeSequenceFile(
+        readFile(path), index, file, path.string(),
+        [&](const live::Frame& frame) {
+          if (frame.number >= first)
+            visit(frame);
+        },
+        end);
+  }
+}
+
+Mesh meshOfFrame(const IndexedPatch& still, const live::Frame& frame, const live::Description& description) {
+  const std::size_t vertices = frame.layout.vertices;
+  Mesh mesh;
+  static_cast<VertexAttributes&>(mesh) = still;
+  mesh.topology = still.draws.empty() ? Topology::triangles : topologyOf(still.draws.front().primitive);
+  mesh.corners = still.indices;
+  mesh.wedgePositions.resize(vertices);
+  std::iota(mesh.wedgePositions.begin(), mesh.wedgePositions.end(), 0u);
+  if (mesh.corners.empty())
+    mesh.corners = mesh.wedgePositions;
+  const Vec3d origin = description.origin();
+  const double step = description.step();
+  std::uint32_t component = 3;
+  mesh.normals.clear();
+  for (std::size_t i = 0; i < vertices; ++i)
+    mesh.positions.push_back(Vec3f(
+        origin +
+        Vec3d{double(frame.component(0)[i]), double(frame.component(1)[i]), double(frame.component(2)[i])} * step));
+  if (frame.layout.normalBits > 0) {
+    for (std::size_t i = 0; i < vertices; ++i)
+      mesh.normals.push_back(unitFromOctahedral({frame.component(component)[i], frame.component(component + 1)[i]},
+                                                frame.layout.normalBits));
+    component += 2;
+  }
+  if (frame.layout.colorComponents > 0) {
+    mesh.colors.assign(vertices, Rgba(0, 0, 0, 1));
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const auto channel = [&](std::uint32_t c) {
+        return static_cast<float>(frame.component(component + c)[i] / 255.0);
+      };
+      mesh.colors[i] = {channel(0), channel(1), channel(2), frame.layout.colorComponents == 4 ? channel(3) : 1};
+    }
+  }
+  return mesh;
+}
+
+std::vector<SiteSequence> sequencesOf(const SiteDocument& document) {
+  const SceneGraph& graph = document.scene.graph;
+  std::vector<SiteSequence> sequences;
+  for (const std::size_t shape : shapeNodes(graph))
+    for (const std::size_t child : graph.nodes[shape].children)
+      if (hasFrames(graph.nodes[child])) {
+        const std::string& url = std::get<Interpolator>(graph.nodes[child].content).url;
+        const std::filesystem::path file = fileOf(document, url);
+        sequences.push_back({shape, url, readSequenceIndex(asText(readFile(file)), file.string())});
+      }
+  return sequences;
+}
+
+} // namespace imgeo

@@ -1,0 +1,36 @@
+#pragma once
+// The sequences of a site.
+
+#include "live/frame.h"
+#include "prepare/primitives.h"
+#include "scene/mesh.h"
+#include "sequence/sequence_index.h"
+#include "transcode/site/site_document.h"
+
+#include <functional>
+
+namespace imgeo {
+
+/// A sequence that moves the vertices of a shape.
+struct SiteSequence {
+  std::size_t shape = 0; ///< index into SceneGraph::nodes
+  std::string url;       ///< of the index
+  SequenceIndex index;
+
+  /// The URL of a file of frames, relative to the site.
+  std::string urlOf(std::size_t file) const;
+};
+
+/// Reads frames `first` .. `end` - 1 of a sequence and calls visit(frame) with each, in their order. Throws Error for a
+/// file that cannot be read.
+void readFrames(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
+                const std::function<void(const live::Frame&)>& visit);
+
+/// The mesh of a frame: a vertex for each of the static mesh, which `still` is, with the frame's positions and the
+/// normals and colours that it has. Without normals in the frame the mesh has none.
+Mesh meshOfFrame(const IndexedPatch& still, const live::Frame& frame, const live::Description& description);
+
+/// Reads the indexes of all sequences, in document order. Throws Error for one that cannot be read.
+std::vector<SiteSequence> sequencesOf(const SiteDocument& document);
+
+} // namespace imgeo

@@ -1,0 +1,166 @@
+// Tests sequences in a page: every frame is the mesh of its file, whatever the clock, a script or the page asks for, and
+// frames take no further memory of the GPU.
+
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { assertSamePicture, boundsOfInput, savePicture } from "./compare.ts";
+import { until, withPage, type View } from "./harness.ts";
+import { gpuCalls, recordStream, type FrameDetail } from "./livePage.ts";
+import { areaWeightedNormals, sphere, withoutNormals, type PlainMesh } from "./meshes.ts";
+import { referencePicture } from "./reference.ts";
+import type { TestServer } from "./server.ts";
+import { pageOf, siteOfFrames, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
+
+const rate = 10;
+const frameCount = 25;
+
+/** A sphere that breathes and leans: three files of 10, 10 and 5 frames. */
+function frameOf(number: number): PlainMesh {
+  const mesh = withoutNormals(sphere(24));
+  const [swell, lean] = [1 + 0.25 * Math.sin(0.4 * number), 0.3 * Math.sin(0.25 * number)];
+  const positions = mesh.positions.slice();
+  for (let i = 0; i < positions.length; i += 3) {
+    const [x, y, z] = [positions[i]!, positions[i + 1]!, positions[i + 2]!];
+    positions.set([x * swell + lean * y, y / swell, z * swell], i);
+  }
+  return { ...mesh, positions };
+}
+
+const frames = Array.from({ length: frameCount }, (_, number) => frameOf(number));
+
+const site = (): string => siteOfFrames("breath", frames, "--rate", String(rate));
+
+/** A copy whose <x3d> has these attributes. */
+const siteWith = (name: string, attributes: string): string =>
+  variantOf(site(), name, (page) => page.replace(/<x3d/i, `<x3d ${attributes}`));
+
+async function show(view: View, number: number, name: string): Promise<void> {
+  const { positions, triangles } = frames[number]!;
+  const picture = await view.picture();
+  savePicture(name, picture);
+  const normals = areaWeightedNormals({ positions, triangles });
+  const patch = { positions, normals, triangles, lines: new Uint32Array(), points: new Uint32Array() };
+  assertSamePicture(name, picture, await referencePicture(pageOf(site()), [patch]), boundsOfInput);
+}
+
+const recorded = ({ page }: View): Promise<FrameDetail[]> =>
+  page.evaluate(() => (window as unknown as { frames: FrameDetail[] }).frames);
+
+async function displays(view: View, number: number): Promise<void> {
+  await until(`frame ${number} is displayed`, async () => (await recorded(view)).at(-1)?.number === number);
+}
+
+const setAttribute = ({ page }: View, selector: string, name: string, value: string | undefined): Promise<void> =>
+  page.evaluate(
+    ({ selector: select, name: attribute, value: text }) => {
+      const element = document.querySelector(select);
+      if (text === undefined) element?.removeAttribute(attribute);
+      else element?.setAttribute(attribute, text);
+    },
+    { selector, name, value },
+  );
+
+test("a sequence is displayed frame by frame", async () => {
+  await withPage(siteWith("still", 'sequence-time="0" paused="false"'), { before: recordStream }, async (view) => {
+    await view.promise("complete");
+    await displays(view, 0);
+    await show(view, 0, "sequence: the first frame");
+
+    const seek = async (number: number): Promise<void> => {
+      await setAttribute(view, "x3d", "sequence-time", String(number / rate));
+      await displays(view, number);
+    };
+    await seek(1);
+    const before = await gpuCalls(view);
+    for (const number of [2, 3, 4, 9, 10, 11, 24, 0, 17]) await seek(number);
+    assert.equal((await gpuCalls(view)).objects, before.objects, "frames allocate memory on the GPU");
+    await show(view, 17, "sequence: in the second file");
+    const hit = await view.page.evaluate(() => {
+      const x3d = document.querySelector("x3d") as HTMLElement & {
+        positionAndNormalFromPoint: (x: number, y: number) => { position: { x: number; y: number; z: number } } | null;
+      };
+      return x3d.positionAndNormalFromPoint(innerWidth / 2, innerHeight / 2)?.position;
+    });
+    const radius = Math.max(...frames[17]!.positions);
+    const distance = hit && Math.hypot(hit.x, hit.y, hit.z);
+    assert.ok(distance !== undefined && distance > 0.5 * radius && distance < 1.5 * radius, `picked ${distance}`);
+
+    // Without the attribute the clock counts, and the first frame follows the last.
+    await setAttribute(view, "x3d", "sequence-time", undefined);
+    await until("the clock has come to the beginning again", async () => {
+      const numbers = (await recorded(view)).map(({ number }) => number);
+      const last = numbers.lastIndexOf(17);
+      return numbers.slice(last).some((number, i, all) => number < (all[i - 1] ?? 0) && i > 1);
+    });
+    // A script scrubs by the sensor, and by the interpolator.
+    await setAttribute(view, "timesensor", "enabled", "false");
+    await setAttribute(view, "timesensor", "set_fraction", "0.5");
+    await displays(view, 12);
+    await show(view, 12, "sequence: scrubbed by its clock");
+    await setAttribute(view, "coordinateinterpolator", "set_fraction", "1");
+    await displays(view, 24);
+    await show(view, 24, "sequence: the last frame");
+    assert.equal((await gpuCalls(view)).objects, before.objects, "playing allocates memory on the GPU");
+    assert.equal((await view.events("load", "shape")).length, 1);
+  });
+});
+
+soakTest("frames of a file that cannot be read are left out, and the others are displayed", async () => {
+  const options = {
+    before: recordStream,
+    expectedErrors: /igf/,
+    server: (server: TestServer): void => {
+      const index = readdirSync(join(site(), "geometry")).find((name) => name.endsWith(".json"))!;
+      const { files } = JSON.parse(readFileSync(join(site(), "geometry", index), "utf8")) as {
+        files: { url: string }[];
+      };
+      server.when((path) => path.endsWith(files[1]!.url), { replace: (bytes) => bytes.subarray(0, bytes.length - 1) });
+    },
+  };
+  await withPage(siteWith("damaged", 'sequence-time="0"'), options, async (view) => {
+    await view.promise("complete");
+    await displays(view, 0);
+    await until("the damaged file is reported", () =>
+      view.page.evaluate(() => (window as unknown as { outages: string[] }).outages.length === 1),
+    );
+    await setAttribute(view, "x3d", "sequence-time", "1.5");
+    await setAttribute(view, "x3d", "sequence-time", "2.2");
+    await displays(view, 22);
+    await show(view, 22, "sequence: behind a file that is damaged");
+    assert.deepEqual(
+      (await recorded(view)).filter(({ number }) => number >= 10 && number < 20),
+      [],
+    );
+  });
+});
+
+soakTest("ten thousand frames leave the heap and the memory of the GPU as they were", async () => {
+  await withPage(siteWith("long", 'sequence-time="0"'), { before: recordStream }, async (view) => {
+    await view.promise("complete");
+    await displays(view, 0);
+    const play = (count: number): Promise<number> =>
+      view.page.evaluate(
+        async ({ total, perSecond }) => {
+          const x3d = document.querySelector("x3d")!;
+          const shown = (window as unknown as { frames: unknown[] }).frames;
+          for (let played = 0, number = 0; played < total; ++played) {
+            number = (number + 1) % 25;
+            const length = shown.length;
+            x3d.setAttribute("sequence-time", String(number / perSecond));
+            while (shown.length === length) await new Promise(requestAnimationFrame);
+            shown.length = 0;
+          }
+          return (performance as unknown as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize;
+        },
+        { total: count, perSecond: rate },
+      );
+    await play(200);
+    const [objects, heap] = [(await gpuCalls(view)).objects, await play(200)];
+    const after = await play(9600);
+    assert.equal((await gpuCalls(view)).objects, objects);
+    assert.ok(after < heap + 20e6, `the heap has grown from ${heap} to ${after} bytes`);
+  });
+});

@@ -1,0 +1,383 @@
+// The delivery of a sequence (docs/formats/sequence.md). The document's own files, which are its first frame, are
+// delivered as those of any geometry. The frames that are due replace them when the index and the first of these have
+// arrived; while one is missing the last one stays.
+
+import type { SequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
+import { fileOfFrame, readSequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
+import type { GeometryDescription, SequenceDescription } from "../../document/description.ts";
+import type { BudgetRequest } from "../../scheduler/budget.ts";
+import type { Stage } from "../../stage/stage.ts";
+import { asDeliveryError } from "../deliveryError.ts";
+import type { Delivery, DeliveryListener, FilePriority } from "../geometryDelivery.ts";
+import { deliverGeometry } from "../geometryDelivery.ts";
+import { FrameDelivery } from "../live/frameDelivery.ts";
+import { ArrayTarget } from "../live/liveArrays.ts";
+import { ImageTarget } from "../live/liveImages.ts";
+import type { Transfer } from "../progress.ts";
+import type { ResourceHandle, ResourcePool } from "../resourcePool.ts";
+import { FramesAhead } from "./framesAhead.ts";
+import type { SequenceFrame } from "./framesAhead.ts";
+import { SequenceFiles } from "./sequenceFiles.ts";
+
+/** Where a sequence is: a part of its duration, 0 … 1, or seconds from its beginning. */
+export type SequencePosition = { readonly fraction: number } | { readonly seconds: number };
+
+const indexBytes = 4096;
+
+/** Requests nothing before `request` is called. Never calls the listener before it returns. */
+export class SequenceDelivery implements Delivery {
+  readonly #geometry: GeometryDescription;
+  readonly #sequence: SequenceDescription;
+  readonly #pool: ResourcePool;
+  readonly #listener: DeliveryListener;
+  /** The document's own files, until frames replace them. */
+  #static: Delivery | undefined;
+  #staticStage: Stage | undefined;
+  #indexHandle: ResourceHandle | undefined;
+  #hasFailed = false;
+  #playing: Playing | undefined;
+  #isDisplayed = false;
+  #position: SequencePosition = { fraction: 0 };
+  #priorityOf: FilePriority = () => undefined;
+  #isCancelled = false;
+
+  constructor(
+    geometry: GeometryDescription,
+    sequence: SequenceDescription,
+    pool: ResourcePool,
+    listener: DeliveryListener,
+  ) {
+    this.#geometry = geometry;
+    this.#sequence = sequence;
+    this.#pool = pool;
+    this.#listener = listener;
+    this.#static = deliverGeometry(geometry, pool, {
+      onStage: (patch, stage) => {
+        this.#staticStage = stage;
+        if (!this.#isDisplayed) listener.onStage(patch, stage);
+      },
+      onError: (error) => {
+        listener.onError(error);
+      },
+      onSettled: () => {
+        this.#settle();
+      },
+    });
+  }
+
+  get transfers(): readonly Readonly<Transfer>[] {
+    const transfers = new Set([
+      ...(this.#static?.transfers ?? []),
+      ...(this.#indexHandle ? [this.#indexHandle.transfer] : []),
+      ...(this.#playing?.delivery.transfers ?? []),
+    ]);
+    return Array.from(transfers);
+  }
+
+  get isSettled(): boolean {
+    const areFramesSettled =
+      this.#hasFailed || this.#indexHandle === undefined || (this.#isDisplayed && this.#isWhole(this.#playing));
+    return areFramesSettled && (this.#static?.isSettled ?? true);
+  }
+
+  /** Never: `request` tells the sequence whether it is visible. */
+  readonly isExhausted = false;
+
+  get storedBytes(): number {
+    return (this.#static?.storedBytes ?? 0) + (this.#playing?.delivery.storedBytes ?? 0);
+  }
+
+  budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[] {
+    return (this.#playing?.delivery ?? this.#static)?.budgetRequests(priorityOf) ?? [];
+  }
+
+  request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
+    this.#priorityOf = priorityOf;
+    this.#static?.request(priorityOf, this.#playing ? undefined : granted);
+    this.#playing?.delivery.request(priorityOf, granted);
+    const priority = this.#priority;
+    if (priority !== undefined && this.#indexHandle === undefined) this.#requestIndex(priority);
+    this.#indexHandle?.setPriority(priority ?? 0);
+    this.#follow();
+  }
+
+  /** Seconds; 0 before the index has arrived. */
+  get duration(): number {
+    const index = this.#playing?.index;
+    return index === undefined ? 0 : index.frameCount / index.rate;
+  }
+
+  /** The frame at this position is due. */
+  setPosition(position: SequencePosition): void {
+    this.#position = position;
+    this.#follow();
+  }
+
+  cancel(): void {
+    this.#isCancelled = true;
+    this.#static?.cancel();
+    this.#indexHandle?.release();
+    this.#playing?.close();
+  }
+
+  /** That of the first coordinates; undefined: the shape is not visible. */
+  get #priority(): number | undefined {
+    const [reference] = this.#geometry.patches[0]?.coord ?? [];
+    if (reference === undefined) return undefined;
+    return this.#priorityOf(0, {
+      role: "coord",
+      plane: 0,
+      reference,
+      target: { kind: "live" },
+      chunk: { type: "coord", plane: 0 },
+      expectedBytes: 0,
+      storedBytes: 0,
+    });
+  }
+
+  #requestIndex(priority: number): void {
+    const { url } = this.#sequence;
+    this.#indexHandle = this.#pool.acquire({ kind: "bytes", url, priority, expectedBytes: indexBytes });
+    void this.#receiveIndex(this.#indexHandle);
+  }
+
+  async #receiveIndex(handle: ResourceHandle): Promise<void> {
+    try {
+      const [content, readsTextures] = await Promise.all([handle.content, this.#pool.readsTextures()]);
+      if (this.#isCancelled || content.kind !== "bytes") return;
+      const index = readSequenceIndex(content.bytes);
+      handle.finish();
+      this.#play(index, readsTextures, handle.transfer);
+    } catch (error) {
+      if (this.#isCancelled) return;
+      handle.fail(error);
+      handle.finish();
+      this.#hasFailed = true;
+      this.#listener.onError(asDeliveryError(error, this.#sequence.url));
+      this.#settle();
+    }
+  }
+
+  #play(index: SequenceIndex, readsTextures: boolean, transfer: Readonly<Transfer>): void {
+    const { url } = this.#sequence;
+    const playing = (this.#playing = new Playing({
+      index,
+      geometry: framesGeometryOf(this.#geometry, url),
+      urlOf: (file) => new URL(index.files[file]?.url ?? "", this.#pool.resolve(url)).href,
+      readsTextures,
+      pool: this.#pool,
+      transfer,
+      onStage: () => {
+        this.#displayFrames();
+      },
+      onFrame: () => {
+        this.#displayFrames();
+        this.#reportFrame();
+      },
+      onError: (error, fileUrl) => {
+        this.#listener.onError(asDeliveryError(error, fileUrl));
+      },
+      onSettled: () => {
+        this.#displayFrames();
+        this.#settle();
+      },
+    }));
+    playing.delivery.request(this.#priorityOf);
+    this.#follow();
+  }
+
+  #follow(): void {
+    const playing = this.#playing;
+    if (playing === undefined || this.#isCancelled) return;
+    const priority = this.#priority;
+    if (priority === undefined) playing.rest();
+    else playing.follow(frameAt(this.#position, playing.index), priority);
+  }
+
+  /** Whether frames can be displayed in place of the document's own files. */
+  #isWhole(playing: Playing | undefined): boolean {
+    return playing?.stage !== undefined && playing.delivery.isSettled;
+  }
+
+  /** Displays the frames when all their files have arrived; the first frame of the document stays until then. */
+  #displayFrames(): void {
+    const playing = this.#playing;
+    if (playing?.stage === undefined) return;
+    const isFirst = !this.#isDisplayed;
+    if (isFirst && this.#staticStage !== undefined && !this.#isWhole(playing)) return;
+    this.#isDisplayed = true;
+    this.#listener.onStage(0, playing.stage, playing.geometry);
+    if (!isFirst) return;
+    this.#static?.cancel();
+    this.#static = undefined;
+    this.#reportFrame();
+    this.#settle();
+  }
+
+  #reportFrame(): void {
+    const frame = this.#isDisplayed ? this.#playing?.takeFrame() : undefined;
+    if (frame) this.#listener.onFrame?.(frame);
+  }
+
+  #settle(): void {
+    if (this.isSettled) this.#listener.onSettled();
+  }
+}
+
+/** The geometry whose coordinates are frames. */
+function framesGeometryOf(geometry: GeometryDescription, url: string): GeometryDescription {
+  const patches = geometry.patches.map((patch) => ({ ...patch, coord: [{ url, firstTexel: 0 }], normal: undefined }));
+  return { ...geometry, encoding: "live", patches };
+}
+
+/** The number of the frame at a position. */
+function frameAt(position: SequencePosition, { frameCount, rate }: SequenceIndex): number {
+  // Times that are multiples of a frame's duration may lie just before it.
+  const tolerance = 1e-6;
+  const frames = "seconds" in position ? position.seconds * rate : position.fraction * frameCount;
+  return Math.max(0, Math.min(frameCount - 1, Math.floor(frames + tolerance)));
+}
+
+interface PlayingOptions {
+  readonly index: SequenceIndex;
+  readonly geometry: GeometryDescription;
+  readonly urlOf: (file: number) => string;
+  readonly readsTextures: boolean;
+  readonly pool: ResourcePool;
+  readonly transfer: Readonly<Transfer>;
+  readonly onStage: () => void;
+  /** A frame has replaced the vertices. */
+  readonly onFrame: () => void;
+  readonly onError: (error: unknown, url: string) => void;
+  readonly onSettled: () => void;
+}
+
+/** The frames of a sequence whose index has arrived. */
+class Playing {
+  readonly index: SequenceIndex;
+  readonly #frames: FrameDelivery;
+  readonly #files: SequenceFiles;
+  readonly #ahead: FramesAhead;
+  readonly #onFrame: () => void;
+  #due: number | undefined;
+  #displayed: number | undefined;
+  /** Resolved when a frame has been displayed in the present form. */
+  #again: PromiseWithResolvers<void> | undefined;
+
+  constructor(options: PlayingOptions) {
+    const { index, geometry, urlOf, readsTextures, pool, transfer, onStage, onFrame, onError, onSettled } = options;
+    this.index = index;
+    this.#onFrame = onFrame;
+    this.#files = new SequenceFiles(index, urlOf, pool, {
+      onFile: () => {
+        this.#advance();
+      },
+      onError,
+    });
+    this.#frames = new FrameDelivery(
+      {
+        geometry,
+        description: index,
+        readsTextures,
+        pool,
+        transfer,
+        decodeAgain: () => this.#decodeAgain(),
+      },
+      {
+        onStage,
+        onError: (error) => {
+          onError(error, error.url);
+        },
+        onSettled,
+      },
+    );
+    this.#ahead = new FramesAhead({
+      index,
+      framesOf: (file) => this.#files.framesOf(file),
+      runJob: pool.runJob,
+      form: () => this.#frames.target.form,
+      onFrames: () => {
+        this.#advance();
+      },
+      onError: (file, error) => {
+        this.#files.fail(file, error);
+      },
+    });
+  }
+
+  get delivery(): Delivery {
+    return this.#frames.delivery;
+  }
+
+  get geometry(): GeometryDescription {
+    return this.#frames.geometry;
+  }
+
+  get stage(): Stage | undefined {
+    return this.#frames.stage;
+  }
+
+  /** The displayed frame, once. */
+  takeFrame(): FrameDelivery["frame"] {
+    const { frame } = this.#frames;
+    this.#frames.frame = undefined;
+    return frame;
+  }
+
+  /** The frame with this number is due. */
+  follow(due: number, priority: number): void {
+    this.#due = due;
+    this.#files.follow(fileOfFrame(this.index, due), priority);
+    this.#advance();
+  }
+
+  /** Nobody sees the frames. */
+  rest(): void {
+    this.#due = undefined;
+    this.#files.clear();
+  }
+
+  close(): void {
+    this.#again?.reject(new DOMException("", "AbortError"));
+    this.#ahead.clear();
+    this.#files.clear();
+    this.#frames.close();
+  }
+
+  #advance(): void {
+    const due = this.#due;
+    if (due === undefined) return;
+    const frame = this.#ahead.take(due, this.#displayed);
+    if (frame !== undefined) {
+      this.#displayed = frame.header.number;
+      const { header } = frame;
+      this.#frames.display({
+        header,
+        display: () => {
+          this.#write(frame);
+        },
+      });
+      this.#again?.resolve();
+      this.#again = undefined;
+      this.#onFrame();
+    }
+    this.#ahead.decode(due, this.#displayed);
+  }
+
+  #write(frame: SequenceFrame): void {
+    const { target } = this.#frames;
+    if (target instanceof ImageTarget && "width" in frame) target.write(frame);
+    else if (target instanceof ArrayTarget && !("width" in frame)) target.write(frame);
+  }
+
+  /** Frames are decoded to another form from now on. Resolves when one has been displayed. */
+  #decodeAgain(): Promise<void> {
+    this.#ahead.clear();
+    if (this.#displayed === undefined) return Promise.resolve();
+    this.#displayed = undefined;
+    this.#again ??= Promise.withResolvers();
+    const { promise } = this.#again;
+    this.#advance();
+    return promise;
+  }
+}
