@@ -327,7 +327,7 @@ Command sampleCommand() {
             .valueName = "DIR",
             .help = "with --live: serve this directory instead of a page that draws the motion"};
   return {.name = "sample",
-          .usage = "hall [--seats N] -o FILE | cloth|water|turntable --live|--frames N -o DIR",
+          .usage = "hall -o FILE | MOTION --live | MOTION --frames N -o DIR",
           .summary = "write a generated scene, or write or publish a moving one",
           .text = "All seats of the hall are one mesh in many places, so that the file stays small. With --live, a "
                   "simulation runs until Ctrl-C and its vertices are a live stream; with --frames its frames are "

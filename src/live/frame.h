@@ -12,7 +12,7 @@ namespace imgeo::live {
 constexpr std::uint32_t maxFrameVertices = std::uint32_t{1} << 22;
 constexpr std::size_t maxUnpackedBytes = std::size_t{1} << 26;
 constexpr std::size_t frameHeaderBytes = 52;
-/// Of the byte with the prediction, in frames of sequences.
+/// The bit that marks a difference in the byte with the prediction, in frames of sequences.
 constexpr std::uint8_t differenceBit = 4;
 /// Largest frame number: the largest integer that JavaScript counts exactly.
 constexpr std::uint64_t maxFrameNumber = (std::uint64_t{1} << 53) - 1;
@@ -75,7 +75,7 @@ struct Frame {
 /// The prediction that encodeFrame() chooses: planar on a grid, otherwise the one with the smallest residuals.
 Prediction choosePrediction(const Frame& frame);
 
-/// Of deflate. Higher levels save 1 to 6 % of the bytes for two to ten times the time (docs/formats/frame.md,
+/// Deflate's level. Higher ones save 1 to 6 % of the bytes for two to ten times the time (docs/formats/frame.md,
 /// "Choices").
 constexpr int liveCompressionLevel = 1;
 

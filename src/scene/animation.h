@@ -38,7 +38,7 @@ struct Interpolator {
   /// componentsOf(kind) numbers for each key; for the kinds with isList() any multiple of them. An orientation is an
   /// axis and an angle in radians.
   std::vector<float> values;
-  /// Of a CoordinateInterpolator without keys and values: the index of the sequence (sequence/sequence_index.h) that
+  /// A CoordinateInterpolator without keys and values states the index of the sequence (sequence/sequence_index.h) that
   /// has its frames. The node is a child of the Shape whose vertices it moves.
   std::string url = {};
   friend bool operator==(const Interpolator&, const Interpolator&) = default;

@@ -12,6 +12,7 @@ _imgeo() {
     "convert --rotate") COMPREPLY=(); return ;;
     "convert --scale") COMPREPLY=(); return ;;
     "convert --exaggerate") COMPREPLY=(); return ;;
+    "convert --rate") COMPREPLY=(); return ;;
     "convert --unit") COMPREPLY=($(compgen -W "auto m cm mm um km in ft yd mi" -- "$word")); return ;;
     "convert --view") COMPREPLY=($(compgen -W "auto front left back right top bottom" -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
@@ -46,6 +47,7 @@ _imgeo() {
     "convert --threads") COMPREPLY=(); return ;;
     "convert -r"|"convert --report") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "export -o"|"export --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "export --frame") COMPREPLY=(); return ;;
     "transform -o"|"transform --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "transform --operators") COMPREPLY=(); return ;;
     "sample --seats") COMPREPLY=(); return ;;
@@ -83,10 +85,10 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     transform) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --operators --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --max-streams --max-frame --max-rate --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

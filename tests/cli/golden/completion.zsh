@@ -7,7 +7,7 @@ _imgeo() {
     'verify:read a site back and prove that it equals its input'
     'export:write the mesh that a site holds as PLY, OBJ or GLB'
     'transform:map the vertices of a mesh by image operators'
-    'sample:write a generated scene or publish a moving one'
+    'sample:write a generated scene, or write or publish a moving one'
     'serve:serve a directory over HTTP until Ctrl-C'
     'publish:publish frames of a pipe or of files as a live stream'
     'completion:print a completion script for bash, zsh or fish'
@@ -22,14 +22,15 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL or GeoTIFF file, gzipped or not; "-" reads standard input]:input:_files' \
-      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL or GeoTIFF file, gzipped or not; "-" reads standard input]:input:_files' \
+      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
+      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
       '--rotate[then turn the source\: y\:90 about the upward axis, x\:-30,y\:90 about x first]:rotate: ' \
       '--scale[then multiply its lengths]:scale: ' \
       '--exaggerate[then multiply its heights, as maps of terrain do]:exaggerate: ' \
+      '--rate[sequences\: frames per second]:rate: ' \
       '--unit[the unit of the source'\''s numbers, which become metres; auto\: what the file says, otherwise m]:unit:(auto m cm mm um km in ft yd mi)' \
       '--view[the side that is shown first; auto\: the source'\''s viewpoint, otherwise the three-quarter view that shows the most of the surface]:view:(auto front left back right top bottom)' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \
@@ -98,6 +99,7 @@ _imgeo() {
     export) _arguments \
       '-o[the file to write; .ply, .obj or .glb says what]:output:_files' \
       '--output[the file to write; .ply, .obj or .glb says what]:output:_files' \
+      '--frame[of a sequence\: this frame, from 0; all\: FILE-0000, FILE-0001 ...]:frame: ' \
       '--json[print what was written as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
@@ -113,14 +115,14 @@ _imgeo() {
       ':input:_files' ;;
     sample) _arguments \
       '--seats[how many seats the hall has]:seats: ' \
-      '-o[of hall\: the GLB file to write]:output:_files' \
-      '--output[of hall\: the GLB file to write]:output:_files' \
+      '-o[of hall\: the GLB file to write; of a motion\: a folder for its frames]:output:_files' \
+      '--output[of hall\: the GLB file to write; of a motion\: a folder for its frames]:output:_files' \
       '--live[serve the motion as a live stream at /live/SAMPLE]' \
-      '--grid[with --live\: N x N vertices]:grid: ' \
-      '--rate[with --live\: frames per second]:rate: ' \
+      '--grid[motions\: N x N vertices]:grid: ' \
+      '--rate[motions\: frames per second]:rate: ' \
       '--bits[with --live\: bits of a coordinate]:bits: ' \
-      '--seed[with --live\: another number, another motion]:seed: ' \
-      '--frames[with --live\: end after N frames; 0\: never]:frames: ' \
+      '--seed[motions\: another number, another motion]:seed: ' \
+      '--frames[motions\: so many frames; with --live, 0\: without end]:frames: ' \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
       '--site[with --live\: serve this directory instead of a page that draws the motion]:site:_files -/' \

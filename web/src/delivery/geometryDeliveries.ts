@@ -127,7 +127,7 @@ export class GeometryDeliveries {
     this.#updatePositions();
   }
 
-  /** Of the longest sequence whose index has arrived, in seconds; 0 where there is none. */
+  /** The duration of the longest sequence whose index has arrived, in seconds; 0 where there is none. */
   get sequenceDuration(): number {
     let longest = 0;
     for (const { delivery } of this.#shared.values())

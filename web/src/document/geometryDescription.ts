@@ -147,7 +147,7 @@ export interface TexCoordBox {
 
 /** A CoordinateInterpolator with the frames of a sequence. */
 export interface SequenceDescription {
-  /** Of the index. */
+  /** The address of the index. */
   readonly url: string;
   /** The interpolator, as `interpolatorIdOf` numbers its element. */
   readonly interpolator: number;

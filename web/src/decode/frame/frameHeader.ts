@@ -40,7 +40,7 @@ export interface FrameHeader extends FrameLayout {
 }
 
 export const frameHeaderBytes = 52;
-/** Of the byte with the prediction, in frames of sequences. */
+/** The bit that marks a difference in the byte with the prediction, in frames of sequences. */
 const differenceBit = 4;
 export const maxFrameVertices = 2 ** 22;
 export const maxUnpackedBytes = 2 ** 26;

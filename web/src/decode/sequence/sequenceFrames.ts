@@ -47,7 +47,7 @@ export function framesOfFile(
     const frame = bytes.slice(at, end);
     const header = readFrameHeader(frame, true);
     if (header.number !== number || header.epoch !== 0)
-      throw new DecodeError("malformed", `has frame ${header.number} in place of frame ${number}`);
+      throw new DecodeError("malformed", `has frame ${header.number} instead of frame ${number}`);
     if (layoutFields.some((field) => header[field] !== layout[field]))
       throw new DecodeError("malformed", `has other vertices or attributes in frame ${number} than its index states`);
     if (number === first && header.isDifference)

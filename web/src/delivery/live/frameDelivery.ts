@@ -20,7 +20,7 @@ export interface FrameDeliveryOptions {
   /** Whether shaders read images exactly. */
   readonly readsTextures: boolean;
   readonly pool: ResourcePool;
-  /** Of the frames. */
+  /** That of the frames. */
   readonly transfer: Readonly<Transfer>;
   /** Decodes and displays the displayed frame again; undefined: its bytes suffice. */
   readonly decodeAgain?: () => Promise<void>;

@@ -79,8 +79,8 @@ export class FramesAhead {
     const file = fileOfFrame(this.#options.index, missing);
     const frames = this.#options.framesOf(file);
     if (frames === undefined || frames.length === 0) return;
-    const wanted = new Set(ahead.filter((frame) => frame >= missing));
-    void this.#run(file, frames, missing, wanted);
+    const upcoming = new Set(ahead.filter((frame) => frame >= missing));
+    void this.#run(file, frames, missing, upcoming);
   }
 
   /** Forgets all frames, and what is being decoded: they would be decoded to another form now. */
@@ -92,12 +92,12 @@ export class FramesAhead {
     this.#last = undefined;
   }
 
-  /** Decodes a frame and the wanted ones behind it in its file. */
+  /** Decodes a frame and the upcoming ones behind it in its file. */
   async #run(
     file: number,
     frames: readonly PackedFrame[],
     missing: number,
-    wanted: ReadonlySet<number>,
+    upcoming: ReadonlySet<number>,
   ): Promise<void> {
     const { runJob, form, onFrames, onError } = this.#options;
     const { signal } = this.#aborter;
@@ -106,7 +106,7 @@ export class FramesAhead {
     let start = target;
     while (start > 0 && frames[start]?.isDifference === true && this.#last?.number !== first + start - 1) start -= 1;
     let end = target + 1;
-    while (end < frames.length && wanted.has(first + end)) end += 1;
+    while (end < frames.length && upcoming.has(first + end)) end += 1;
     const isContinued = frames[start]?.isDifference === true;
     this.#isBusy = true;
     try {

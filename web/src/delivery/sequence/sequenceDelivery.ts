@@ -171,14 +171,14 @@ export class SequenceDelivery implements Delivery {
         this.#displayFrames();
       },
       onFrame: () => {
-        this.#displayFrames();
+        if (!this.#isDisplayed) this.#displayFrames();
         this.#reportFrame();
       },
       onError: (error, fileUrl) => {
         this.#listener.onError(asDeliveryError(error, fileUrl));
       },
       onSettled: () => {
-        this.#displayFrames();
+        if (!this.#isDisplayed) this.#displayFrames();
         this.#settle();
       },
     }));
@@ -199,7 +199,10 @@ export class SequenceDelivery implements Delivery {
     return playing?.stage !== undefined && playing.delivery.isSettled;
   }
 
-  /** Displays the frames when all their files have arrived; the first frame of the document stays until then. */
+  /**
+   * Displays the stage of the frames, when all its files have arrived; the first frame of the document stays until
+   * then. Later frames change its vertices.
+   */
   #displayFrames(): void {
     const playing = this.#playing;
     if (playing?.stage === undefined) return;

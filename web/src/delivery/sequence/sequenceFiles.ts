@@ -57,21 +57,21 @@ export class SequenceFiles {
   /** Requests the file and those after it, in the order in which they are needed; the first follows the last. */
   follow(file: number, priority: number): void {
     const { files } = this.#index;
-    const wanted = new Map<number, number>();
+    const priorities = new Map<number, number>();
     let bytes = 0;
     let rank = priority;
     for (let ahead = 0; ahead < files.length; ++ahead, rank *= aheadFactor) {
       const each = (file + ahead) % files.length;
       bytes += files[each]?.bytes ?? 0;
       if (ahead > 1 && bytes > maxBufferedBytes) break;
-      wanted.set(each, rank);
+      priorities.set(each, rank);
     }
     for (const [each, { handle }] of this.#held)
-      if (!wanted.has(each)) {
+      if (!priorities.has(each)) {
         handle.release();
         this.#held.delete(each);
       }
-    for (const [each, rankOfFile] of wanted) {
+    for (const [each, rankOfFile] of priorities) {
       const held = this.#held.get(each);
       if (held !== undefined) held.handle.setPriority(rankOfFile);
       else if (!this.#failed.has(each)) this.#request(each, rankOfFile);
