@@ -79,9 +79,14 @@ test("a sequence is displayed frame by frame", async () => {
     assert.equal((await gpuCalls(view)).objects, before.objects, "frames allocate memory on the GPU");
     await show(view, 17, "sequence: in the second file");
     const hit = await view.page.evaluate(() => {
-      const x3d = document.querySelector("x3d") as HTMLElement & {
-        positionAndNormalFromPoint: (x: number, y: number) => { position: { x: number; y: number; z: number } } | null;
-      };
+      const x3d = document.querySelector<
+        HTMLElement & {
+          positionAndNormalFromPoint: (
+            x: number,
+            y: number,
+          ) => { position: { x: number; y: number; z: number } } | null;
+        }
+      >("x3d")!;
       return x3d.positionAndNormalFromPoint(innerWidth / 2, innerHeight / 2)?.position;
     });
     const radius = Math.max(...frames[17]!.positions);
