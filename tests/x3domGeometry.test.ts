@@ -71,6 +71,26 @@ test("the page has every field that convert reads of a PopGeometry", () => {
   );
 });
 
+/** Nodes with values that neither pages nor the tool read. */
+const refusedValues = [...page.matchAll(/^\| (\w+Geometry) \| `([^`]+)` \|/gm)].map(([, node = "", fields = ""]) => ({
+  node,
+  fields,
+}));
+
+test("the runtime leaves out every node with a refused value, with one warning and an error", () => {
+  assert.ok(refusedValues.length > 15);
+  for (const { node, fields } of refusedValues) {
+    const coord = node === "ImageGeometry" ? "c.png" : "c.bin";
+    const scene = readScene(
+      elementsOf(`<X3D><Scene><Shape><${node} coord="${coord}" ${fields}/></Shape></Scene></X3D>`),
+    );
+    const [shape] = shapesOf(scene.root);
+    assert.equal(shape?.geometry, undefined, fields);
+    assert.equal(scene.warnings.length, 1, fields);
+    assert.match(shape?.unreadableGeometry ?? "", new RegExp(`^<${node}> `));
+  }
+});
+
 function warningsOf(markup: string): string[] {
   return readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).warnings.map(({ message }) => message);
 }
@@ -166,7 +186,20 @@ test("convert warns of what the page says is refused, field by field, and of not
     ...fields.map(({ field, value, markup: nodeWith }) => nodeWith(`${field}="${value}"`)),
     ...nodes.map((name) => (name === "ExternalShape" ? `<${name}/>` : `<Shape><${name}/></Shape>`)),
   ];
+  const first = markup.join("\n").split("\n").length + 1; // the line of the first node with a refused value
+  markup.push(
+    ...refusedValues.map(({ node, fields }) => {
+      const url = node === "ImageGeometry" ? imageUrl : arrayUrl;
+      return `<Shape><${node} coord="${url}" ${fields.replace(/"[in]\.\w+"/, `"${url}"`)}/></Shape>`;
+    }),
+  );
   const warnings = convertWarningsOf(markup.join("\n"));
+  for (const [line, { node, fields }] of refusedValues.entries())
+    assert.equal(
+      warnings.filter((warning) => warning.includes(`:${first + line}: ${node} left out`)).length,
+      1,
+      `${fields}: ${warnings.join("; ")}`,
+    );
   const without = (pattern: RegExp) => warnings.findIndex((warning) => pattern.test(warning));
   for (const { name, field, treatment } of fields) {
     const pattern =

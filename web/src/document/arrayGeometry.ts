@@ -84,6 +84,7 @@ function describe(
         implicitWidth: 1,
         implicitHeight: 1,
         grid: undefined,
+        gridOrigin: [0, 0],
         index: undefined,
         coord: [referenceTo(positions)],
         ...byVertexRole((role) => array[role] && referenceTo(array[role])),

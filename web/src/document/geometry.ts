@@ -7,8 +7,6 @@ import type {
   Draw,
   Encoding,
   GeometryDescription,
-  MeshMode,
-  NormalEncoding,
   PairBits,
   PatchDescription,
   Primitive,
@@ -16,8 +14,7 @@ import type {
 } from "./description.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { elementTypes } from "../stage/elementType.ts";
-import { decodeModes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
-import type { VertexRole } from "../stage/attributeRows.ts";
+import { decodeModes, isPair, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import { byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
 import { readAttributes } from "./attributes.ts";
 import type { ContainerImages } from "./containerImages.ts";
@@ -26,10 +23,13 @@ import { encodingFormats } from "./encodings.ts";
 import type { Resolve, SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
+import { checkElementTypes, checkImageCounts } from "./geometryChecks.ts";
+import { withGrids } from "./gridPatches.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { readPatchReferences, referenceOf } from "./patchReferences.ts";
 import { readSequence } from "./sequence.ts";
+import { UnreadableGeometry } from "./unreadableGeometry.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
@@ -37,39 +37,33 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
   // Only compact has `data`; documents of many small shapes leave the profile out.
   const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
-  const encoding = choiceOf(element, "profile", profile, imageProfiles, "classic", warnings);
+  const encoding = choiceOf("profile", profile, imageProfiles);
   const { hasBase, hasGrids } = encodingFormats[encoding];
   // The paper's default (section 6): what the texels are without further word.
   const isAutomatic = values.implicitMeshMode.trim().toLowerCase() === "auto";
-  const mode =
-    hasGrids && !isAutomatic
-      ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
-      : "sig";
+  const mode = hasGrids && !isAutomatic ? choiceOf("implicitMeshMode", values.implicitMeshMode, meshModes) : "sig";
   const sequence = readSequence(element, resolve, warnings);
-  const geometry = withStream({
-    ...commonFieldsOf(element, values, warnings),
+  const geometry: GeometryDescription = {
+    ...commonFieldsOf(values, ["Uint16", "Uint32"]),
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
     attributes: readAttributes(element, encoding, warnings),
     encoding,
-    colorComponents: colorComponentsOf(element, values.numColorComponents, warnings),
-    ...pairBitsOf(element, values, warnings),
-    decode: choiceOf(element, "decode", values.decode, decodeModes, "auto", warnings),
+    colorComponents: colorComponentsOf(values),
+    normalBits: values.normalBits === 16 ? 16 : 8,
+    texCoordImageBits: values.texCoordBits === 8 ? 8 : 16,
+    decode: decodeModeOf(element, values, warnings),
     base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
     // Images store bytes; an index consists of two or three of them.
     coordType: "Uint8",
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
-    patches: readPatches(element, encoding, resolve, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
-  });
-  if (sequence === undefined) return geometry;
-  if (geometry.encoding === "classic" && geometry.patches.length === 1) return { ...geometry, sequence };
+    patches: withGrids(readPatches(element, encoding, resolve, warnings), mode),
+  };
+  checkImageCounts(geometry, values);
+  const streamed = withStream(geometry);
+  if (sequence === undefined) return streamed;
+  if (streamed.encoding === "classic" && streamed.patches.length === 1) return { ...streamed, sequence };
   warnings.push({ element, message: "a sequence moves the vertices of one patch of profile classic, not of this one" });
-  return geometry;
-}
-
-function colorComponentsOf(element: SceneElement, count: number, warnings: Warning[]): 3 | 4 {
-  if (count !== 3 && count !== 4)
-    warnings.push({ element, message: `numColorComponents="${count}" is neither 3 nor 4; 3 are read` });
-  return count === 4 ? 4 : 3;
+  return streamed;
 }
 
 /** A live stream in place of files of coordinates (docs/live.md). */
@@ -83,19 +77,21 @@ function withStream(geometry: GeometryDescription): GeometryDescription {
 /** The values of a stream, as `colorBy="value"` names them; the stream states their range. */
 const streamedValues = { name: "value", components: 1, fileCount: 0, bits: 8, min: [0], size: [1] } as const;
 
-/** The bits of two numbers in a texel; other values than those of nodes.md are ignored with a warning. */
-function pairBitsOf(
+function colorComponentsOf({ numColorComponents }: { readonly numColorComponents: number }): 3 | 4 {
+  if (numColorComponents === 3 || numColorComponents === 4) return numColorComponents;
+  throw new UnreadableGeometry(`numColorComponents="${numColorComponents}" is neither 3 nor 4`);
+}
+
+/** How images are decoded, which changes no picture: an unknown mode is the default. */
+function decodeModeOf(
   element: SceneElement,
-  { normalBits, texCoordBits }: Pick<Values<typeof nodeFields.ImageGeometry>, "normalBits" | "texCoordBits">,
+  { decode }: { readonly decode: string },
   warnings: Warning[],
-): Pick<GeometryDescription, "normalBits" | "texCoordImageBits"> {
-  const check = (field: string, bits: number, known: readonly number[]) => {
-    if (!known.includes(bits))
-      warnings.push({ element, message: `${field}="${bits}" is none of ${known.slice(1).join(", ")}` });
-  };
-  check("normalBits", normalBits, [0, 8, 16]);
-  check("texCoordBits", texCoordBits, [0, 8, 16, 24]);
-  return { normalBits: normalBits === 16 ? 16 : 8, texCoordImageBits: texCoordBits === 8 ? 8 : 16 };
+): GeometryDescription["decode"] {
+  const found = decodeModes.find((mode) => mode === decode.trim().toLowerCase());
+  if (found === undefined)
+    warnings.push({ element, message: `decode="${decode}" is none of ${decodeModes.join(", ")}` });
+  return found ?? "auto";
 }
 
 /**
@@ -113,37 +109,32 @@ function quantizationCubeOf(element: SceneElement): { position: Vec3; size: Vec3
 
 export function readBinaryGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
-  const typeOf = (field: "coordType" | `${VertexRole}Type`): ElementType =>
-    choiceOf(
-      element,
-      field,
-      values[field],
-      elementTypes,
-      nodeFields.BinaryGeometry[field].defaultValue as ElementType,
-      warnings,
+  if (values.compressed)
+    throw new UnreadableGeometry(
+      "compressed arrays are not read; let the server compress the files (Content-Encoding) instead",
     );
   const geometry: GeometryDescription = {
-    ...commonFieldsOf(element, values, warnings),
+    ...commonFieldsOf(values, elementTypes),
     attributes: readAttributes(element, "bg", warnings),
     encoding: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
     decode: "auto",
-    coordType: typeOf("coordType"),
-    ...byVertexRoleWith("Type", (role) => typeOf(`${role}Type`)),
+    coordType: choiceOf("coordType", values.coordType, elementTypes),
+    ...byVertexRoleWith("Type", (role) => choiceOf(`${role}Type`, values[`${role}Type`], elementTypes)),
     patches: readPatches(element, "bg", resolve, warnings).map((patch) =>
       values.normalPerVertex ? patch : { ...patch, normal: undefined },
     ),
     base: undefined,
   };
-  if (!values.normalPerVertex) return geometry;
-  if (!values.normalAsSphericalCoordinates) return geometry;
-  if (geometry.coordType.endsWith("16")) return withNormalsInCoords(geometry);
-  warnings.push({ element, message: `spherical normals in coordinates of type ${geometry.coordType} are not read` });
-  return geometry;
+  const read = values.normalPerVertex && values.normalAsSphericalCoordinates ? withNormalsInCoords(geometry) : geometry;
+  checkElementTypes(read);
+  return read;
 }
 
 /** X3DOM stores spherical normals of one byte each in the fourth element of 16-bit coordinate records. */
 function withNormalsInCoords(geometry: GeometryDescription): GeometryDescription {
+  if (!geometry.coordType.endsWith("16"))
+    throw new UnreadableGeometry(`spherical normals in coordinates of type ${geometry.coordType} are not read`);
   const patches = geometry.patches.map((patch) => ({ ...patch, normal: fourthElementOf(patch) }));
   return { ...geometry, normalEncoding: "spherical", normalType: "Uint8", patches };
 }
@@ -181,11 +172,6 @@ export function isUnbounded(
   return (coordType === "Float32" || encoding === "live") && box === undefined;
 }
 
-/** Whether normals are two numbers: octahedral x and y, or spherical phi and theta. */
-export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "spherical" {
-  return encoding === "octahedral" || encoding === "spherical";
-}
-
 /** Fields of ImageGeometry only. */
 type ImageFields =
   | "paused"
@@ -201,13 +187,12 @@ type ImageFields =
   | "surfaceDistance";
 
 function commonFieldsOf(
-  element: SceneElement,
   values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
-  warnings: Warning[],
+  indexTypes: readonly ElementType[],
 ) {
   const { position, size, positionBits, solid, ccw } = values;
-  const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
-  const normalEncoding = choiceOf(element, "normalEncoding", values.normalEncoding, normalEncodings, "rgb", warnings);
+  const indexType = choiceOf("indexType", values.indexType, indexTypes);
+  const normalEncoding = choiceOf("normalEncoding", values.normalEncoding, normalEncodings);
   return {
     position,
     size,
@@ -224,18 +209,11 @@ function commonFieldsOf(
   };
 }
 
-/** The choice that the text names, case-insensitively; `fallback`, with a warning, where it names none. */
-function choiceOf<Choice extends string>(
-  element: SceneElement,
-  field: string,
-  text: string,
-  choices: readonly Choice[],
-  fallback: Choice,
-  warnings: Warning[],
-): Choice {
+/** The choice that the text names, case-insensitively. Throws UnreadableGeometry where it names none. */
+function choiceOf<Choice extends string>(field: string, text: string, choices: readonly Choice[]): Choice {
   const found = choices.find((choice) => choice.toLowerCase() === text.trim().toLowerCase());
-  if (found === undefined) warnings.push({ element, message: `${field}="${text}" is none of ${choices.join(", ")}` });
-  return found ?? fallback;
+  if (found === undefined) throw new UnreadableGeometry(`${field}="${text}" is none of ${choices.join(", ")}`);
+  return found;
 }
 
 /** The box of `bboxCenter` and `bboxSize`; undefined for X3D's size -1 -1 -1. */
@@ -296,10 +274,11 @@ function patchOf(
   return {
     box: boxOf(values),
     vertexCount: Math.max(0, values.recordCount),
-    draws: drawsOf(element, values, warnings),
+    draws: drawsOf(values),
     implicitWidth: Math.max(1, Math.floor(values.implicitMeshSize[0])),
     implicitHeight: Math.max(1, Math.floor(values.implicitMeshSize[1] || values.implicitMeshSize[0])),
     grid: undefined,
+    gridOrigin: values.gridOrigin,
     ...readPatchReferences(element, values, images, encoding, warnings),
     value: [],
   };
@@ -314,29 +293,6 @@ function withImplicitMeshCount(element: SceneElement, values: PatchValues, warni
     warnings,
   );
   return implicitMeshCount === undefined ? values : { ...values, implicitMeshSize: implicitMeshCount };
-}
-
-/** A grid's vertices and triangles follow from its size. */
-function withGrid(
-  element: SceneElement,
-  patch: PatchDescription,
-  kind: MeshMode,
-  warnings: Warning[],
-): PatchDescription {
-  if (kind === "sig") return patch;
-  const { implicitWidth: columns, implicitHeight: rows } = patch;
-  if (columns < 2 || rows < 2) {
-    warnings.push({ element, message: `a grid of ${columns} x ${rows} vertices has no surface; nothing is drawn` });
-    return { ...patch, draws: [], index: undefined };
-  }
-  const cells = (kind === "sculpt" ? columns : columns - 1) * (rows - 1);
-  return {
-    ...patch,
-    index: undefined,
-    vertexCount: columns * rows,
-    draws: [{ primitive: "triangles", count: 6 * cells }],
-    grid: { kind, columns, rows },
-  };
 }
 
 const primitives: Readonly<Record<string, Primitive>> = {
@@ -365,11 +321,7 @@ function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]
     const name = values.primType[index] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
     if (primitive === undefined)
-      warnings.push({
-        element,
-        message: `primType "${name}" is none of ${Object.keys(primitives).join(", ")}; TRIANGLES are drawn`,
-      });
-    if (count < 0) warnings.push({ element, message: `vertexCount ${count} is negative; nothing is drawn` });
-    return { primitive: primitive ?? "triangles", count: Math.max(0, count) };
+      throw new UnreadableGeometry(`primType "${name}" is none of ${Object.keys(primitives).join(", ")}`);
+    return { primitive, count };
   });
 }

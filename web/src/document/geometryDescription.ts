@@ -2,6 +2,7 @@
 
 import type { DeformationLayout } from "../stage/deformation.ts";
 import type { ElementType } from "../stage/elementType.ts";
+import type { GridPart } from "../stage/stage.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { Vec2, Vec3 } from "./fieldTypes.ts";
 import type { MovingGeometry } from "./movingGeometry.ts";
@@ -54,6 +55,8 @@ export interface GridDescription {
   readonly kind: Exclude<MeshMode, "sig">;
   readonly columns: number;
   readonly rows: number;
+  /** Undefined: the grid is a whole height map, or no height map. */
+  readonly part?: GridPart | undefined;
 }
 
 export interface PatchDescription extends Readonly<Record<VertexRole, Reference | undefined>> {
@@ -67,6 +70,8 @@ export interface PatchDescription extends Readonly<Record<VertexRole, Reference 
   readonly implicitHeight: number;
   /** A surface over the texels, which replaces the document's draws. Images only. */
   readonly grid: GridDescription | undefined;
+  /** Height maps: column and row of the first vertex in the whole map. */
+  readonly gridOrigin: Vec2;
   /** Undefined: vertices are drawn in order. */
   readonly index: Reference | undefined;
   /** Images: byte planes, most significant first. Typed arrays: one. */
@@ -122,6 +127,11 @@ export type MeshMode = (typeof meshModes)[number];
 /** The encoding of unit normals: three components, two numbers, or RGB from a palette. */
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
 export type NormalEncoding = (typeof normalEncodings)[number];
+
+/** Whether normals are two numbers: octahedral x and y, or spherical phi and theta. */
+export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "spherical" {
+  return encoding === "octahedral" || encoding === "spherical";
+}
 
 /** Bits of two numbers in a texel: each one byte, or two bytes (red and blue, green and alpha). */
 export type PairBits = 8 | 16;

@@ -411,7 +411,7 @@ export const nodeFields = {
   TextureCoordinateGenerator: { mode: SFString("SPHERE") },
   Color: { color: MFFloat([]) },
   FogCoordinate: { depth: MFFloat([]) },
-  GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
+  GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0), gridOrigin: SFVec2f([0, 0]) },
   ImageTexture: {
     containerField: SFString(""),
     url: MFUrl([]),

@@ -5,7 +5,7 @@ import { hasDeformation, readDisplacers, withDeformation, withMovingBox } from "
 import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
 import type { Box3, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
 import { fogDepthName } from "./description.ts";
-import type { SceneElement } from "./element.ts";
+import type { Resolve, SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
 import { boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import { boxOfGeometry } from "./geometryBox.ts";
@@ -21,6 +21,7 @@ import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
+import { UnreadableGeometry } from "./unreadableGeometry.ts";
 
 /** The context that reading a shape needs besides its element. */
 export interface ShapeReadingContext {
@@ -216,15 +217,37 @@ function readGeometry(
   warnings: Warning[],
 ): GeometryDescription | undefined {
   if (refusals?.reasonAgainst(element) !== undefined) return undefined;
-  refusals?.warnOfFields(element, warnings);
-  const resolve = (child: SceneElement) => {
-    const name = attributeOf(child, "USE");
-    return name === undefined ? child : lookup(name);
-  };
+  const resolve = resolverOf(lookup);
   const name = lowerNameOf(element);
+  const own: Warning[] = [];
+  const fileGeometry = readFileGeometry(element, resolve, own);
+  if (fileGeometry instanceof UnreadableGeometry) return undefined;
+  refusals?.warnOfFields(element, warnings);
+  warnings.push(...own);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
-  const fileGeometry = entryOf(geometryReaders, name)?.(element, resolve, warnings);
   return fileGeometry ? geometries.intern(fileGeometry) : inlineGeometry?.read(element, resolve, warnings, moving);
+}
+
+/** Finds the element that a USE names; the element itself without one. */
+function resolverOf(lookup: Lookup): Resolve {
+  return (element) => {
+    const name = attributeOf(element, "USE");
+    return name === undefined ? element : lookup(name);
+  };
+}
+
+/** Undefined for other nodes than those of files; an UnreadableGeometry has the sentence why it is left out. */
+function readFileGeometry(
+  element: SceneElement,
+  resolve: Resolve,
+  warnings: Warning[],
+): GeometryDescription | UnreadableGeometry | undefined {
+  try {
+    return entryOf(geometryReaders, lowerNameOf(element))?.(element, resolve, warnings);
+  } catch (error) {
+    if (error instanceof UnreadableGeometry) return error;
+    throw error;
+  }
 }
 
 /**
@@ -235,17 +258,30 @@ function problemOf(children: readonly SceneElement[], context: ShapeReadingConte
   const nodes = children.filter(isGeometry).flatMap((child) => resolveUse(child, { ...context, warnings: [] }) ?? []);
   if (nodes.length === 0) return undefined;
   // Without a reader of geometry in the document, as before the runtime has loaded, nothing is known of other nodes.
-  const { inlineGeometry, refusals, warnings } = context;
+  const { inlineGeometry, warnings } = context;
   if (inlineGeometry === undefined) return "";
-  const unknown = nodes.find((node) => {
-    const name = lowerNameOf(node);
-    if (refusals?.reasonAgainst(node) !== undefined) return true;
-    return !entryOf(geometryReaders, name) && name !== "text" && !inlineGeometry.reads(name);
-  });
-  if (unknown === undefined) return "";
-  const reason = refusals?.reasonAgainst(unknown) ?? "it is no geometry node that pages draw; nothing is drawn";
-  warnings.push({ element: unknown, message: reason });
-  return `<${unknown.localName}> ${reason}`;
+  for (const node of nodes) {
+    const reason = reasonAgainst(node, inlineGeometry, context);
+    if (reason === undefined) continue;
+    warnings.push({ element: node, message: reason });
+    return `<${node.localName}> ${reason}`;
+  }
+  return "";
+}
+
+/** Why a node is left out; undefined for one of a geometry that pages draw. */
+function reasonAgainst(
+  node: SceneElement,
+  inlineGeometry: InlineGeometryReader,
+  { refusals, lookup }: ShapeReadingContext,
+): string | undefined {
+  const reason = refusals?.reasonAgainst(node);
+  if (reason !== undefined) return reason;
+  const name = lowerNameOf(node);
+  const isKnown = entryOf(geometryReaders, name) ?? (name === "text" || inlineGeometry.reads(name));
+  if (!isKnown) return "it is no geometry node that pages draw; nothing is drawn";
+  const fileGeometry = readFileGeometry(node, resolverOf(lookup), []);
+  return fileGeometry instanceof UnreadableGeometry ? fileGeometry.message : undefined;
 }
 
 /** Whether a child of a Shape is a geometry, judged by its name: all but Appearance, HAnimDisplacers and metadata are. */

@@ -6,7 +6,6 @@ import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import { SFBool, SFFloat, SFInt32, SFString } from "./fieldTypes.ts";
 import type { Warning } from "./nodes.ts";
-import { nodeFields, readFields } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
 
 const readByConvert = "pages do not draw it; imgeo convert reads the document and writes patches of it";
@@ -37,8 +36,6 @@ export const refusals: Refusals = { reasonAgainst, warnOfFields };
 
 function reasonAgainst(element: SceneElement): string | undefined {
   const name = lowerNameOf(element);
-  if (name === "binarygeometry" && readFields(element, nodeFields.BinaryGeometry, []).compressed)
-    return "compressed arrays are not read; let the server compress the files (Content-Encoding) instead";
   return entryOf(refusedNodes, name.startsWith("nurbs") ? "nurbs" : name);
 }
 

@@ -33,6 +33,10 @@ export function elementTypeOf(array: ElementArray): ElementType {
   return elementTypes.find((type) => array instanceof arrayTypes[type]) ?? "Uint8";
 }
 
+export function isUnsigned(type: ElementType): boolean {
+  return type.startsWith("Uint");
+}
+
 /** WebGL's constant for the type, such as gl.BYTE. */
 export function glTypeOf(type: ElementType): number {
   return glTypes[type];

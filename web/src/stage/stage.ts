@@ -65,6 +65,16 @@ export interface Grid {
   /** Number of vertices along each side, 2 or more. */
   readonly columns: number;
   readonly rows: number;
+  /** Undefined: the grid is a whole height map, or no height map. */
+  readonly part?: GridPart | undefined;
+}
+
+/** The part of a height map that a grid is: its first column and row, and how many the map has. */
+export interface GridPart {
+  readonly column: number;
+  readonly row: number;
+  readonly columns: number;
+  readonly rows: number;
 }
 
 /** How the vertices of a stage in buffers lay in images of coordinates, from which they were decoded. */

@@ -9,7 +9,7 @@ import type { BufferStage, Stage, GpuVertices, TexelRange, TextureStage } from "
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
 import { hasShaderPrimitive, isDrawnFromImages } from "../../document/drawnFromImages.ts";
 import { formatOf } from "../../document/encodings.ts";
-import { isPair } from "../../document/geometry.ts";
+import { isPair } from "../../document/description.ts";
 import { drawModeOf } from "../batches/batchedStage.ts";
 import type { BatchingPlan } from "../batches/batchingPlan.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";

@@ -18,7 +18,8 @@ import type {
 import { drawnPrimitives } from "../../../decode/drawnPrimitives.ts";
 import type { ElementType } from "../../../stage/elementType.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
-import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geometry.ts";
+import { isPair } from "../../../document/description.ts";
+import { hasNormalsInCoords, isUnbounded } from "../../../document/geometry.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../patchFiles.ts";

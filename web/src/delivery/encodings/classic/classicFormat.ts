@@ -2,7 +2,7 @@
 
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { GeometryDescription, Reference } from "../../../document/description.ts";
-import { isPair } from "../../../document/geometry.ts";
+import { isPair } from "../../../document/description.ts";
 import type { NormalFormat } from "../../../stage/stage.ts";
 
 export function normalFormatOf({ normalEncoding, normalBits }: GeometryDescription): NormalFormat {
