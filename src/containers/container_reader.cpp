@@ -35,6 +35,10 @@ PatchReader& ContainerReader::readerOf(const GeometryDescription& geometry) cons
   return *readers_.at(static_cast<std::size_t>(geometry.encoding));
 }
 
+Lattice ContainerReader::latticeOf(const GeometryDescription& geometry) const {
+  return readerOf(geometry).latticeOf(geometry);
+}
+
 namespace {
 
 /// Leaves out the draws of other kinds of elements; the vertices stay.

@@ -16,6 +16,9 @@ class ContainerReader {
 public:
   explicit ContainerReader(const FetchFile& fetch);
 
+  /// The lattice to decode a geometry of another program with: see PatchReader::latticeOf().
+  Lattice latticeOf(const GeometryDescription& geometry) const;
+
   /// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked against the description, and limits
   /// (containers/limits.h) bound every allocation. Throws Error naming the url. Decoded normals have unit length.
   IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) const;

@@ -26,6 +26,10 @@ class PatchReader {
 public:
   virtual ~PatchReader() = default;
 
+  /// The lattice to decode a geometry with: the node's own. X3DOM does not use the box of Float32 coordinates: where it
+  /// is not about that of the coordinates, the lattice is one around them.
+  virtual Lattice latticeOf(const GeometryDescription& geometry) { return geometry.lattice; }
+
   /// Decodes a patch. Normals have unit length.
   virtual IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) = 0;
 
@@ -41,13 +45,20 @@ class SinglePatchReader final : public PatchReader {
 public:
   using Decode = IndexedPatch(const PatchDescription&, const GeometryDescription&, const FetchFile&);
 
-  SinglePatchReader(FetchFile fetch, Decode& decode) : fetch_(std::move(fetch)), decode_(decode) {}
+  using FindLattice = Lattice(const GeometryDescription&, const FetchFile&);
+
+  SinglePatchReader(FetchFile fetch, Decode& decode, FindLattice* findLattice = nullptr)
+      : fetch_(std::move(fetch)), decode_(decode), findLattice_(findLattice) {}
+  Lattice latticeOf(const GeometryDescription& geometry) override {
+    return findLattice_ ? findLattice_(geometry, fetch_) : geometry.lattice;
+  }
   IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) override;
   StoredPrecision precisionOf(const GeometryDescription& geometry) override;
 
 private:
   FetchFile fetch_;
   Decode& decode_;
+  FindLattice* findLattice_;
 };
 
 } // namespace imgeo

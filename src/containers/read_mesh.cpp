@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "containers/blur.h"
 #include "containers/encodings.h"
+#include "containers/flat_normals.h"
 #include "containers/grid.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
@@ -105,7 +106,9 @@ OperatorFrame operatorFrameOf(const GeometryDescription& geometry, const Mesh& m
   return OperatorFrame::of(box);
 }
 
-Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& location) {
+Mesh readMesh(const ContainerReader& reader, const GeometryDescription& stated, const std::string& location) {
+  GeometryDescription geometry = stated;
+  geometry.lattice = reader.latticeOf(stated);
   std::vector<DecodedPatch> patches(geometry.patches.size());
   parallelFor(patches.size(), [&](std::size_t i) { patches[i] = decode(reader, geometry.patches[i], geometry); });
   Mesh mesh;
@@ -117,6 +120,10 @@ Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry
   mesh.colorComponents = isOpaque ? 3 : 4;
   weld(mesh);
   applyOperators(mesh, geometry.operators, operatorFrameOf(geometry, mesh), location);
+  if (geometry.isFlat && mesh.topology == Topology::triangles) {
+    makeFlat(mesh);
+    weld(mesh);
+  }
   return mesh;
 }
 

@@ -45,6 +45,9 @@ inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
 /// Throws Error{malformed} with `location` for a stored integer that is no lattice point.
 std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& location);
 
+/// Whether a Float32 position lies in the cube of a lattice, but for rounding.
+bool isInside(Vec3f position, const Lattice& lattice);
+
 /// The lattice point nearest to a Float32 position. Throws Error{malformed} with `location` for a position that lies
 /// outside by more than rounding. The lattice covers a cube.
 Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location);

@@ -23,4 +23,8 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
 /// normals, and normals of two numbers that are not unsigned integers of 8 or 16 bits.
 IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
 
+/// The lattice to decode a geometry with: see PatchReader::latticeOf(). Safe for untrusted bytes. Throws Error as
+/// decodeBg().
+Lattice findBgLattice(const GeometryDescription& geometry, const FetchFile& fetch);
+
 } // namespace imgeo

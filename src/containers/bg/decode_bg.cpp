@@ -122,12 +122,15 @@ std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, c
   return positions;
 }
 
+Vec3f floatAt(const Records& coords, std::uint32_t n) {
+  return Vec3f(Vec3d{coords.realAt(n, 0), coords.realAt(n, 1), coords.realAt(n, 2)});
+}
+
 std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, const Lattice& lattice,
                                 const std::string& location) {
   std::vector<Vec3u> positions;
   for (std::uint32_t n = 0; n < count; ++n)
-    positions.push_back(nearestPoint(Vec3f(Vec3d{records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}),
-                                     lattice, location));
+    positions.push_back(nearestPoint(floatAt(records, n), lattice, location));
   return positions;
 }
 
@@ -224,6 +227,35 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
 }
 
 } // namespace
+
+Lattice findBgLattice(const GeometryDescription& geometry, const FetchFile& fetch) {
+  if (geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits)
+    return geometry.lattice;
+  Box3d box;
+  bool fits = true;
+  for (const PatchDescription& patch : geometry.patches) {
+    checkTypes(patch, geometry);
+    const std::string& location = patch.coord[0].url;
+    const std::vector<std::uint32_t> indices =
+        patch.index ? decodeIndices(patch, geometry.indexType, fetch) : std::vector<std::uint32_t>();
+    const std::uint32_t count = recordCountOf(patch, indices, patch.index ? patch.index->url : location);
+    const Records coords(patch.coord[0], fetch, geometry.coordType, 3);
+    coords.require(count);
+    for (std::uint32_t n = 0; n < count; ++n) {
+      const Vec3f position = floatAt(coords, n);
+      if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
+        throw Error(ErrorKind::malformed, location, "a coordinate is not a number");
+      fits = fits && isInside(position, geometry.lattice);
+      box.add(Vec3d(position));
+    }
+  }
+  constexpr double maxExcess = 4; // in a larger cube, whose steps are coarser, floats would lose precision; ours has 2
+  const double edge = box.longestEdge(), stated = geometry.lattice.step * geometry.lattice.maximum();
+  if (fits && edge > 0 && stated <= maxExcess * edge)
+    return geometry.lattice;
+  const double half = edge > 0 ? edge / 2 : 1;
+  return latticeOf({box.center(), {half, half, half}}, Encoding::bg, ElementType::float32, sourceBits);
+}
 
 IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   checkTypes(patch, geometry);

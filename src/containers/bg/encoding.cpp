@@ -26,7 +26,7 @@ EncodedPatch encodeBgPatch(const IndexedPatch& patch, const GeometryDescription&
 }
 
 std::unique_ptr<PatchReader> makeBgReader(const FetchFile& fetch) {
-  return std::make_unique<SinglePatchReader>(fetch, decodeBg);
+  return std::make_unique<SinglePatchReader>(fetch, decodeBg, findBgLattice);
 }
 
 } // namespace

@@ -1,12 +1,10 @@
 #include "import/mesh/crease_normals.h"
 
-#include "import/mesh/unit_normal.h"
 #include "import/x3d/faces.h"
 
 #include <array>
 #include <bit>
 #include <map>
-#include <numeric>
 
 namespace imgeo {
 
@@ -46,20 +44,6 @@ Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle) {
   Mesh result = x3d::meshOf(data, faces, fans);
   result.name = mesh.name;
   return result;
-}
-
-void makeFlat(Mesh& mesh) {
-  assert(mesh.topology == Topology::triangles);
-  static_cast<VertexAttributes&>(mesh) = gather(mesh, mesh.corners);
-  mesh.wedgePositions = gather(mesh.wedgePositions, mesh.corners);
-  std::iota(mesh.corners.begin(), mesh.corners.end(), 0u);
-  mesh.normals.clear();
-  for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
-    const Vec3d a(mesh.cornerPosition(corner)), b(mesh.cornerPosition(corner + 1)), c(mesh.cornerPosition(corner + 2));
-    Vec3f normal(cross(b - a, c - a));
-    makeUnit(normal);
-    mesh.normals.insert(mesh.normals.end(), 3, normal);
-  }
 }
 
 } // namespace imgeo

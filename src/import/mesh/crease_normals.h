@@ -10,7 +10,4 @@ namespace imgeo {
 /// the vertices of an edge.
 Mesh withCreaseNormals(const Mesh& mesh, double creaseAngle);
 
-/// Gives each corner of a triangle a wedge of its own with the normal of the triangle (+z where that has no area).
-void makeFlat(Mesh& mesh);
-
 } // namespace imgeo

@@ -5,7 +5,6 @@
 #include "containers/encodings.h"
 #include "containers/read_mesh.h"
 #include "documents/geometry_reader.h"
-#include "import/mesh/crease_normals.h"
 #include "import/x3d/pop_geometry.h"
 #include "scene/mf_string.h"
 
@@ -70,21 +69,18 @@ std::optional<std::vector<Mesh>> ContainerGeometries::read(std::span<const pugi:
                                                            std::set<std::string>& attributes) const {
   if (!isPatchGeometry(nodes[0].name()))
     return std::vector{readPopGeometry(source_, nodes[0], fetch_)};
-  const auto isFlat = [&](pugi::xml_node node) { return !source_.boolean(node, "normalPerVertex", true); };
   GeometryDescription geometry = describe(nodes[0]);
   std::vector<PatchDescription> patches = std::exchange(geometry.patches, {});
   for (const pugi::xml_node& node : nodes.subspan(1)) {
     GeometryDescription more = describe(node);
     std::ranges::move(std::exchange(more.patches, {}), std::back_inserter(patches));
-    if (!(more == geometry) || isFlat(node) != isFlat(nodes[0]))
+    if (!(more == geometry))
       return {};
   }
   geometry.patches = std::move(patches);
   std::vector<Mesh> meshes;
   for (const GeometryDescription& part : splitByTopology(geometry)) {
     meshes.push_back(readMesh(reader_, part, source_.locationOf(nodes[0])));
-    if (isFlat(nodes[0]) && meshes.back().topology == Topology::triangles)
-      makeFlat(meshes.back());
     chooseAttributes(meshes.back(), kept, attributes);
   }
   return meshes;

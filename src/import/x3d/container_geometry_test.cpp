@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace imgeo::x3d::testing {
 namespace {
@@ -33,6 +34,32 @@ TEST(ContainerGeometry, HasTheNormalsOfItsTrianglesWhereTheyAreNotPerVertex) {
   EXPECT_EQ(mesh.positions.size(), 4u);
   for (std::size_t corner = 0; corner < 6; ++corner)
     EXPECT_EQ(mesh.normals[mesh.corners[corner]], (corner < 3 ? Vec3f{0, 0, 1} : Vec3f{-1, 0, 0})) << corner;
+}
+
+TEST(ContainerGeometry, MayHaveFloatsOutsideOfItsBox) {
+  // X3DOM does not use the box of floats, so that authors leave it out: its default is -1 .. 1.
+  const std::string coord = urlOf<float>({0, 0, 0, 100, 0, 0, 0, 7.5F, 0});
+  for (const std::string box : {"", "position='5000 0 0' size='1 1 1'", "size='1e-6 1e-6 1e-6'"}) {
+    const Imported imported = importBytes(
+        asBytes(fmt::format("<X3D><Scene><Shape><BinaryGeometry {} vertexCount='3' coord='{}'/></Shape></Scene></X3D>",
+                            box, coord)),
+        "old.x3d");
+    EXPECT_TRUE(imported.warnings.empty()) << box << ::testing::PrintToString(imported.warnings);
+    ASSERT_EQ(imported.scene.meshes.size(), 1u) << box;
+    const Mesh& mesh = imported.scene.meshes[0];
+    EXPECT_LT(length(Vec3d(mesh.cornerPosition(1)) - Vec3d{100, 0, 0}), 1e-6) << box;
+    EXPECT_LT(length(Vec3d(mesh.cornerPosition(2)) - Vec3d{0, 7.5, 0}), 1e-6) << box;
+  }
+}
+
+TEST(ContainerGeometry, IsRefusedWithFloatsThatAreNoNumbers) {
+  const std::string coord = urlOf<float>({0, 0, 0, std::numeric_limits<float>::infinity(), 0, 0, 0, 1, 0});
+  const Imported imported = importBytes(asBytes("<X3D><Scene><Shape><Box/></Shape><Shape><BinaryGeometry "
+                                                "vertexCount='3' coord='" +
+                                                coord + "'/></Shape></Scene></X3D>"),
+                                        "old.x3d");
+  ASSERT_EQ(imported.warnings.size(), 1u);
+  EXPECT_NE(imported.warnings[0].find("a coordinate is not a number"), std::string::npos) << imported.warnings[0];
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 namespace imgeo {
 
@@ -34,7 +35,9 @@ void addCounts(const GeometryDescription& geometry, const ContainerReader& reade
     std::size_t vertices = patch.vertexCount;
     if (vertices == 0 || std::ranges::any_of(draws, [](const Draw& draw) { return draw.count == 0; }))
       try {
-        const IndexedPatch decoded = reader.decode(patch, geometry);
+        GeometryDescription decodable = geometry;
+        decodable.lattice = reader.latticeOf(geometry);
+        const IndexedPatch decoded = reader.decode(patch, decodable);
         draws = decoded.draws;
         vertices = decoded.vertexCount();
       } catch (const Error& error) {

@@ -422,6 +422,58 @@ TEST_F(AoptSite, EqualsAnInputWithoutNormals) {
   EXPECT_FALSE(verified(true, true, false).equal) << "the input has texture coordinates that the site lacks";
 }
 
+TEST_F(AoptSite, MayHaveFloatsOutsideOfItsBoxAndFlatShading) {
+  Bytes coords, normals;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+    for (int axis = 0; axis < 3; ++axis) {
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+      appendLittle(normals, axis == 0 ? 1.F : 0.F);
+    }
+  write("i.bin", index);
+  write("c.bin", coords);
+  write("n.bin", normals);
+  const std::string files = draws() + " index='i.bin' coord='c.bin' normal='n.bin'";
+  for (const std::string stated : {"", "position='0 0 0' size='0 0 0'", "size='1e9 1e9 1e9'"}) {
+    SCOPED_TRACE(stated);
+    const Mesh read =
+        readBack("<BinaryGeometry " + stated + " " + files + " normalPerVertex='false'></BinaryGeometry>");
+    EXPECT_EQ(boxOf(read), box);
+    for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
+      const std::size_t first = corner - corner % 3;
+      const Vec3d a(read.cornerPosition(first)), b(read.cornerPosition(first + 1)), c(read.cornerPosition(first + 2)),
+          normal = cross(b - a, c - a);
+      ASSERT_GT(dot(normal, Vec3d(read.normals[read.corners[corner]])), 0.999 * length(normal));
+    }
+    expectElements({mesh.elementCount(), 0, 0});
+  }
+}
+
+TEST_F(AoptSite, ThatIsNotLitIsExportedAndConvertedAgainAsUnlit) {
+  Bytes coords, colors;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+    for (int axis = 0; axis < 3; ++axis) {
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+      appendLittle(colors, static_cast<float>(axis) / 2);
+    }
+  write("i.bin", index);
+  write("c.bin", coords);
+  write("k.bin", colors);
+  const std::string files = draws() + " index='i.bin' coord='c.bin' lit='false'";
+  for (const bool hasColors : {false, true}) {
+    readPage("<BinaryGeometry " + boxFields() + " " + files + (hasColors ? " color='k.bin'" : "") +
+             "></BinaryGeometry>");
+    const TemporaryDirectory made;
+    exportSite(directory.path(), made / "out.glb");
+    convert(made / "out.glb", made / "site", ConvertOptions{});
+    const VerifyReport report = verify(made / "site", made / "out.glb");
+    EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+    const SiteDocument document = openDocument(made / "site");
+    EXPECT_EQ(testing::appearanceOf(document.scene.graph, 0).material,
+              AnyMaterial(UnlitMaterial{.emissiveColor = hasColors ? Vec3f{1, 1, 1} : Vec3f{0, 0, 0}}));
+    EXPECT_EQ(readMeshes(document).meshes.at(0).colors.empty(), !hasColors);
+  }
+}
+
 TEST_F(AoptSite, CanBeInspectedAndExported) {
   Bytes coords;
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "containers/encodings.h"
+#include "containers/flat_normals.h"
 #include "containers/grid.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
@@ -168,9 +169,9 @@ void addFindings(const ElementDifference& difference, const AttributeBounds& bou
 
 void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& original,
                  const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings) {
-  // Our height maps have no normals: those of a page follow from the slope.
+  // Our height maps of one image have no normals: those of a page follow from the slope.
   std::optional<Mesh> copy;
-  if (manifest && geometry.grid == GridKind::heightMap) {
+  if (manifest && geometry.grid == GridKind::heightMap && !geometry.patches[0].vertexAttributes[VertexRole::normal]) {
     copy = original;
     copy->normals.clear();
   }
@@ -179,6 +180,9 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   if (!geometry.isShared) // else the box is that of several patches; decoding has checked that it contains each
     checkBoxes(patches, geometry, findings);
   checkBase(reader, geometry, patches, findings);
+  if (geometry.isFlat && topologyOf(patches.front().draws.front().primitive) == Topology::triangles)
+    for (IndexedPatch& patch : patches)
+      makeFlat(patch, geometry.lattice);
   if (!manifest && mesh.normals.empty())
     for (IndexedPatch& patch : patches)
       patch.normals.clear(); // the other program computed them in a way that is not known

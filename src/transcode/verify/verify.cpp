@@ -111,7 +111,8 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     movedShapes.compare(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
     if (!compared.emplace(geometry, mesh).second)
       continue;
-    const GeometryDescription& description = document.scene.geometries.at(geometry);
+    GeometryDescription description = document.scene.geometries.at(geometry);
+    description.lattice = reader.latticeOf(description);
     if (!description.operators.empty())
       compareMapped(reader, description, input.meshes[mesh], report, findings);
     else if (description.surfaceDistance)
