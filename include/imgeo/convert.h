@@ -79,6 +79,7 @@ struct ConvertOptions {
   std::string x3domUrl{};             ///< target x3dom: folder of x3dom.js and x3dom.css; empty: a public copy
   MeshForm form = MeshForm::mesh;     ///< meshes, geometry images or height maps
   std::uint32_t grid = 0; ///< geometry images: a mesh gets grid * grid texels, 4..maxGridEdge; 0: 256, or by maxError
+  std::uint32_t gridImageEdge = 2048; ///< grids: columns and rows of an image, 16..2048; larger ones have several
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true;                    ///< false: vertices are repeated instead of indexed; points have no index
   std::uint32_t positionBits = 0;         ///< 8..32, compact 8..30; 0: 16, or what `coordType` holds
@@ -130,7 +131,7 @@ struct AttributeReport {
 /// other, in units of the source, at all vertices and at up to 100,000 points of each surface.
 struct ResampledMesh {
   std::string name;               ///< of the source's mesh; may be empty
-  std::size_t geometryImages = 0; ///< one for each chart of the surface
+  std::size_t geometryImages = 0; ///< one for each chart of the surface, or several where an image cannot hold it
   std::size_t texels = 0;         ///< of all its geometry images
   double largestDistance = 0;     ///< the maximum
   double meanDistance = 0;        ///< the mean; of the two directions the larger

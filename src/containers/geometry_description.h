@@ -70,6 +70,7 @@ struct PatchDescription {
   std::uint32_t vertexCount = 0; ///< records in coord, normal, ...; 0: the largest index + 1
   std::vector<Draw> draws;
   Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< classic: columns and rows that indices fill
+  Vec2<std::uint32_t> gridOrigin;                 ///< height maps: column and row of the first vertex in the whole map
   std::optional<Reference> index;                 ///< nothing: records are drawn in order
   std::vector<Reference> coord;                   ///< classic: byte planes, most significant first. bg: one
   ByVertexRole<std::optional<Reference>> vertexAttributes;
@@ -134,8 +135,9 @@ struct GeometryDescription {
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   ByVertexRole<std::uint32_t> imageBits = defaultImageBits; ///< classic only: bits of a stored component
   bool ccw = true;                                          ///< false: the front of triangles is clockwise
-  /// Classic: every patch is a grid of implicitMeshSize vertices, without an index. A height map has one patch, and its
-  /// lattice is that of gridLattice().
+  bool isFlat = false; ///< BG: triangles are shaded by their slope, as X3DOM does without normalPerVertex
+  /// Classic: every patch is a grid of implicitMeshSize vertices, without an index. The lattice of a
+  /// height map is heightMapLattice(); its patches are parts of one map, and neighbours share a column or a row.
   std::optional<GridKind> grid;
   /// The distance of grids that were sampled from a mesh from its surface.
   std::optional<SurfaceDistance> surfaceDistance;

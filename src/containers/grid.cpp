@@ -7,6 +7,14 @@
 
 namespace imgeo {
 
+Vec2<std::uint32_t> heightMapSize(const GeometryDescription& geometry) {
+  Vec2<std::uint32_t> size;
+  for (const PatchDescription& patch : geometry.patches)
+    size = {std::max(size.x, patch.gridOrigin.x + patch.implicitMeshSize.x),
+            std::max(size.y, patch.gridOrigin.y + patch.implicitMeshSize.y)};
+  return size;
+}
+
 Lattice heightMapLattice(const DecodeFields& box, Vec2<std::uint32_t> size, std::uint32_t bits) {
   assert(size.x >= 2 && size.y >= 2);
   Lattice lattice{.origin = box.position - box.size * 0.5, .bits = bits};

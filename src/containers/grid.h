@@ -10,6 +10,9 @@
 
 namespace imgeo {
 
+/// Columns and rows of all patches of a height map together.
+Vec2<std::uint32_t> heightMapSize(const GeometryDescription& geometry);
+
 /// The lattice of a height map of `size` vertices whose heights have 16, 24 or 32 bits: its x and z are columns and
 /// rows, its y are stored heights. `box` is the node's decode box.
 Lattice heightMapLattice(const DecodeFields& box, Vec2<std::uint32_t> size, std::uint32_t bits);

@@ -37,11 +37,16 @@ GeometryDescription geometryOf(const Json& vector) {
   const std::size_t planes = vector.at("planes").size();
   for (std::size_t plane = 0; plane < planes; ++plane)
     patch.coord.push_back({std::to_string(plane), TexelLocation{}});
+  Vec2<std::uint32_t> whole = patch.implicitMeshSize;
+  if (vector.contains("part")) {
+    const Json& part = vector.at("part");
+    patch.gridOrigin = {part.at("column").get<std::uint32_t>(), part.at("row").get<std::uint32_t>()};
+    whole = {part.at("columns").get<std::uint32_t>(), part.at("rows").get<std::uint32_t>()};
+  }
   const DecodeFields box{vec3Of(vector.at("position")), vec3Of(vector.at("size"))};
   const auto bits = static_cast<std::uint32_t>(8 * planes);
-  geometry.lattice = geometry.grid == GridKind::heightMap
-                         ? heightMapLattice(box, patch.implicitMeshSize, std::max(bits, 16u))
-                         : latticeOf(box, Encoding::classic, ElementType::uint8, bits);
+  geometry.lattice = geometry.grid == GridKind::heightMap ? heightMapLattice(box, whole, std::max(bits, 16u))
+                                                          : latticeOf(box, Encoding::classic, ElementType::uint8, bits);
   geometry.patches.push_back(std::move(patch));
   return geometry;
 }

@@ -12,6 +12,9 @@ inline constexpr std::uint32_t guaranteedImageEdge = 2048;
 /// The largest image edge that readers accept: WebGL 2 devices of the last ten years support it.
 inline constexpr std::uint32_t maxImageEdge = 4096;
 
+/// Columns and rows of a height map of several images: its lattice counts them with 16 bits.
+inline constexpr std::uint32_t maxHeightMapEdge = 65536;
+
 /// Maximum compression ratio of deflate: 258 bytes for two bits (a length and a distance code of one bit each).
 inline constexpr std::uint64_t maxDeflateRatio = 1032;
 

@@ -73,16 +73,32 @@ std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const st
   return static_cast<std::uint32_t>(q);
 }
 
-Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location) {
-  Vec3u nearest;
+namespace {
+
+double stepsTo(double value, int axis, const Lattice& lattice) {
+  return std::round((value - lattice.origin[axis]) / lattice.step);
+}
+
+} // namespace
+
+bool isInside(Vec3f position, const Lattice& lattice) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double value = position[axis], steps = std::round((value - lattice.origin[axis]) / lattice.step);
+    const double value = position[axis], steps = stepsTo(value, axis, lattice);
     // Rounding to single precision may move a point on the border of the lattice outside.
     const double slack = 1 + std::abs(value) * (2 * floatRounding) / lattice.step;
     if (!std::isfinite(value) || steps < -slack || steps > lattice.maximum() + slack)
-      throw Error(ErrorKind::malformed, location, "vertices lie far outside of the box that the node states");
-    nearest[axis] = static_cast<std::uint32_t>(std::clamp<double>(steps, 0, lattice.maximum()));
+      return false;
   }
+  return true;
+}
+
+Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location) {
+  if (!isInside(position, lattice))
+    throw Error(ErrorKind::malformed, location, "vertices lie far outside of the box that the node states");
+  Vec3u nearest;
+  for (int axis = 0; axis < 3; ++axis)
+    nearest[axis] =
+        static_cast<std::uint32_t>(std::clamp<double>(stepsTo(position[axis], axis, lattice), 0, lattice.maximum()));
   return nearest;
 }
 
@@ -94,7 +110,7 @@ DecodeFields decodeFields(const GeometryDescription& geometry) {
     return {lattice.origin + Vec3d{edge, edge, edge} * 0.5, {half, half, half}};
   }
   if (geometry.grid == GridKind::heightMap)
-    return heightMapBox(lattice, geometry.patches[0].implicitMeshSize);
+    return heightMapBox(lattice, heightMapSize(geometry));
   const StoredCoords stored = storedCoords(geometry.encoding, geometry.coordType, lattice.bits);
   const Vec3d unit = lattice.stretch * std::ldexp(lattice.step, -static_cast<int>(stored.shift));
   const Vec3d zero = lattice.origin - unit * static_cast<double>(stored.bias), size = unit * stored.maximum;

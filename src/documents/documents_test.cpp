@@ -442,7 +442,7 @@ SceneDocument documentNamed(const std::string& name) {
   document.graph.title = name;
   GeometryDescription geometry;
   geometry.patches = {
-      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}, {}}};
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   addRoot(document.graph, {"", Viewpoint{name, {}, {}, 0.8, {}}, {}, ""});
   addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});

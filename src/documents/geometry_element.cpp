@@ -128,6 +128,8 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
                      std::to_string(patch.implicitMeshSize.x) + " " + std::to_string(patch.implicitMeshSize.y)});
   if (geometry.grid)
     draws.erase(draws.begin(), draws.end() - 1); // they follow from the size
+  if (patch.gridOrigin != Vec2<std::uint32_t>{})
+    draws.push_back({"gridOrigin", std::to_string(patch.gridOrigin.x) + " " + std::to_string(patch.gridOrigin.y)});
   Attributes references;
   const auto add = [&](const char* name, const std::optional<Reference>& reference) {
     if (reference)

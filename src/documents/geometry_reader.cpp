@@ -2,9 +2,9 @@
 
 #include "containers/encodings.h"
 #include "containers/grid.h"
-#include "containers/limits.h"
 #include "containers/stored_coords.h"
 #include "documents/geometry_element.h"
+#include "documents/grid_reader.h"
 #include "documents/patch_references.h"
 #include "documents/vertex_attribute_reader.h"
 #include "markup/find_x3d.h"
@@ -55,6 +55,7 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   patch.vertexCount = fields.integer("recordCount", 0);
   patch.draws = readDraws(fields, FieldReader(source, node, warnings));
   patch.implicitMeshSize = implicitMeshSize;
+  patch.gridOrigin = gridOriginOf(fields);
   const PatchStorage storage = rowOf(encoding).storage;
   if (storage == PatchStorage::packed) {
     const std::string url = fields.text("data");
@@ -73,23 +74,6 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   return patch;
 }
 
-Vec2<std::uint32_t> implicitMeshSizeOf(const FieldReader& fields, Vec2<std::uint32_t> fallback) {
-  std::vector<double> size = fields.reals("implicitMeshSize", 2);
-  if (size.empty())
-    size = fields.reals("implicitMeshCount", 2); // the paper's name for it
-  if (size.empty())
-    return fallback;
-  const auto whole = [&](double value) {
-    if (value < 0 || value > 65536 || value != std::floor(value))
-      fields.fail(ErrorKind::malformed, "implicitMeshSize is no size of an image");
-    return static_cast<std::uint32_t>(value);
-  };
-  const std::uint32_t x = whole(size[0]), y = whole(size[1]);
-  if (x == 0)
-    fields.fail(ErrorKind::malformed, "implicitMeshSize has no columns");
-  return {x, y == 0 ? x : y};
-}
-
 /// Bits of the stored coordinates: the default of `positionBits`.
 std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& geometry) {
   const PatchStorage storage = rowOf(geometry).storage;
@@ -102,40 +86,6 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
     if (patch.coord.size() != planes)
       fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
   return 8 * static_cast<std::uint32_t>(planes);
-}
-
-/// The grid that `implicitMeshMode` names; none for vertices in sequence.
-std::optional<GridKind> gridOf(const FieldReader& fields) {
-  const std::string mode = fields.text("implicitMeshMode");
-  for (const GridKind kind : {GridKind::heightMap, GridKind::geometryImage, GridKind::sculpt})
-    if (equalIgnoringCase(mode, nameOf(kind)))
-      return kind;
-  if (!mode.empty() && !equalIgnoringCase(mode, "auto") && !equalIgnoringCase(mode, "sig"))
-    fields.fail(ErrorKind::unsupported, "implicitMeshMode is none of auto, SIG, heightMap, geometryImage and sculpt");
-  return {};
-}
-
-/// What a node states of the distance from its source.
-std::optional<SurfaceDistance> surfaceDistanceOf(const FieldReader& fields) {
-  const std::vector<double> distances = fields.reals("surfaceDistance", 2);
-  if (distances.empty())
-    return {};
-  if (!(distances[0] >= 0 && distances[1] >= 0))
-    fields.fail(ErrorKind::malformed, "surfaceDistance is no distance");
-  return SurfaceDistance{distances[0], distances[1]};
-}
-
-/// Vertices and triangles of a patch that is a grid follow from its size.
-void describeGrid(const FieldReader& fields, GridKind kind, PatchDescription& patch) {
-  const auto [columns, rows] = patch.implicitMeshSize;
-  if (columns < 2 || rows < 2)
-    fields.fail(ErrorKind::malformed,
-                "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices has no surface");
-  if (columns > maxImageEdge || rows > maxImageEdge)
-    fields.fail(ErrorKind::limit, "a grid has more than " + std::to_string(maxImageEdge) + " columns or rows");
-  patch.index.reset();
-  patch.vertexCount = columns * rows;
-  patch.draws = {{Primitive::triangles, static_cast<std::uint32_t>(3 * gridTriangleCount(kind, {columns, rows}))}};
 }
 
 Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
@@ -151,12 +101,15 @@ Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry
   const std::optional<DecodeFields> cube =
       storage == PatchStorage::packed && !fields.has("position") && !fields.has("size") ? quantizationCube(fields.box())
                                                                                         : std::nullopt;
-  const DecodeFields box =
+  DecodeFields box =
       cube.value_or(DecodeFields{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})});
-  if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0))
-    fields.fail(ErrorKind::malformed, "size is the extent of no box");
+  if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0)) {
+    if (storage != PatchStorage::arrays || geometry.coordType != ElementType::float32 || bits != sourceBits)
+      fields.fail(ErrorKind::malformed, "size is the extent of no box");
+    box.size = {1, 1, 1}; // floats need none: see PatchReader::latticeOf()
+  }
   if (geometry.grid == GridKind::heightMap)
-    return heightMapLattice(box, geometry.patches[0].implicitMeshSize, std::max(stored, 16u));
+    return heightMapLattice(box, heightMapSize(geometry), std::max(stored, 16u));
   return imgeo::latticeOf(box, geometry.encoding, geometry.coordType, bits);
 }
 
@@ -301,18 +254,12 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   if (row.storage == PatchStorage::bytePlanes)
     geometry.grid = gridOf(fields);
   if (geometry.grid)
-    geometry.surfaceDistance = surfaceDistanceOf(fields);
-  if (geometry.grid == GridKind::heightMap && geometry.patches.size() != 1)
-    fields.fail(ErrorKind::unsupported, "a height map has several patches, which all fill its decode box");
-  if (geometry.grid)
-    for (PatchDescription& patch : geometry.patches)
-      describeGrid(fields, *geometry.grid, patch);
-  // Faces are shaded by their slope.
-  const bool isFlat = row.storage == PatchStorage::arrays && !fields.boolean("normalPerVertex", true);
-  if (isFlat)
+    describeGrids(fields, geometry);
+  geometry.isFlat = row.storage == PatchStorage::arrays && !fields.boolean("normalPerVertex", true);
+  if (geometry.isFlat)
     for (PatchDescription& patch : geometry.patches)
       patch.vertexAttributes[VertexRole::normal].reset();
-  if (!isFlat && row.storage == PatchStorage::arrays && fields.boolean("normalAsSphericalCoordinates", false))
+  if (!geometry.isFlat && row.storage == PatchStorage::arrays && fields.boolean("normalAsSphericalCoordinates", false))
     takeNormalsFromCoords(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, savePicture } from "./compare.ts";
-import { meshOf, shapeOf, sheet, terrain, vase, type GridExample } from "./generators/grids.ts";
+import { meshOf, shapeOf, shapeOfParts, sheet, terrain, vase, type GridExample } from "./generators/grids.ts";
 import { pictureSize, withPage, type View } from "./harness.ts";
 import { decodePng } from "./png.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
@@ -12,17 +12,17 @@ import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 
-/** A page that displays the example from the front and above. */
-function pageWith(example: GridExample, attributes = ""): string {
+/** A page that displays the example, or a Shape of its parts, from the front and above. */
+function pageWith(example: GridExample, attributes = "", shape = shapeOf(example, attributes)): string {
   return pageOf(site())
     .replace(/<link rel="preload"[^>]*>/g, "")
-    .replace(/<Shape[\s\S]*<\/Shape>/i, () => shapeOf(example, attributes))
+    .replace(/<Shape[\s\S]*<\/Shape>/i, () => shape)
     .replace(/<Viewpoint[^>]*>/i, `<Viewpoint position="0.6 2.6 5.2" orientation="-1 0.1 0 0.45" fieldOfView="0.75">`);
 }
 
-function serving(example: GridExample, html: string): (server: View["server"]) => void {
+function serving({ files }: Pick<GridExample, "files">, html: string): (server: View["server"]) => void {
   return (server) => {
-    for (const [path, body] of example.files) server.put(path, body);
+    for (const [path, body] of files) server.put(path, body);
     server.when(/^\/$/, { replace: () => html });
   };
 }
@@ -56,12 +56,19 @@ for (const [name, example] of [
       });
     }
 
+    // A height map is in six images here: its picture, too, is that of the whole, without a seam.
     test("is hit by the pointer", async () => {
-      const html = pageWith(example);
+      const parts = name === "terrain" ? shapeOfParts(example, { columns: [31, 50], rows: [22] }) : undefined;
+      const html = pageWith(example, "", parts?.shape);
       const mesh = plain(example);
-      await withPage(site(), { server: serving(example, html) }, async (view) => {
+      await withPage(site(), { server: serving(parts ?? example, html) }, async (view) => {
         await view.promise("complete");
-        await view.picture();
+        const picture = await view.picture();
+        if (parts !== undefined) {
+          savePicture("grid terrain in six images", picture);
+          const reference = await referencePicture(html, [parts.mesh]);
+          assertSamePicture("grid terrain in six images", picture, reference, boundsOfQuantised);
+        }
         let hits = 0;
         for (const [x, y] of [
           [320, 240],

@@ -96,12 +96,13 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const Fe
 }
 
 /// Vertices of a height map on the lattice of heightMapLattice().
-void addColumnsAndRows(std::vector<Vec3u>& stored, std::uint32_t planes, std::uint32_t columns) {
+void addColumnsAndRows(std::vector<Vec3u>& stored, const PatchDescription& patch) {
+  const std::uint32_t columns = patch.implicitMeshSize.x;
   // 8-bit heights are spread over the 16 bits of the lattice.
-  const std::uint32_t factor = planes == 1 ? 257 : 1;
+  const std::uint32_t factor = patch.coord.size() == 1 ? 257 : 1;
   for (std::size_t n = 0; n < stored.size(); ++n)
-    stored[n] = {static_cast<std::uint32_t>(n % columns), stored[n].x * factor,
-                 static_cast<std::uint32_t>(n / columns)};
+    stored[n] = {patch.gridOrigin.x + static_cast<std::uint32_t>(n % columns), stored[n].x * factor,
+                 patch.gridOrigin.y + static_cast<std::uint32_t>(n / columns)};
 }
 
 void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
@@ -233,7 +234,7 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   for (std::size_t plane = 1; plane < patch.coord.size(); ++plane)
     addPlane(decoded.positions, fetchRecords(patch.coord[plane], coordChannels));
   if (isHeightMap)
-    addColumnsAndRows(decoded.positions, static_cast<std::uint32_t>(patch.coord.size()), columns);
+    addColumnsAndRows(decoded.positions, patch);
   else
     for (Vec3u& position : decoded.positions)
       for (int axis = 0; axis < 3; ++axis)

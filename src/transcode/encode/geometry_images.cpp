@@ -6,13 +6,13 @@
 #include "containers/classic/classic.h"
 #include "containers/encodings.h"
 #include "containers/grid.h"
-#include "containers/limits.h"
 #include "containers/normals.h"
 #include "containers/option_checks.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "prepare/geometry_image/geometry_image.h"
 #include "prepare/geometry_image/surface_distance.h"
+#include "prepare/grid_parts.h"
 #include "transcode/options/resolve_options.h"
 
 #include <algorithm>
@@ -29,19 +29,39 @@ namespace {
 /// Fewer texels hardly show the shape of a chart.
 constexpr std::size_t minTexelsPerChart = 16;
 
+/// The largest number of columns or rows of a chart's grid, however long the chart.
+constexpr std::uint32_t maxChartEdge = 65536;
+
+/// Cuts grids that no image of `maxEdge` columns and rows holds.
+std::vector<GeometryImage> cutToFit(std::vector<GeometryImage> images, std::uint32_t maxEdge) {
+  std::vector<GeometryImage> result;
+  for (GeometryImage& image : images) {
+    const std::vector<GridPart> parts = gridParts({image.columns, image.rows}, maxEdge);
+    if (parts.size() == 1) {
+      result.push_back(std::move(image));
+      continue;
+    }
+    for (const GridPart& part : parts) {
+      const std::vector<std::uint32_t> vertices = verticesOf(part, image.columns);
+      result.push_back({gather(image, vertices), part.size.x, part.size.y, gather(image.positions, vertices)});
+    }
+  }
+  return result;
+}
+
 /// Several grids of the same number of columns, one below the other in the same images.
 struct GridStack {
   std::vector<std::size_t> grids; ///< indices
   std::uint32_t rows = 0;
 };
 
-/// Stacks grids that have the same number of columns, up to the height that every GPU reads.
-std::vector<GridStack> stacksOf(const std::vector<GeometryImage>& images) {
+/// Stacks grids that have the same number of columns, up to `maxEdge` rows.
+std::vector<GridStack> stacksOf(const std::vector<GeometryImage>& images, std::uint32_t maxEdge) {
   std::vector<GridStack> stacks;
   std::map<std::uint32_t, std::size_t> open; // by columns
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto [stack, isNew] = open.try_emplace(images[i].columns, stacks.size());
-    if (isNew || stacks[stack->second].rows + images[i].rows > guaranteedImageEdge) {
+    if (isNew || stacks[stack->second].rows + images[i].rows > maxEdge) {
       stack->second = stacks.size();
       stacks.emplace_back();
     }
@@ -93,10 +113,10 @@ struct SampledMesh {
 };
 
 SampledMesh sampled(const Mesh& mesh, const std::vector<ParametrisedChart>& charts, std::uint32_t gridEdge,
-                    const Lattice& lattice) {
+                    const Lattice& lattice, std::uint32_t imageEdge) {
   SampledMesh result;
-  std::vector<GeometryImage> images = geometryImages(mesh, charts, gridEdge, guaranteedImageEdge);
-  result.stacks = stacksOf(images);
+  std::vector<GeometryImage> images = cutToFit(geometryImages(mesh, charts, gridEdge, maxChartEdge), imageEdge);
+  result.stacks = stacksOf(images, imageEdge);
   for (const GeometryImage& image : images)
     result.sizes.push_back({image.columns, image.rows});
   result.grids = quantised(std::move(images), lattice);
@@ -113,12 +133,12 @@ double allowedDistance(const MaxError& error, const Box3d& box) {
 
 /// Doubles the grid until the surfaces are close enough.
 SampledMesh sampledWithin(double allowed, const Mesh& mesh, const std::vector<ParametrisedChart>& charts,
-                          const Lattice& lattice) {
+                          const Lattice& lattice, std::uint32_t imageEdge) {
   std::uint32_t gridEdge = 32;
   while (std::size_t{gridEdge} * gridEdge < minTexelsPerChart * charts.size() && gridEdge < maxGridEdge)
     gridEdge *= 2;
   for (;; gridEdge *= 2) {
-    SampledMesh result = sampled(mesh, charts, gridEdge, lattice);
+    SampledMesh result = sampled(mesh, charts, gridEdge, lattice, imageEdge);
     if (result.distance.largest <= allowed)
       return result;
     if (2 * gridEdge > maxGridEdge)
@@ -135,14 +155,14 @@ SampledMesh sampledAs(const ConvertOptions& options, const Mesh& mesh, const std
   const std::uint32_t bits = options.maxError ? std::max(positionBitsFor(box, forLattice), 16u) : options.positionBits;
   const Lattice lattice = latticeFor(box, bits);
   if (options.maxError)
-    return sampledWithin(allowedDistance(*options.maxError, box), mesh, charts, lattice);
+    return sampledWithin(allowedDistance(*options.maxError, box), mesh, charts, lattice, options.gridImageEdge);
   const std::size_t texels = std::size_t{options.grid} * options.grid, needed = minTexelsPerChart * charts.size();
   if (texels < needed)
     refuseOption("--grid", fmt::format("{} x {} texels are too few for {} charts, into which the seams of the texture "
                                        "coordinates and the creases cut a mesh; {} is enough",
                                        options.grid, options.grid, charts.size(),
                                        std::ceil(std::sqrt(static_cast<double>(needed)))));
-  return sampled(mesh, charts, options.grid, lattice);
+  return sampled(mesh, charts, options.grid, lattice, options.gridImageEdge);
 }
 
 /// The vertices of several grids, one after the other.
@@ -194,7 +214,7 @@ std::optional<EncodedMesh> encodeGeometryImages(const Mesh& mesh, const ConvertO
   result.geometry.grid = GridKind::geometryImage;
   result.geometry.surfaceDistance = grids.distance;
   result.geometry.indexType = ElementType::uint16; // there is no index
-  result.geometry.patches.resize(charts.size());
+  result.geometry.patches.resize(grids.sizes.size());
   parallelFor(grids.stacks.size(), [&](std::size_t i) {
     writeStack(grids, grids.stacks[i], result.geometry, encoding, files, result.geometry.patches);
   });
@@ -208,7 +228,7 @@ std::optional<EncodedMesh> encodeGeometryImages(const Mesh& mesh, const ConvertO
     result.normalErrorDegrees = normalErrorBound(result.geometry) * (180 / std::numbers::pi);
   result.positionError = positionErrorBound(result.geometry);
   result.resampled = ResampledMesh{.name = mesh.name,
-                                   .geometryImages = charts.size(),
+                                   .geometryImages = grids.sizes.size(),
                                    .texels = result.vertices,
                                    .largestDistance = grids.distance.largest,
                                    .meanDistance = grids.distance.mean,

@@ -1,6 +1,7 @@
 #include "transcode/options/resolve_options.h"
 
 #include "containers/encodings.h"
+#include "containers/limits.h"
 #include "containers/option_checks.h"
 #include "images/raster.h"
 #include "prepare/patches.h"
@@ -69,6 +70,7 @@ void resolveGrids(ConvertOptions& options) {
   if (options.normals != NormalEncoding::rgb)
     refuseOption("--normals", isGeometryImage ? "geometry images have rgb normals"
                                               : "height maps have the normals that follow from their slope");
+  requireWithin("gridImageEdge", options.gridImageEdge, 16, guaranteedImageEdge);
   if (!isGeometryImage) {
     if (options.positionBits != 0 || options.maxError)
       refuseOption(options.maxError ? "--max-error" : "--position-bits", "height maps have heights of 16 bits");

@@ -38,8 +38,11 @@ TEST(GeometryImageSite, StatesHowFarItIsOffAndVerifyMeasuresTheSame) {
   for (const Mesh& mesh : {testing::sphere(12, 20), testing::torus(24, 12), testing::grid(12)}) {
     const TemporaryDirectory directory;
     testing::writeMesh(directory / "input.ply", mesh);
-    const ConvertReport converted = convert(directory / "input.ply", directory / "site", geometryImages(28));
+    ConvertOptions options = geometryImages(28);
+    options.gridImageEdge = 16; // charts need several images
+    const ConvertReport converted = convert(directory / "input.ply", directory / "site", options);
     ASSERT_EQ(converted.resampled.size(), 1u);
+    EXPECT_GE(converted.patches, 4u);
     const ResampledMesh& resampled = converted.resampled[0];
     EXPECT_EQ(resampled.geometryImages, converted.patches);
     EXPECT_EQ(resampled.texels, converted.vertices);
@@ -59,7 +62,10 @@ TEST(GeometryImageSite, StatesHowFarItIsOffAndVerifyMeasuresTheSame) {
     EXPECT_EQ(info.geometries.at(0).grid, "geometryImage");
     EXPECT_NEAR(info.geometries.at(0).surfaceDistance, resampled.largestDistance, 1e-3 * resampled.largestDistance);
     const bool isOpen = mesh.normals.empty(); // the field of testing::grid
-    EXPECT_EQ(openEdges(readMeshes(openDocument(directory / "site")).meshes.at(0)) > 0, isOpen);
+    const SiteDocument document = openDocument(directory / "site");
+    EXPECT_EQ(openEdges(readMeshes(document).meshes.at(0)) > 0, isOpen);
+    for (const PatchDescription& patch : document.scene.geometries.at(0).patches)
+      EXPECT_LE(std::max(patch.implicitMeshSize.x, patch.implicitMeshSize.y), 16u);
   }
 }
 

@@ -126,8 +126,12 @@ TEST(GridSite, IsRefusedIfItsSizeOrModeHasNoMeaning) {
       refusal("sculpt", "><GeometryPatch implicitMeshSize='5 5000' coord='0.png'></GeometryPatch></ImageGeometry"),
       "a grid has more than 4096 columns or rows");
   const std::string patch = "<GeometryPatch implicitMeshSize='5 5' coord='0.png'></GeometryPatch>";
-  EXPECT_EQ(refusal("heightMap", ">" + patch + patch + "</ImageGeometry"),
-            "a height map has several patches, which all fill its decode box");
+  EXPECT_EQ(refusal("heightMap", "><GeometryPatch gridOrigin='-1 0' implicitMeshSize='5 5' coord='0.png'>"
+                                 "</GeometryPatch></ImageGeometry"),
+            "gridOrigin is no column and row");
+  EXPECT_EQ(refusal("heightMap", "><GeometryPatch gridOrigin='65535 0' implicitMeshSize='5 5' coord='0.png'>"
+                                 "</GeometryPatch></ImageGeometry"),
+            "a height map has more than 65536 columns or rows");
   EXPECT_EQ(refusal("sculpt", ">" + patch + patch + "</ImageGeometry"), "");
   EXPECT_EQ(refusal("sculpt", "><GeometryPatch implicitMeshSize='30 5' coord='0.png'></GeometryPatch></ImageGeometry"),
             "the image is 24 texels wide and cannot hold 30 columns");

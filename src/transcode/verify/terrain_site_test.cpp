@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "scene/shape_instances.h"
+#include "transcode/site/read_meshes.h"
 #include "transcode/site/testing.h"
 
 #include <cmath>
@@ -80,6 +81,39 @@ TEST(TerrainSite, IsAHeightMapOnRequestExactWhereHeightsAreWhole) {
     EXPECT_NE(error.message().find("its grid has holes"), std::string::npos) << error.message();
   }
   EXPECT_FALSE(std::filesystem::exists(directory / "other"));
+}
+
+TEST(TerrainSite, IsAHeightMapOfSeveralImagesIfItIsLarge) {
+  const TemporaryDirectory directory;
+  ConvertOptions options;
+  options.pictures = false;
+  options.form = MeshForm::heightMap;
+  options.gridImageEdge = 20;
+  writeFile(directory / "hills.asc", asBytes(hills(60, 39, false)));
+  const ConvertReport report = convert(directory / "hills.asc", directory / "site", options);
+  EXPECT_EQ(report.elements.triangles, 2u * 59 * 38);
+  EXPECT_EQ(report.patches, 8u); // 59 cells in four parts, 38 in two: at most 19 in each
+  const SiteDocument document = openDocument(directory / "site");
+  const GeometryDescription& geometry = document.scene.geometries.at(0);
+  ASSERT_EQ(geometry.patches.size(), 8u);
+  EXPECT_EQ(geometry.patches[1].gridOrigin.x, geometry.patches[0].implicitMeshSize.x - 1);
+  EXPECT_EQ(geometry.patches[7].gridOrigin.x + geometry.patches[7].implicitMeshSize.x, 60u);
+  EXPECT_EQ(geometry.patches[7].gridOrigin.y + geometry.patches[7].implicitMeshSize.y, 39u);
+  const SiteInfo info = inspect(directory / "site");
+  EXPECT_EQ(info.elements.triangles, report.elements.triangles);
+  EXPECT_EQ(info.geometries.at(0).grid, "heightMap");
+  const VerifyReport verified = verify(directory / "site", directory / "hills.asc");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  EXPECT_EQ(verified.site.triangles, report.elements.triangles);
+  EXPECT_LE(verified.positionError, 160.0 / 65535);
+  exportSite(directory / "site", directory / "out.ply");
+  const VerifyReport exported = verify(directory / "site", directory / "out.ply");
+  EXPECT_TRUE(exported.equal) << ::testing::PrintToString(exported.findings);
+  // The points of shared columns and rows are the same, bit for bit: there is no crack.
+  EXPECT_EQ(readMeshes(document).meshes.at(0).positions.size(), 60u * 39);
+  convert(directory / "site/index.html", directory / "again", options);
+  const VerifyReport again = verify(directory / "again", directory / "site/index.html");
+  EXPECT_TRUE(again.equal) << ::testing::PrintToString(again.findings);
 }
 
 } // namespace

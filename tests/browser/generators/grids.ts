@@ -2,7 +2,7 @@
 // and as the plain meshes that they must look like.
 
 import type { PlainPatch } from "../siteDecoder.ts";
-import { encodePng } from "../png.ts";
+import { decodePng, encodePng } from "../png.ts";
 
 type Point = [number, number, number];
 
@@ -72,6 +72,43 @@ export function exampleOf(
     files.set(`/grid/${mode}-${plane}.png`, encodePng({ width: columns, height: rows, channels, data }));
   }
   return { mode, columns, rows, position, size, files };
+}
+
+/**
+ * The Shape of a height map whose images are those of `example` cut at the columns and rows, with normals, since those
+ * of a part's slope would differ along its border; the files; and the mesh with the normals as they are stored.
+ */
+export function shapeOfParts(
+  example: GridExample,
+  cuts: { readonly columns: readonly number[]; readonly rows: readonly number[] },
+): { shape: string; files: Map<string, Buffer>; mesh: PlainPatch } {
+  const planes = [...example.files.values()].map((file) => decodePng(file));
+  const mesh = meshOf(example, planes);
+  const bytes = Uint8Array.from(mesh.normals!, (value) => Math.round(((value + 1) / 2) * 255));
+  const images = [...planes, { channels: 3, data: bytes }];
+  const files = new Map<string, Buffer>();
+  const rangesOf = (cuts: readonly number[], count: number) =>
+    [0, ...cuts].map((first, i) => ({ first, count: (cuts[i] ?? count - 1) - first + 1 }));
+  const patches = rangesOf(cuts.rows, example.rows).flatMap((rows) =>
+    rangesOf(cuts.columns, example.columns).map((columns) => {
+      const paths = images.map(({ channels, data }, image) => {
+        const part = new Uint8Array(columns.count * rows.count * channels);
+        for (let row = 0; row < rows.count; ++row) {
+          const begin = channels * ((rows.first + row) * example.columns + columns.first);
+          part.set(data.subarray(begin, begin + channels * columns.count), channels * row * columns.count);
+        }
+        const path = `/grid/part-${columns.first}-${rows.first}-${image}.png`;
+        files.set(path, encodePng({ width: columns.count, height: rows.count, channels, data: part }));
+        return `"${path}"`;
+      });
+      return `<GeometryPatch gridOrigin="${columns.first} ${rows.first}" implicitMeshSize="${columns.count} ${rows.count}"
+        coord='${paths.slice(0, -1).join(" ")}' normal='${paths.at(-1)!}'></GeometryPatch>`;
+    }),
+  );
+  const shape = shapeOf(example)
+    .replace(/ coord='[^']*'/, "")
+    .replace("></ImageGeometry>", () => `>${patches.join("\n")}</ImageGeometry>`);
+  return { shape, files, mesh: { ...mesh, normals: Float32Array.from(bytes, (byte) => (2 * byte) / 255 - 1) } };
 }
 
 /** The Shape element of the example. */

@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import type { GridPart } from "../../stage/stage.ts";
 import { pngWithTexels } from "../png.testing.ts";
 import { classicGrid } from "./classicGrid.ts";
 
@@ -13,6 +14,8 @@ interface Vector {
   kind: "heightMap" | "geometryImage" | "sculpt";
   columns: number;
   rows: number;
+  /** Undefined: the grid is the whole height map. */
+  part?: GridPart;
   ccw: boolean;
   position: [number, number, number];
   size: [number, number, number];
@@ -29,7 +32,7 @@ interface Vector {
 
 const path = join(import.meta.dirname, "../../../../vectors/grids.json");
 
-async function outputOf({ kind, columns, rows, ccw, position, size, width, channels, planes }: Vector) {
+async function outputOf({ kind, columns, rows, part, ccw, position, size, width, channels, planes }: Vector) {
   const maxStored = 256 ** planes.length - 1;
   const pixels = (bytes: number[]) =>
     pngWithTexels(width, rows, channels, (n, channel) => bytes[channels * n + channel] ?? assert.fail("too few bytes"));
@@ -39,7 +42,7 @@ async function outputOf({ kind, columns, rows, ccw, position, size, width, chann
     missingBytesMidpoint: 0,
     count: columns * rows,
     rowLength: columns,
-    grid: { kind, columns, rows },
+    grid: { kind, columns, rows, part },
     ccw,
     maxStored,
     step: [size[0] / maxStored, size[1] / maxStored, size[2] / maxStored],

@@ -27,7 +27,7 @@ export interface GridArrays {
 
 /** Decodes the coordinates of a grid, and computes its index and normals. */
 export async function classicGrid({ grid, ccw, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
-  const { columns, rows } = grid;
+  const { columns, rows, part = { column: 0, row: 0, columns, rows } } = grid;
   const isHeightMap = grid.kind === "heightMap";
   const sums = await sumsOf(job, isHeightMap ? 1 : 3, 3);
   const shift = 256 ** (job.planeCount - job.planes.length);
@@ -36,9 +36,9 @@ export async function classicGrid({ grid, ccw, maxStored, step, ...job }: GridJo
     const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.missingBytesMidpoint;
     const point = isHeightMap
       ? [
-          ((record % columns) * maxStored) / (columns - 1),
+          ((part.column + (record % columns)) * maxStored) / (part.columns - 1),
           stored(0),
-          (Math.floor(record / columns) * maxStored) / (rows - 1),
+          ((part.row + Math.floor(record / columns)) * maxStored) / (part.rows - 1),
         ]
       : [stored(0), stored(1), stored(2)];
     array.set(point, 3 * record);

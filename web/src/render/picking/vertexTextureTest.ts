@@ -91,6 +91,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       isIndexWide: { value: false },
       implicitWidth: { value: 4 },
       gridSize: { value: [0, 0] },
+      gridPart: { value: [0, 0, 0, 0] },
       isGridClosed: { value: false },
       maxStoredValue: { value: 65535 },
       firstSequenceIndex: { value: 0 },

@@ -113,6 +113,7 @@ uniform bool hasIndex;
 uniform bool isIndexWide;
 uniform int implicitWidth;
 uniform ivec2 gridSize;
+uniform ivec4 gridPart;
 uniform bool isGridClosed;
 uniform float maxStoredValue;
 uniform int firstSequenceIndex;
@@ -194,7 +195,8 @@ vec3 texelPosition(int record) {
   if (coordPlaneCount > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
   vec3 position = vec3(stored) + missingBytesMidpoint;
   #ifdef GRID_HEIGHTS
-    vec2 xz = vec2(record % gridSize.x, record / gridSize.x) * maxStoredValue / vec2(gridSize - 1);
+    ivec2 at = gridPart.xy + ivec2(record % gridSize.x, record / gridSize.x);
+    vec2 xz = vec2(at) * maxStoredValue / vec2(gridPart.zw - 1);
     return vec3(xz.x, position.x, xz.y);
   #else
     return position;

@@ -52,6 +52,8 @@ export interface ImageVertexUniforms extends VertexUniforms, Record<`${VertexRol
    * gridDefinesOf.
    */
   gridSize: IUniform<[number, number]>;
+  /** First column and row of a height map's image in the whole map, then columns and rows of the map. */
+  gridPart: IUniform<[number, number, number, number]>;
   isGridClosed: IUniform<boolean>;
   /** The stored integer of the far side of the bounding box. */
   maxStoredValue: IUniform<number>;

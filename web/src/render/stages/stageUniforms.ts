@@ -4,7 +4,7 @@
 import type { IUniform } from "three";
 import { byVertexRoleWith, vertexRoles } from "../../stage/attributeRows.ts";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
-import type { DrawRange, Stage, TextureStage } from "../../stage/stage.ts";
+import type { DrawRange, Grid, Stage, TextureStage } from "../../stage/stage.ts";
 import type {
   AppearanceDescription,
   GeometryDescription,
@@ -121,6 +121,12 @@ function recordCountOf({ index, coord: [first], grid }: TextureStage, patch: Pat
   return patch.vertexCount || (first ? first.image.width * first.image.height - first.firstTexel : index ? 1 : 0);
 }
 
+function gridPartOf(grid: Grid | undefined): [number, number, number, number] {
+  if (grid === undefined) return [0, 0, 0, 0];
+  const { column, row, columns, rows } = grid.part ?? { column: 0, row: 0, columns: grid.columns, rows: grid.rows };
+  return [column, row, columns, rows];
+}
+
 function imageUniformsOf(
   stage: TextureStage,
   textures: TextureProvider,
@@ -151,6 +157,7 @@ function imageUniformsOf(
     isIndexWide: { value: stage.isIndexWide },
     implicitWidth: { value: stage.implicitWidth },
     gridSize: { value: [stage.grid?.columns ?? 0, stage.grid?.rows ?? 0] },
+    gridPart: { value: gridPartOf(stage.grid) },
     isGridClosed: { value: stage.grid?.kind === "sculpt" },
     maxStoredValue: { value: maxStoredValue },
     firstSequenceIndex: { value: 0 },
