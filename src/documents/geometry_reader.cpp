@@ -10,7 +10,6 @@
 #include "markup/find_x3d.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace imgeo {
 

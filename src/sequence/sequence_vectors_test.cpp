@@ -39,7 +39,7 @@ std::string verdictOn(const std::string& index, const Bytes& file) {
   }
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
+std::string withText(std::string text, const std::string& what, const std::string& with) {
   return text.replace(text.find(what), what.size(), with);
 }
 
@@ -71,21 +71,21 @@ std::vector<RefusedSequence> refusedSequences() {
        encodeDifference(sample.frames[1], sample.frames[0], live::Prediction::none, 1)},
       {"frames in another order", index, encodeSequenceFile(swapped, 1)},
       {"frames of another epoch", index, encodeSequenceFile(epoch, 1)},
-      {"fewer frames than stated", replaced(index, "\"frames\": 3", "\"frames\": 4"), file},
-      {"more frames than stated", replaced(index, "\"frames\": 3", "\"frames\": 2"), file},
-      {"another layout", replaced(index, "\"columns\": 4", "\"columns\": 3"), file},
+      {"fewer frames than stated", withText(index, "\"frames\": 3", "\"frames\": 4"), file},
+      {"more frames than stated", withText(index, "\"frames\": 3", "\"frames\": 2"), file},
+      {"another layout", withText(index, "\"columns\": 4", "\"columns\": 3"), file},
       {"no JSON", "{", file},
       {"a list", "[]", file},
-      {"no version", replaced(index, "version", "revision"), file},
-      {"version 2", replaced(index, "\"version\": 1", "\"version\": 2"), file},
-      {"no rate", replaced(index, "\"rate\": 25", "\"rate\": 0"), file},
-      {"a rate above 1000", replaced(index, "\"rate\": 25", "\"rate\": 1001"), file},
-      {"no files", replaced(index, "files", "file"), file},
-      {"no vertices", replaced(index, "\"vertices\": 12", "\"vertices\": 0"), file},
-      {"too many frames in a file", replaced(index, "\"frames\": 3", "\"frames\": 1025"), file},
-      {"no bytes", replaced(index, "\"bytes\"", "\"size\""), file},
-      {"a file elsewhere", replaced(index, "grid.igf", "../grid.igf"), file},
-      {"a file at another host", replaced(index, "grid.igf", "//a/grid.igf"), file},
+      {"no version", withText(index, "version", "revision"), file},
+      {"version 2", withText(index, "\"version\": 1", "\"version\": 2"), file},
+      {"no rate", withText(index, "\"rate\": 25", "\"rate\": 0"), file},
+      {"a rate above 1000", withText(index, "\"rate\": 25", "\"rate\": 1001"), file},
+      {"no files", withText(index, "files", "file"), file},
+      {"no vertices", withText(index, "\"vertices\": 12", "\"vertices\": 0"), file},
+      {"too many frames in a file", withText(index, "\"frames\": 3", "\"frames\": 1025"), file},
+      {"no bytes", withText(index, "\"bytes\"", "\"size\""), file},
+      {"a file elsewhere", withText(index, "grid.igf", "../grid.igf"), file},
+      {"a file at another host", withText(index, "grid.igf", "//a/grid.igf"), file},
   };
 }
 

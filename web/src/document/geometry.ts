@@ -274,7 +274,7 @@ function patchOf(
   return {
     box: boxOf(values),
     vertexCount: Math.max(0, values.recordCount),
-    draws: drawsOf(values),
+    draws: drawsOf(element, values, warnings),
     implicitWidth: Math.max(1, Math.floor(values.implicitMeshSize[0])),
     implicitHeight: Math.max(1, Math.floor(values.implicitMeshSize[1] || values.implicitMeshSize[0])),
     grid: undefined,
@@ -321,7 +321,11 @@ function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]
     const name = values.primType[index] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
     if (primitive === undefined)
-      throw new UnreadableGeometry(`primType "${name}" is none of ${Object.keys(primitives).join(", ")}`);
-    return { primitive, count };
+      warnings.push({
+        element,
+        message: `primType "${name}" is none of ${Object.keys(primitives).join(", ")}; TRIANGLES are drawn`,
+      });
+    if (count < 0) throw new UnreadableGeometry(`vertexCount ${count} is negative`);
+    return { primitive: primitive ?? "triangles", count };
   });
 }
