@@ -26,7 +26,7 @@ constexpr std::size_t maxDepth = 256;               // of nested elements, and o
 
 constexpr std::array nodeNames{
     "Shape",      "Group",     "Transform",  "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
-    "PointLight", "SpotLight", "TimeSensor", "HAnimJoint", "HAnimHumanoid",  "HAnimDisplacer"};
+    "PointLight", "SpotLight", "TimeSensor", "HAnimJoint", "HAnimHumanoid"};
 
 /// Whether a url is that of a document that `convert` has written: "0123456789abcdef.x3d".
 bool isNamedByContent(std::string_view url) {
@@ -163,8 +163,6 @@ private:
       return readGrouping(fields, depth);
     if (is("HAnimHumanoid"))
       return readHumanoid(fields, depth);
-    if (is("HAnimDisplacer"))
-      return add(fields, readNode<Displacer>(fields));
     if (is("TimeSensor"))
       return add(fields, readNode<TimeSensor>(fields));
     if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(fields.node().name()))
@@ -307,6 +305,12 @@ private:
       document_.graph.background = Background{Vec3f(Vec3d{colors[0], colors[1], colors[2]})};
   }
 
+  /// Reads a displacer of a Shape.
+  std::optional<std::size_t> readDisplacer(const FieldReader& fields) {
+    const std::string use = fields.text("USE");
+    return use.empty() ? add(fields, readNode<Displacer>(fields)) : usedNode(fields, use);
+  }
+
   /// Reads a Shape. Returns nothing if its geometry is inline in the document, or missing.
   std::optional<std::size_t> readShape(const FieldReader& fields) {
     std::optional<Shape> shape;
@@ -316,7 +320,7 @@ private:
       if (child.type() != pugi::node_element)
         continue;
       if (equalIgnoringCase(child.name(), "HAnimDisplacer")) {
-        if (const auto displacer = readChild(FieldReader(source_, child, &document_.warnings), maxDepth))
+        if (const auto displacer = readDisplacer(FieldReader(source_, child, &document_.warnings)))
           children.push_back(*displacer);
         continue;
       }

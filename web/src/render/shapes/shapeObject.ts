@@ -347,7 +347,8 @@ export class ShapeObject {
         draws: { picks },
       },
     ] of this.#patches) {
-      for (const pick of picks) for (const [group, element] of this.#groups) yield { patch, group, element, shape: this.#element, pick };
+      for (const pick of picks)
+        for (const [group, element] of this.#groups) yield { patch, group, element, shape: this.#element, pick };
     }
   }
 
