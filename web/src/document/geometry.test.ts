@@ -112,8 +112,6 @@ describe("a geometry", () => {
 
   test("is left out with one warning where fields state what neither pages nor the tool read", () => {
     for (const [node, warning] of [
-      ['<BinaryGeometry coord="c" primType="QUADS" vertexCount="4"/>', /^primType "QUADS" is none of POINTS, /],
-      ['<BinaryGeometry coord="c" primType="POINTS" vertexCount="3 6"/>', /^primType names 1 of 2 draws$/],
       ['<BinaryGeometry coord="c" vertexCount="-1"/>', /^vertexCount -1 is negative$/],
       ['<BinaryGeometry coord="c" coordType="Float64"/>', /^coordType="Float64" is none of Int8, /],
       ['<BinaryGeometry coord="c" index="i" indexType="Int32"/>', /^indices of type Int32 are not read/],

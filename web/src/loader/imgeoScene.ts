@@ -120,7 +120,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       },
     );
     this.animations.push(...clips);
-    this.add(...targets);
+    for (const target of targets) this.add(target);
     passOnShadows(this);
     this.#contents.start();
     this.#advance();
