@@ -93,7 +93,9 @@ public:
             }));
     for (const NamedSamples& pair : named_)
       for (std::size_t c = 0; c < pair.mesh.components; ++c) {
-        const auto valueOf = [&](std::uint32_t w) { return double{pair.mesh.values[w * pair.mesh.components + c]}; };
+        const auto valueOf = [&](std::uint32_t w) {
+          return double{pair.mesh.values[std::size_t{w} * pair.mesh.components + c]};
+        };
         const double off = points.difference(pair.patch.values[vertex * pair.mesh.components + c], valueOf);
         difference.named = std::max(difference.named, off / divisor(pair.bounds[c]));
       }
