@@ -9,20 +9,11 @@
 #include "live/frame_image.h"
 #include "live/quantise.h"
 
-#include <ctime>
-
 namespace {
 
 using namespace imgeo;
 
 constexpr double interval = 1.0 / 30;
-
-/// Milliseconds of this thread on a processor.
-double threadMilliseconds() {
-  struct timespec time {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 /// Adds the milliseconds that a call takes.
 template <typename Call> auto timed(double& milliseconds, const Call& call) {
@@ -30,15 +21,6 @@ template <typename Call> auto timed(double& milliseconds, const Call& call) {
   auto result = call();
   milliseconds += threadMilliseconds() - start;
   return result;
-}
-
-Raster rasterOf(const Image& image) {
-  Raster raster;
-  raster.width = image.width;
-  raster.height = image.height;
-  for (std::size_t i = 0; i < image.pixels.size(); i += 3)
-    raster.pixels.insert(raster.pixels.end(), {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2], 255});
-  return raster;
 }
 
 live::Frame frameOf(const Motion& motion, const live::Description& description) {

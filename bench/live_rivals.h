@@ -4,10 +4,12 @@
 
 #include "bench/process.h"
 #include "containers/png/png.h"
+#include "images/raster.h"
 #include "live/frame.h"
 #include "live/prediction.h"
 
 #include <array>
+#include <ctime>
 #include <fmt/format.h>
 #include <fstream>
 #include <libdeflate.h>
@@ -107,6 +109,31 @@ inline std::size_t bytesAfter(const live::Frame& frame, const live::Frame& befor
   return smallest;
 }
 
+/// Milliseconds of a processor that the calling thread has had.
+inline double threadMilliseconds() {
+  struct timespec time {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// An RGB image as an opaque raster.
+inline Raster rasterOf(const Image& image) {
+  Raster raster;
+  raster.width = image.width;
+  raster.height = image.height;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+    raster.pixels.insert(raster.pixels.end(), {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2], 255});
+  return raster;
+}
+
+/// The call of ffmpeg up to its input: raw RGB images of one size, 30 a second, which are encoded as RGB.
+inline std::vector<std::string> videoInput(const std::filesystem::path& raw, std::uint32_t width,
+                                           std::uint32_t height) {
+  const std::string size = fmt::format("{}x{}", width, height);
+  return {"ffmpeg", "-loglevel", "error", "-nostdin", "-y", "-f",         "rawvideo", "-pix_fmt", "rgb24",
+          "-s",     size,        "-r",    "30",       "-i", raw.string(), "-pix_fmt", "gbrp"};
+}
+
 struct VideoResult {
   double bytes = 0, encodeMs = 0, decodeMs = 0; ///< of a frame
 };
@@ -125,32 +152,10 @@ inline std::optional<VideoResult> encodeVideo(const std::vector<Bytes>& pngs, co
   }
   file.close();
   const auto frames = static_cast<double>(pngs.size());
-  const Run encoding = runOnce({"ffmpeg",
-                                "-loglevel",
-                                "error",
-                                "-nostdin",
-                                "-y",
-                                "-f",
-                                "rawvideo",
-                                "-pix_fmt",
-                                "rgb24",
-                                "-s",
-                                fmt::format("{}x{}", image.width, image.height),
-                                "-r",
-                                "30",
-                                "-i",
-                                raw,
-                                "-pix_fmt",
-                                "gbrp",
-                                "-c:v",
-                                "libvpx-vp9",
-                                "-lossless",
-                                "1",
-                                "-deadline",
-                                "realtime",
-                                "-cpu-used",
-                                "6",
-                                video});
+  std::vector<std::string> words = videoInput(raw, image.width, image.height);
+  words.insert(words.end(),
+               {"-c:v", "libvpx-vp9", "-lossless", "1", "-deadline", "realtime", "-cpu-used", "6", video.string()});
+  const Run encoding = runOnce(words);
   const Run decoding = runOnce({"ffmpeg", "-loglevel", "error", "-nostdin", "-i", video, "-f", "null", "-"});
   return VideoResult{static_cast<double>(std::filesystem::file_size(video)) / frames,
                      1e3 * encoding.processorSeconds / frames, 1e3 * decoding.processorSeconds / frames};

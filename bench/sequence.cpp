@@ -12,7 +12,6 @@
 #include "sequence/sequence_file.h"
 
 #include <cstdio>
-#include <ctime>
 
 namespace {
 
@@ -20,12 +19,6 @@ using namespace imgeo;
 
 constexpr std::uint32_t perFile = 30;
 constexpr double interval = 1.0 / perFile;
-
-double threadMilliseconds() {
-  struct timespec time {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 struct Row {
   std::string coding;
@@ -88,15 +81,6 @@ Row aloneRow(const std::string& coding, const std::vector<live::Frame>& frames, 
   return row;
 }
 
-Raster rasterOf(const Image& image) {
-  Raster raster;
-  raster.width = image.width;
-  raster.height = image.height;
-  for (std::size_t i = 0; i < image.pixels.size(); i += 3)
-    raster.pixels.insert(raster.pixels.end(), {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2], 255});
-  return raster;
-}
-
 /// Whether an image of three or four channels has the colours of one of three.
 bool hasColors(const Image& image, const Image& expected) {
   for (std::size_t i = 0; i < expected.pixels.size(); ++i)
@@ -120,25 +104,8 @@ std::optional<Row> videoRow(const Codec& codec, const std::vector<Image>& images
   for (const Image& image : images)
     pixels.insert(pixels.end(), image.pixels.begin(), image.pixels.end());
   writeFile(raw, pixels);
-  std::vector<std::string> words{"ffmpeg",
-                                 "-loglevel",
-                                 "error",
-                                 "-nostdin",
-                                 "-y",
-                                 "-f",
-                                 "rawvideo",
-                                 "-pix_fmt",
-                                 "rgb24",
-                                 "-s",
-                                 fmt::format("{}x{}", images[0].width, images[0].height),
-                                 "-r",
-                                 "30",
-                                 "-i",
-                                 raw,
-                                 "-pix_fmt",
-                                 "gbrp",
-                                 "-g",
-                                 "30"};
+  std::vector<std::string> words = videoInput(raw, images[0].width, images[0].height);
+  words.insert(words.end(), {"-g", "30"});
   words.insert(words.end(), codec.options.begin(), codec.options.end());
   words.push_back(video);
   runOnce(words);

@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
 import { bundleApp } from "./appBundles.ts";
+import { serveApp } from "./appPage.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { until, withPage, type PageOptions, type View } from "./harness.ts";
 import { shapeOf } from "./generators/grids.ts";
@@ -30,14 +31,10 @@ before(async () => {
   await bundleApp(bundles, directory);
 });
 
-const page = `<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/app.css"><script type="module" src="/app.js"></script><body>`;
-
 /** An app beside a site, with the worker at the URL that the app sets. */
 async function withApp(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
   const server: PageOptions["server"] = (server) => {
-    server.put("/", page);
-    server.put("/app.css", "body { margin: 0 } canvas { display: block }");
-    for (const name of Object.keys(bundles)) server.put(`/${name}`, readFileSync(join(directory, name)));
+    serveApp(server, "/", directory, Object.keys(bundles));
     options.server?.(server);
   };
   await withPage(site, { ...options, server }, async (view) => {

@@ -19,7 +19,10 @@ import { pageOf, siteOfGenerated } from "./sites.ts";
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 const example = sheet();
 
-/** Lists of operators with their meaning in the sheet's box, which is 2 wide around the origin, written out, whether they mirror, and the radius of their blur. */
+/**
+ * Lists of operators; what they do in the sheet's box, which is 2 wide around the origin; whether they mirror; the radius
+ * of their blur.
+ */
 const lists: readonly (readonly [
   operators: string,
   map: Mapping | undefined,

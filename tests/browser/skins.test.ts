@@ -6,6 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import { bundleApp } from "./appBundles.ts";
+import { serveApp } from "./appPage.ts";
 import { savePicture } from "./compare.ts";
 import { until, withPage } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
@@ -40,13 +41,8 @@ async function picturesOfApp(
     {
       path: "app.html",
       server(server) {
-        server.put(
-          "/app.html",
-          `<!doctype html><link rel="stylesheet" href="/app.css"><script type="module" src="/app.js"></script><body>`,
-        );
-        server.put("/app.css", "body { margin: 0 } canvas { display: block }");
         server.put(`/${riggedFile}`, readFileSync(glb));
-        for (const name of Object.keys(bundles)) server.put(`/${name}`, readFileSync(join(directory, name)));
+        serveApp(server, "/app.html", directory, Object.keys(bundles));
       },
     },
     async ({ page }) => {

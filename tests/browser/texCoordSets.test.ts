@@ -6,6 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import { bundleApp } from "./appBundles.ts";
+import { serveApp } from "./appPage.ts";
 import { interiorFiles, writeBakedInterior } from "./bakedInterior.ts";
 import { assertSamePicture, savePicture, type Bounds } from "./compare.ts";
 import { until, withPage } from "./harness.ts";
@@ -50,13 +51,8 @@ async function pictureOfApp(site: string, url: string): Promise<Picture> {
     {
       path: "app.html",
       server(server) {
-        server.put(
-          "/app.html",
-          `<!doctype html><link rel="stylesheet" href="/app.css"><script type="module" src="/app.js"></script><body>`,
-        );
-        server.put("/app.css", "body { margin: 0 } canvas { display: block }");
         for (const name of interiorFiles) server.put(`/${name}`, readFileSync(join(outputDirectory, name)));
-        for (const name of Object.keys(bundles)) server.put(`/${name}`, readFileSync(join(directory, name)));
+        serveApp(server, "/app.html", directory, Object.keys(bundles));
       },
     },
     async ({ page }) => {

@@ -102,7 +102,7 @@ const std::string utm = "PROJCS[\"NAD83 / UTM zone 16N\"," + nad83 +
                         R"(PARAMETER["central_meridian",-87],PARAMETER["scale_factor",0.9996],)"
                         R"(PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]])";
 
-/// Gives a dataset the heights and the place of the grid.
+/// Writes the heights of the grid to a dataset, and where on earth it lies.
 void fill(const WritingLibrary& library, GDALDatasetH dataset, const Format& format) {
   const bool isInDegrees = format.cell < 1;
   // The first height of a degree's south-western corner is in the centre of its cell, as SRTM and DTED have it.

@@ -161,7 +161,7 @@ export class ViewerCore<Shape extends LoadingShape> {
   }
 
   /**
-   * Moves Transforms and vertices whose attributes have been written: displays them without reading the document, which happens when
+   * Moves Transforms and vertices whose attributes have been written, without reading the document, which happens when
    * something else changes. `display` moves them on the screen, and returns the instances of shapes that have moved.
    */
   move(changes: Iterable<PoseChange>, display: () => Iterable<NodeInstance>): void {

@@ -49,8 +49,8 @@ export class FramesAhead {
 
   /**
    * Takes the frame that is to be displayed when `due` is: itself, or else, where decoding is late, the last one before
-   * it that is ready and comes after `displayed`; undefined where there is none. After a jump no frame of the place
-   * before counts.
+   * it that is ready and comes after `displayed`; undefined where there is none. After a jump, frames that
+   * were due before it do not count.
    */
   take(due: number, displayed: number | undefined): SequenceFrame | undefined {
     const { frameCount } = this.#options.index;
