@@ -6,19 +6,13 @@ import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { crc32, gunzipSync, gzipSync } from "node:zlib";
 import { TestRandom } from "../web/src/decode/compact/rangeEncoder.testing.ts";
 import { DecodeError } from "../web/src/decode/decodeError.ts";
 import { decodeFrame } from "../web/src/decode/frame/frame.ts";
 import { frameArrays } from "../web/src/decode/frame/frameArrays.ts";
-import {
-  componentRunsOf,
-  frameHeaderBytes,
-  isLayout,
-  maxFrameVertices,
-  unpackedBytesOf,
-} from "../web/src/decode/frame/frameHeader.ts";
+import { componentRunsOf, isLayout, maxFrameVertices, unpackedBytesOf } from "../web/src/decode/frame/frameHeader.ts";
 import { frameImages } from "../web/src/decode/frame/frameImages.ts";
+import { withChecksum, withDamagedPlanes, type Bytes } from "./damagedFrames.testing.ts";
 import { damaged } from "./verdicts.testing.ts";
 
 /** Number of inputs; `make soak` sets more. */
@@ -34,25 +28,6 @@ const frames = ["vectors/frame-1", "fuzz/corpus/frame"].flatMap((folder) =>
     .sort()
     .map((name) => Uint8Array.from(readFileSync(join(repository, folder, name)))),
 );
-
-type Bytes = Uint8Array<ArrayBuffer>;
-
-/** The bytes with a matching checksum and length in the header, so that damage reaches what they protect. */
-function withChecksum(bytes: Bytes): Bytes {
-  if (bytes.length < frameHeaderBytes) return bytes;
-  const fixed = bytes.slice();
-  const view = new DataView(fixed.buffer);
-  fixed.set([0x49, 0x47, 0x46, 1]);
-  view.setUint32(4, fixed.length - frameHeaderBytes, true);
-  view.setUint32(48, crc32(fixed.subarray(0, 48)), true);
-  return fixed;
-}
-
-/** The frame with damaged planes, packed again. */
-function withDamagedPlanes(frame: Bytes, other: Bytes, random: TestRandom): Bytes {
-  const planes = damaged(Uint8Array.from(gunzipSync(frame.subarray(frameHeaderBytes))), other, random);
-  return withChecksum(Uint8Array.from([...frame.subarray(0, frameHeaderBytes), ...gzipSync(planes, { level: 1 })]));
-}
 
 function inputOf(random: TestRandom): Bytes {
   const any = () => frames[random.below(frames.length)] ?? new Uint8Array();
