@@ -64,7 +64,7 @@ export function withMovingBox(geometry: GeometryDescription, box: Box3): Geometr
 
 /**
  * The skin of an HAnimHumanoid whose joints its children USE; undefined, with a warning, where matrices and joints do
- * not belong together. `lookup`: the element with a DEF.
+ * not belong together, or where it is HAnim's own, with a skinCoord. `lookup`: the element with a DEF.
  */
 export function readSkin(
   humanoid: SceneElement,
@@ -73,7 +73,14 @@ export function readSkin(
   warnings: Warning[],
 ): SkinDescription | undefined {
   const { inverseBindMatrices } = readFields(humanoid, nodeFields.HAnimHumanoid, []);
-  if (inverseBindMatrices.length === 0) return undefined;
+  if (inverseBindMatrices.length === 0) {
+    if (children.some((child) => attributeOf(child, "containerField")?.toLowerCase() === "skincoord"))
+      warnings.push({
+        element: humanoid,
+        message: "has a skinCoord, which pages do not read: its skin stays as it was modelled until `imgeo convert`",
+      });
+    return undefined;
+  }
   const names = children.filter(isJointUse).map((joint) => attributeOf(joint, "USE") ?? "");
   const joints = names.flatMap((name) => lookup(name) ?? []);
   const missing = names.find((name) => lookup(name) === undefined);

@@ -43,7 +43,7 @@ export class Batches {
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
   /** The numbers of a record that depend on the group. */
-  readonly #record = new Float64Array(instanceFields.texCoordFrames);
+  readonly #record = new Float32Array(instanceFields.texCoordFrames);
 
   constructor(materialFactory: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
     this.#materialFactory = materialFactory;
@@ -195,7 +195,7 @@ export class Batches {
     record[instanceFields.step + 2] = stepZ;
     record[instanceFields.visibleInScope] = member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0;
     setSphere(sphere, draw.bounds, record, mirror);
-    return this.#table.write(member.instanceIndex, instanceFields.matrix, record);
+    return this.#table.writeRounded(member.instanceIndex, record);
   }
 
   #join(member: Member): void {
@@ -263,7 +263,7 @@ export class Batches {
 function setSphere(
   sphere: Sphere,
   { center: { x, y, z }, radius }: Sphere,
-  record: Float64Array,
+  record: Float32Array,
   mirror: number,
 ): void {
   const row = (first: number): number =>

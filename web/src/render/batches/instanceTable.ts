@@ -58,6 +58,23 @@ export class InstanceTable {
     return isChanged;
   }
 
+  /**
+   * As `write` from float 0 on, for numbers that are of single precision already: this is what a moved instance costs.
+   */
+  writeRounded(instanceIndex: number, numbers: Float32Array): boolean {
+    const all = this.#numbers;
+    const begin = instanceIndex * numbersPerInstance;
+    let isChanged = false;
+    for (let i = 0; i < numbers.length; ++i) {
+      const number = numbers[i] ?? 0;
+      if (all[begin + i] === number) continue;
+      all[begin + i] = number;
+      isChanged = true;
+    }
+    if (isChanged) this.#changedRows.add(Math.floor(instanceIndex / instancesPerRow));
+    return isChanged;
+  }
+
   /** Call before a frame: changed rows are uploaded with it. */
   update(): void {
     if (this.#changedRows.size === 0) return;

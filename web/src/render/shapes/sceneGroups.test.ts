@@ -312,3 +312,24 @@ test("a billboard turns its z axis to the viewer, together with its content", ()
   ] as const)
     assert.ok(min.x <= corner[0] && max.x >= corner[0] && max.y >= 2.05 && max.z >= corner[2]);
 });
+
+test("the matrices of a skin map from the shape as it was modelled to its joints, relative to the shape", () => {
+  const scene = readScene(
+    elementsOf(`<X3D><Scene>
+      <Transform translation="0 5 0"><HAnimJoint DEF="hip" rotation="0 0 1 1.5707963267948966"/></Transform>
+      <HAnimHumanoid translation="10 0 0" inverseBindMatrices="1 0 0 0  0 1 0 0  0 0 1 0  -1 0 0 1">
+        <HAnimJoint USE="hip" containerField="joints"/>
+        <Shape><BinaryGeometry coord="c.bin"><FloatVertexAttribute name="skin.joints0" numComponents="4"/>
+          <FloatVertexAttribute name="skin.weights0" numComponents="4"/>
+          <GeometryPatch coord="c.bin" attrib='"j.bin" "w.bin"'/></BinaryGeometry></Shape>
+      </HAnimHumanoid></Scene></X3D>`),
+  );
+  const { graph } = new Watched();
+  graph.follow(scene.root);
+  const [pose] = Array.from(graph.poses());
+  const [matrix] = pose?.matrices ?? [];
+  assert.ok(matrix);
+  // The point (2, 0, 0) is (1, 0, 0) at the joint, which turns it to (0, 1, 0) and stands at (0, 5, 0).
+  const moved = new Vector3(2, 0, 0).applyMatrix4(matrix);
+  assert.ok(moved.distanceTo(new Vector3(-10, 6, 0)) < 1e-6, JSON.stringify(moved));
+});
