@@ -1,7 +1,7 @@
 // Holds docs/formats/x3dom-geometry.md to the fields that X3DOM's releases declare, to the runtime and to the tool:
 // each row is fed to both readers of documents.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -71,23 +71,119 @@ test("the page has every field that convert reads of a PopGeometry", () => {
   );
 });
 
-/** Nodes with values that neither pages nor the tool read. */
-const refusedValues = [...page.matchAll(/^\| (\w+Geometry) \| `([^`]+)` \|/gm)].map(([, node = "", fields = ""]) => ({
-  node,
-  fields,
-}));
+interface Case {
+  readonly name: string;
+  readonly markup: string;
+}
+
+/** The nodes of the rows of a section, in Shapes whose other fields cause no warning. */
+function casesOf(title: string): Case[] {
+  const section = sections.find((text) => text.startsWith(`${title}\n`)) ?? "";
+  return [...section.matchAll(/^\| (\w+Geometry) \| `([^`]+)` \|/gm)].map(([, node = "", row = ""]) => {
+    const url = node === "ImageGeometry" ? imageUrl : arrayUrl;
+    const stated = row.replace(/"[cin]\.\w+/g, `"${url}`);
+    const defaults = { coord: url, vertexCount: "3", ...(node === "ImageGeometry" && { implicitMeshSize: "3 1" }) };
+    const others = Object.entries(defaults).filter(([field]) => !stated.includes(`${field}=`));
+    const fields = others.map(([field, value]) => `${field}="${value}"`).join(" ");
+    return { name: `${node} ${row}`, markup: `<Shape><${node} ${stated} ${fields}/></Shape>` };
+  });
+}
+
+/** A square as arrays and as an image in the document, so that only the field under test can cause a warning. */
+const arrayUrl = `data:application/octet-stream;base64,${Buffer.from(
+  Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0).buffer,
+).toString("base64")}`;
+const imageUrl = `data:image/png;base64,${encodePng({
+  width: 3,
+  height: 1,
+  channels: 3,
+  data: Uint8Array.of(0, 0, 0, 255, 0, 0, 255, 255, 0),
+}).toString("base64")}`;
+const goodImage = `<ImageGeometry coord="${imageUrl}" vertexCount="3" implicitMeshSize="3 1"/>`;
+const goodArrays = `<BinaryGeometry coord="${arrayUrl}" vertexCount="3"/>`;
+const withAttribute = (attribute: string, attrib = "") =>
+  `<Shape><BinaryGeometry coord="${arrayUrl}" vertexCount="3" attrib="${attrib}"><FloatVertexAttribute ${attribute}/></BinaryGeometry></Shape>`;
+const withImages = (images: string) =>
+  `<Shape><ImageGeometry vertexCount="3" implicitMeshSize="3 1">${images}</ImageGeometry></Shape>`;
+
+const refusedValues: readonly Case[] = [
+  ...casesOf("Refused values"),
+  { name: "without coordinates", markup: "<Shape><BinaryGeometry vertexCount='3'/></Shape>" },
+  { name: "USE of nothing", markup: "<Shape><ImageGeometry USE='missing'/></Shape>" },
+  { name: "USE of no box", markup: "<Shape><Box USE='missing'/></Shape>" },
+  { name: "movie", markup: withImages('<MovieTexture containerField="coord" url="m.webm"/>') },
+  { name: "USE of no image", markup: withImages('<ImageTexture containerField="coord" USE="missing"/>') },
+  { name: "empty image", markup: withImages('<img containerField="coord"/>') },
+  { name: "attribute without a name", markup: withAttribute('numComponents="1"', arrayUrl) },
+  { name: "five components", markup: withAttribute('name="a" numComponents="5"', arrayUrl) },
+  { name: "attribute without a file", markup: withAttribute('name="a" numComponents="1"') },
+  { name: "range of two numbers", markup: withAttribute('name="a" numComponents="1" valueMin="1 2"', arrayUrl) },
+];
+
+const warnedValues: readonly Case[] = [
+  ...casesOf("Values with a warning"),
+  { name: "two geometries in files", markup: `<Shape>${goodImage}${goodArrays}</Shape>` },
+  { name: "two geometries", markup: `<Shape><Box/>${goodImage}<Sphere/></Shape>` },
+  {
+    name: "image without a field",
+    markup: withImages(
+      `<ImageTexture containerField="coord" url="${imageUrl}"/><ImageTexture containerField="colour" url="${imageUrl}"/>`,
+    ),
+  },
+  {
+    name: "normals that are a movie",
+    markup: withImages(
+      `<ImageTexture containerField="coord" url="${imageUrl}"/><MovieTexture containerField="normal" url="m.webm"/>`,
+    ),
+  },
+];
+
+/** The warnings of pages for a document, without what they do about it. */
+function sentencesOf(markup: string): string[] {
+  return warningsOf(markup).map((message) => message.replace(/; .*/, ""));
+}
 
 test("the runtime leaves out every node with a refused value, with one warning and an error", () => {
-  assert.ok(refusedValues.length > 12);
-  for (const { node, fields } of refusedValues) {
-    const coord = node === "ImageGeometry" ? "c.png" : "c.bin";
-    const scene = readScene(
-      elementsOf(`<X3D><Scene><Shape><${node} coord="${coord}" ${fields}/></Shape></Scene></X3D>`),
-    );
+  assert.ok(refusedValues.length > 30);
+  for (const { name, markup } of refusedValues) {
+    const scene = readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`));
     const [shape] = shapesOf(scene.root);
-    assert.equal(shape?.geometry, undefined, fields);
-    assert.equal(scene.warnings.length, 1, fields);
-    assert.match(shape?.unreadableGeometry ?? "", new RegExp(`^<${node}> `));
+    assert.equal(shape?.geometry, undefined, name);
+    assert.equal(scene.warnings.length, 1, name);
+    assert.match(shape?.unreadableGeometry ?? "", /^<\w+> /, name);
+  }
+});
+
+test("the runtime warns once of a value that it replaces", () => {
+  for (const { name, markup } of warnedValues) assert.equal(warningsOf(markup).length, 1, name);
+});
+
+test("convert warns once of the same values, with the words of the runtime", () => {
+  const cases = [...refusedValues, ...warnedValues];
+  const warnings = convertWarningsOf(cases.map(({ markup }) => markup).join("\n"));
+  for (const [line, { name, markup }] of cases.entries()) {
+    const [sentence = ""] = sentencesOf(markup);
+    const ofLine = warnings.filter((warning) => new RegExp(`old\\.x3d:${line + 1}(:\\d+)?: `).test(warning));
+    assert.equal(ofLine.length, 1, `${name}: ${ofLine.join("; ")}`);
+    assert.ok(ofLine[0]?.includes(sentence), `${name}: ${ofLine[0]} instead of ${sentence}`);
+  }
+});
+
+test("with --strict, convert refuses each of these values", () => {
+  const folder = mkdtempSync(join(tmpdir(), "imgeo-"));
+  try {
+    for (const { name, markup } of [...refusedValues.slice(-9), ...warnedValues]) {
+      writeFileSync(join(folder, "old.x3d"), `<X3D><Scene>${markup}</Scene></X3D>`);
+      const { status, stderr } = spawnSync(
+        converter,
+        ["convert", "--strict", join(folder, "old.x3d"), "-o", join(folder, "site")],
+        { encoding: "utf8" },
+      );
+      assert.equal(status, 3, name);
+      assert.ok(stderr.includes(sentencesOf(markup)[0] ?? "?"), `${name}: ${stderr}`);
+    }
+  } finally {
+    rmSync(folder, { recursive: true });
   }
 });
 
@@ -97,7 +193,7 @@ function warningsOf(markup: string): string[] {
 
 /** Nodes that pages read, and how a document contains them. */
 const readNodes: Readonly<Record<string, (attribute: string) => string>> = {
-  ImageGeometry: (attribute) => `<Shape><ImageGeometry coord="a.png" ${attribute}/></Shape>`,
+  ImageGeometry: (attribute) => `<Shape><ImageGeometry coord="a.png" vertexCount="3" ${attribute}/></Shape>`,
   BinaryGeometry: (attribute) => `<Shape><BinaryGeometry coord="a.bin" ${attribute}/></Shape>`,
   ClipPlane: (attribute) => `<ClipPlane ${attribute}/>`,
 };
@@ -138,16 +234,6 @@ test("the runtime reads what the page says it reads, and warns of what it refuse
   }
 });
 
-/** A square as arrays and as an image in the document, so that only the field under test can cause a warning. */
-const arrayUrl = `data:application/octet-stream;base64,${Buffer.from(
-  Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0).buffer,
-).toString("base64")}`;
-const imageUrl = `data:image/png;base64,${encodePng({
-  width: 3,
-  height: 1,
-  channels: 3,
-  data: Uint8Array.of(0, 0, 0, 255, 0, 0, 255, 255, 0),
-}).toString("base64")}`;
 const readableNodes: Readonly<Record<string, (attribute: string) => string>> = {
   ImageGeometry: (attribute) =>
     `<Shape><ImageGeometry implicitMeshSize="3 1" vertexCount="3" ${attribute}><ImageTexture containerField="coord" url="${imageUrl}"/></ImageGeometry></Shape>`,
@@ -186,20 +272,7 @@ test("convert warns of what the page says is refused, field by field, and of not
     ...fields.map(({ field, value, markup: nodeWith }) => nodeWith(`${field}="${value}"`)),
     ...nodes.map((name) => (name === "ExternalShape" ? `<${name}/>` : `<Shape><${name}/></Shape>`)),
   ];
-  const first = markup.join("\n").split("\n").length + 1; // the line of the first node with a refused value
-  markup.push(
-    ...refusedValues.map(({ node, fields }) => {
-      const url = node === "ImageGeometry" ? imageUrl : arrayUrl;
-      return `<Shape><${node} coord="${url}" ${fields.replace(/"[in]\.\w+"/, `"${url}"`)}/></Shape>`;
-    }),
-  );
   const warnings = convertWarningsOf(markup.join("\n"));
-  for (const [line, { node, fields }] of refusedValues.entries())
-    assert.equal(
-      warnings.filter((warning) => new RegExp(`:${first + line}(:\\d+)?: ${node} left out`).test(warning)).length,
-      1,
-      `${fields}: ${warnings.join("; ")}`,
-    );
   const without = (pattern: RegExp) => warnings.findIndex((warning) => pattern.test(warning));
   for (const { name, field, treatment } of fields) {
     const pattern =

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "containers/named_attributes.h"
+#include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
 #include "documents/appearance_names.h"
@@ -106,12 +107,18 @@ GeometryDescription randomGeometry(Random& random) {
     do
       geometry.coordType = static_cast<ElementType>(random.below(7));
     while (!holdsLattice(geometry.coordType, geometry.lattice.bits));
-    geometry.attributeTypes[VertexRole::normal] = static_cast<ElementType>(random.below(7));
     for (const VertexRole further : {VertexRole::texCoord1, VertexRole::texCoord2, VertexRole::texCoord3})
       geometry.attributeTypes[further] = ElementType::float32; // documents state the types of sets that exist
-    geometry.indexType = static_cast<ElementType>(random.below(7));
+    do
+      geometry.indexType = static_cast<ElementType>(random.below(7));
+    while (!isUnsigned(geometry.indexType));
   }
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
+  if (geometry.encoding == Encoding::bg)
+    do
+      geometry.attributeTypes[VertexRole::normal] = static_cast<ElementType>(random.below(7));
+    while (isUnsigned(geometry.attributeTypes[VertexRole::normal]) != isPair(geometry.normalEncoding) ||
+           geometry.attributeTypes[VertexRole::normal] == ElementType::uint32);
   for (std::uint32_t count = random.oneIn(2) ? random.below(3) : 0; count > 0; --count) {
     AttributeDescription attribute{"a" + std::to_string(count) + "<&\"", 1 + random.below(4), 2, {}, {}};
     if (geometry.encoding == Encoding::classic)

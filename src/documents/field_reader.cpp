@@ -1,19 +1,44 @@
 #include "documents/field_reader.h"
 
+#include "documents/field_messages.h"
 #include "documents/xml_text.h"
 #include "markup/find_x3d.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace imgeo {
 
 namespace {
 
 constexpr std::string_view separators = " \t\r\n,";
+
+std::string quoted(const char* name, const std::string& text) {
+  return fmt::format("{}=\"{}\"", name, shortened(text));
+}
+
+/// The X3D type of a field of so many numbers; 0: any number.
+template <typename T> const char* typeOf(std::size_t count) {
+  constexpr bool isReal = std::is_floating_point_v<T>;
+  switch (count) {
+  case 0:
+    return isReal ? "MFFloat" : "MFInt32";
+  case 1:
+    return isReal ? "SFFloat" : "SFInt32";
+  case 2:
+    return "SFVec2f";
+  case 3:
+    return "SFVec3f";
+  default:
+    return "SFVec4f";
+  }
+}
 
 /// The next word of `text`, which it removes; empty at the end.
 std::string_view nextWord(std::string_view& text) {
@@ -47,8 +72,13 @@ void FieldReader::warnOrFail(const std::string& message, const char* consequence
     fail(ErrorKind::malformed, message);
   // Without the folder, which may be a temporary one.
   const std::string file = std::filesystem::path(source_.name).filename();
-  warnings_->push_back(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, source_.offsets.of(node_)),
-                                   validText(node_.name()), message, consequence));
+  std::string warning = fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, source_.offsets.of(node_)),
+                                    validText(node_.name()), message, consequence);
+  // A field that is read again is soon read again.
+  constexpr std::ptrdiff_t recent = 16;
+  const auto first = warnings_->end() - std::min(recent, std::ssize(*warnings_));
+  if (std::find(first, warnings_->end(), warning) == warnings_->end())
+    warnings_->push_back(std::move(warning));
 }
 
 std::string FieldReader::text(const char* name) const {
@@ -59,25 +89,28 @@ std::string FieldReader::text(const char* name) const {
 }
 
 template <typename T> std::vector<T> FieldReader::parse(const char* name) const {
+  return parse<T>(name, 0);
+}
+
+template <typename T> std::vector<T> FieldReader::parse(const char* name, std::size_t count) const {
   const std::string value = text(name);
   std::string_view rest = value;
   std::vector<T> numbers;
   for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
-    const std::optional<T> number = parseNumber<T>(word);
-    if (!number) {
-      warnOrFailField(std::string(name) + " holds a word that is no number of its kind");
-      return {};
+    if (const std::optional<T> number = parseNumber<T>(word)) {
+      numbers.push_back(*number);
+      continue;
     }
-    numbers.push_back(*number);
+    if constexpr (std::is_unsigned_v<T>)
+      if (const std::optional<std::int32_t> negative = parseNumber<std::int32_t>(word))
+        fail(ErrorKind::malformed, fmt::format("{} {} is negative", name, *negative));
+    numbers.clear();
+    break;
   }
-  return numbers;
-}
-
-template <typename T> std::vector<T> FieldReader::parse(const char* name, std::size_t count) const {
-  std::vector<T> numbers = parse<T>(name);
-  if (numbers.empty() || numbers.size() == count)
+  const bool isAbsent = value.find_first_not_of(separators) == std::string::npos;
+  if (isAbsent || (count == 0 ? !numbers.empty() : numbers.size() == count))
     return numbers;
-  warnOrFailField(fmt::format("{} has {} numbers and needs {}", name, numbers.size(), count));
+  warnOrFailField(quoted(name, value) + " is no " + typeOf<T>(count));
   return {};
 }
 
@@ -89,7 +122,7 @@ bool FieldReader::boolean(const char* name, bool fallback) const {
     return true;
   if (equalIgnoringCase(value, "false"))
     return false;
-  warnOrFailField(std::string(name) + " is neither true nor false");
+  warnOrFailField(quoted(name, value) + " is no SFBool");
   return fallback;
 }
 
@@ -143,7 +176,7 @@ std::vector<std::string> FieldReader::strings(const char* name) const {
     if (separators.find(value[at]) != std::string_view::npos)
       continue;
     if (value[at] != '"') {
-      warnOrFailField(std::string(name) + " has text between its strings");
+      warnOrFailField(quoted(name, value) + " is no MFString");
       return {};
     }
     std::string& string = strings.emplace_back();
@@ -153,7 +186,7 @@ std::vector<std::string> FieldReader::strings(const char* name) const {
       string += value[at];
     }
     if (at >= value.size()) {
-      warnOrFailField(std::string(name) + " has a string without an end");
+      warnOrFailField(quoted(name, value) + " is no MFString");
       return {};
     }
   }

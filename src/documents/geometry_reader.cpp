@@ -2,7 +2,9 @@
 
 #include "containers/encodings.h"
 #include "containers/grid.h"
+#include "containers/normals.h"
 #include "containers/stored_coords.h"
+#include "documents/field_messages.h"
 #include "documents/geometry_element.h"
 #include "documents/grid_reader.h"
 #include "documents/patch_references.h"
@@ -10,30 +12,46 @@
 #include "markup/find_x3d.h"
 
 #include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <iterator>
+#include <span>
+#include <sstream>
 
 namespace imgeo {
 
 namespace {
 
-ElementType elementTypeOf(const FieldReader& fields, const char* name, ElementType fallback) {
+/// The names of `primType`: strings, or words without quotes.
+std::vector<std::string> primitiveNames(const FieldReader& fields) {
+  std::vector<std::string> names;
+  for (std::string text : fields.strings("primType")) {
+    std::ranges::replace(text, ',', ' ');
+    std::istringstream words(text);
+    names.insert(names.end(), std::istream_iterator<std::string>(words), {});
+  }
+  return names;
+}
+
+constexpr std::array elementTypes{ElementType::int8,  ElementType::uint8,  ElementType::int16,  ElementType::uint16,
+                                  ElementType::int32, ElementType::uint32, ElementType::float32};
+constexpr std::array imageIndexTypes{ElementType::uint16, ElementType::uint32};
+constexpr std::array normalEncodings{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
+                                     NormalEncoding::palette};
+
+/// The choice that a field names; the fallback where it is absent. Throws Error{unsupported} for another name.
+template <typename Choice>
+Choice choiceOf(const FieldReader& fields, const char* name, std::span<const Choice> choices, Choice fallback) {
   const std::string text = fields.text(name);
   if (text.empty())
     return fallback;
-  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
-                                 ElementType::int32, ElementType::uint32, ElementType::float32})
-    if (equalIgnoringCase(text, nameOf(type)))
-      return type;
-  fields.fail(ErrorKind::unsupported, std::string(name) + " is no element type we know");
-}
-
-NormalEncoding normalEncodingOf(const FieldReader& fields) {
-  const std::string text = fields.text("normalEncoding");
-  for (const NormalEncoding encoding : {NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
-    if (equalIgnoringCase(text, nameOf(encoding)))
-      return encoding;
-  if (!text.empty() && !equalIgnoringCase(text, nameOf(NormalEncoding::rgb)))
-    fields.fail(ErrorKind::unsupported, "normalEncoding is none that we know");
-  return NormalEncoding::rgb;
+  const auto found =
+      std::ranges::find_if(choices, [&](Choice choice) { return equalIgnoringCase(text, nameOf(choice)); });
+  if (found != choices.end())
+    return *found;
+  std::vector<const char*> names;
+  std::ranges::transform(choices, std::back_inserter(names), [](Choice choice) { return nameOf(choice); });
+  failChoice(fields, name, names);
 }
 
 Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
@@ -41,19 +59,23 @@ Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
                                     Primitive::triangles, Primitive::triangleStrip, Primitive::triangleFan})
     if (equalIgnoringCase(name, nameOf(primitive)))
       return primitive;
-  fields.warnOrFail("primType is none of those we read", "TRIANGLES are drawn");
+  fields.warnOrFail(
+      fmt::format(
+          "primType \"{}\" is none of POINTS, LINES, LINESTRIP, LINELOOP, TRIANGLES, TRIANGLESTRIP, TRIANGLEFAN",
+          shortened(name)),
+      "TRIANGLES are drawn");
   return Primitive::triangles;
 }
 
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
-                           Vec2<std::uint32_t> implicitMeshSize, DocumentWarnings* warnings) {
+                           DocumentWarnings* warnings) {
   const Encoding encoding = geometry.encoding;
-  const FieldReader fields(source, node);
+  const FieldReader fields(source, node, warnings);
   PatchDescription patch;
   patch.box = fields.box();
   patch.vertexCount = fields.integer("recordCount", 0);
-  patch.draws = readDraws(fields, FieldReader(source, node, warnings));
-  patch.implicitMeshSize = implicitMeshSize;
+  patch.draws = readDraws(fields, fields);
+  patch.implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   patch.gridOrigin = gridOriginOf(fields);
   const PatchStorage storage = rowOf(encoding).storage;
   if (storage == PatchStorage::packed) {
@@ -88,7 +110,8 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
 }
 
 Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
-  const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
+  const std::uint32_t stored = storedBits(fields, geometry), stated = fields.integer("positionBits", 0);
+  const std::uint32_t bits = stated != 0 ? stated : stored;
   const PatchStorage storage = rowOf(geometry).storage;
   const bool canHoldLattice = storage == PatchStorage::arrays ? holdsLattice(geometry.coordType, bits)
                                                               : bits >= 8 && bits <= 32 &&
@@ -110,6 +133,23 @@ Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry
   if (geometry.grid == GridKind::heightMap)
     return heightMapLattice(box, heightMapSize(geometry), std::max(stored, 16u));
   return imgeo::latticeOf(box, geometry.encoding, geometry.coordType, bits);
+}
+
+/// Refuses element types that indices and normals of arrays cannot have. web/src/document/geometryChecks.ts does the
+/// same.
+void checkElementTypes(const FieldReader& fields, const GeometryDescription& geometry) {
+  const auto any = [&](auto has) { return std::ranges::any_of(geometry.patches, has); };
+  if (!isUnsigned(geometry.indexType) && any([](const PatchDescription& patch) { return patch.index.has_value(); }))
+    fields.fail(ErrorKind::unsupported,
+                fmt::format("indices of type {} are not read; unsigned types are", nameOf(geometry.indexType)));
+  if (!any([](const PatchDescription& patch) { return patch.vertexAttributes[VertexRole::normal].has_value(); }))
+    return;
+  const ElementType type = geometry.attributeTypes[VertexRole::normal];
+  if (isPair(geometry.normalEncoding) && type != ElementType::uint8 && type != ElementType::uint16)
+    fields.fail(ErrorKind::unsupported,
+                fmt::format("normals of two numbers of type {} are not read; Uint8 and Uint16 are", nameOf(type)));
+  if (!isPair(geometry.normalEncoding) && isUnsigned(type))
+    fields.fail(ErrorKind::unsupported, fmt::format("normals of type {} are not read; signed types are", nameOf(type)));
 }
 
 /// Sets the bits of attributes in images: as a field states, otherwise those of so many images.
@@ -148,14 +188,14 @@ Encoding encodingOf(const FieldReader& fields) {
     if (hasNoProfile || (profile.empty() ? isDefault : equalIgnoringCase(profile, node.profile)))
       return row->encoding;
   }
-  fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");
+  failChoice(fields, "profile", std::array{"classic", "compact"});
 }
 
 /// Refers the normals of all patches to the fourth elements of their coordinates (normalAsSphericalCoordinates).
 void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geometry) {
   if (byteSizeOf(geometry.coordType) != 2)
     fields.fail(ErrorKind::unsupported,
-                std::string("spherical normals in coordinates of type ") + nameOf(geometry.coordType));
+                fmt::format("spherical normals in coordinates of type {} are not read", nameOf(geometry.coordType)));
   geometry.normalEncoding = NormalEncoding::spherical;
   geometry.attributeTypes[VertexRole::normal] = ElementType::uint8;
   for (PatchDescription& patch : geometry.patches)
@@ -178,14 +218,17 @@ bool isGeometryNode(const char* name) {
 }
 
 std::vector<Draw> readDraws(const FieldReader& fields, const FieldReader& lenient) {
-  const std::vector<std::string> types = fields.strings("primType");
+  const std::vector<std::string> types = primitiveNames(fields);
   std::vector<std::uint32_t> counts = fields.integers("vertexCount");
   if (counts.empty())
     counts = {0}; // X3DOM: all indices
-  if (!types.empty() && types.size() != counts.size())
-    lenient.warnOrFail("primType and vertexCount differ in their number of draws",
-                       types.size() < counts.size() ? "TRIANGLES are drawn for the others"
-                                                    : "the further primType are not used");
+  if (types.size() > counts.size())
+    lenient.warnOrFail(fmt::format("primType has {} draws, vertexCount {}", types.size(), counts.size()),
+                       "the further ones are not used");
+  else if (std::max<std::size_t>(types.size(), 1) < counts.size())
+    lenient.warnOrFail(
+        fmt::format("primType has {} of {} draws", std::max<std::size_t>(types.size(), 1), counts.size()),
+        "TRIANGLES are drawn for the others");
   std::vector<Draw> draws;
   for (std::size_t i = 0; i < counts.size(); ++i)
     draws.push_back({i < types.size() ? primitiveNamed(lenient, types[i]) : Primitive::triangles, counts[i]});
@@ -208,7 +251,7 @@ std::optional<std::string> reasonGeometryIsNotInFiles(const DocumentText& source
 }
 
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, DocumentWarnings* warnings) {
-  const FieldReader fields(source, node);
+  const FieldReader fields(source, node, warnings);
   GeometryDescription geometry;
   const Encoding encoding = encodingOf(fields);
   if (const auto reason = reasonGeometryIsNotInFiles(source, node); reason && encoding == Encoding::classic)
@@ -222,32 +265,36 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
                                                    fields.vec2(sizeFieldOf(role).c_str(), {1, 1})};
   geometry.texCoordMappings = fields.strings("texCoordMapping");
   geometry.texCoordMappings.resize(std::min(geometry.texCoordMappings.size(), maxTexCoordSets));
-  geometry.normalEncoding = normalEncodingOf(fields);
-  geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
+  geometry.normalEncoding = choiceOf<NormalEncoding>(fields, "normalEncoding", normalEncodings, NormalEncoding::rgb);
+  geometry.indexType = choiceOf<ElementType>(
+      fields, "indexType",
+      row.storage == PatchStorage::arrays ? std::span<const ElementType>(elementTypes) : imageIndexTypes,
+      ElementType::uint16);
   geometry.ccw = fields.boolean("ccw", true);
   if (row.storage == PatchStorage::arrays) {
-    geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
+    const auto typeOf = [&](const char* name) {
+      return choiceOf<ElementType>(fields, name, elementTypes, ElementType::float32);
+    };
+    geometry.coordType = typeOf("coordType");
     for (const VertexRole role : vertexRoles)
-      geometry.attributeTypes[role] = elementTypeOf(fields, typeFieldOf(role).c_str(), ElementType::float32);
+      geometry.attributeTypes[role] = typeOf(typeFieldOf(role).c_str());
     geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
     if (fields.boolean("compressed", false))
-      fields.fail(ErrorKind::unsupported, "compressed containers are not read");
+      fields.fail(ErrorKind::unsupported,
+                  "compressed arrays are not read; let the server compress the files (Content-Encoding) instead");
   } else {
     geometry.colorComponents = fields.integer("numColorComponents", 3);
     if (geometry.colorComponents != 3 && geometry.colorComponents != 4)
-      fields.fail(ErrorKind::malformed, "numColorComponents is neither 3 nor 4");
-    if (geometry.indexType != ElementType::uint16 && geometry.indexType != ElementType::uint32)
-      fields.fail(ErrorKind::unsupported, "images hold indices of type Uint16 or Uint32");
+      fields.fail(ErrorKind::malformed,
+                  fmt::format("numColorComponents=\"{}\" is neither 3 nor 4", geometry.colorComponents));
   }
-  geometry.operators = operatorsOf(FieldReader(source, node, warnings), encoding);
+  geometry.operators = operatorsOf(fields, encoding);
   geometry.attributes = readVertexAttributes(source, node, encoding);
-  const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())
     if (equalIgnoringCase(child.name(), "GeometryPatch"))
-      geometry.patches.push_back(readPatch(source, child, geometry,
-                                           implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize), warnings));
+      geometry.patches.push_back(readPatch(source, child, geometry, warnings));
   if (geometry.patches.empty())
-    geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize, warnings));
+    geometry.patches.push_back(readPatch(source, node, geometry, warnings));
   if (row.storage == PatchStorage::bytePlanes)
     readImageBits(fields, geometry);
   if (row.storage == PatchStorage::bytePlanes)
@@ -260,6 +307,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
       patch.vertexAttributes[VertexRole::normal].reset();
   if (!geometry.isFlat && row.storage == PatchStorage::arrays && fields.boolean("normalAsSphericalCoordinates", false))
     takeNormalsFromCoords(fields, geometry);
+  if (row.storage == PatchStorage::arrays)
+    checkElementTypes(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;
 }

@@ -2,9 +2,11 @@
 
 #include "containers/grid.h"
 #include "containers/limits.h"
+#include "documents/field_messages.h"
 #include "markup/find_x3d.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -44,7 +46,7 @@ std::optional<GridKind> gridOf(const FieldReader& fields) {
     if (equalIgnoringCase(mode, nameOf(kind)))
       return kind;
   if (!mode.empty() && !equalIgnoringCase(mode, "auto") && !equalIgnoringCase(mode, "sig"))
-    fields.fail(ErrorKind::unsupported, "implicitMeshMode is none of auto, SIG, heightMap, geometryImage and sculpt");
+    failChoice(fields, "implicitMeshMode", std::array{"auto", "sig", "heightMap", "geometryImage", "sculpt"});
   return {};
 }
 

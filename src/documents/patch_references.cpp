@@ -2,6 +2,7 @@
 
 #include "base/data_url.h"
 #include "containers/encodings.h"
+#include "documents/field_messages.h"
 #include "markup/find_x3d.h"
 
 #include <algorithm>
@@ -46,8 +47,8 @@ bool parseFragment(std::string_view fragment, PatchLocation& location) {
 }
 bool parseFragment(std::string_view fragment, ByteLocation& location) {
   const std::size_t plus = fragment.find('+');
-  return plus != std::string_view::npos && parseInteger(fragment.substr(0, plus), location.byteOffset) &&
-         parseInteger(fragment.substr(plus + 1), location.byteStride);
+  return parseInteger(fragment.substr(0, plus), location.byteOffset) &&
+         (plus == std::string_view::npos || parseInteger(fragment.substr(plus + 1), location.byteStride));
 }
 
 } // namespace
@@ -102,7 +103,7 @@ pugi::xml_node usedNode(const DocumentText& source, const FieldReader& fields) {
     return fields.node();
   const auto found = source.defs.find(name);
   if (found == source.defs.end())
-    fields.fail(ErrorKind::malformed, "USE names no node");
+    fields.fail(ErrorKind::malformed, fmt::format("USE=\"{}\" names no DEF of this scene", name));
   return found->second;
 }
 
@@ -146,26 +147,35 @@ std::vector<std::string> imageUrls(const DocumentText& source, pugi::xml_node no
     const FieldReader fields(source, node);
     if (const auto reason = reasonNotInFiles(source, node))
       fields.fail(ErrorKind::unsupported, *reason);
-    if (equalIgnoringCase(node.name(), "img"))
-      if (std::string address = fields.text("src"); !address.empty())
-        return {std::move(address)};
+    if (equalIgnoringCase(node.name(), "img")) {
+      std::string address = fields.text("src");
+      if (address.empty())
+        fields.fail(ErrorKind::malformed, "an image without src has no part in the scene");
+      return {std::move(address)};
+    }
     if (std::vector<std::string> urls = fields.strings("url"); !urls.empty())
       return urls;
     node = node.find_child([](const pugi::xml_node& child) { return holdsImage(child.name()); });
     if (!node)
-      fields.fail(ErrorKind::malformed, "a texture of an ImageGeometry has no url");
+      fields.fail(ErrorKind::malformed, "a texture without url and without an image in it has no part in a geometry");
   }
 }
 
 /// References to the images of a patch, by role.
 using ImagesByRole = std::map<Role, std::vector<Reference>>;
 
-/// What the image of a child is, by the `containerField` of the child or else of the node that it USEs; empty where it
-/// has none that we know.
-std::optional<Role> imageRoleOf(const DocumentText& source, const pugi::xml_node& child, const pugi::xml_node& used) {
-  std::string name = FieldReader(source, child).text("containerField");
-  if (name.empty())
-    name = FieldReader(source, used).text("containerField");
+/// The `containerField` of a child or else of the node that it USEs.
+std::string containerFieldOf(const DocumentText& source, const pugi::xml_node& child) {
+  const FieldReader fields(source, child);
+  std::string name = fields.text("containerField");
+  if (const auto used = source.defs.find(fields.text("USE")); name.empty() && used != source.defs.end())
+    name = FieldReader(source, used->second).text("containerField");
+  return name;
+}
+
+/// What the image of a child is; empty where its containerField is none that we know.
+std::optional<Role> imageRoleOf(const DocumentText& source, const pugi::xml_node& child) {
+  const std::string name = containerFieldOf(source, child);
   for (const Role role : {Role::index, Role::coord, Role::normal, Role::texCoord, Role::color})
     if (equalIgnoringCase(name, nameOf(role)))
       return role;
@@ -176,13 +186,15 @@ std::optional<Role> imageRoleOf(const DocumentText& source, const pugi::xml_node
 void readTexture(const DocumentText& source, const pugi::xml_node& child, Encoding encoding, DocumentWarnings* warnings,
                  ImagesByRole& images) {
   const FieldReader fields(source, child, warnings);
-  const pugi::xml_node used = usedNode(source, fields);
-  const std::optional<Role> role = imageRoleOf(source, child, used);
+  const std::optional<Role> role = imageRoleOf(source, child);
   if (!role) {
-    fields.warnOrFail("an image of an ImageGeometry has no containerField that we know", "it is left out");
+    fields.warnOrFail(
+        fmt::format("containerField=\"{}\" names no part of a geometry", shortened(containerFieldOf(source, child))),
+        "the image is left out");
     return;
   }
   try {
+    const pugi::xml_node used = usedNode(source, fields);
     images[*role].push_back(referenceOf(fields, imageUrls(source, used), encoding));
   } catch (const Error& error) {
     if (*role == Role::coord || *role == Role::index) // without it the surface would be another one
@@ -266,10 +278,9 @@ std::optional<std::string> reasonImagesAreNotInFiles(const DocumentText& source,
   for (const pugi::xml_node& child : patch.children()) {
     if (!holdsImage(child.name()))
       continue;
-    const pugi::xml_node used = usedNode(source, FieldReader(source, child));
-    const std::optional<Role> role = imageRoleOf(source, child, used);
+    const std::optional<Role> role = imageRoleOf(source, child);
     if (role == Role::coord || role == Role::index)
-      if (const auto reason = reasonNotInFiles(source, used))
+      if (const auto reason = reasonNotInFiles(source, usedNode(source, FieldReader(source, child))))
         return reason;
   }
   return {};

@@ -10,8 +10,8 @@
 
 namespace imgeo {
 
-/// Parses a reference: url or url#N in classic and compact; url, url+S, url?+S or url#O+S in BG, with the byte offset O
-/// and the stride S. Throws Error{malformed}.
+/// Parses a reference: url or url#N in classic and compact; url, url+S, url?+S, url#O or url#O+S in BG, with the byte
+/// offset O and the stride S. Throws Error{malformed}.
 Reference referenceOf(const FieldReader& fields, const std::string& url, Encoding encoding);
 
 /// Why the coordinates or indices of one patch are in no file: they are a live stream, a movie or a canvas. Nothing

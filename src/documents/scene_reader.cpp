@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 
@@ -316,6 +317,7 @@ private:
     std::optional<Shape> shape;
     std::optional<std::size_t> appearance;
     std::vector<std::size_t> children; // displacers and interpolators of frames
+    std::size_t geometryCount = 0;
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element)
         continue;
@@ -327,17 +329,22 @@ private:
       if (equalIgnoringCase(child.name(), "Appearance")) {
         appearance = appearances_.read(child);
       } else if (isGeometryNode(child.name())) {
-        if (shape)
-          fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
         const FieldReader geometry(source_, child);
-        if (isInFiles(geometry)) {
+        if (geometryCount++ == 0 && isInFiles(geometry)) {
           shape = readGeometryOf(fields, geometry);
           std::ranges::copy(readFramesOf(child), std::back_inserter(children));
         }
-      } else if (!std::string_view(child.name()).starts_with("Metadata") && !FieldReader(source_, child).has("USE")) {
+      } else if (std::string_view(child.name()).starts_with("Metadata")) {
+        continue;
+      } else if (const FieldReader other(source_, child, &document_.warnings); !other.has("USE")) {
         ++document_.otherElements[child.name()];
+      } else if (const std::string use = other.text("USE"); !source_.defs.contains(use)) {
+        other.warnOrFail(fmt::format("USE=\"{}\" names no DEF of this scene", use), "it is left out");
       }
     }
+    if (geometryCount > 1)
+      fields.warnOrFail(fmt::format("a Shape has one geometry; of {} the first is drawn", geometryCount),
+                        "the others are left out");
     if (const std::string patch = fields.text("patch"); !shape && !patch.empty())
       shape = sharedPatch(fields, patch);
     if (!shape) {
@@ -412,7 +419,7 @@ private:
     if (const std::string use = fields.text("USE"); !use.empty()) {
       const auto found = definedGeometries_.find(use);
       if (found == definedGeometries_.end())
-        fields.fail(ErrorKind::malformed, "USE names no geometry that stands before");
+        fields.fail(ErrorKind::malformed, fmt::format("USE=\"{}\" names no DEF of this scene before it", use));
       return found->second;
     }
     Shape read;

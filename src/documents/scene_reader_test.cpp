@@ -68,16 +68,23 @@ TEST(ReadScene, RefusesDocumentTypesAndEntities) {
   EXPECT_EQ(errorKindOf("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
 }
 
-TEST(ReadScene, ReportsTheLineOfAMalformedField) {
+TEST(ReadScene, ReportsTheLineOfAFieldThatCannotBeReadAndOfOneThatCountsAsAbsent) {
   const std::string before = "<X3D><Scene>\n<Shape>\n";
   const auto shape = [&](const std::string& fields) {
     return before + "<ImageGeometry><GeometryPatch coord='a' " + fields +
            "></GeometryPatch></ImageGeometry></Shape></Scene></X3D>";
   };
-  for (const std::string fields : {"vertexCount='-1'", "vertexCount='4294967296'", "index='a#b'", "index='#5'",
-                                   "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'",
-                                   "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
+  for (const std::string fields : {"vertexCount='-1'", "recordCount='-1'", "index='a#b'", "index='#5'", "index='a#1+4'",
+                                   "index='a#1#4'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
     EXPECT_EQ(errorKindOf(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
+  for (const auto& [fields, sentence] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"vertexCount='4294967296'", "vertexCount=\"4294967296\" is no MFInt32"},
+           {"recordCount='1 2'", "recordCount=\"1 2\" is no SFInt32"},
+           {"bboxSize='1 nan 1'", "bboxSize=\"1 nan 1\" is no SFVec3f"},
+           {"bboxSize='1 1e39 1'", "bboxSize=\"1 1e39 1\" is no SFVec3f"},
+           {"bboxSize='1 1'", "bboxSize=\"1 1\" is no SFVec3f"}})
+    EXPECT_EQ(readScene(shape(fields), "s.x3d").warnings,
+              std::vector{"s.x3d:3: GeometryPatch: " + sentence + "; it counts as absent."});
 }
 
 GeometryDescription readBinaryGeometry(const std::string& fields) {
@@ -370,7 +377,7 @@ TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {
                                            "folder/s.x3d");
   EXPECT_EQ(document.warnings,
             (std::vector<std::string>{
-                "s.x3d:2: Viewpoint: position has 2 numbers and needs 3; it counts as absent.",
+                "s.x3d:2: Viewpoint: position=\"1 2\" is no SFVec3f; it counts as absent.",
                 "s.x3d:3: Appearance: USE names no Appearance that stands before; it has its defaults."}));
   const Viewpoint& viewpoint = std::get<Viewpoint>(document.graph.nodes.at(0).content);
   EXPECT_EQ(viewpoint.position, Viewpoint{}.position);

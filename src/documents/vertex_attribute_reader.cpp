@@ -24,14 +24,18 @@ AttributeDescription readAttribute(const FieldReader& fields, Encoding encoding)
   if (!hasElementTypes(encoding) && bits != 8 && bits != 16 && bits != 24)
     fields.fail(ErrorKind::malformed, "valueBits is none of 8, 16 and 24");
   attribute.bytes = hasElementTypes(encoding) ? 2 : bits / 8;
-  attribute.min = fields.reals("valueMin", attribute.components);
-  attribute.size = fields.reals("valueSize", attribute.components);
-  attribute.min.resize(attribute.components, 0);
-  attribute.size.resize(attribute.components, 1);
-  for (std::uint32_t c = 0; c < attribute.components; ++c)
-    if (!(attribute.size[c] >= 0 &&
-          std::abs(attribute.min[c]) + attribute.size[c] <= std::numeric_limits<float>::max()))
-      fields.fail(ErrorKind::malformed, "valueMin and valueSize are no range of numbers");
+  const auto perComponent = [&](const char* name, double fallback) {
+    std::vector<double> values = fields.reals(name);
+    return values.empty() ? std::vector<double>(attribute.components, fallback) : values;
+  };
+  attribute.min = perComponent("valueMin", 0);
+  attribute.size = perComponent("valueSize", 1);
+  bool isRange = attribute.min.size() == attribute.components && attribute.size.size() == attribute.components;
+  for (std::uint32_t c = 0; isRange && c < attribute.components; ++c)
+    isRange =
+        attribute.size[c] >= 0 && std::abs(attribute.min[c]) + attribute.size[c] <= std::numeric_limits<float>::max();
+  if (!isRange)
+    fields.fail(ErrorKind::malformed, "valueMin and valueSize are no range of numbers");
   return attribute;
 }
 

@@ -132,4 +132,17 @@ Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t m
   return raster;
 }
 
+bool isShownInPages(ByteSpan bytes) {
+  const std::string type = imageType(bytes);
+  if (!isWebImageType(type) && type != ".bmp")
+    return false;
+  try {
+    if (isDecodable(type))
+      decodeRaster(bytes, "");
+    return true;
+  } catch (const Error& error) {
+    return error.kind() == ErrorKind::limit; // too large for imgeo, not for every browser
+  }
+}
+
 } // namespace imgeo

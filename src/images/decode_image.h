@@ -13,4 +13,8 @@ namespace imgeo {
 /// unsupported} with `location`.
 Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t maxPixels = maxRasterPixels);
 
+/// Whether browsers show an image file: one of a type that they know and, as far as imgeo decodes the type, a whole
+/// one.
+bool isShownInPages(ByteSpan bytes);
+
 } // namespace imgeo

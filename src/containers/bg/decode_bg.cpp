@@ -111,6 +111,18 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementT
   return indices;
 }
 
+/// The patch with the number of records that its file holds, where it has no index and its single draw has a count of
+/// 0.
+PatchDescription withCount(PatchDescription patch, ElementType coordType, const FetchFile& fetch) {
+  if (patch.index || patch.draws.size() != 1 || patch.draws[0].count != 0)
+    return patch;
+  const std::uint64_t available = Records(patch.coord[0], fetch, coordType, 3).available();
+  patch.draws[0].count = patch.vertexCount != 0
+                             ? patch.vertexCount
+                             : static_cast<std::uint32_t>(std::min<std::uint64_t>(available, UINT32_MAX));
+  return patch;
+}
+
 std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, const GeometryDescription& geometry,
                                   const std::string& location) {
   const StoredCoords stored = storedCoords(Encoding::bg, geometry.coordType, geometry.lattice.bits);
@@ -233,8 +245,9 @@ Lattice findBgLattice(const GeometryDescription& geometry, const FetchFile& fetc
     return geometry.lattice;
   Box3d box;
   bool fits = true;
-  for (const PatchDescription& patch : geometry.patches) {
-    checkTypes(patch, geometry);
+  for (const PatchDescription& stated : geometry.patches) {
+    checkTypes(stated, geometry);
+    const PatchDescription patch = withCount(stated, geometry.coordType, fetch);
     const std::string& location = patch.coord[0].url;
     const std::vector<std::uint32_t> indices =
         patch.index ? decodeIndices(patch, geometry.indexType, fetch) : std::vector<std::uint32_t>();
@@ -257,8 +270,9 @@ Lattice findBgLattice(const GeometryDescription& geometry, const FetchFile& fetc
   return latticeOf({box.center(), {half, half, half}}, Encoding::bg, ElementType::float32, sourceBits);
 }
 
-IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
-  checkTypes(patch, geometry);
+IndexedPatch decodeBg(const PatchDescription& stated, const GeometryDescription& geometry, const FetchFile& fetch) {
+  checkTypes(stated, geometry);
+  const PatchDescription patch = withCount(stated, geometry.coordType, fetch);
   const std::string& location = patch.coord[0].url;
   IndexedPatch decoded;
   decoded.draws = patch.draws;

@@ -210,6 +210,9 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   const std::uint32_t columns = patch.index ? 0 : patch.implicitMeshSize.x;
   const std::string& location = patch.coord[0].url;
   const std::uint32_t coordChannels = isHeightMap ? 1 : 3;
+  // Unlike arrays, images do not state how many numbers they hold.
+  if (!geometry.grid && drawnCount(patch.draws) == 0)
+    throw Error(ErrorKind::malformed, location, "vertexCount is 0; nothing is drawn");
   const Texels first(patch.coord[0], fetch, columns, coordChannels);
   IndexedPatch decoded;
   decoded.draws = patch.draws;

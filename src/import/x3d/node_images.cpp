@@ -2,6 +2,8 @@
 
 #include "base/data_url.h"
 #include "base/first_readable.h"
+#include "images/decode_image.h"
+#include "images/image_type.h"
 #include "import/source_images.h"
 #include "scene/mf_string.h"
 
@@ -23,6 +25,9 @@ std::optional<std::size_t> NodeImages::read(const std::vector<std::string>& urls
     try {
       ImageFile file{isDataUrl(url) ? "" : url, references_.fetch(url)};
       requireImage(file.bytes, url);
+      // A browser goes on to the next URL where an image is damaged.
+      if (isDecodable(imageType(file.bytes)) && &url != &urls.back())
+        decodeRaster(file.bytes, url);
       images_.push_back(std::move(file));
       return read_[url] = images_.size() - 1;
     } catch (const Error& error) {

@@ -130,7 +130,7 @@ TEST(PopGeometry, IsLeftOutWithOneWarningWhereItsLevelsLieAndRefusedIfStrict) {
            {"", level(three, 3, 0) + level(one, 3, 4294967295), "overlap or leave a gap"},
            {"", level(file({0, 1, 3}, {first, second, third}), 3, 0), "3"},
            {"vertexCount='9'", twoLevels, "too few"},
-           {"vertexCount='6 6'  primType='\"TRIANGLES\"'", twoLevels, "differ in their number of draws"},
+           {"vertexCount='6 6'  primType='\"TRIANGLES\"'", twoLevels, "primType has 1 of 2 draws"},
            {"vertexBufferSize='3'", twoLevels, "vertexBufferSize is 3"},
            {"", "", "no vertices"},
            {"", level("missing.bin", 3, 0), "missing.bin"},

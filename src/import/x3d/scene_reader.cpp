@@ -83,7 +83,7 @@ private:
   std::optional<std::size_t> readElement(pugi::xml_node element) {
     if (element.type() == pugi::node_comment)
       return addNode(imported_.scene.graph, {"", GenericNode{commentElement, element.value(), {}}, {}, ""});
-    if (element.type() != pugi::node_element || isContainerGeometry(element.name()))
+    if (element.type() != pugi::node_element || isContainerGeometry(source_.resolved(element).name()))
       return {}; // a geometry of files is left out where it does not become a mesh
     if (std::string_view(element.name()) == "ROUTE") {
       routes_.note(element);
@@ -118,8 +118,9 @@ private:
     if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
       return define(target, readNode(target));
     return faults_.attempt("Left out", [&]() -> std::optional<std::size_t> {
-      source_.fail(element, ErrorKind::malformed,
-                   fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "a node that contains it" : "no DEF"));
+      source_.fail(
+          element, ErrorKind::malformed,
+          fmt::format("USE=\"{}\" names {}", name, isEnclosing ? "a node that contains it" : "no DEF of this scene"));
     });
   }
 
@@ -182,7 +183,7 @@ private:
 
   void addChildren(pugi::xml_node element, Node& node, pugi::xml_node without) {
     for (const pugi::xml_node& child : element.children())
-      if (child != without && !wouldAppear(child, element))
+      if (child != without && !wouldAppear(child, element) && !isFurtherGeometry(child, element))
         addTo(node.children, child);
   }
 
@@ -192,6 +193,27 @@ private:
     const NodeRow *row = nodeRow(child.name()), *parentRow = nodeRow(parent.name());
     const bool isOfScene = row && row->containerField == "children" && row->treatment == NodeTreatment::drawn;
     return isOfScene && parentRow && parentRow->level > 0 && parentRow->treatment == NodeTreatment::kept;
+  }
+
+  static bool isGeometry(pugi::xml_node node) {
+    const NodeRow* row = nodeRow(node.name());
+    return isContainerGeometry(node.name()) || (row && row->containerField == "geometry");
+  }
+
+  /// Whether a child of a Shape is a geometry, as another one before it is.
+  static bool isFurtherGeometry(pugi::xml_node child, pugi::xml_node parent) {
+    return std::string_view(parent.name()) == "Shape" && isGeometry(child) &&
+           child != parent.find_child([](const pugi::xml_node& node) { return isGeometry(node); });
+  }
+
+  /// Warns of several geometries in a Shape: the first counts, as in pages.
+  void requireOneGeometry(pugi::xml_node shape) {
+    const auto count = std::ranges::count_if(shape.children(), isGeometry);
+    if (count > 1)
+      faults_.attempt("The others are left out", [&]() -> bool {
+        source_.fail(shape, ErrorKind::malformed,
+                     fmt::format("a Shape has one geometry; of {} the first is drawn", count));
+      });
   }
 
   GenericNode genericNodeOf(pugi::xml_node element) {
@@ -281,8 +303,9 @@ private:
       const std::optional<Shape> shape = shapes_.shapeOfSharedPatch(element);
       return shape ? std::optional(addShapeNodes(element, {*shape}, {}, {})) : std::nullopt;
     }
+    requireOneGeometry(element);
     for (const pugi::xml_node& child : element.children()) {
-      if (child.type() != pugi::node_element)
+      if (child.type() != pugi::node_element || isFurtherGeometry(child, element))
         continue;
       const pugi::xml_node geometry = source_.resolved(child);
       const pugi::xml_node generator = hasCubeMap(element) ? cameraGeneratorOf(geometry) : pugi::xml_node();

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/first_readable.h"
 #include "containers/choose_urls.h"
+#include "images/decode_image.h"
 #include "transcode/site/site_files.h"
 
 #include <algorithm>
@@ -58,17 +59,31 @@ bool leadsOutOfFolder(const std::string& url) {
   return path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
 }
 
-/// Chooses, of files with several URLs, the first that can be read. Throws Error, which names all, where none of the
-/// URLs of a file of geometry can.
+/// Whether the file of an image can be read and shown.
+bool isReadableImage(const FetchFile& fetch, const std::string& url) {
+  try {
+    return isShownInPages(fetch(url));
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Chooses, of files with several URLs, the first that can be read and decoded, as pages do; of an image, the first of
+/// all where none can. Throws Error, which names all, where none of the URLs of a file of geometry can.
 void chooseFiles(SiteDocument& document) {
   const FetchFile fetch = fetchFrom(document);
   for (GeometryDescription& geometry : document.scene.geometries)
     if (const std::vector<Error> errors = chooseUrls(geometry, fetch); !errors.empty())
       throw joined(errors);
-  for (ImageFile& image : document.scene.graph.images)
-    for (const std::string& url : std::exchange(image.furtherUrls, {}))
-      if (!image.url.empty() && !isDataUrl(image.url) && !exists(document, image.url))
-        image.url = url;
+  for (ImageFile& image : document.scene.graph.images) {
+    std::vector<std::string> urls = std::exchange(image.furtherUrls, {});
+    if (urls.empty())
+      continue;
+    urls.insert(urls.begin(), image.url);
+    const auto found = std::ranges::find_if(urls, [&](const std::string& url) { return isReadableImage(fetch, url); });
+    if (found != urls.end())
+      image.url = *found;
+  }
 }
 
 } // namespace

@@ -9,7 +9,7 @@ import { SceneReader } from "./sceneReader.ts";
 const geometry = `<ImageGeometry>
   <FloatVertexAttribute name="heat" numComponents="1" valueBits="16" valueMin="-2" valueSize="5"/>
   <FloatVertexAttribute name="flow" numComponents="2" valueBits="24" valueMin="-3 0" valueSize="1 4"/>
-  <GeometryPatch coord="c.png" attrib='"h1.png#9" "h0.png" "f2.png" "f1.png" "f0.png"'/></ImageGeometry>`;
+  <GeometryPatch coord="c.png" vertexCount="3" attrib='"h1.png#9" "h0.png" "f2.png" "f1.png" "f0.png"'/></ImageGeometry>`;
 
 function read(fields: string, node = geometry) {
   const scene = readScene(elementsOf(`<X3D><Shape ${fields}>${node}</Shape></X3D>`));
@@ -38,8 +38,8 @@ describe("a shape's colorBy", () => {
   test("selects one file in BG", () => {
     const { geometry } = read(
       `colorBy="flow"`,
-      `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
-      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib='"h.bin" "f.bin#4+16"'/></BinaryGeometry>`,
+      `<BinaryGeometry><FloatVertexAttribute name="heat" numComponents="1"/>
+      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch coord="c.bin" attrib='"h.bin" "f.bin#4+16"'/></BinaryGeometry>`,
     );
     assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", byteOffset: 4, byteStride: 16 }]);
   });
@@ -64,7 +64,7 @@ describe("a shape's colorBy", () => {
 
   test("is the depth in fog where it has its name, unless another attribute colors the shape", () => {
     const bg = `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
-      <FloatVertexAttribute name="fogDepth" numComponents="1"/><GeometryPatch coord="c.bin" attrib="h.bin f.bin"/></BinaryGeometry>`;
+      <FloatVertexAttribute name="fogDepth" numComponents="1"/><GeometryPatch coord="c.bin" attrib='"h.bin" "f.bin"'/></BinaryGeometry>`;
     const plain = read("", bg);
     assert.deepEqual([plain.geometry.value?.name, plain.geometry.valueUse], ["fogDepth", "fogDepth"]);
     assert.equal(plain.shape.appearance.colorMap, undefined);
@@ -116,8 +116,26 @@ describe("a shape's colorBy", () => {
 });
 
 describe("a FloatVertexAttribute", () => {
-  test("raises a warning where its numbers are not supported", () => {
-    assert.equal(read("", geometry.replace(`valueBits="16"`, `valueBits="12"`)).messages.length, 1);
-    assert.equal(read("", geometry.replace(`numComponents="2"`, `numComponents="5"`)).messages.length, 1);
+  test("leaves its node out, with one warning, where no file can hold it", () => {
+    for (const [text, other, message] of [
+      ['valueBits="16"', 'valueBits="12"', "valueBits is none of 8, 16 and 24"],
+      ['numComponents="2"', 'numComponents="5"', "numComponents is none of 1 to 4"],
+      ['numComponents="2"', 'numComponents="-2"', "numComponents -2 is negative"],
+      ['name="heat"', 'name=""', "an attribute has no name"],
+      ['name="heat"', 'name="flow"', "a geometry has two attributes of one name"],
+      ['valueSize="5"', 'valueSize="-5"', "valueMin and valueSize are no range of numbers"],
+      ['valueMin="-3 0"', 'valueMin="-3"', "valueMin and valueSize are no range of numbers"],
+      ['"h1.png#9"', "", "attrib names fewer files than the attributes need"],
+      ['"h1.png#9"', '"a" "b"', "attrib names more files than the attributes need"],
+    ] as const) {
+      const { warnings, root } = readScene(elementsOf(`<X3D><Shape>${geometry.replace(text, other)}</Shape></X3D>`), {
+        inlineGeometry: inlineGeometryReader,
+      });
+      assert.equal(shapesOf(root)[0]?.geometry, undefined);
+      assert.deepEqual(
+        warnings.map((warning) => warning.message),
+        [message],
+      );
+    }
   });
 });

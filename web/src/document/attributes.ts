@@ -7,6 +7,7 @@ import type {
   ColorMapDescription,
   Encoding,
   GeometryDescription,
+  PatchDescription,
   Reference,
   ValueUse,
   Vec2,
@@ -14,31 +15,55 @@ import type {
 import { fogDepthName } from "./description.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
+import { checkCounts } from "./geometryChecks.ts";
+import { UnreadableGeometry } from "./unreadableGeometry.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
+/** Throws UnreadableGeometry for an attribute without a name, or with numbers that no file can hold. */
 export function readAttributes(element: SceneElement, encoding: Encoding, warnings: Warning[]): AttributeDescription[] {
   const elements = childrenOf(element).filter((child) => lowerNameOf(child) === "floatvertexattribute");
+  const names = new Set<string>();
   return elements.map((child) => {
     const { name, numComponents, valueBits, valueMin, valueSize } = readFields(
       child,
       nodeFields.FloatVertexAttribute,
       warnings,
     );
-    const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents) ?? 4;
+    checkCounts({ numComponents, valueBits });
+    const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents);
     const bits = encodingFormats[encoding].attributeBits(valueBits);
     const fileCount = encodingFormats[encoding].attributeFileCount(valueBits);
-    if (components !== numComponents || (bits !== undefined && ![8, 16, 24].includes(bits))) {
-      warnings.push({
-        element: child,
-        message: `numComponents="${numComponents}" valueBits="${valueBits}" are not supported`,
-      });
-    }
+    if (name === "") throw new UnreadableGeometry("an attribute has no name");
+    if (names.has(name)) throw new UnreadableGeometry("a geometry has two attributes of one name");
+    names.add(name);
+    if (components === undefined) throw new UnreadableGeometry("numComponents is none of 1 to 4");
+    if (bits !== undefined && ![8, 16, 24].includes(bits))
+      throw new UnreadableGeometry("valueBits is none of 8, 16 and 24");
     const perComponent = (values: readonly number[], missing: number) =>
-      Array.from({ length: components }, (_, c) => values[c] ?? missing);
-    return { name, components, fileCount, bits, min: perComponent(valueMin, 0), size: perComponent(valueSize, 1) };
+      values.length > 0 ? values : Array.from({ length: components }, () => missing);
+    const [min, size] = [perComponent(valueMin, 0), perComponent(valueSize, 1)];
+    const isRange = (extent: number, c: number) => extent >= 0 && Math.abs(min[c] ?? 0) + extent <= maxFloat;
+    if (min.length !== components || size.length !== components || !size.every(isRange))
+      throw new UnreadableGeometry("valueMin and valueSize are no range of numbers");
+    return { name, components, fileCount, bits, min, size };
   });
+}
+
+/** The largest number of single precision, X3D's. */
+const maxFloat = 3.4028234663852886e38;
+
+/** Throws UnreadableGeometry where a patch names other files than its attributes need. */
+export function checkAttributeFiles(
+  { attributes: files }: PatchDescription,
+  attributes: readonly AttributeDescription[],
+): void {
+  const needed = attributes.reduce((sum, { fileCount }) => sum + fileCount, 0);
+  if (files.length !== needed)
+    throw new UnreadableGeometry(
+      `attrib names ${files.length < needed ? "fewer" : "more"} files than the attributes need`,
+    );
 }
 
 /** The files of one attribute among a patch's attribute files. */

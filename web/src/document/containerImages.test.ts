@@ -49,7 +49,9 @@ describe("images that are children of an ImageGeometry", () => {
   test("may be several of a field: low bytes of normals and colors, and sets of texture coordinates", () => {
     const images = (field: string, count: number) =>
       Array.from({ length: count }, (_, n) => `<ImageTexture containerField="${field}" url="${field}${n}"/>`).join("");
-    const { patch, warnings } = readImages(images("normal", 2) + images("color", 4) + images("texCoord", 5));
+    const { patch, warnings } = readImages(
+      images("coord", 1) + images("normal", 2) + images("color", 4) + images("texCoord", 5),
+    );
     assert.deepEqual(patch?.lowBytes, {
       normal: [texel("normal1")],
       color: [texel("color1"), texel("color2")],
@@ -70,24 +72,29 @@ describe("images that are children of an ImageGeometry", () => {
     assert.deepEqual(warnings, ["the URLs of a file have different fragments; only those like the first are used"]);
   });
 
-  test("that cannot be read leave no coordinates where they are images of coordinates or indices", () => {
+  test("that cannot be read leave the geometry out where they are images of coordinates or indices", () => {
     const video = (field: string) => `<MovieTexture containerField="${field}" url="a.mp4"/>`;
     const coord = '<ImageTexture containerField="coord" url="a.png"/>';
-    for (const field of ["coord", "index"]) assert.deepEqual(readImages(video(field) + coord).patch?.coord, []);
+    for (const field of ["coord", "index"])
+      assert.deepEqual(readImages(video(field) + coord), {
+        patch: undefined,
+        warnings: ["movies are not drawn; images and live streams are"],
+      });
     const { patch, warnings } = readImages(video("normal") + coord);
     assert.deepEqual([patch?.coord, patch?.normal, warnings.length], [[texel("a.png")], undefined, 1]);
   });
 
   test("are left out with a warning where they are movies, empty, or without a field", () => {
     const { patch, warnings } = readImages(`
-      <MovieTexture containerField="coord" url="a.mp4"/>
-      <Texture containerField="coord"><video src="a.mp4"/></Texture>
-      <PixelTexture containerField="coord"/>
-      <Texture containerField="coord"/>
-      <img containerField="coord"/>
-      <canvas containerField="coord"/>
+      <ImageTexture containerField="coord" url="a.png"/>
+      <MovieTexture containerField="normal" url="a.mp4"/>
+      <Texture containerField="normal"><video src="a.mp4"/></Texture>
+      <PixelTexture containerField="normal"/>
+      <Texture containerField="normal"/>
+      <img containerField="normal"/>
+      <canvas containerField="normal"/>
       <ImageTexture url="a.png"/>`);
-    assert.deepEqual(patch?.coord, []);
+    assert.deepEqual([patch?.coord.length, patch?.normal], [1, undefined]);
     assert.equal(warnings.filter((message) => message.startsWith("movies are not drawn")).length, 2);
     assert.equal(warnings.length, 7);
   });
@@ -114,7 +121,7 @@ describe("images that are children of an ImageGeometry", () => {
     const { patch, warnings } = withPixels(() => {
       throw new Error("SecurityError");
     });
-    assert.deepEqual([patch?.coord, warnings.length], [[], 1]);
+    assert.deepEqual([patch, warnings.length], [undefined, 1]);
   });
 });
 

@@ -2,11 +2,12 @@
 // <canvas> in them, or these two alone. `containerField` states what an image holds.
 
 import type { Resolve, SceneElement } from "./element.ts";
-import { attributeOf, childrenOf, lowerNameOf, substitutedFor } from "./element.ts";
+import { attributeOf, childrenOf, lowerNameOf, substitutedFor, unknownUse } from "./element.ts";
 import { MFUrl, SFString } from "./fieldTypes.ts";
 import type { Warning } from "./nodes.ts";
-import { nodeFields, readFields } from "./nodes.ts";
+import { nodeFields, readFields, shortened } from "./nodes.ts";
 import { entryOf } from "./tables.ts";
+import { UnreadableGeometry } from "./unreadableGeometry.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { texCoordRoles } from "../stage/attributeRows.ts";
 
@@ -19,8 +20,7 @@ export type ContainerImages = Partial<Record<"index" | "coord" | VertexRole, rea
 
 /**
  * Images that replace those of the node's own fields, in document order, which is the order of several images of one
- * field. Where an image of coordinates or indices cannot be read there are no coordinates: the surface would be another
- * one.
+ * field. Throws UnreadableGeometry where one of coordinates or indices cannot be read: the surface would be another one.
  */
 export function containerImagesOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): ContainerImages {
   const files: Record<ImageField, (readonly string[])[]> = {
@@ -30,21 +30,21 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
     texCoord: [],
     color: [],
   };
-  let isDrawable = true;
   for (const child of childrenOf(element)) {
     if (!entryOf(urlReaders, lowerNameOf(child))) continue;
     const used = resolve(child);
     const image = used && substitutedFor(child, used);
     const name = attributeOf(image ?? child, "containerField") ?? (used && attributeOf(used, "containerField")) ?? "";
     const field = imageFields.find((known) => known.toLowerCase() === name.toLowerCase());
-    const urls = used && field && entryOf(urlReaders, lowerNameOf(used))?.(used, warnings);
-    if (used === undefined)
-      warnings.push({ element: child, message: `USE="${attributeOf(child, "USE") ?? ""}" names no DEF of this scene` });
-    else if (field === undefined)
-      warnings.push({ element: child, message: `containerField="${name}" names no part of a geometry` });
-    if (field === undefined) continue;
-    if (urls !== undefined) files[field].push(urls);
-    else if (field === "coord" || field === "index") isDrawable = false;
+    const urls =
+      field === undefined
+        ? { problem: `containerField="${shortened(name)}" names no part of a geometry` }
+        : used === undefined
+          ? { problem: unknownUse(attributeOf(child, "USE")) }
+          : urlsOf(used);
+    if (!("problem" in urls)) files[field ?? "coord"].push(urls);
+    else if (field === "coord" || field === "index") throw new UnreadableGeometry(urls.problem);
+    else warnings.push({ element: child, message: urls.problem });
   }
   const warnOfFurther = (field: ImageField, limit: number) => {
     if (files[field].length > limit)
@@ -55,10 +55,7 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
   const { texCoord, ...others } = files;
   const present = Object.entries(others).filter(([, images]) => images.length > 0);
   const sets = texCoordRoles.flatMap((role, set) => (texCoord[set] === undefined ? [] : [[role, [texCoord[set]]]]));
-  return {
-    ...(Object.fromEntries([...present, ...sets]) as ContainerImages),
-    ...(!isDrawable && { coord: [] }),
-  };
+  return Object.fromEntries([...present, ...sets]) as ContainerImages;
 }
 
 /** Whether a URL, which may have a query with a token, names a live stream (docs/live.md). */
@@ -66,36 +63,41 @@ export function isStreamUrl(url: string): boolean {
   return /(^|\/)live\/[\w-]{1,64}(\?|$)/.test(url);
 }
 
-type UrlReader = (element: SceneElement, warnings: Warning[]) => readonly string[] | undefined;
+/** The addresses of an image, or the sentence why there are none. */
+type ImageUrls = readonly string[] | { readonly problem: string };
+type UrlReader = (element: SceneElement) => ImageUrls;
 
-const refusedMovie = refused("movies are not drawn; images and live streams are");
+const refusedMovie: UrlReader = () => ({ problem: "movies are not drawn; images and live streams are" });
 
-/** Readers of the addresses of an image, by the element's lower-case name; each warns where it finds none. */
+/** Readers of the addresses of an image, by the element's lower-case name. */
 const urlReaders: Readonly<Record<string, UrlReader>> = {
   imagetexture: textureUrls,
   texture: textureUrls,
-  pixeltexture: refused("the pixels of a PixelTexture are not read as geometry; images are"),
-  img(element, warnings) {
-    const { src } = readFields(element, { src: SFString("") }, warnings);
-    if (src !== "") return [src];
-    warnings.push({ element, message: "an image without src has no part in the scene" });
-    return undefined;
+  pixeltexture: () => ({ problem: "the pixels of a PixelTexture are not read as geometry; images are" }),
+  img(element) {
+    const { src } = readFields(element, { src: SFString("") }, []);
+    return src === "" ? { problem: "an image without src has no part in the scene" } : [src];
   },
   canvas: canvasUrls,
-  movietexture(element, warnings) {
-    const [first] = readFields(element, { url: MFUrl([]) }, warnings).url;
-    return first !== undefined && isStreamUrl(first) ? [first] : refusedMovie(element, warnings);
+  movietexture(element) {
+    const [first] = readFields(element, { url: MFUrl([]) }, []).url;
+    return first !== undefined && isStreamUrl(first) ? [first] : refusedMovie(element);
   },
   video: refusedMovie,
 };
 
+function urlsOf(element: SceneElement): ImageUrls {
+  return entryOf(urlReaders, lowerNameOf(element))?.(element) ?? { problem: noImage };
+}
+
+const noImage = "a texture without url and without an image in it has no part in a geometry";
+
 /** The texture's addresses, or those of its first child that is an image. */
-function textureUrls(element: SceneElement, warnings: Warning[]): readonly string[] | undefined {
-  const { url } = readFields(element, nodeFields.ImageTexture, warnings);
+function textureUrls(element: SceneElement): ImageUrls {
+  const { url } = readFields(element, nodeFields.ImageTexture, []);
   if (url.length > 0) return url;
-  if (innerImage(element)) return imageUrlsIn(element, warnings);
-  warnings.push({ element, message: "a texture without url and without an image in it has no part in a geometry" });
-  return undefined;
+  const child = innerImage(element);
+  return child ? urlsOf(child) : { problem: noImage };
 }
 
 /** The element of HTML in a texture that holds its image. */
@@ -106,7 +108,11 @@ function innerImage(element: SceneElement): SceneElement | undefined {
 /** The addresses of the image of a texture without url: an `<img>` or `<canvas>` in it, X3DOM's form. */
 export function imageUrlsIn(element: SceneElement, warnings: Warning[]): readonly string[] | undefined {
   const child = innerImage(element);
-  return child && urlReaders[lowerNameOf(child)]?.(child, warnings);
+  const urls = child && urlsOf(child);
+  if (child === undefined || urls === undefined) return undefined;
+  if (!("problem" in urls)) return urls;
+  warnings.push({ element: child, message: urls.problem });
+  return undefined;
 }
 
 /** An element of a page that can be drawn on. */
@@ -115,26 +121,12 @@ interface Canvas extends SceneElement {
 }
 
 /** The pixels that a canvas has when the document is read. */
-function canvasUrls(element: SceneElement, warnings: Warning[]): readonly string[] | undefined {
-  if (!("toDataURL" in element)) {
-    warnings.push({ element, message: "a canvas has pixels only in a page" });
-    return undefined;
-  }
+function canvasUrls(element: SceneElement): ImageUrls {
+  if (!("toDataURL" in element)) return { problem: "a canvas has pixels only in a page" };
   try {
     return [(element as Canvas).toDataURL("image/png")];
   } catch {
     // SecurityError: a canvas on which an image of another origin was drawn may not be read.
-    warnings.push({
-      element,
-      message: "the browser does not allow to read this canvas: it shows another site's image",
-    });
-    return undefined;
+    return { problem: "the browser does not allow to read this canvas: it shows another site's image" };
   }
-}
-
-function refused(message: string): UrlReader {
-  return (element, warnings) => {
-    warnings.push({ element, message });
-    return undefined;
-  };
 }

@@ -253,8 +253,8 @@ describe("the author's priority", () => {
 
   test("is multiplied down the tree, from groups to geometries", () => {
     const [first, second, third, fourth] = shapesIn(`
-      <Group priority="2"><Transform priority="high"><Shape priority="0.5"><ImageGeometry priority="3"/></Shape></Transform></Group>
-      <Group priority="low"><Shape><BinaryGeometry priority="0"/></Shape></Group><Shape priority="auto"/>
+      <Group priority="2"><Transform priority="high"><Shape priority="0.5"><ImageGeometry priority="3" coord="a" vertexCount="3"/></Shape></Transform></Group>
+      <Group priority="low"><Shape><BinaryGeometry priority="0" coord="a"/></Shape></Group><Shape priority="auto"/>
       <Group priority="8"><Shape priority="low"/></Group>`);
     assert.deepEqual(
       [first, second, third, fourth].map((shape) => shape?.priority),
@@ -263,13 +263,15 @@ describe("the author's priority", () => {
   });
 
   test("does not change the identity of a geometry", () => {
-    const [one, other] = shapesIn('<Shape><ImageGeometry priority="7"/></Shape><Shape><ImageGeometry/></Shape>');
+    const [one, other] = shapesIn(
+      '<Shape><ImageGeometry priority="7" data="a"/></Shape><Shape><ImageGeometry data="a"/></Shape>',
+    );
     assert.deepEqual(one?.geometry, other?.geometry);
   });
 
   for (const text of ["-1", "much", "", "1 2", "NaN"]) {
     test(`is 1, with a warning, where the attribute is "${text}"`, () => {
-      const scene = sceneOf(`<Shape priority="${text}"><ImageGeometry priority="${text}" coord="a.png"/></Shape>`);
+      const scene = sceneOf(`<Shape priority="${text}"><ImageGeometry priority="${text}" data="a.png"/></Shape>`);
       assert.equal(shapesOf(scene.root)[0]?.priority, 1);
       assert.equal(scene.warnings.length, 2);
     });
@@ -284,7 +286,7 @@ test("elements and values that are named like members of every object are unknow
   for (const name of ["constructor", "__proto__"]) {
     const node = `<${name} containerField="coord"/>`;
     const { root, warnings } = sceneOf(
-      `${node}<Shape>${node}</Shape><Shape><Appearance>${node}</Appearance><ImageGeometry coord="a.png">${node}</ImageGeometry></Shape>`,
+      `${node}<Shape>${node}</Shape><Shape><Appearance>${node}</Appearance><ImageGeometry coord="a.png" vertexCount="3">${node}</ImageGeometry></Shape>`,
     );
     assert.deepEqual(
       warnings.map(({ message }) => message),

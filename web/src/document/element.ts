@@ -36,6 +36,11 @@ export function attributeOf(element: SceneElement, name: string): string | undef
   return found === undefined ? undefined : (element.getAttribute(found) ?? undefined);
 }
 
+/** The sentence about a USE whose element is nowhere. */
+export function unknownUse(name = ""): string {
+  return `USE="${name}" names no DEF of this scene`;
+}
+
 /** The element that `user` USEs, with the containerField of `user`. */
 export function substitutedFor(user: SceneElement, used: SceneElement): SceneElement {
   if (user === used) return used;

@@ -4,6 +4,7 @@
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import type { Encoding, GeometryDescription, ImageProfile, PatchDescription, Reference } from "./description.ts";
+import { UnreadableGeometry } from "./unreadableGeometry.ts";
 
 export interface EncodingFormat {
   /** The value of an ImageGeometry's `profile` field; undefined: a BinaryGeometry. */
@@ -25,7 +26,7 @@ export interface EncodingFormat {
   attributeFileCount(valueBits: number): number;
   /** Bits of a custom attribute's stored integers; undefined: numbers are stored as they are. */
   attributeBits(valueBits: number): number | undefined;
-  /** `fragment`: what follows the URL's `#`; undefined where there is none. */
+  /** `fragment`: what follows the URL's `#`; undefined where there is none. Throws UnreadableGeometry where it is none. */
   referenceOf(url: string, fragment: string | undefined): Reference;
   /** The stored value of the upper side of the quantization box. */
   maxStoredValue(geometry: GeometryDescription, patch: PatchDescription): number;
@@ -54,7 +55,7 @@ const classic: EncodingFormat = {
   maxAttributeFileCount: (role) => (role === "color" ? 3 : 2), // 24 bits, 16 bits of normals
   attributeFileCount: (valueBits) => valueBits / 8,
   attributeBits: (valueBits) => valueBits,
-  referenceOf: (url, fragment) => ({ url, firstTexel: numberIn(beforePlus(fragment)) }),
+  referenceOf: (url, fragment) => ({ url, firstTexel: numberIn(fragment) }),
   maxStoredValue: (_, patch) => 256 ** Math.max(1, patch.coord.length) - 1,
 };
 
@@ -68,7 +69,7 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
     maxAttributeFileCount: () => 1,
     attributeFileCount: () => 0,
     attributeBits: (valueBits) => valueBits,
-    referenceOf: (url, fragment) => ({ url, patchIndex: numberIn(beforePlus(fragment)) }),
+    referenceOf: (url, fragment) => ({ url, patchIndex: numberIn(fragment) }),
     maxStoredValue: (geometry) => maxLatticeValue(latticeBitsOf(geometry)),
   },
   classic,
@@ -86,7 +87,8 @@ export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
       // In X3DOM's "file.bin+S", "+S" gives the stride and is a part of the file's name; base64 has a '+' too.
       const stated = url.startsWith("data:") ? undefined : /\+(\d+)$/.exec(url)?.[1];
       if (fragment === undefined) return { url, byteOffset: 0, byteStride: numberIn(stated) };
-      const [offset, stride] = fragment.split("+");
+      const plus = fragment.indexOf("+");
+      const [offset, stride] = plus < 0 ? [fragment] : [fragment.slice(0, plus), fragment.slice(plus + 1)];
       return { url, byteOffset: numberIn(offset), byteStride: numberIn(stride) };
     },
     maxStoredValue: ({ coordType }) => maxElementValues[coordType],
@@ -111,11 +113,10 @@ function maxLatticeValue(bits: number): number {
   return (256 ** bytes - 1) / 2 ** (8 * bytes - bits);
 }
 
-function beforePlus(fragment: string | undefined): string | undefined {
-  return fragment?.split("+")[0];
-}
-
-/** 0 for text that is no number. */
+/** A number of a fragment; 0 where there is none. Throws UnreadableGeometry for text that is no number of 32 bits. */
 function numberIn(text: string | undefined): number {
-  return text !== undefined && /^\d+$/.test(text) ? Number(text) : 0;
+  if (text === undefined) return 0;
+  const value = /^\d+$/.test(text) ? Number(text) : NaN;
+  if (!(value < 2 ** 32)) throw new UnreadableGeometry("a reference's fragment is not an index in its file");
+  return value;
 }

@@ -63,15 +63,20 @@ const sfInt32: FieldType<number> = {
   name: "SFInt32",
   parse(text) {
     const value = sfFloat.parse(text);
-    return Number.isInteger(value) ? value : undefined;
+    return value !== undefined && isInteger(value) ? value : undefined;
   },
 };
+
+/** Whether a number has at most 32 bits, signed or not. */
+function isInteger(value: number): boolean {
+  return Number.isInteger(value) && value >= -(2 ** 31) && value < 2 ** 32;
+}
 
 const mfInt32: FieldType<readonly number[]> = {
   name: "MFInt32",
   parse(text) {
     const numbers = numbersIn(text);
-    return numbers?.every(Number.isInteger) === true ? numbers : undefined;
+    return numbers?.every(isInteger) === true ? numbers : undefined;
   },
 };
 

@@ -128,12 +128,44 @@ describe("a geometry", () => {
       ['<BinaryGeometry coord="c" compressed="true"/>', /^compressed arrays are not read/],
       ['<ImageGeometry coord="c" indexType="Uint8"/>', /^indexType="Uint8" is none of Uint16, Uint32$/],
       ['<ImageGeometry coord="c" profile="fast"/>', /^profile="fast" is none of classic, compact$/],
-      ['<ImageGeometry coord="c" implicitMeshMode="torus"/>', /^implicitMeshMode="torus" is none of sig, heightMap, /],
+      ['<ImageGeometry coord="c" implicitMeshMode="torus"/>', /^implicitMeshMode="torus" is none of auto, sig, /],
       ['<ImageGeometry coord="c" numColorComponents="2"/>', /^numColorComponents="2" is neither 3 nor 4$/],
       ['<ImageGeometry coord="c" normal="n" normalBits="7"/>', /^1 images of normal hold no numbers of 7 bits$/],
       [
         '<ImageGeometry coord="c" texCoord="n" texCoordBits="24"/>',
         /^1 images of texCoord hold no numbers of 24 bits$/,
+      ],
+      ['<BinaryGeometry index="i.bin" vertexCount="3"/>', /^there are no coordinates$/],
+      [
+        "<ImageGeometry><MultiTexture containerField='coord'><ImageTexture url='c.png'/></MultiTexture></ImageGeometry>",
+        /^there are no coordinates$/,
+      ],
+      ["<ImageGeometry><GeometryPatch/></ImageGeometry>", /^there are no coordinates$/],
+      ['<ImageGeometry profile="compact"/>', /^a patch of compact has no data$/],
+      ["<ImageGeometry><MovieTexture containerField='coord' url='m.webm'/></ImageGeometry>", /^movies are not drawn/],
+      ['<ImageGeometry USE="none"/>', /^USE="none" names no DEF of this scene$/],
+      ['<Box USE="none"/>', /^USE="none" names no DEF of this scene$/],
+      ['<ImageGeometry coord="c" size="0 0 0"/>', /^size is the extent of no box$/],
+      ['<ImageGeometry coord="c" size="1 -1 1"/>', /^size is the extent of no box$/],
+      ['<BinaryGeometry coord="c" coordType="Uint8" size="0 0 0"/>', /^size is the extent of no box$/],
+      ['<BinaryGeometry coord="c" positionBits="25"/>', /^positionBits is no precision of coordinates of 4 bytes$/],
+      ['<ImageGeometry coord="c" positionBits="9"/>', /^positionBits is no precision of coordinates of 1 bytes$/],
+      ['<ImageGeometry coord="c" positionBits="-1"/>', /^positionBits -1 is negative$/],
+      ['<ImageGeometry coord="c" recordCount="-1"/>', /^recordCount -1 is negative$/],
+      ['<ImageGeometry coord="c" implicitMeshSize="0 1"/>', /^implicitMeshSize has no columns$/],
+      ['<ImageGeometry coord="c" implicitMeshSize="1.5 1"/>', /^implicitMeshSize is no size of an image$/],
+      ['<ImageGeometry coord="c" implicitMeshCount="-1 1"/>', /^implicitMeshSize is no size of an image$/],
+      ['<ImageGeometry coord="c#x"/>', /^a reference's fragment is not an index in its file$/],
+      ['<ImageGeometry coord="c#1#2"/>', /^a reference has two fragments$/],
+      ['<ImageGeometry coord="#1"/>', /^a reference has no url$/],
+      ['<BinaryGeometry coord="c#0+4294967296"/>', /^a reference's fragment is not an index in its file$/],
+      [
+        '<ImageGeometry><GeometryPatch coord="a"/><GeometryPatch coord=\'"a" "b"\'/></ImageGeometry>',
+        /^patches differ in their coordinate images$/,
+      ],
+      [
+        '<ImageGeometry><GeometryPatch coord="a" normal="n"/><GeometryPatch coord="a" normal=\'"a" "b"\'/></ImageGeometry>',
+        /^patches differ in their images of normal$/,
       ],
     ] as const) {
       const scene = sceneOf(`<Shape>${node}</Shape>`);
@@ -151,20 +183,16 @@ describe("a geometry", () => {
     assert.deepEqual(drawsOf("primType='\"LINES\" \"POINTS\"' vertexCount='6'"), [{ primitive: "lines", count: 6 }]);
   });
 
-  test("warns where it has no coordinates", () => {
+  test("warns once of what it draws nothing of, or by default", () => {
     const warningsOf = (markup: string): string[] =>
       sceneOf(`<Shape>${markup}</Shape>`).warnings.map(({ message }) => message);
-    for (const node of [
-      '<BinaryGeometry index="i.bin" vertexCount="3"/>',
-      "<ImageGeometry><MultiTexture containerField='coord'><ImageTexture url='c.png'/></MultiTexture></ImageGeometry>",
-      "<ImageGeometry><GeometryPatch/></ImageGeometry>",
-    ])
-      assert.deepEqual(warningsOf(node), ["there is no coord; nothing is drawn"], node);
-    assert.deepEqual(warningsOf('<ImageGeometry profile="compact"/>'), ["there is no data; nothing is drawn"]);
-    assert.deepEqual(
-      warningsOf("<ImageGeometry><MovieTexture containerField='coord' url='m.webm'/></ImageGeometry>").length,
-      1,
-    );
+    assert.deepEqual(warningsOf('<ImageGeometry coord="c.png"/>'), ["vertexCount is 0; nothing is drawn"]);
+    assert.deepEqual(warningsOf('<BinaryGeometry coord="c.bin" vertexCount="six"/>'), [
+      'vertexCount="six" is no MFInt32; it counts as absent',
+    ]);
+    assert.deepEqual(warningsOf('<BinaryGeometry coord="c.bin" bboxSize="1 1"/>'), [
+      'bboxSize="1 1" is no SFVec3f; it counts as absent',
+    ]);
     assert.deepEqual(warningsOf('<BinaryGeometry coord="c.bin" primType="POINTS" vertexCount="3 6"/>'), [
       "primType has 1 of 2 draws; TRIANGLES are drawn for the others",
     ]);
@@ -188,7 +216,7 @@ describe("a geometry", () => {
       min: [-1, -1, -1],
       max: [1, 1, 1],
     });
-    assert.deepEqual(onlyShape('<Shape><ImageGeometry position="1 1 1" size="2 2 2"/></Shape>').box, {
+    assert.deepEqual(onlyShape('<Shape><ImageGeometry position="1 1 1" size="2 2 2" coord="c"/></Shape>').box, {
       min: [0, 0, 0],
       max: [2, 2, 2],
     });
@@ -199,7 +227,9 @@ describe("a geometry", () => {
     assert.deepEqual(referenceOf("a+4.png", "classic"), { url: "a+4.png", firstTexel: 0 });
     assert.deepEqual(referenceOf("a.png#7", "compact"), { url: "a.png", patchIndex: 7 });
     assert.deepEqual(referenceOf("a.bin#0+0", "bg"), { url: "a.bin", byteOffset: 0, byteStride: 0 });
-    assert.deepEqual(referenceOf("a.bin#-1+x", "bg"), { url: "a.bin", byteOffset: 0, byteStride: 0 });
+    assert.deepEqual(referenceOf("a.bin#12", "bg"), { url: "a.bin", byteOffset: 12, byteStride: 0 });
+    for (const fragment of ["x", "-1+x", "12+", "+4", "1+2+3"])
+      assert.throws(() => referenceOf(`a.bin#${fragment}`, "bg"), /fragment is not an index/, fragment);
   });
 });
 
@@ -277,7 +307,7 @@ describe("stored integers", () => {
 
   test("in typed arrays follow X3DOM: unsigned from the corner, signed around the center, floats as they are", () => {
     const typed = (type: string) =>
-      geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" vertexCount="3"/>`);
+      geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" coord="c" vertexCount="3"/>`);
     assert.equal(coordinateOf(typed("Uint16"), 65535), 12);
     assert.equal(coordinateOf(typed("Int16"), 0), 10);
     assert.ok(Math.abs(coordinateOf(typed("Int16"), -16383) - 8) < 1e-3);

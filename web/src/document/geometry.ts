@@ -16,14 +16,22 @@ import type { ElementType } from "../stage/elementType.ts";
 import { elementTypes } from "../stage/elementType.ts";
 import { decodeModes, isPair, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import { byVertexRoleWith, texCoordRoles } from "../stage/attributeRows.ts";
-import { readAttributes } from "./attributes.ts";
+import { checkAttributeFiles, readAttributes } from "./attributes.ts";
 import type { ContainerImages } from "./containerImages.ts";
 import { containerImagesOf, isStreamUrl } from "./containerImages.ts";
-import { encodingFormats } from "./encodings.ts";
+import { encodingFormats, formatOf } from "./encodings.ts";
 import type { Resolve, SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
-import type { Vec3 } from "./fieldTypes.ts";
-import { checkElementTypes, checkImageCounts } from "./geometryChecks.ts";
+import type { Vec2, Vec3 } from "./fieldTypes.ts";
+import {
+  checkCounts,
+  checkElementTypes,
+  checkImageCounts,
+  checkPatch,
+  checkQuantization,
+  choiceOf,
+  drawsNothing,
+} from "./geometryChecks.ts";
 import { withGrids } from "./gridPatches.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -39,9 +47,9 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
   const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
   const encoding = choiceOf("profile", profile, imageProfiles);
   const { hasBase, hasGrids } = encodingFormats[encoding];
-  // The paper's default (section 6): what the texels are without further word.
-  const isAutomatic = values.implicitMeshMode.trim().toLowerCase() === "auto";
-  const mode = hasGrids && !isAutomatic ? choiceOf("implicitMeshMode", values.implicitMeshMode, meshModes) : "sig";
+  const mode = hasGrids ? choiceOf("implicitMeshMode", values.implicitMeshMode, implicitModes) : "sig";
+  const { numColorComponents, normalBits, texCoordBits } = values;
+  checkCounts({ numColorComponents, normalBits, texCoordBits });
   const sequence = readSequence(element, resolve, warnings);
   const geometry: GeometryDescription = {
     ...commonFieldsOf(values, ["Uint16", "Uint32"]),
@@ -49,17 +57,18 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     attributes: readAttributes(element, encoding, warnings),
     encoding,
     colorComponents: colorComponentsOf(values),
-    normalBits: values.normalBits === 16 ? 16 : 8,
-    texCoordImageBits: values.texCoordBits === 8 ? 8 : 16,
+    normalBits: normalBits === 16 ? 16 : 8,
+    texCoordImageBits: texCoordBits === 8 ? 8 : 16,
     decode: decodeModeOf(element, values, warnings),
     base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
     // Images store bytes; an index consists of two or three of them.
     coordType: "Uint8",
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
-    patches: withGrids(readPatches(element, encoding, resolve, warnings), mode),
+    // "auto" is the paper's default (section 6): what the texels are without further word.
+    patches: withGrids(readPatches(element, encoding, resolve, warnings), mode === "auto" ? "sig" : mode),
   };
   checkImageCounts(geometry, values);
-  const streamed = withStream(geometry);
+  const streamed = checked(element, withStream(geometry), warnings);
   if (sequence === undefined) return streamed;
   if (streamed.encoding === "classic" && streamed.patches.length === 1) return { ...streamed, sequence };
   warnings.push({ element, message: "a sequence moves the vertices of one patch of profile classic, not of this one" });
@@ -76,6 +85,8 @@ function withStream(geometry: GeometryDescription): GeometryDescription {
 
 /** The values of a stream, as `colorBy="value"` names them; the stream states their range. */
 const streamedValues = { name: "value", components: 1, fileCount: 0, bits: 8, min: [0], size: [1] } as const;
+
+const implicitModes = ["auto", ...meshModes] as const;
 
 function colorComponentsOf({ numColorComponents }: { readonly numColorComponents: number }): 3 | 4 {
   if (numColorComponents === 3 || numColorComponents === 4) return numColorComponents;
@@ -128,7 +139,19 @@ export function readBinaryGeometry(element: SceneElement, resolve: Resolve, warn
   };
   const read = values.normalPerVertex && values.normalAsSphericalCoordinates ? withNormalsInCoords(geometry) : geometry;
   checkElementTypes(read);
-  return read;
+  return checked(element, read, warnings);
+}
+
+function checked(element: SceneElement, geometry: GeometryDescription, warnings: Warning[]): GeometryDescription {
+  const { encoding, patches, attributes } = geometry;
+  for (const patch of patches) {
+    checkPatch(patch, encoding);
+    if (formatOf(geometry).storage !== "packed" && encoding !== "live") checkAttributeFiles(patch, attributes);
+  }
+  checkQuantization(geometry);
+  if (patches.some((patch) => drawsNothing(patch, encoding)))
+    warnings.push({ element, message: "vertexCount is 0; nothing is drawn" });
+  return geometry;
 }
 
 /** X3DOM stores spherical normals of one byte each in the fourth element of 16-bit coordinate records. */
@@ -191,6 +214,7 @@ function commonFieldsOf(
   indexTypes: readonly ElementType[],
 ) {
   const { position, size, positionBits, solid, ccw } = values;
+  checkCounts({ positionBits });
   const indexType = choiceOf("indexType", values.indexType, indexTypes);
   const normalEncoding = choiceOf("normalEncoding", values.normalEncoding, normalEncodings);
   return {
@@ -207,13 +231,6 @@ function commonFieldsOf(
     texCoordImageBits: 16 as PairBits,
     value: undefined,
   };
-}
-
-/** The choice that the text names, case-insensitively. Throws UnreadableGeometry where it names none. */
-function choiceOf<Choice extends string>(field: string, text: string, choices: readonly Choice[]): Choice {
-  const found = choices.find((choice) => choice.toLowerCase() === text.trim().toLowerCase());
-  if (found === undefined) throw new UnreadableGeometry(`${field}="${text}" is none of ${choices.join(", ")}`);
-  return found;
 }
 
 /** The box of `bboxCenter` and `bboxSize`; undefined for X3D's size -1 -1 -1. */
@@ -236,33 +253,21 @@ function readPatches(
   warnings: Warning[],
 ): PatchDescription[] {
   const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
-  if (patchElements.length === 0) {
-    const imageWarnings: Warning[] = [];
-    const images = containerImagesOf(element, resolve, imageWarnings);
-    warnings.push(...imageWarnings);
-    const values = withImplicitMeshCount(element, readFields(element, nodeFields.GeometryPatch, warnings), warnings);
-    const patch = patchOf(element, values, images, encoding, warnings);
-    // An image that cannot be read is why there are none.
-    if (imageWarnings.length === 0) requireCoordinates(element, patch, encoding, warnings);
-    return [patch];
-  }
-  return patchElements.map((child) => {
-    const patch = patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), {}, encoding, warnings);
-    requireCoordinates(child, patch, encoding, warnings);
-    return patch;
-  });
+  if (patchElements.length > 0)
+    return patchElements.map((child) => {
+      const values = readFields(child, nodeFields.GeometryPatch, warnings);
+      return patchOf(child, withImplicitMeshCount(child, values, warnings), {}, encoding, warnings);
+    });
+  const images =
+    encodingFormats[encoding].storage === "bytePlanes" ? containerImagesOf(element, resolve, warnings) : {};
+  // The reader of the node has warned of the fields that it shares with a patch.
+  const values = { ...readFields(element, nodeFields.GeometryPatch, []), ...readFields(element, ownFields, warnings) };
+  return [patchOf(element, withImplicitMeshCount(element, values, warnings), images, encoding, warnings)];
 }
 
-function requireCoordinates(
-  element: SceneElement,
-  { coord, data }: PatchDescription,
-  encoding: Encoding,
-  warnings: Warning[],
-): void {
-  const isPacked = encodingFormats[encoding].storage === "packed";
-  if (isPacked ? data === undefined : coord.length === 0)
-    warnings.push({ element, message: `there is no ${isPacked ? "data" : "coord"}; nothing is drawn` });
-}
+/** The fields of a GeometryPatch that the node around it does not have. */
+const { bboxCenter, bboxSize, recordCount, gridOrigin } = nodeFields.GeometryPatch;
+const ownFields = { bboxCenter, bboxSize, recordCount, gridOrigin };
 
 function patchOf(
   element: SceneElement,
@@ -271,17 +276,28 @@ function patchOf(
   encoding: Encoding,
   warnings: Warning[],
 ): PatchDescription {
+  checkCounts({ recordCount: values.recordCount });
+  const [implicitWidth, implicitHeight] = implicitSizeOf(values.implicitMeshSize);
   return {
     box: boxOf(values),
-    vertexCount: Math.max(0, values.recordCount),
+    vertexCount: values.recordCount,
     draws: drawsOf(element, values, warnings),
-    implicitWidth: Math.max(1, Math.floor(values.implicitMeshSize[0])),
-    implicitHeight: Math.max(1, Math.floor(values.implicitMeshSize[1] || values.implicitMeshSize[0])),
+    implicitWidth,
+    implicitHeight,
     grid: undefined,
     gridOrigin: values.gridOrigin,
     ...readPatchReferences(element, values, images, encoding, warnings),
     value: [],
   };
+}
+
+/** Columns and rows; 0 rows are as many as columns. Throws UnreadableGeometry for other numbers than those of images. */
+function implicitSizeOf([columns, rows]: Vec2): Vec2 {
+  for (const edge of [columns, rows])
+    if (!(edge >= 0 && edge <= 65536 && Number.isInteger(edge)))
+      throw new UnreadableGeometry("implicitMeshSize is no size of an image");
+  if (columns === 0) throw new UnreadableGeometry("implicitMeshSize has no columns");
+  return [columns, rows || columns];
 }
 
 /** The paper's name for `implicitMeshSize`, which has the last word where both are stated. */
@@ -307,17 +323,18 @@ const primitives: Readonly<Record<string, Primitive>> = {
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
   const { length } = values.primType;
-  if (length > values.vertexCount.length && attributeOf(element, "primType") !== undefined)
+  const counts = values.vertexCount.length > 0 ? values.vertexCount : [0];
+  if (length > counts.length && attributeOf(element, "primType") !== undefined)
     warnings.push({
       element,
-      message: `primType has ${length} draws, vertexCount ${values.vertexCount.length}; the further ones are not used`,
+      message: `primType has ${length} draws, vertexCount ${counts.length}; the further ones are not used`,
     });
-  if (length < values.vertexCount.length)
+  if (length < counts.length)
     warnings.push({
       element,
-      message: `primType has ${length} of ${values.vertexCount.length} draws; TRIANGLES are drawn for the others`,
+      message: `primType has ${length} of ${counts.length} draws; TRIANGLES are drawn for the others`,
     });
-  return values.vertexCount.map((count, index) => {
+  return counts.map((count, index) => {
     const name = values.primType[index] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
     if (primitive === undefined)
@@ -325,7 +342,7 @@ function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]
         element,
         message: `primType "${name}" is none of ${Object.keys(primitives).join(", ")}; TRIANGLES are drawn`,
       });
-    if (count < 0) throw new UnreadableGeometry(`vertexCount ${count} is negative`);
+    checkCounts({ vertexCount: count });
     return { primitive: primitive ?? "triangles", count };
   });
 }

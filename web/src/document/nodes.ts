@@ -448,13 +448,14 @@ export function readFields<Fields extends Record<string, Field<unknown>>>(
     const text = textOf(name);
     const value = text === undefined ? field.defaultValue : field.type.parse(text);
     if (value === undefined && text !== undefined) {
-      warnings.push({ element, message: `${name}="${shortened(text)}" is no ${field.type.name}; its default is used` });
+      warnings.push({ element, message: `${name}="${shortened(text)}" is no ${field.type.name}; it counts as absent` });
     }
     values[name] = value ?? field.defaultValue;
   }
   return values as Values<Fields>;
 }
 
-function shortened(text: string): string {
+/** The beginning of an attribute's text, for messages. */
+export function shortened(text: string): string {
   return text.length > 40 ? `${text.slice(0, 40)}…` : text;
 }

@@ -6,17 +6,21 @@ import type { Encoding, PatchDescription, Reference, Warning } from "./descripti
 import type { SceneElement } from "./element.ts";
 import { encodingFormats } from "./encodings.ts";
 import type { nodeFields, Values } from "./nodes.ts";
+import { UnreadableGeometry } from "./unreadableGeometry.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { byVertexRole, vertexRoles } from "../stage/attributeRows.ts";
 
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
-/** A URL with its fragment: `#N` for images (a texel's, or in compact a patch's index), `#O+S` for typed arrays. */
+/**
+ * A URL with its fragment: `#N` for images (a texel's, or in compact a patch's index), `#O+S` or `#O` for typed arrays.
+ * Throws UnreadableGeometry for another fragment.
+ */
 export function referenceOf(text: string, encoding: Encoding): Reference {
-  const url = text.trim();
-  const hash = url.lastIndexOf("#");
-  const format = encodingFormats[encoding];
-  return hash < 0 ? format.referenceOf(url, undefined) : format.referenceOf(url.slice(0, hash), url.slice(hash + 1));
+  const [url = "", fragment, ...others] = text.trim().split("#");
+  if (url === "") throw new UnreadableGeometry("a reference has no url");
+  if (others.length > 0) throw new UnreadableGeometry("a reference has two fragments");
+  return encodingFormats[encoding].referenceOf(url, fragment);
 }
 
 /** The references of a patch: those of `images`, and of the patch's own fields for what is not in them. */
@@ -58,13 +62,15 @@ function fileReference(
   encoding: Encoding,
   warnings: Warning[],
 ): Reference {
-  const [first = referenceOf("", encoding), ...others] = urls.map((url) => referenceOf(url, encoding));
+  const [first = "", ...further] = urls;
+  const reference = referenceOf(first, encoding);
+  const others = further.map((url) => referenceOf(url, encoding));
   const locationOf = (reference: Reference) => JSON.stringify({ ...reference, url: "" });
-  const alike = others.filter((other) => locationOf(other) === locationOf(first));
+  const alike = others.filter((other) => locationOf(other) === locationOf(reference));
   if (alike.length < others.length)
     warnings.push({
       element,
       message: "the URLs of a file have different fragments; only those like the first are used",
     });
-  return alike.length > 0 ? { ...first, furtherUrls: alike.map(({ url }) => url) } : first;
+  return alike.length > 0 ? { ...reference, furtherUrls: alike.map(({ url }) => url) } : reference;
 }

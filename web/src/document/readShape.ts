@@ -6,7 +6,7 @@ import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.
 import type { Box3, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
 import { fogDepthName } from "./description.ts";
 import type { Resolve, SceneElement } from "./element.ts";
-import { attributeOf, childrenOf, substitutedFor, lowerNameOf } from "./element.ts";
+import { attributeOf, childrenOf, lowerNameOf, substitutedFor, unknownUse } from "./element.ts";
 import { boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import { boxOfGeometry } from "./geometryBox.ts";
 import type { GeometryCache, Lookup } from "./geometryCache.ts";
@@ -54,13 +54,14 @@ export function readShape(
 ): ShapeDescription {
   const { warnings } = context;
   const values = readFields(node, nodeFields.Shape, warnings);
-  const children = childrenOf(node);
+  const children = withOneGeometry(node, context);
   const ownBox = boxOf(values);
   const { geometry, priority, lit, playback, operators } =
     values.patch !== "" && !children.some(isGeometry)
       ? readSharedPatch(node, values.patch, context)
       : readGeometryOf(children, context, ownBox, values.colorBy);
-  const appearance = firstOf(children, context, (child) => (lowerNameOf(child) === "appearance" ? child : undefined));
+  const appearances = children.filter((child) => lowerNameOf(child) === "appearance");
+  const appearance = firstOf(appearances, context, (child) => child);
   const isVisible = values.visible && values.render;
   const ownAppearance = readAppearance(
     appearance,
@@ -102,6 +103,23 @@ export function readShape(
   };
 }
 
+/** The shape's children; of several geometries the first, with a warning. */
+function withOneGeometry(
+  shape: SceneElement,
+  { inlineGeometry, refusals, warnings }: ShapeReadingContext,
+): SceneElement[] {
+  const children = childrenOf(shape);
+  const [first, ...others] = children.filter(
+    (child) => isKnownGeometry(lowerNameOf(child), inlineGeometry) || refusals?.reasonAgainst(child) !== undefined,
+  );
+  if (others.length === 0) return children;
+  warnings.push({
+    element: shape,
+    message: `a Shape has one geometry; of ${others.length + 1} the first is drawn`,
+  });
+  return children.filter((child) => child === first || !others.includes(child));
+}
+
 /** The shape's TextureCoordinateGenerator: of its geometry, or its own where convert has written the geometry. */
 function texCoordGeneratorIn(shape: SceneElement, context: ShapeReadingContext): SceneElement | undefined {
   const isGenerator = (node: SceneElement) => lowerNameOf(node) === "texturecoordinategenerator";
@@ -140,7 +158,7 @@ function readGeometryOf(
   colorBy: string,
 ): ShapeGeometry {
   const { geometries, lookup, warnings } = context;
-  const found = firstOf(children, context, (child) => {
+  const found = firstOf(children.filter(isGeometry), context, (child) => {
     if (lowerNameOf(child) === "text") context.listen(child);
     const geometry = geometries.geometryOf(child, lookup, warnings, (...args) => readGeometry(context, ...args));
     return geometry && { child, geometry };
@@ -255,12 +273,14 @@ function readFileGeometry(
  * warning too; "" where a reader found nothing to draw; undefined without a geometry node.
  */
 function problemOf(children: readonly SceneElement[], context: ShapeReadingContext): string | undefined {
-  const nodes = children.filter(isGeometry).flatMap((child) => resolveUse(child, { ...context, warnings: [] }) ?? []);
-  if (nodes.length === 0) return undefined;
+  const geometries = children.filter(isGeometry);
+  if (geometries.length === 0) return undefined;
   // Without a reader of geometry in the document, as before the runtime has loaded, nothing is known of other nodes.
   const { inlineGeometry, warnings } = context;
   if (inlineGeometry === undefined) return "";
-  for (const node of nodes) {
+  for (const child of geometries) {
+    const node = resolveUse(child, { ...context, warnings: [] });
+    if (node === undefined) return `<${child.localName}> ${unknownUse(attributeOf(child, "USE"))}`;
     const reason = reasonAgainst(node, inlineGeometry, context);
     if (reason === undefined) continue;
     warnings.push({ element: node, message: reason });
@@ -278,10 +298,14 @@ function reasonAgainst(
   const reason = refusals?.reasonAgainst(node);
   if (reason !== undefined) return reason;
   const name = lowerNameOf(node);
-  const isKnown = entryOf(geometryReaders, name) ?? (name === "text" || inlineGeometry.reads(name));
-  if (!isKnown) return "it is no geometry node that pages draw; nothing is drawn";
+  if (!isKnownGeometry(name, inlineGeometry)) return "it is no geometry node that pages draw; nothing is drawn";
   const fileGeometry = readFileGeometry(node, resolverOf(lookup), []);
   return fileGeometry instanceof UnreadableGeometry ? fileGeometry.message : undefined;
+}
+
+/** Whether pages draw a geometry of this lower-case name. */
+function isKnownGeometry(name: string, inlineGeometry: InlineGeometryReader | undefined): boolean {
+  return Object.hasOwn(geometryReaders, name) || name === "text" || (inlineGeometry?.reads(name) ?? false);
 }
 
 /** Whether a child of a Shape is a geometry, judged by its name: all but Appearance, HAnimDisplacers and metadata are. */
@@ -306,7 +330,7 @@ function resolveUse(element: SceneElement, { lookup, warnings }: ShapeReadingCon
   const name = attributeOf(element, "USE");
   if (name === undefined) return element;
   const node = lookup(name);
-  if (node === undefined) warnings.push({ element, message: `USE="${name}" names no DEF of this scene` });
+  if (node === undefined) warnings.push({ element, message: unknownUse(name) });
   return node;
 }
 

@@ -23,5 +23,5 @@ export const twoPatches = `
   <ImageGeometry position="1 2 3" size="2 2 2" positionBits="12" solid="false" index="unused.png">
     <GeometryPatch bboxCenter="1 2 3" bboxSize="2 1 1" recordCount="300" primType='"TRIANGLES" "TRIANGLESTRIP"'
       vertexCount="900 12" implicitMeshSize="512 2" index="i.png#1024" coord='"a.png" "b.png#512"' normal="n.png"/>
-    <GeometryPatch bboxCenter="1 2 3" bboxSize="1 2 1" recordCount="4" primType="LINESTRIP" vertexCount="4" coord="c.png"/>
+    <GeometryPatch bboxCenter="1 2 3" bboxSize="1 2 1" recordCount="4" primType="LINESTRIP" vertexCount="4" coord='"c.png" "d.png"'/>
   </ImageGeometry>`;

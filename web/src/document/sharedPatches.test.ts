@@ -33,7 +33,9 @@ describe("a shape with `patch`", () => {
 
   for (const patch of ["g", "g#", "g#x", "h#1", "#1", "g#-1", "plain#1"]) {
     test(`is empty, with a warning, where it is "${patch}"`, () => {
-      const scene = sceneOf(`${node}<ImageGeometry DEF="plain" coord="c.png"/><Shape patch="${patch}"/>`);
+      const scene = sceneOf(
+        `${node}<ImageGeometry DEF="plain" coord="c.png" vertexCount="3"/><Shape patch="${patch}"/>`,
+      );
       assert.equal(shapesOf(scene.root)[0]?.geometry, undefined);
       assert.equal(scene.warnings.length, 1);
     });
