@@ -1,14 +1,12 @@
 #include "export/gltf_deformation.h"
 
+#include "scene/vertex_joints.h"
+
 #include <algorithm>
 
 namespace imgeo {
 
 namespace {
-
-const NamedAttribute& attributeOf(const Mesh& mesh, const std::string& name) {
-  return *std::ranges::find(mesh.namedAttributes, name, &NamedAttribute::name);
-}
 
 std::size_t addFloats(GltfArrays& arrays, const std::vector<float>& values, const char* type, std::size_t count) {
   arrays.begin();

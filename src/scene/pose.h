@@ -1,5 +1,5 @@
 #pragma once
-// A scene at a moment of its animations: where its Transforms are then, and which form its deformed shapes have.
+// A scene at a moment of its animations: where its Transforms are then, and what moves the vertices of its shapes.
 
 #include "scene/scene.h"
 
@@ -14,6 +14,10 @@ struct Pose {
   std::map<std::size_t, double> weights; ///< of Displacers
 };
 
+/// The fractions at which the animation of a TimeSensor is looked at: all keys of its interpolators, and the middle
+/// between two; if these are more than `maxCount`, which is at least 2, that many of them.
+std::vector<double> momentsOf(const SceneGraph& graph, std::size_t sensor, std::size_t maxCount);
+
 /// The scene when a TimeSensor sends this fraction (0 to 1).
 Pose poseAt(const SceneGraph& graph, std::size_t sensor, double fraction);
 
@@ -23,16 +27,12 @@ std::vector<Affine3d> worldFromNodes(const SceneGraph& graph, const Pose& pose =
 /// By node: the Humanoid whose skin a Shape is; absent for other nodes.
 std::map<std::size_t, std::size_t> humanoidOfShapes(const SceneGraph& graph);
 
-/// Moves the vertices and turns the normals of a Shape's mesh to a pose.
-Mesh posedMesh(const Scene& scene, std::size_t shapeNode, const Pose& pose = {});
+/// The well-formed interpolator at a node, unless it is one of lists; else nullptr.
+const Interpolator* interpolatorAt(const SceneGraph& graph, std::size_t node);
 
-/// A copy of the scene, if it has shapes with joints or displacers, in which each of them has its own mesh, at rest.
-std::optional<Scene> atRest(const Scene& scene);
-
-/// Gives all such shapes their form at rest for good. Returns the number of their meshes.
-std::size_t removeDeformations(Scene& scene);
-
-/// Sets Shape::movingBox of all shapes with joints or displacers: around the vertices at rest and in all animations.
-void setMovingBoxes(Scene& scene);
+/// For each joint of a Humanoid the map from the coordinates of its shapes to those of the same shapes in a pose, of
+/// which `worldFromNode` are the worldFromNodes().
+std::vector<Affine3d> skinMatrices(const SceneGraph& graph, std::size_t humanoidNode,
+                                   const std::vector<Affine3d>& worldFromNode);
 
 } // namespace imgeo

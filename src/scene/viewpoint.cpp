@@ -1,22 +1,12 @@
 #include "scene/viewpoint.h"
 
+#include "base/box_corners.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace imgeo {
-
-namespace {
-
-std::vector<Vec3d> cornersOf(const Box3d& box) {
-  std::vector<Vec3d> corners;
-  for (int corner = 0; corner < 8; ++corner)
-    corners.push_back(
-        {corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z});
-  return corners;
-}
-
-} // namespace
 
 Viewpoint viewpointFrom(Vec3d towardsViewer, const Box3d& box, std::span<const Vec3d> outline) {
   const double level = std::hypot(towardsViewer.x, towardsViewer.z);
@@ -25,7 +15,7 @@ Viewpoint viewpointFrom(Vec3d towardsViewer, const Box3d& box, std::span<const V
   Viewpoint viewpoint;
   viewpoint.orientation = transformOf({right, up, towardsViewer, {}}).rotation;
 
-  const std::vector<Vec3d> corners = cornersOf(box);
+  const std::array<Vec3d, 8> corners = cornersOf(box);
   // The minimum distance at which all points are visible, with a margin.
   const double maxTangent = 0.9 * std::tan(viewpoint.fieldOfView / 2);
   double distance = 0;

@@ -1,6 +1,8 @@
 #include "base/testing.h"
 #include "import/gltf/testing.h"
 #include "import/testing.h"
+#include "scene/deformation.h"
+#include "scene/moving_boxes.h"
 #include "scene/pose.h"
 
 #include <algorithm>

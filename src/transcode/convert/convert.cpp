@@ -8,8 +8,9 @@
 #include "imgeo/site.h"
 #include "imgeo/version.h"
 #include "import/warnings.h"
+#include "scene/deformation.h"
 #include "scene/fog_depths.h"
-#include "scene/pose.h"
+#include "scene/moving_boxes.h"
 #include "scene/source_axes.h"
 #include "transcode/convert/peak_memory.h"
 #include "transcode/convert/precompress.h"
@@ -205,13 +206,13 @@ public:
 
   /// Samples the surfaces for the page's pictures and the default viewpoints, before the meshes are encoded.
   void sampleSurfaces() {
+    setMovingBoxes(scene_);
     const std::optional<Scene> rest = atRest(scene_);
     const Scene& scene = rest ? *rest : scene_;
     if (options_.pictures)
       pictureSamples_ = pictureSamplesOf(scene);
     if (!scene_.graph.isComplete && (options_.view != StartView::automatic || !hasViewpoint(scene_.graph)))
       viewSamples_ = viewSamplesOf(scene);
-    setMovingBoxes(scene_);
   }
 
   void encodeMeshes() {

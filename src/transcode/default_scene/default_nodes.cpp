@@ -107,7 +107,10 @@ void addDefaultNodes(SceneDocument& document, StartView view, const ViewSamples&
     warnings.push_back(fmt::format("{} scaled by more than 10^15 or less than 10^-15, or moved as far: what "
                                    "stands there cannot be drawn.",
                                    counted(world.undrawableShapes, "shape is", "shapes are")));
-  const Box3d box = world.box.empty() ? Box3d{{}, {}} : world.box;
+  Box3d box = world.box.empty() ? Box3d{{}, {}} : world.box;
+  if (!samples.moving.empty())
+    for (const Vec3d& corner : {samples.moving.min, samples.moving.max})
+      box.add(corner);
   setCentersOfRotation(graph, box.center());
   // A source with lights is lit by them alone: a headlight would wash out what its author has lit.
   graph.headlight = !hasShiningLight(graph);

@@ -1,6 +1,8 @@
 #include "transcode/default_scene/start_view.h"
 
+#include "base/box_corners.h"
 #include "base/parallel.h"
+#include "scene/pose.h"
 #include "scene/shape_instances.h"
 
 #include <algorithm>
@@ -101,6 +103,41 @@ std::vector<Vec3f> tipsOf(const Mesh& mesh) {
   return tips;
 }
 
+/// Tips of shapes at the moments of an animation that move their Transforms, and the corners of the boxes that surround
+/// shapes whose vertices move.
+void addMoments(const Scene& scene, const std::vector<std::vector<Vec3f>>& tips, std::size_t instanceCount,
+                ViewSamples& samples) {
+  constexpr std::size_t pointCount = 400'000;
+  const std::size_t maxMoments = std::clamp<std::size_t>(pointCount / (27 * (instanceCount + 1)), 3, 64);
+  SceneGraph graph = scene.graph;
+  const auto addPoint = [&](Vec3d point) {
+    samples.outline.push_back(point);
+    samples.moving.add(point);
+  };
+  const auto add = [&](const Pose& pose) {
+    for (const auto& [node, transform] : pose.transforms)
+      graph.nodes[node].content = transform;
+    for (const ShapeInstance& instance : shapeInstances(graph)) {
+      const Shape& shape = shapeOf(graph, instance.node);
+      if (!isDrawable(instance.worldFromShape))
+        continue;
+      if (!shape.movingBox.empty())
+        for (const Vec3d& corner : cornersOf(shape.movingBox))
+          addPoint(instance.worldFromShape.point(corner));
+      else if (!pose.transforms.empty())
+        for (const Vec3f& tip : tips[shape.mesh])
+          addPoint(instance.worldFromShape.point(Vec3d(tip)));
+    }
+    for (const auto& [node, transform] : pose.transforms)
+      graph.nodes[node].content = scene.graph.nodes[node].content;
+  };
+  add({});
+  for (const std::size_t node : nodesInOrder(scene.graph))
+    if (std::holds_alternative<TimeSensor>(scene.graph.nodes[node].content))
+      for (const double moment : momentsOf(scene.graph, node, maxMoments))
+        add(poseAt(scene.graph, node, moment));
+}
+
 /// 1 for the front at a height of 20 degrees, less the farther a view is from it.
 double preferenceFor(Candidate candidate) {
   const double fromFront = (1 - std::cos(candidate.azimuth * degree)) / 2; // 0 in front, 1 behind
@@ -111,7 +148,7 @@ double preferenceFor(Candidate candidate) {
 
 ViewSamples viewSamplesOf(const Scene& scene) {
   constexpr std::size_t sampleCount = 20'000, maxInstances = 50'000;
-  ViewSamples samples{surfaceSamples(scene, sampleCount), {}};
+  ViewSamples samples{surfaceSamples(scene, sampleCount), {}, {}};
   const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
   if (instances.size() > maxInstances)
     return samples;
@@ -123,6 +160,7 @@ ViewSamples viewSamplesOf(const Scene& scene) {
     if (isDrawable(instance.worldFromShape))
       for (const Vec3f& tip : tips[shapeOf(scene.graph, instance.node).mesh])
         samples.outline.push_back(instance.worldFromShape.point(Vec3d(tip)));
+  addMoments(scene, tips, instances.size(), samples);
   return samples;
 }
 

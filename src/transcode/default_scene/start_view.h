@@ -12,9 +12,11 @@ namespace imgeo {
 struct ViewSamples {
   std::vector<SurfaceSample> surface; ///< empty if no view is to be chosen
   std::vector<Vec3d> outline;         ///< points that all viewpoints show; empty: the whole box of the scene
+  Box3d moving;                       ///< around the shapes at all moments of animations; empty where nothing moves
 };
 
-/// The samples of a scene in world coordinates.
+/// The samples of a scene at rest, in world coordinates. The outline includes what its animations move, and the boxes
+/// around shapes whose vertices move (Shape::movingBox).
 ViewSamples viewSamplesOf(const Scene& scene);
 
 /// The unit vector from the scene to the viewer at a named view; for `automatic` that of the front.

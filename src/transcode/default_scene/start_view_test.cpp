@@ -58,5 +58,29 @@ TEST(StartView, OutlinesIncludeThinTips) {
   EXPECT_TRUE(std::ranges::find(samples.outline, Vec3d{0, 1e3, 0}) != samples.outline.end());
 }
 
+/// A plate of 4 × 1 in a Transform that a clock moves to x = 100 and back.
+Scene slidingPlate() {
+  Scene scene = testing::sceneOf({plate({4, 0, 0}, {0, 1, 0})});
+  SceneGraph& graph = scene.graph;
+  const std::size_t moved = addNode(graph, {"slide", Transform{}, graph.roots, ""});
+  const std::size_t clock = addNode(graph, {"clock", TimeSensor{}, {}, ""});
+  const Interpolator path{InterpolatorKind::position, {0, 0.5f, 1}, {0, 0, 0, 100, 0, 0, 0, 0, 0}};
+  const std::size_t interpolator = addNode(graph, {"path", path, {}, ""});
+  graph.roots = {moved, clock, interpolator};
+  graph.routes = {{clock, "fraction_changed", interpolator, "set_fraction"},
+                  {interpolator, "value_changed", moved, "set_translation"}};
+  return scene;
+}
+
+TEST(StartView, OutlinesIncludeWhatAnimationsMove) {
+  const ViewSamples samples = viewSamplesOf(slidingPlate());
+  EXPECT_EQ(samples.moving, (Box3d{{0, 0, 0}, {104, 1, 0}}));
+  EXPECT_TRUE(std::ranges::find(samples.outline, Vec3d{104, 1, 0}) != samples.outline.end());
+}
+
+TEST(StartView, OutlinesOfScenesAtRestHaveNoBoxOfWhatMoves) {
+  EXPECT_TRUE(viewSamplesOf(testing::sceneOf({plate({4, 0, 0}, {0, 1, 0})})).moving.empty());
+}
+
 } // namespace
 } // namespace imgeo

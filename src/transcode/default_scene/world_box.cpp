@@ -1,5 +1,6 @@
 #include "transcode/default_scene/world_box.h"
 
+#include "base/box_corners.h"
 #include "scene/shape_instances.h"
 
 namespace imgeo {
@@ -13,10 +14,8 @@ WorldBox worldBoxOf(const SceneDocument& document) {
       ++world.undrawableShapes;
       continue;
     }
-    for (int corner = 0; corner < 8; ++corner)
-      world.box.add(
-          instance.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                         corner & 4 ? box.max.z : box.min.z}));
+    for (const Vec3d& corner : cornersOf(box))
+      world.box.add(instance.worldFromShape.point(corner));
   }
   return world;
 }

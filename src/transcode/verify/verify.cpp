@@ -2,6 +2,7 @@
 
 #include "imgeo/verify.h"
 
+#include "base/box_corners.h"
 #include "base/error.h"
 #include "documents/mixed_geometries.h"
 #include "scene/shape_instances.h"
@@ -32,13 +33,8 @@ namespace {
 /// Whether two transforms map a mesh to the same positions, within the rounding of documents.
 bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
   const double slack = 1e-6 * (length(b.direction(box.size())) + length(b.point(box.center())));
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d point{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                      corner & 4 ? box.max.z : box.min.z};
-    if (!(length(a.point(point) - b.point(point)) <= slack))
-      return false;
-  }
-  return true;
+  return std::ranges::all_of(cornersOf(box),
+                             [&](const Vec3d& corner) { return length(a.point(corner) - b.point(corner)) <= slack; });
 }
 
 /// The input, prepared as convert prepared it for this site. For a site of another program normals are not computed.
