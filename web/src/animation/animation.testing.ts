@@ -106,8 +106,14 @@ export interface TestScene {
   set(name: string, attribute: string, value: string): void;
 }
 
-export function play(markup: string, mayStartByItself = true): TestScene {
+/** `inlined`: the documents that have loaded, by the DEF of their Inline. */
+export function play(
+  markup: string,
+  mayStartByItself = true,
+  inlined: Readonly<Record<string, string>> = {},
+): TestScene {
   const root = sceneOf(markup);
+  const documents = new Map(Object.entries(inlined).map(([name, text]) => [name, sceneOf(text)]));
   const events: string[] = [];
   const warnings: string[] = [];
   const drawn = new Map<string, Value>();
@@ -116,7 +122,10 @@ export function play(markup: string, mayStartByItself = true): TestScene {
   let scheduled: { callback: () => void; delay: number; at: number } | undefined;
   const nameOf = (element: AnimatedElement): string => element.getAttribute("DEF") ?? element.localName;
   const player = new AnimationPlayer(
-    root,
+    {
+      roots: [root, ...documents.values()],
+      documentOf: (inline) => documents.get(inline.getAttribute("DEF") ?? ""),
+    },
     {
       now: () => now,
       schedule(callback, delay) {

@@ -1,6 +1,8 @@
-// The event graph of a document: its nodes that send events, and its ROUTEs. Read again where the document changes; a
-// node keeps its state as long as its element is in the document.
+// The event graph of a document and those that it inlines: their nodes that send events, and their ROUTEs. Read again
+// where a document changes; a node keeps its state as long as its element is in the document.
 
+import type { AnimatedDocuments, NamedNode, StatedRoute } from "./documents.ts";
+import { DocumentNames } from "./documents.ts";
 import type { AnimatedElement } from "./elements.ts";
 import { attributeIn, attributeNameIn, labelOf } from "./elements.ts";
 import type { EventGraph } from "./eventGraph.ts";
@@ -42,7 +44,7 @@ export interface DocumentGraphOptions {
 const drawn: Behaviour = { receive: () => undefined };
 
 export class DocumentGraph {
-  readonly #root: AnimatedElement;
+  readonly #documents: AnimatedDocuments;
   readonly #graph: EventGraph;
   readonly #options: DocumentGraphOptions;
   /** Nodes with behaviour, in document order. */
@@ -51,8 +53,8 @@ export class DocumentGraph {
   readonly #drawnNodes = new Map<AnimatedElement, EventNode>();
   #elements: ReadonlyMap<EventNode, AnimatedElement> = new Map();
 
-  constructor(root: AnimatedElement, graph: EventGraph, options: DocumentGraphOptions) {
-    this.#root = root;
+  constructor(documents: AnimatedDocuments, graph: EventGraph, options: DocumentGraphOptions) {
+    this.#documents = documents;
     this.#graph = graph;
     this.#options = options;
   }
@@ -81,25 +83,15 @@ export class DocumentGraph {
   read(): void {
     const before = this.#nodes;
     const nodes = new Map<AnimatedElement, EventNode>();
-    const routes: AnimatedElement[] = [];
-    const named = new Map<string, AnimatedElement>();
-    const visit = (element: AnimatedElement): void => {
-      const name = attributeIn(element, "DEF");
-      if (name !== undefined && !named.has(name)) named.set(name, element);
-      if (element.localName.toLowerCase() === "route") routes.push(element);
-      else if (attributeIn(element, "USE") === undefined) {
-        const node = before.get(element) ?? this.#makeNode(element);
-        if (node) nodes.set(element, node);
-      }
-      for (const child of Array.from(element.children)) visit(child);
-    };
-    visit(this.#root);
+    const names = new DocumentNames(this.#documents, (element) => {
+      const node = before.get(element) ?? this.#makeNode(element);
+      if (node) nodes.set(element, node);
+    });
     for (const node of [...nodes.values(), ...this.#drawnNodes.values()]) node.clearRoutes();
     this.#drawnNodes.clear();
     this.#nodes = nodes;
     this.#elements = new Map(Array.from(nodes, ([element, node]) => [node, element]));
-    const known = new Set<string>();
-    for (const route of routes) this.#addRoute(route, named, known);
+    for (const { label, route, ends } of names.routes()) this.#addRoute(label, route, ends);
   }
 
   /**
@@ -144,20 +136,12 @@ export class DocumentGraph {
     return node;
   }
 
-  #addRoute(route: AnimatedElement, named: ReadonlyMap<string, AnimatedElement>, known: Set<string>): void {
-    const [fromNode = "", fromField = "", toNode = "", toField = ""] = [
-      "fromNode",
-      "fromField",
-      "toNode",
-      "toField",
-    ].map((name) => attributeIn(route, name)?.trim());
-    const label = `ROUTE ${fromNode}.${fromField} TO ${toNode}.${toField}`;
-    if (known.has(label)) return; // X3D: a second one has no effect
-    known.add(label);
-    const [source, target] = [named.get(fromNode), named.get(toNode)];
-    const missing = source === undefined ? fromNode : toNode;
+  #addRoute(label: string, { fromField, toField }: StatedRoute, [begin, end]: readonly NamedNode[]): void {
+    if (begin === undefined || end === undefined) return;
+    const { element: source } = begin;
+    const { element: target } = end;
     if (source === undefined || target === undefined) {
-      this.#options.warn(`${label}: no node has DEF="${missing}"; the route has no effect`);
+      this.#options.warn(`${label}: ${begin.fault ?? end.fault ?? ""}; the route has no effect`);
       return;
     }
     const from = this.#portOf(source, fromField, "output");

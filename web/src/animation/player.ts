@@ -1,6 +1,7 @@
 // Plays a document's animation: once for each frame it advances the clocks, sends their events and those of the pointer
 // and the camera along the routes, and applies the changed fields to the scene.
 
+import type { AnimatedDocuments } from "./documents.ts";
 import type { DrawnFieldOf, FieldChange } from "./documentGraph.ts";
 import { DocumentGraph, fieldNamed } from "./documentGraph.ts";
 import type { AnimatedElement } from "./elements.ts";
@@ -49,7 +50,7 @@ export class AnimationPlayer {
   #isDisposed = false;
 
   /** `mayStartByItself`: whether clocks run that no event has started. */
-  constructor(root: AnimatedElement, clock: Clock, host: PlayerHost, mayStartByItself = true) {
+  constructor(documents: AnimatedDocuments, clock: Clock, host: PlayerHost, mayStartByItself = true) {
     this.#clock = clock;
     this.#host = host;
     this.#mayStartByItself = mayStartByItself;
@@ -61,7 +62,7 @@ export class AnimationPlayer {
         host.warn(`${node.name} ${message}`);
       },
     });
-    this.#document = new DocumentGraph(root, this.#graph, {
+    this.#document = new DocumentGraph(documents, this.#graph, {
       drawnFieldOf: host.drawnFieldOf,
       onChange: (change) => {
         this.#pending.push(change);

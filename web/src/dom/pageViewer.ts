@@ -187,6 +187,7 @@ export class PageViewer {
       this.#follow(this.#animation.follow(records));
     });
     this.#animation = new SceneAnimation(x3d, {
+      documentOf: (inline) => this.#core.inlines.documentOf(inline)?.x3d as Element | undefined,
       movePoses: (changes) => {
         this.#movePoses(changes);
       },

@@ -1,7 +1,8 @@
-// Animates a page's scene where its document has nodes that send events. Only then the module that does it is loaded.
+// Animates a page's scene where its document, or one that it inlines, has nodes that send events. Only then the module
+// that does it is loaded.
 
 import type { FieldChange } from "../animation/documentGraph.ts";
-import type { AnimatedScene, PageAnimation } from "../animation/page/pageAnimation.ts";
+import type { AnimatedScene, PageAnimation, PageDocuments } from "../animation/page/pageAnimation.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
 import { drawnFieldOf, isOfPose } from "../viewer/drawnFields.ts";
 
@@ -20,6 +21,8 @@ export interface DocumentChange {
 }
 
 export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" | "move" | "read"> {
+  /** The root of the document that an Inline displays; undefined before it has loaded. */
+  documentOf(inline: Element): Element | undefined;
   /** Moves Transforms and vertices. */
   movePoses(changes: readonly PoseChange[]): void;
   /** Gives a field of a geometry node or of its Coordinate other numbers; false: its attribute is to be read. */
@@ -31,12 +34,9 @@ export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" |
 export class SceneAnimation {
   readonly #x3d: Element;
   readonly #host: SceneAnimationHost;
-  /** The animation of the page's own document. */
   #animation: PageAnimation | undefined;
-  /** Those of inlined documents, by their root elements. */
-  readonly #inlined = new Map<Element, PageAnimation>();
-  #module: Promise<{ readonly PageAnimation: typeof PageAnimation }> | undefined;
-  #roots: readonly Element[] = [];
+  /** The roots of the documents that are inlined and have loaded. */
+  #inlined: readonly Element[] = [];
   #isRequested = false;
   #isPaused = false;
   #mayStartByItself = true;
@@ -53,7 +53,7 @@ export class SceneAnimation {
 
   /** Loads the module if the document needs it. */
   start(): void {
-    if (hasAnimation(this.#x3d)) this.#load();
+    if (hasAnimation(this.#x3d)) void this.#load();
   }
 
   /** `isPaused`: all clocks stand. `mayStartByItself`: clocks run that no event has started. */
@@ -67,7 +67,7 @@ export class SceneAnimation {
   follow(records: readonly MutationRecord[]): readonly MutationRecord[] {
     const animation = this.#animation;
     if (animation === undefined) {
-      if (!this.#isRequested && records.some(concernsAnimation)) this.#load();
+      if (!this.#isRequested && records.some(concernsAnimation)) void this.#load();
       return records;
     }
     if (records.some(changesGraph)) animation.read();
@@ -79,72 +79,61 @@ export class SceneAnimation {
 
   /** Plays the inlined documents with these root elements, and no others. */
   followInlined(roots: readonly Element[]): void {
-    this.#roots = roots;
-    for (const [root, animation] of this.#inlined) {
-      if (roots.includes(root)) continue;
-      animation.dispose();
-      this.#inlined.delete(root);
-    }
-    for (const root of roots) if (!this.#inlined.has(root) && hasAnimation(root)) void this.#playInlined(root);
+    if (roots.length === this.#inlined.length && roots.every((root, index) => root === this.#inlined[index])) return;
+    this.#inlined = roots;
+    if (this.#animation) this.#animation.read();
+    else if (!this.#isRequested && roots.some(hasAnimation)) void this.#load();
   }
 
   /** Call before the document is read: writes attributes that are late. */
   writeAttributes(): void {
-    for (const animation of this.#all) animation.writeAttributes();
+    this.#animation?.writeAttributes();
   }
 
   /** Call after each frame. */
   onFrame(): void {
-    for (const animation of this.#all) animation.onFrame();
+    this.#animation?.onFrame();
   }
 
   dispose(): void {
     this.#isDisposed = true;
     document.removeEventListener("visibilitychange", this.#onVisibility);
-    for (const animation of this.#all) animation.dispose();
+    this.#animation?.dispose();
   }
 
-  get #all(): readonly PageAnimation[] {
-    return [...(this.#animation ? [this.#animation] : []), ...this.#inlined.values()];
-  }
-
-  #load(): void {
+  /** Without effect where the module cannot be loaded, but for a warning. */
+  async #load(): Promise<void> {
     this.#isRequested = true;
-    void this.#play(this.#x3d).then((animation) => {
-      this.#isRequested = animation !== undefined;
-      this.#animation = animation;
-    });
-  }
-
-  async #playInlined(root: Element): Promise<void> {
-    const animation = await this.#play(root);
-    if (animation === undefined) return;
-    // The document may have been removed, or requested twice, while the module was being loaded.
-    if (this.#roots.includes(root) && !this.#inlined.has(root)) this.#inlined.set(root, animation);
-    else animation.dispose();
-  }
-
-  /** Undefined where the module cannot be loaded, with a warning. */
-  async #play(root: Element): Promise<PageAnimation | undefined> {
     try {
-      const { PageAnimation: Animation } = await (this.#module ??= import("../animation/index.ts"));
-      if (this.#isDisposed) return undefined;
-      const scene: AnimatedScene = {
-        ...this.#host,
-        drawnFieldOf,
-        move: (changes) => this.#move(changes),
-        read: (changes) => {
-          this.#host.read(changes as unknown as readonly DocumentChange[]); // elements of a page are DOM elements
-        },
-      };
-      const animation = new Animation(root, scene, this.#mayStartByItself);
-      animation.isPaused = this.#isPaused || document.hidden;
-      return animation;
+      const { PageAnimation: Animation } = await import("../animation/index.ts");
+      if (this.#isDisposed) return;
+      this.#animation = new Animation(this.#documents(), this.#scene(), this.#mayStartByItself);
+      this.#applyState();
     } catch (error) {
-      this.#module = undefined;
+      this.#isRequested = false;
       this.#host.warn(`the module that animates the scene could not be loaded: ${String(error)}`);
-      return undefined;
     }
+  }
+
+  #documents(): PageDocuments {
+    const roots = (): readonly Element[] => [this.#x3d, ...this.#inlined];
+    return {
+      get roots() {
+        return roots();
+      },
+      documentOf: (inline) => this.#host.documentOf(inline as unknown as Element), // those of a page are DOM elements
+    };
+  }
+
+  #scene(): AnimatedScene {
+    return {
+      ...this.#host,
+      drawnFieldOf,
+      move: (changes) => this.#move(changes),
+      read: (changes) => {
+        this.#host.read(changes as unknown as readonly DocumentChange[]); // elements of a page are DOM elements
+      },
+    };
   }
 
   #move(changes: readonly FieldChange[]): readonly FieldChange[] {
@@ -157,10 +146,9 @@ export class SceneAnimation {
   }
 
   #applyState(): void {
-    for (const animation of this.#all) {
-      animation.mayStartByItself = this.#mayStartByItself;
-      animation.isPaused = this.#isPaused || document.hidden;
-    }
+    if (this.#animation === undefined) return;
+    this.#animation.mayStartByItself = this.#mayStartByItself;
+    this.#animation.isPaused = this.#isPaused || document.hidden;
   }
 }
 
@@ -178,6 +166,8 @@ function concernsAnimation({ addedNodes }: MutationRecord): boolean {
 /** Whether nodes or routes may have been added, removed or renamed. */
 function changesGraph({ type, target, attributeName }: MutationRecord): boolean {
   return (
-    type === "childList" || /^(def|use)$/i.test(attributeName ?? "") || /^route$/i.test((target as Element).localName)
+    type === "childList" ||
+    /^(def|use)$/i.test(attributeName ?? "") ||
+    /^(route|import|export)$/i.test((target as Element).localName)
   );
 }

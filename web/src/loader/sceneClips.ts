@@ -2,6 +2,7 @@
 // clip has one track, the seconds since its beginning; the document's routes take them to what moves.
 
 import { AnimationClip, NumberKeyframeTrack, Object3D } from "three";
+import { singleDocument } from "../animation/documents.ts";
 import type { AnimatedElement } from "../animation/elements.ts";
 import { AnimationPlayer } from "../animation/player.ts";
 import { TimeSensor } from "../animation/timeSensor.ts";
@@ -43,7 +44,7 @@ export function sceneClipsOf(
   warn: (message: string) => void,
 ): SceneClips {
   const player = new AnimationPlayer(
-    x3d,
+    singleDocument(x3d),
     { now: () => 0, schedule: () => () => undefined }, // no clock runs by itself
     {
       drawnFieldOf,

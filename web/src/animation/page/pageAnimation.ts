@@ -1,5 +1,6 @@
-// The animation of a page's <x3d>: its player, its sensors, and what scripts see of both.
+// The animation of a page's <x3d> and of the documents that it inlines: its player, its sensors, and what scripts see of both.
 
+import type { AnimatedDocuments } from "../documents.ts";
 import type { DrawnFieldOf, FieldChange } from "../documentGraph.ts";
 import type { AnimatedElement } from "../elements.ts";
 import { attributeNameIn } from "../elements.ts";
@@ -48,6 +49,11 @@ export interface AnimatedScene extends PointerSpace {
   warn(message: string): void;
 }
 
+/** A page's document and those that it inlines. */
+export interface PageDocuments extends AnimatedDocuments {
+  readonly roots: readonly Element[];
+}
+
 interface ScriptAccess {
   getFieldValue?: (field: string) => unknown;
   setFieldValue?: (field: string, value: unknown) => void;
@@ -64,7 +70,7 @@ export class PageAnimation {
   #viewSensors: readonly { readonly element: AnimatedElement; readonly sensor: ViewSensor }[] = [];
   #isInFrame = false;
 
-  constructor(x3d: Element, scene: AnimatedScene, mayStartByItself: boolean) {
+  constructor(documents: PageDocuments, scene: AnimatedScene, mayStartByItself: boolean) {
     this.#scene = scene;
     const write = (changes: Iterable<FieldChange>): void => {
       this.#write(changes);
@@ -72,7 +78,7 @@ export class PageAnimation {
     this.#attributes = new LateAttributes(write, false);
     this.#listAttributes = new LateAttributes(write, true);
     this.#player = new AnimationPlayer(
-      x3d,
+      documents,
       {
         now: () => Date.now() / 1000,
         schedule: (callback, delay) => this.#schedule(callback, delay),
@@ -99,7 +105,7 @@ export class PageAnimation {
       },
       mayStartByItself,
     );
-    new PointerSensing(x3d, this.#player, scene, this.#listeners.signal);
+    new PointerSensing(() => documents.roots, this.#player, scene, this.#listeners.signal);
     this.read();
   }
 

@@ -51,16 +51,15 @@ interface Press {
 }
 
 export class PointerSensing {
-  /** The root of the document. */
-  readonly #x3d: Element;
+  readonly #roots: () => readonly Element[];
   readonly #player: AnimationPlayer;
   readonly #space: PointerSpace;
   #over: readonly SensorAt[] = [];
   #press: Press | undefined;
 
-  /** Listens until `signal` aborts. */
-  constructor(x3d: Element, player: AnimationPlayer, space: PointerSpace, signal: AbortSignal) {
-    this.#x3d = x3d;
+  /** Listens until `signal` aborts. `roots`: of the documents. */
+  constructor(roots: () => readonly Element[], player: AnimationPlayer, space: PointerSpace, signal: AbortSignal) {
+    this.#roots = roots;
     this.#player = player;
     this.#space = space;
     const listen = (type: string, listener: (event: ShapeEvent) => void): void => {
@@ -110,12 +109,19 @@ export class PointerSensing {
     return this.#press !== undefined;
   }
 
-  /** The enabled sensors that sense a shape: those beside it in the innermost group that has any. */
+  /** The enabled sensors that sense a shape: those beside it, or its Inline, in the innermost group that has any. */
   #sensorsOf({ target, shapeElement }: ShapeEvent): readonly SensorAt[] {
-    const sensed = [shapeElement, target].find(
-      (each): each is Element => each instanceof Element && this.#x3d.contains(each),
-    );
-    for (let at = sensed ?? null; at !== null && at !== this.#x3d; at = at.parentElement) {
+    // A shape of an inlined document is sensed in that document before the Inline is.
+    for (const sensed of new Set([shapeElement, target])) {
+      const sensors = sensed instanceof Element ? this.#sensorsAround(sensed) : [];
+      if (sensors.length > 0) return sensors;
+    }
+    return [];
+  }
+
+  #sensorsAround(sensed: Element): readonly SensorAt[] {
+    const root = this.#roots().find((each) => each.contains(sensed));
+    for (let at = root ? sensed : null; at !== null && at !== root; at = at.parentElement) {
       const sensors: SensorAt[] = [];
       for (const element of Array.from(at.children)) {
         const behaviour = this.#player.nodes.get(element)?.behaviour;
