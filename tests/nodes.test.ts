@@ -85,9 +85,10 @@ const notInRuntimeTable: Readonly<Record<string, readonly string[]>> = {
     "MetadataString.name",
     "MetadataString.value",
   ],
-  "read by web/src/animation/documentGraph.ts": ["fromNode", "fromField", "toNode", "toField"].map(
-    (field) => `ROUTE.${field}`,
-  ),
+  "read by web/src/animation/documents.ts": [
+    ...["fromNode", "fromField", "toNode", "toField"].map((field) => `ROUTE.${field}`),
+    ...["IMPORT.inlineDEF", "IMPORT.importedDEF", "IMPORT.AS", "EXPORT.localDEF", "EXPORT.AS"],
+  ],
   "read as an attribute by web/src/document/appearance.ts": ["PixelTexture.containerField", "TextureTransform.mapping"],
 };
 

@@ -7,7 +7,7 @@
 
 namespace imgeo {
 
-/// Of an empty box they mean nothing.
+/// Those of an empty box have no meaning.
 inline std::array<Vec3d, 8> cornersOf(const Box3d& box) {
   std::array<Vec3d, 8> corners;
   for (std::size_t i = 0; i < corners.size(); ++i)

@@ -254,16 +254,26 @@ const inlined = `<X3D version="4.0"><Scene><Group><TouchSensor DEF="touch"></Tou
   ${route("touch.isActive", "press.set_boolean")}${route("press.inputTrue", "runs.set_boolean")}${route("runs.toggle", "c.set_enabled")}
   <TimeSensor DEF="c" loop="true"></TimeSensor>
   <PositionInterpolator DEF="i" key="0 1" keyValue="0 0 0 1 0 0"></PositionInterpolator>
-  ${route("c.fraction_changed", "i.set_fraction")}${route("i.value_changed", "t.translation")}</Scene></X3D>`;
+  ${route("c.fraction_changed", "i.set_fraction")}${route("i.value_changed", "t.translation")}
+  <EXPORT localDEF="touch"/></Scene></X3D>`;
 
-/** An inlined document plays when the page's own clock does not, and its TouchSensor stops it. */
+/**
+ * An inlined document plays when the page's own clock does not, and its TouchSensor stops it, and sends an event to the
+ * page's document, which imports it.
+ */
 async function assertInlinedPlays(view: View): Promise<void> {
   await set(view, "clock", "enabled", "false");
   await view.page.evaluate(() => {
     document.querySelector("x3d")!.setAttribute("paused", "false");
     const inline = document.createElement("inline");
     inline.setAttribute("url", "inlined.x3d");
+    inline.setAttribute("DEF", "machine");
     document.querySelector("scene")!.append(inline);
+    document.querySelector("scene")!.insertAdjacentHTML(
+      "beforeend",
+      `<import inlineDEF="machine" importedDEF="touch" AS="button"></import><booleanfilter DEF="pressed"></booleanfilter>
+      <route fromNode="button" fromField="isActive" toNode="pressed" toField="set_boolean"></route>`,
+    );
   });
   const before = await framesOf(view);
   await until("the inlined document plays", async () => (await framesOf(view)) > before + 30);
@@ -273,9 +283,14 @@ async function assertInlinedPlays(view: View): Promise<void> {
     await view.page.waitForTimeout(200);
     return (await framesOf(view)) === frames;
   });
-  await view.page.evaluate(() => {
+  const wasPressed = await view.page.evaluate(() => {
     document.querySelector("x3d")!.setAttribute("paused", "");
+    const pressed = document.querySelector('[DEF="pressed"]') as unknown as {
+      getFieldValue: (name: string) => unknown;
+    };
+    return pressed.getFieldValue("inputTrue");
   });
+  assert.equal(wasPressed, true);
 }
 
 test("a scene moves as its ROUTEs say, by its clocks, its scripts and the pointer, and stands where nothing moves", async () => {

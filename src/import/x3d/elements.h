@@ -2,6 +2,7 @@
 // An X3D document as a tree of XML elements, for both encodings: XML (ISO/IEC 19776-1) and classic VRML (ISO/IEC
 // 19776-2, of which VRML97 is the predecessor).
 
+#include "import/x3d/skins.h"
 #include "markup/x3d_element.h"
 
 #include <string>
@@ -15,6 +16,7 @@ struct Elements {
   std::string format;          ///< "X3D", "HTML", "X3D Classic", "VRML97" or "VRML 1.0": for reports
   ElementOffsets offsets;
   std::vector<std::string> warnings; ///< of the parser
+  Skins skins;                       ///< from convertNodes() on
 
   pugi::xml_node root() const { return document.document_element(); }
 };

@@ -2,7 +2,6 @@
 
 #include "import/mesh/triangulate.h"
 #include "import/mesh/unit_normal.h"
-#include "scene/fog_depths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +25,8 @@ class WedgeBuilder {
 public:
   WedgeBuilder(const VertexData& data, Mesh& mesh)
       : data_(data), mesh_(mesh), localPosition_(data.positions.size(), none) {
-    if (!data.fogDepths.empty())
-      mesh.namedAttributes.push_back({fogDepthName, 1, {}});
+    for (const NamedAttribute& attribute : data.pointAttributes)
+      mesh.namedAttributes.push_back({attribute.name, attribute.components, {}});
   }
 
   void addCorner(const Corner& corner) {
@@ -53,8 +52,12 @@ private:
       texCoordsOf(mesh_, set).push_back(data_.furtherTexCoords[set - 1][corner.texCoord]);
     if (corner.color != none)
       mesh_.colors.push_back(data_.colors[corner.color]);
-    if (const std::vector<float>& depths = data_.fogDepths; !depths.empty())
-      mesh_.namedAttributes.back().values.push_back(depths[std::min<std::size_t>(corner.position, depths.size() - 1)]);
+    for (std::size_t i = 0; i < data_.pointAttributes.size(); ++i) {
+      const NamedAttribute& attribute = data_.pointAttributes[i];
+      const std::size_t point = std::min<std::size_t>(corner.position, attribute.count() - 1);
+      for (std::size_t c = 0; c < attribute.components; ++c)
+        mesh_.namedAttributes[i].values.push_back(attribute.values[attribute.components * point + c]);
+    }
   }
 
   const VertexData& data_;

@@ -18,7 +18,8 @@ struct VertexData {
   std::vector<std::string> texCoordMappings;        ///< names of all sets; empty for a single one
   std::vector<Rgba> colors;
   std::uint32_t colorComponents = 3;
-  std::vector<float> fogDepths; ///< by position; the last one is that of all further positions too
+  /// By position; the last values are those of all further positions too.
+  std::vector<NamedAttribute> pointAttributes;
 };
 
 /// Indices into VertexData. Either all corners have an attribute or none has.

@@ -52,7 +52,7 @@ private:
         {"CommonSurfaceShader", &NodeConverter::convertSurfaceShader},
         {"EspduTransform", &NodeConverter::makeTransform},
         {"HAnimHumanoid", &NodeConverter::convertHumanoid},
-        {"HAnimJoint", &NodeConverter::makeTransform},
+        {"HAnimJoint", &NodeConverter::convertJoint},
         {"HAnimSegment", &NodeConverter::convertSegment},
         {"HAnimSite", &NodeConverter::makeTransform},
         {"Layer", &NodeConverter::makeGroup},
@@ -70,6 +70,10 @@ private:
 
   void rename(pugi::xml_node element, const char* name) {
     ++result_.converted[fmt::format("{} as {}", element.name(), name)];
+    renameSilently(element, name);
+  }
+
+  static void renameSilently(pugi::xml_node element, const char* name) {
     element.set_name(name);
     element.remove_attribute("containerField"); // its default is the field of the new node
   }
@@ -143,7 +147,7 @@ private:
   }
 
   /// A humanoid lists the nodes of its skeleton again, and holds the points of its skin, which are no nodes of the
-  /// scene.
+  /// scene. Shapes of a skin whose points follow joints are in a Group of their own (x3d/skins.h).
   void convertHumanoid(pugi::xml_node humanoid) {
     static constexpr std::array lists{"joints"sv,
                                       "segments"sv,
@@ -152,10 +156,31 @@ private:
                                       "skinNormal"sv,
                                       "skinBindingCoords"sv,
                                       "skinBindingNormals"sv};
+    const bool hasSkin = readSkin(humanoid, definitions(), elements_.skins);
     for (const pugi::xml_node& child : elementsOf(humanoid))
       if (isOneOf(lists, child.attribute("containerField").value()) || !isChildNode(child))
         takeOut(child);
-    makeTransform(humanoid);
+    if (hasSkin)
+      renameSilently(humanoid, "Transform");
+    else
+      makeTransform(humanoid);
+  }
+
+  /// Joints of skins are written as HAnimJoints again.
+  void convertJoint(pugi::xml_node joint) {
+    if (joint.attribute("USE") || elements_.skins.joints.contains(joint.internal_object()))
+      renameSilently(joint, "Transform");
+    else
+      makeTransform(joint);
+  }
+
+  /// The elements with a DEF, for skins.
+  Definitions& definitions() {
+    if (definitionsOfSkins_.empty())
+      for (const pugi::xml_node& element : descendantsOf(elements_.root()))
+        if (const pugi::xml_attribute def = element.attribute("DEF"))
+          definitionsOfSkins_.emplace(def.value(), element);
+    return definitionsOfSkins_;
   }
 
   void convertSegment(pugi::xml_node segment) {
@@ -228,6 +253,7 @@ private:
 
   Elements& elements_;
   ShapeDefinitions definitions_;
+  Definitions definitionsOfSkins_;
   pugi::xml_node takenOut_;
   bool hasVisiblePerChild_ = false;
   NodeConversions result_;

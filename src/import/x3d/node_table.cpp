@@ -317,9 +317,9 @@ constexpr NodeRow nodesOfOthers[] = {
 };
 
 constexpr NodeRow statementRows[] = {
-    {"EXPORT", "statement", 0, "children", kept, animates},
+    {"EXPORT", "statement", 0, "children", drawn, ""},
     {"ExternProtoDeclare", "statement", 0, "children", converted, asExpanded},
-    {"IMPORT", "statement", 0, "children", kept, animates},
+    {"IMPORT", "statement", 0, "children", drawn, ""},
     {"IS", "statement", 0, "children", converted, asExpanded},
     {"ProtoBody", "statement", 0, "children", converted, asExpanded},
     {"ProtoDeclare", "statement", 0, "children", converted, asExpanded},

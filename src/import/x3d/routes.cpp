@@ -4,25 +4,33 @@
 #include "import/x3d/event_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace imgeo::x3d {
 
 namespace {
 
-/// Adds the elements with the DEFs that routes name, and all around them, to a set.
-void addConnected(const Source& source, std::set<pugi::xml_node_struct*>& connected) {
-  struct Walker : pugi::xml_tree_walker {
-    bool for_each(pugi::xml_node& node) override {
-      if (std::string_view(node.name()) == "ROUTE")
-        for (const char* end : {"fromNode", "toNode"})
-          names.insert(node.attribute(end).value());
-      return true;
-    }
-    std::set<std::string> names;
-  } walker;
-  source.root().traverse(walker);
-  for (const std::string& name : walker.names)
+/// The DEFs that the routes and exports of a document name, and the names of nodes that it imports.
+struct NameCollector : pugi::xml_tree_walker {
+  bool for_each(pugi::xml_node& node) override {
+    const std::string_view element = node.name();
+    if (element == "ROUTE")
+      for (const char* end : {"fromNode", "toNode"})
+        connected.insert(node.attribute(end).value());
+    if (element == "EXPORT")
+      connected.insert(node.attribute("localDEF").value());
+    if (element == "IMPORT")
+      imported.insert(node.attribute(node.attribute("AS") ? "AS" : "importedDEF").value());
+    return true;
+  }
+  std::set<std::string, std::less<>> connected, imported;
+};
+
+/// Adds the elements with these DEFs, and all around them, to a set.
+void addConnected(const Source& source, const std::set<std::string, std::less<>>& names,
+                  std::set<pugi::xml_node_struct*>& connected) {
+  for (const std::string& name : names)
     for (pugi::xml_node node = source.defined(name); node && connected.insert(node.internal_object()).second;)
       node = node.parent();
 }
@@ -34,7 +42,17 @@ std::vector<float> floatsOf(const std::vector<double>& numbers) {
 } // namespace
 
 Routes::Routes(const Source& source, Faults& faults) : source_(source), faults_(faults) {
-  addConnected(source, connected_);
+  NameCollector names;
+  source.root().traverse(names);
+  addConnected(source, names.connected, connected_);
+  imported_ = std::move(names.imported);
+}
+
+bool Routes::isImported(pugi::xml_node route) const {
+  return std::ranges::any_of(std::array{"fromNode", "toNode"}, [&](const char* end) {
+    const std::string_view name = route.attribute(end).value();
+    return imported_.contains(name) && !source_.defined(name);
+  });
 }
 
 bool Routes::connects(pugi::xml_node element) const {

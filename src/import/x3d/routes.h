@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,7 +20,8 @@ public:
   /// Everything must outlive this.
   Routes(const Source& source, Faults& faults);
 
-  /// Whether a route names the DEF of an element or of one within it: then the element must stay a node of the scene.
+  /// Whether a route or an EXPORT names the DEF of an element or of one within it: then the element must stay a node of
+  /// the scene.
   bool connects(pugi::xml_node element) const;
 
   /// Reads an interpolator. Empty, with a warning, where it is malformed (faultOf), or an Error if strict.
@@ -30,6 +32,10 @@ public:
 
   /// The fields of a TimeSensor; malformed ones count as absent and are removed from `fields`, with a warning.
   TimeSensor timeSensor(pugi::xml_node element, std::vector<FieldText>& fields);
+
+  /// Whether a ROUTE begins or ends at a node of an inlined document that an IMPORT names (ISO/IEC 19775-1, 4.4.6).
+  /// Such a route is kept as it is.
+  bool isImported(pugi::xml_node route) const;
 
   /// Notes a ROUTE.
   void note(pugi::xml_node route) { routes_.push_back(route); }
@@ -61,6 +67,7 @@ private:
   std::vector<pugi::xml_node> routes_;
   std::set<pugi::xml_node_struct*> connected_; ///< elements with a routed DEF, and those around them
   std::set<pugi::xml_node_struct*> malformed_;
+  std::set<std::string, std::less<>> imported_; ///< names of nodes of inlined documents
 };
 
 } // namespace imgeo::x3d

@@ -59,6 +59,30 @@ TEST(Routes, ToNothingOrOfWrongTypesAreLeftOutWithOneWarningEach) {
   expect("S.isOver", "S.isActive", "isActive of \"S\" only sends events");
 }
 
+TEST(Routes, ToImportedNodesAreKeptAsTheyAre) {
+  const Imported imported =
+      readScene(animation +
+                "<Inline DEF='I' url='https://example.org/m.x3d'/><IMPORT inlineDEF='I' importedDEF='door' "
+                "AS='gate'/>" +
+                route("P.value_changed", "gate.set_translation") + route("P.value_changed", "M.translation"));
+  const SceneGraph& graph = imported.scene.graph;
+  EXPECT_EQ(graph.routes.size(), 1u);
+  const auto kept = std::ranges::find_if(graph.nodes, [](const Node& node) {
+    const GenericNode* generic = std::get_if<GenericNode>(&node.content);
+    return generic && generic->element == "ROUTE";
+  });
+  ASSERT_NE(kept, graph.nodes.end());
+  EXPECT_EQ(kept->fields.at(2).value, "gate");
+  for (const std::string& warning : imported.warnings)
+    EXPECT_EQ(warning.find("ROUTE"), std::string::npos) << warning;
+}
+
+TEST(Routes, KeepGeometryWhoseCoordinatesAreExported) {
+  const std::string shape = "<Shape><TriangleSet><Coordinate DEF='C' point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>";
+  EXPECT_EQ(readScene(shape).scene.meshes.size(), 1u);
+  EXPECT_TRUE(readScene(shape + "<EXPORT localDEF='C'/>").scene.meshes.empty());
+}
+
 TEST(Routes, KeepGeometryWhoseCoordinatesTheyMove) {
   const std::string shape = "<Shape><TriangleSet><Coordinate DEF='C' point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>",
                     interpolator = "<CoordinateInterpolator DEF='I' key='0' keyValue='0 0 0 1 0 0 0 1 0'/>";

@@ -86,6 +86,8 @@ private:
     if (element.type() != pugi::node_element || isContainerGeometry(source_.resolved(element).name()))
       return {}; // a geometry of files is left out where it does not become a mesh
     if (std::string_view(element.name()) == "ROUTE") {
+      if (routes_.isImported(element))
+        return addNode(imported_.scene.graph, {"", GenericNode{"ROUTE", "", {}}, {}, "", fieldsOf(element)});
       routes_.note(element);
       return {};
     }
@@ -159,6 +161,8 @@ private:
     if (name == "Transform") {
       node.fields = fieldsOf(element);
       node.content = readTransform(element, node.fields);
+    } else if (const Skin* skin = source_.skinOf(element)) {
+      readHumanoid(*skin, node);
     } else if (name == "Group") {
       node.content = Group{};
       node.fields = fieldsOf(element);
@@ -179,6 +183,22 @@ private:
       addChildren(element, node, {});
     summary_.noteKept(name);
     return addNode(imported_.scene.graph, std::move(node));
+  }
+
+  /// A joint that is not in the skeleton becomes a child of the Humanoid.
+  void readHumanoid(const Skin& skin, Node& node) {
+    SceneGraph& graph = imported_.scene.graph;
+    Humanoid humanoid{{}, skin.inverseBindings};
+    for (const std::string& joint : skin.joints) {
+      const auto found = defined_.find(joint);
+      if (found == defined_.end() || !std::holds_alternative<Transform>(graph.nodes[found->second].content)) {
+        defined_[joint] = addNode(graph, {joint, Transform{}, {}, ""});
+        node.children.push_back(defined_[joint]);
+      }
+      std::get<Transform>(graph.nodes[defined_[joint]].content).isJoint = true;
+      humanoid.joints.push_back(defined_[joint]);
+    }
+    node.content = std::move(humanoid);
   }
 
   void addChildren(pugi::xml_node element, Node& node, pugi::xml_node without) {

@@ -45,6 +45,8 @@ void ShapeReader::finish() {
 
 /// Whether a geometry stays in the document because pages draw it from there and it is short, or routes connect it.
 bool ShapeReader::staysInline(pugi::xml_node node) const {
+  if (source_.pointAttributesOf(node)) // pages read joints of points from containers alone
+    return false;
   return isDrawnInPages(node.name()) && (routes_.connects(node) || geometryTextBytesOf(source_, node) <= inlineBytes_);
 }
 

@@ -38,6 +38,16 @@ pugi::xml_node Source::defined(std::string_view name) const {
   return found == defs_.end() ? pugi::xml_node() : found->second;
 }
 
+const Skin* Source::skinOf(pugi::xml_node group) const {
+  const auto found = elements_.skins.groups.find(group.internal_object());
+  return found == elements_.skins.groups.end() ? nullptr : &found->second;
+}
+
+const std::vector<NamedAttribute>* Source::pointAttributesOf(pugi::xml_node geometry) const {
+  const auto found = elements_.skins.pointAttributes.find(geometry.internal_object());
+  return found == elements_.skins.pointAttributes.end() ? nullptr : &found->second;
+}
+
 std::string Source::locationOf(pugi::xml_node element) const {
   return x3d::locationOf(text_, name_, elements_.offsets.of(element));
 }

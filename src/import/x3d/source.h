@@ -24,6 +24,11 @@ public:
   /// The first element that has this DEF; a null node where there is none.
   pugi::xml_node defined(std::string_view name) const;
 
+  /// The skin whose shapes a Group holds; nullptr for other elements.
+  const Skin* skinOf(pugi::xml_node group) const;
+  /// The joints and weights of the points of a geometry; nullptr for one that no skin has.
+  const std::vector<NamedAttribute>* pointAttributesOf(pugi::xml_node geometry) const;
+
   /// For the readers of src/documents.
   DocumentText documentText() const { return {text_, name_, elements_.offsets, defs_}; }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <iterator>
 #include <utility>
 
 namespace imgeo::x3d {
@@ -34,8 +35,10 @@ public:
     const bool isOpaque = std::ranges::all_of(data.colors, [](const Rgba& c) { return c.a == 1; });
     data.colorComponents = isOpaque ? 3 : 4;
     if (kept_.has(fogDepthName))
-      for (const double depth : source_.reals(childNamed({"FogCoordinate"}), "depth"))
-        data.fogDepths.push_back(static_cast<float>(depth));
+      if (const std::vector<double> depths = source_.reals(childNamed({"FogCoordinate"}), "depth"); !depths.empty())
+        data.pointAttributes.push_back({fogDepthName, 1, {depths.begin(), depths.end()}});
+    if (const std::vector<NamedAttribute>* ofSkin = source_.pointAttributesOf(node_))
+      std::ranges::copy(*ofSkin, std::back_inserter(data.pointAttributes));
     return std::move(read_);
   }
 

@@ -70,6 +70,15 @@ void compareNodes(const SceneGraph& site, const SceneGraph& input, const char* p
     findings.add("{} of {} {} differ from those of the input.", different, inSite.size(), plural);
 }
 
+/// The number of routes to or from imported nodes, which are kept as they are.
+std::size_t keptRoutes(const SceneGraph& graph) {
+  const std::vector<std::size_t> nodes = nodesInOrder(graph);
+  return static_cast<std::size_t>(std::ranges::count_if(nodes, [&](std::size_t node) {
+    const GenericNode* generic = std::get_if<GenericNode>(&graph.nodes[node].content);
+    return generic && generic->element == "ROUTE";
+  }));
+}
+
 } // namespace
 
 void compareAnimations(const SceneDocument& site, const SceneGraph& input, Findings& findings) {
@@ -77,8 +86,8 @@ void compareAnimations(const SceneDocument& site, const SceneGraph& input, Findi
   compareNodes<Interpolator>(site.graph, input, "interpolators", findings);
   const auto found = site.otherElements.find("ROUTE");
   const std::size_t routes = found == site.otherElements.end() ? 0 : found->second;
-  if (routes != input.routes.size())
-    findings.add("The site has {} routes, the input {}.", routes, input.routes.size());
+  if (const std::size_t expected = input.routes.size() + keptRoutes(input); routes != expected)
+    findings.add("The site has {} routes, the input {}.", routes, expected);
   else if (routesOf(site.graph) != routesOf(input))
     findings.add("Routes of the site connect other nodes or fields than those of the input.");
 }
