@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "import/import.h"
-#include "scene/pose.h"
+#include "scene/moving_boxes.h"
 #include "scene/shape_instances.h"
 
 #include <cmath>
