@@ -5,7 +5,8 @@ import { test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
 import { exampleOf, type GridExample } from "./generators/grids.ts";
 import { until, type View } from "./harness.ts";
-import { displayed, gpuCalls, plainOf, showsNewest, wave, withLivePage } from "./livePage.ts";
+import { liveServer } from "./liveServer.ts";
+import { displayed, gpuCalls, plainOf, showsNewest, wave, withLivePage, type LiveView } from "./livePage.ts";
 import { areaWeightedNormals } from "./meshes.ts";
 import { encodePng, type Picture } from "./png.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
@@ -21,7 +22,7 @@ function mirrored(mesh: PlainPatch, scale: number): PlainPatch {
 }
 
 test("a live stream is drawn frame by frame", async () => {
-  await withLivePage({ expectedErrors: /500|410|404|live\/sheet/ }, async (view) => {
+  await withLivePage({ expectedErrors: /500|410|404|live\/(sheet|cloth)|ERR_CONNECTION_REFUSED/ }, async (view) => {
     const { stream, outages } = view;
     const show = (example: GridExample, name: string): Promise<void> => view.show(plainOf(example), name);
     await show(wave(0), "live: the first frame");
@@ -99,6 +100,12 @@ test("a live stream is drawn frame by frame", async () => {
     stream.publish(wave(5, 25, 60));
     await displayed(view, stream);
     await show(wave(5, 25, 60), "live: another epoch");
+    const beforeEpoch = await gpuCalls(view);
+    stream.begin(wave(6, 25, 60));
+    stream.publish(wave(6, 25, 60));
+    await displayed(view, stream);
+    await show(wave(6, 25, 60), "live: an epoch with the same vertices");
+    assert.equal((await gpuCalls(view)).objects, beforeEpoch.objects, "an equal epoch allocates memory on the GPU");
     // A server that is gone for a while: the requests that wait still get their frames.
     stream.failingStatus = 500;
     stream.publish(wave(7, 25, 60));
@@ -170,8 +177,35 @@ test("a live stream is drawn frame by frame", async () => {
     savePicture("live: points", points);
     assert.ok(difference(points, surface).mean > 3, "the surface is still displayed");
     assert.deepEqual(await outages(), ["truncated", "http"]);
+    await surviveRestart(view);
   });
 });
+
+/** The real server is killed and started again: the picture stays, one event says why, and frames go on. */
+async function surviveRestart(view: LiveView): Promise<void> {
+  const server = await liveServer();
+  const newest = (): Promise<number> =>
+    view.page.evaluate(() => (window as unknown as { frames: { number: number }[] }).frames.at(-1)?.number ?? 0);
+  await server.start();
+  try {
+    await view.setGeometry({ coord: server.url, primType: undefined, vertexCount: undefined });
+    const startOfEpochs = 1e9; // epochs of the server are times, those of TestStream small numbers
+    await until("the server's frames are displayed", async () => (await newest()) > startOfEpochs);
+    const before = (await view.outages()).length;
+    await server.kill();
+    await until("the outage is reported", async () => (await view.outages()).length > before);
+    const last = await newest();
+    const picture = await view.picture();
+    savePicture("live: the server is gone", picture);
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    assert.equal(difference(await view.picture(), picture).mean, 0, "the picture stays while the server is gone");
+    await server.start();
+    await until("frames of the new process are displayed", async () => (await newest()) > last);
+    assert.deepEqual((await view.outages()).slice(before), ["network"]);
+  } finally {
+    await server.kill();
+  }
+}
 
 /** The z coordinate of what is in the middle of the picture. */
 async function pickedDepth({ page }: View): Promise<number | undefined> {

@@ -127,6 +127,7 @@ export async function withLivePage(
     stream.publish(wave(0));
     const html = pageWith(wave(0), (shape) => shape.replace(/<ImageGeometry[\s\S]*<\/ImageGeometry>/, geometry()));
     server.when(/^\/$/, { replace: () => html });
+    server.contentPolicy = "default-src 'self'; connect-src 'self' http://127.0.0.1:*"; // streams of other servers
   };
   await withPage(site(), { server, before: recordStream, ...(expectedErrors && { expectedErrors }) }, async (view) => {
     await view.promise("complete");

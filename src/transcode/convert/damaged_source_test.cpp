@@ -47,15 +47,15 @@ protected:
 };
 
 TEST_F(DamagedSource, MalformedFieldsCountAsAbsent) {
-  expectWarning("<Viewpoint position='a b c'/>", "index.html:16: Viewpoint: position holds a word that is no number");
-  expectWarning("<OrthoViewpoint fieldOfView='1 2'/>", "fieldOfView has 2 numbers and needs 4");
-  expectWarning("<DirectionalLight direction='down'/>", "direction holds");
-  expectWarning("<Background skyColor='blue'/>", "skyColor holds");
-  expectWarning("<NavigationInfo headlight='yes'/>", "headlight is neither");
+  expectWarning("<Viewpoint position='a b c'/>", "index.html:16: Viewpoint: position=\"a b c\" is no SFVec3f");
+  expectWarning("<OrthoViewpoint fieldOfView='1 2'/>", "fieldOfView=\"1 2\" is no SFVec4f");
+  expectWarning("<DirectionalLight direction='down'/>", "direction=\"down\" is no SFVec3f");
+  expectWarning("<Background skyColor='blue'/>", "skyColor=\"blue\" is no");
+  expectWarning("<NavigationInfo headlight='yes'/>", "headlight=\"yes\" is no SFBool");
   for (const char* appearance : {"<Material diffuseColor='red'/>", "<Material diffuseColor='1 0'/>",
                                  "<TextureTransform scale='two'/>", "<Material USE='nobody'/>"})
     expectWarning(std::string("<Shape><Appearance>") + appearance + "</Appearance>" + strip() + "</Shape>", "");
-  expectWarning("<Group bboxSize='a b c'><Shape>" + strip() + "</Shape></Group>", "bboxSize holds");
+  expectWarning("<Group bboxSize='a b c'><Shape>" + strip() + "</Shape></Group>", "bboxSize=\"a b c\" is no SFVec3f");
 }
 
 TEST_F(DamagedSource, KeepsUrlsOfMissingTexturesAndOfTexturesOutsideItsFolder) {

@@ -448,6 +448,41 @@ TEST_F(AoptSite, MayHaveFloatsOutsideOfItsBoxAndFlatShading) {
   }
 }
 
+TEST_F(AoptSite, WithFlatShadingIsComparedValueByValue) {
+  Bytes coords;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  write("i.bin", index);
+  write("c.bin", coords);
+  readPage("<BinaryGeometry " + draws() + " index='i.bin' coord='c.bin' normalPerVertex='false'></BinaryGeometry>");
+  const TemporaryDirectory made;
+  exportSite(directory.path(), made / "flat.ply");
+  const auto verified = [&] { return verify(directory.path(), made / "flat.ply"); };
+  EXPECT_TRUE(verified().equal) << ::testing::PrintToString(verified().findings);
+  const auto expectDifferent = [&](const char* name, Bytes bytes, std::size_t at) {
+    const Bytes whole = bytes;
+    bytes[at] ^= 0x40;
+    write(name, bytes);
+    EXPECT_FALSE(verified().equal) << name;
+    write(name, whole);
+  };
+  expectDifferent("c.bin", coords, 12 * 7 + 2);
+  expectDifferent("i.bin", index, 60);
+  readPage("<BinaryGeometry " + draws() + " index='i.bin' coord='c.bin'></BinaryGeometry>");
+  EXPECT_FALSE(verified().equal) << "the site lacks normals";
+}
+
+TEST_F(AoptSite, WithoutAnIndexAndACountHasAllRecordsOfItsFile) {
+  Bytes coords;
+  for (const std::uint32_t corner : mesh.corners)
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(coords, static_cast<float>(position(corner)[axis]));
+  write("c.bin", coords);
+  readPage("<BinaryGeometry coord='c.bin'></BinaryGeometry>");
+  expectElements({mesh.elementCount(), 0, 0});
+}
+
 TEST_F(AoptSite, ThatIsNotLitIsExportedAndConvertedAgainAsUnlit) {
   Bytes coords, colors;
   for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)

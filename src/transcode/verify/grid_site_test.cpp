@@ -118,7 +118,8 @@ TEST(GridSite, IsRefusedIfItsSizeOrModeHasNoMeaning) {
     writePage(directory, mode, hillPoint, fields);
     return messageOf([&] { readMeshes(openDocument(directory.path())); });
   };
-  EXPECT_EQ(refusal("volume", ""), "implicitMeshMode is none of auto, SIG, heightMap, geometryImage and sculpt");
+  EXPECT_EQ(refusal("volume", ""),
+            "implicitMeshMode=\"volume\" is none of auto, sig, heightMap, geometryImage, sculpt");
   EXPECT_EQ(
       refusal("heightMap", "><GeometryPatch implicitMeshSize='1 5' coord='0.png'></GeometryPatch></ImageGeometry"),
       "a grid of 1 x 5 vertices has no surface");

@@ -5,6 +5,9 @@ import type { GridPart } from "../stage/stage.ts";
 import type { MeshMode, PatchDescription } from "./description.ts";
 import { UnreadableGeometry } from "./unreadableGeometry.ts";
 
+/** Columns and rows of one image. */
+const maxImageEdge = 4096;
+
 /** Columns and rows of a height map in several images. */
 const maxHeightMapEdge = 65536;
 
@@ -25,6 +28,8 @@ export function withGrids(patches: readonly PatchDescription[], kind: MeshMode):
 }
 
 function checkSize({ implicitWidth: columns, implicitHeight: rows }: PatchDescription): void {
+  if (Math.max(columns, rows) > maxImageEdge)
+    throw new UnreadableGeometry(`a grid has more than ${maxImageEdge} columns or rows`);
   if (columns < 2 || rows < 2) throw new UnreadableGeometry(`a grid of ${columns} x ${rows} vertices has no surface`);
 }
 

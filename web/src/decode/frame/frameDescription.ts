@@ -18,6 +18,18 @@ export interface FrameDescription extends FrameLayout {
   readonly valueRange: readonly (readonly [number, number])[];
 }
 
+/** Whether frames of both have the same layout, lattice, box and ranges; their rates may differ. */
+export function isSameDescription(a: FrameDescription, b: FrameDescription): boolean {
+  return textOf(a) === textOf(b);
+}
+
+function textOf(description: FrameDescription): string {
+  const { vertices, columns, positionBits, normalBits, colorComponents, valueComponents, valueBits } = description;
+  const { origin, step, box, valueRange } = description;
+  const layout = [vertices, columns, positionBits, normalBits, colorComponents, valueComponents, valueBits];
+  return JSON.stringify([layout, origin, step, box.min, box.max, valueRange]);
+}
+
 export type JsonObject = Readonly<Record<string, unknown>>;
 
 /** Throws DecodeError. */

@@ -34,6 +34,8 @@ export interface FrameDeliveryListener extends Pick<DeliveryListener, "onError">
 
 export class FrameDelivery {
   readonly geometry: GeometryDescription;
+  /** What all its frames have in common. */
+  readonly description: FrameDescription;
   readonly delivery: Delivery;
   readonly target: ImageTarget | ArrayTarget;
   stage: Stage | undefined;
@@ -45,6 +47,7 @@ export class FrameDelivery {
   constructor(options: FrameDeliveryOptions, listener: FrameDeliveryListener) {
     const { geometry, description, readsTextures, pool, transfer, decodeAgain } = options;
     const { maxTextureSize } = pool;
+    this.description = description;
     this.geometry = withStreamState(geometry, description, { readsTextures, maxTextureSize });
     this.#content.promise.catch(() => undefined); // there may be nobody who waits for it
     this.target =

@@ -1,8 +1,9 @@
 // The delivery of a live stream. When the stream has stated its lattice and its vertices, a delivery of its static
-// files begins, to which the stream is one more file; frames then change the vertices of the delivered stage. Another
-// epoch gets a delivery of its own, which replaces the one before when it is whole.
+// files begins, to which the stream is one more file; frames then change the vertices of the delivered stage. An epoch
+// of other vertices or another lattice gets a delivery of its own, which replaces the one before when it is whole.
 
 import type { GeometryDescription, Playback } from "../../document/description.ts";
+import { isSameDescription } from "../../decode/frame/frameDescription.ts";
 import type { BudgetRequest } from "../../scheduler/budget.ts";
 import { pause } from "../../scheduler/pause.ts";
 import { asDeliveryError } from "../deliveryError.ts";
@@ -144,6 +145,8 @@ class StreamDelivery implements Delivery {
   }
 
   #onEpoch(state: StreamState): void {
+    // A publisher that was started again goes on in the same GPU objects.
+    if (this.#newest && isSameDescription(this.#newest.description, state)) return;
     this.#next?.close();
     const options = {
       geometry: this.#geometry,
