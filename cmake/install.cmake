@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 # libimgeo.a holds the objects of all folders but the tool's own.
 set(library_objects)
-foreach(folder base motions content markup images scene import prepare containers live sequence documents export transcode)
+foreach(folder base motions content markup images scene import prepare containers live sequence video documents export transcode)
   list(APPEND library_objects $<TARGET_OBJECTS:imgeo_${folder}>)
 endforeach()
 add_library(imgeo_library STATIC ${library_objects})
@@ -19,10 +19,11 @@ find_package(meshoptimizer REQUIRED)
 find_package(pugixml REQUIRED)
 pkg_check_modules(BROTLI REQUIRED IMPORTED_TARGET libbrotlienc)
 pkg_check_modules(GUMBO REQUIRED IMPORTED_TARGET gumbo)
+pkg_check_modules(VPX REQUIRED IMPORTED_TARGET vpx)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_library(DRACO_ARCHIVE libdraco.a REQUIRED)
 target_link_libraries(imgeo_library PRIVATE fmt::fmt TBB::tbb meshoptimizer::meshoptimizer pugixml::pugixml
-  PkgConfig::BROTLI PkgConfig::DEFLATE PkgConfig::GUMBO PkgConfig::WEBP PkgConfig::XXHASH ${DRACO_ARCHIVE}
+  PkgConfig::BROTLI PkgConfig::DEFLATE PkgConfig::GUMBO PkgConfig::VPX PkgConfig::WEBP PkgConfig::XXHASH ${DRACO_ARCHIVE}
   Threads::Threads ${CMAKE_DL_LIBS})
 
 # libimgeo-live.a adds the publishing of live streams to it (imgeo/live.h), with an HTTP server.

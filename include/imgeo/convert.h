@@ -51,6 +51,7 @@ enum class MeshForm : std::uint8_t {
   mesh,          ///< the source's vertices and triangles, quantised
   geometryImage, ///< surfaces that are sampled anew on regular grids (Gu, Gortler and Hoppe 2002), in SIG classic
   heightMap,     ///< regular grids of heights, such as elevation models, as images of heights in SIG classic
+  video,         ///< the frames of a sequence, as a lossless video beside their files
 };
 
 /// The edge of the largest grid, in texels.
@@ -77,7 +78,7 @@ struct ConvertOptions {
   std::optional<Encoding> encoding{}; ///< default: compact, or classic if compact cannot hold what is asked for
   Target target = Target::web;        ///< runtime that shows the site
   std::string x3domUrl{};             ///< target x3dom: folder of x3dom.js and x3dom.css; empty: a public copy
-  MeshForm form = MeshForm::mesh;     ///< meshes, geometry images or height maps
+  MeshForm form = MeshForm::mesh;     ///< meshes, geometry images, videos or height maps
   std::uint32_t grid = 0; ///< geometry images: a mesh gets grid * grid texels, 4..maxGridEdge; 0: 256, or by maxError
   std::uint32_t gridImageEdge = 2048; ///< grids: columns and rows of an image, 16..2048; larger ones have several
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
@@ -189,6 +190,7 @@ struct ConvertReport {
   std::string x3domUrl;                                ///< target x3dom: URL of its script
   std::size_t frames = 0;                              ///< frames of a sequence; 0: the site has none
   std::uint64_t frameBytes = 0;                        ///< size of all frames
+  std::uint64_t videoBytes = 0;                        ///< size of the video of the frames; 0: there is none
   std::vector<RoleBytes> roles;                        ///< sizes by role of the files
   double bytesPerTriangle = 0;                         ///< geometry files and nodes; 0 if there are no triangles
   PrecompressReport precompressed;                     ///< files compressed in advance, with option precompress

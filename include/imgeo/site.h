@@ -16,9 +16,9 @@ namespace imgeo {
 
 /// A file of a site.
 struct SiteFile {
-  std::string path;        ///< relative to the site
-  std::string role;        ///< "document" (the page), "runtime", "coord" and other geometry roles, "frames", "texture",
-                           ///< "preview", "picture", "scene", "style", "marker"
+  std::string path; ///< relative to the site
+  std::string role; ///< "document" (the page), "runtime", "coord" and other geometry roles, "frames", "video",
+                    ///< "texture", "preview", "picture", "scene", "style", "marker"
   std::uint64_t bytes = 0; ///< size
 };
 
@@ -53,6 +53,7 @@ struct SiteInfo {
   std::size_t displacers = 0;           ///< HAnimDisplacers: morph targets
   std::size_t frames = 0;               ///< frames of all sequences
   std::uint64_t frameBytes = 0;         ///< size of their files
+  std::uint64_t videoBytes = 0;         ///< size of the videos of the same frames
   std::uint64_t documentBytes = 0;      ///< size of the document and of those that it inlines
   std::uint64_t containerBytes = 0;     ///< size of the geometry files
   std::uint64_t runtimeBytes = 0;       ///< size of the runtime's modules

@@ -116,6 +116,9 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("sequence",
               fmt::format("{} frames, {} a second: {}, {} each", grouped(report.frames), arguments.text("rate"),
                           byteSize(report.frameBytes), byteSize(report.frameBytes / report.frames)));
+  if (report.videoBytes > 0)
+    printLine("video", fmt::format("lossless VP9: {}, {} a frame", byteSize(report.videoBytes),
+                                   byteSize(report.videoBytes / report.frames)));
   printLine("up", upOf(report.axes));
   if (report.axes.axes.scale != 1)
     printLine("scale",
@@ -280,6 +283,8 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   if (report.frames > 0)
     json["sequence"] = {
         {"frames", report.frames}, {"rate", std::stod(arguments.text("rate"))}, {"bytes", report.frameBytes}};
+  if (report.videoBytes > 0)
+    json["video"] = {{"codec", "vp9"}, {"bytes", report.videoBytes}};
   json["roles"] = Json::array();
   for (const RoleBytes& role : report.roles)
     json["roles"].push_back({{"role", role.role}, {"files", role.files}, {"bytes", role.bytes}});

@@ -112,7 +112,8 @@ Command convertCommand() {
                        "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
                 choice("as", namesOf(formChoices),
                        "geometry-image: sample surfaces anew on regular grids, one for each chart, without an index; "
-                       "height-map: a regular grid of heights as images of them; both in profile classic"),
+                       "height-map: a regular grid of heights as images of them; both in profile classic; "
+                       "video: frames of a sequence as a lossless video, too"),
                 integer("grid", {}, 4, maxGridEdge, "",
                         "geometry images: N * N texels for a mesh, 4..4096, otherwise 256"),
                 choice("target", namesOf(targetChoices),

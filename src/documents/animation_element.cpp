@@ -1,10 +1,15 @@
 #include "documents/animation_element.h"
 
+#include "markup/find_x3d.h"
+#include "scene/mf_string.h"
+
 #include <utility>
 
 namespace imgeo {
 
 namespace {
+
+constexpr const char* movieElement = "MovieTexture";
 
 std::string textOf(const std::vector<float>& values) {
   std::string text;
@@ -27,6 +32,9 @@ std::vector<float> floatsOf(const std::vector<double>& numbers) {
 } // namespace
 
 Element interpolatorElement(const Interpolator& interpolator, const Attributes& names) {
+  if (!interpolator.video.empty())
+    return {movieElement,
+            {names, {{"containerField", "coord"}, {"url", quoteStrings({interpolator.video, interpolator.url})}}}};
   if (!interpolator.url.empty())
     return {nodeNameOf(interpolator.kind), {names, {{"containerField", "coord"}, {"url", interpolator.url}}}};
   return {nodeNameOf(interpolator.kind),
@@ -36,6 +44,21 @@ Element interpolatorElement(const Interpolator& interpolator, const Attributes& 
 Element routeElement(const Route& route, const std::string& fromName, const std::string& toName) {
   return {"ROUTE",
           {{{"fromNode", fromName}, {"fromField", route.fromField}, {"toNode", toName}, {"toField", route.toField}}}};
+}
+
+std::optional<Interpolator> readMovie(const FieldReader& fields) {
+  if (!equalIgnoringCase(fields.node().name(), movieElement) ||
+      !equalIgnoringCase(fields.text("containerField"), "coord"))
+    return {};
+  Interpolator frames{InterpolatorKind::coordinate, {}, {}};
+  for (const std::string& url : fields.strings("url")) {
+    std::string& named = std::string_view(url).substr(0, url.find('?')).ends_with(".json") ? frames.url : frames.video;
+    if (named.empty())
+      named = url;
+  }
+  if (frames.url.empty() || frames.video.empty())
+    return {};
+  return frames;
 }
 
 Interpolator readInterpolator(InterpolatorKind kind, const FieldReader& fields) {

@@ -2,6 +2,7 @@
 
 #include "base/data_url.h"
 #include "containers/encodings.h"
+#include "documents/animation_element.h"
 #include "documents/field_messages.h"
 #include "markup/find_x3d.h"
 
@@ -128,7 +129,9 @@ std::optional<std::string> reasonNotInFiles(const DocumentText& source, pugi::xm
     const auto is = [&](const char* name) { return equalIgnoringCase(image.name(), name); };
     if (!urls.empty() && isStreamUrl(urls[0]))
       return streamReason;
-    if (is("MovieTexture") || is("video"))
+    if (is("MovieTexture"))
+      return "a movie with coordinates names a lossless video and the index of its frames";
+    if (is("video"))
       return "movies are not drawn; images and live streams are";
     if (is("canvas"))
       return "a canvas has pixels only in a page";
@@ -232,7 +235,7 @@ void readTextures(const DocumentText& source, const pugi::xml_node& node, Encodi
                   PatchDescription& patch) {
   ImagesByRole images;
   for (const pugi::xml_node& child : node.children())
-    if (holdsImage(child.name()))
+    if (holdsImage(child.name()) && !readMovie(FieldReader(source, usedNode(source, FieldReader(source, child)))))
       readTexture(source, child, encoding, warnings, images);
   const FieldReader fields(source, node, warnings);
   const auto first = [&](Role role, std::size_t limit) {
@@ -278,9 +281,12 @@ std::optional<std::string> reasonImagesAreNotInFiles(const DocumentText& source,
   for (const pugi::xml_node& child : patch.children()) {
     if (!holdsImage(child.name()))
       continue;
+    const pugi::xml_node used = usedNode(source, FieldReader(source, child));
+    if (readMovie(FieldReader(source, used)))
+      continue;
     const std::optional<Role> role = imageRoleOf(source, child);
     if (role == Role::coord || role == Role::index)
-      if (const auto reason = reasonNotInFiles(source, usedNode(source, FieldReader(source, child))))
+      if (const auto reason = reasonNotInFiles(source, used))
         return reason;
   }
   return {};

@@ -357,7 +357,7 @@ private:
     return add(fields, *shape, std::move(children));
   }
 
-  /// The interpolators of a geometry that have the frames of its vertices.
+  /// The interpolators and movies of a geometry that have the frames of its vertices.
   std::vector<std::size_t> readFramesOf(const pugi::xml_node& geometry) {
     std::vector<std::size_t> nodes;
     for (const pugi::xml_node& child : geometry.children())
@@ -366,6 +366,8 @@ private:
         if (Interpolator interpolator = readInterpolator(InterpolatorKind::coordinate, fields);
             !interpolator.url.empty())
           nodes.push_back(add(fields, std::move(interpolator)));
+      } else if (std::optional<Interpolator> movie = readMovie(FieldReader(source_, child))) {
+        nodes.push_back(add(FieldReader(source_, child, &document_.warnings), *std::move(movie)));
       }
     return nodes;
   }

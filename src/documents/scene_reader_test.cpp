@@ -276,12 +276,13 @@ TEST(ReadScene, DrawsTrianglesWhereNoKnownPrimTypeIsStated) {
 }
 
 TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
-  const std::string movies = "movies are not drawn; images and live streams are",
+  const std::string movie = "a movie with coordinates names a lossless video and the index of its frames",
+                    videos = "movies are not drawn; images and live streams are",
                     stream = "a live stream is in no file";
   const std::pair<std::string, std::string> cases[] = {
-      {"><MovieTexture containerField='coord' url='a.mp4'/>", movies},
-      {"><Texture containerField='coord'><video src='a.mp4'/></Texture>", movies},
-      {"><GeometryPatch><video containerField='coord' src='a.mp4'/></GeometryPatch>", movies},
+      {"><MovieTexture containerField='coord' url='a.mp4'/>", movie},
+      {"><Texture containerField='coord'><video src='a.mp4'/></Texture>", videos},
+      {"><GeometryPatch><video containerField='coord' src='a.mp4'/></GeometryPatch>", videos},
       {"><Texture containerField='coord'><canvas/></Texture>", "a canvas has pixels only in a page"},
       {"><PixelTexture containerField='coord'/>", "the pixels of a PixelTexture are not read as geometry; images are"},
       {" coord='live/cloth'>", stream},
@@ -299,6 +300,19 @@ TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
     EXPECT_EQ(document.warnings,
               std::vector<std::string>{"s.x3d:2: ImageGeometry: " + reason + "; its Shape is left out."});
   }
+}
+
+TEST(ReadScene, ReadsTheMovieOfAGeometry) {
+  const SceneDocument document =
+      readScene("<X3D><Scene><Shape><ImageGeometry coord='a'><MovieTexture DEF='m' containerField='coord' "
+                R"(url='"g/v.webm" "g/i.json?v=2"' loop='true'/></ImageGeometry></Shape></Scene></X3D>)",
+                "s.x3d");
+  EXPECT_EQ(document.warnings, std::vector<std::string>{});
+  ASSERT_EQ(document.graph.nodes.size(), 2u);
+  const auto& frames = std::get<Interpolator>(document.graph.nodes[0].content);
+  EXPECT_EQ(frames.video, "g/v.webm");
+  EXPECT_EQ(frames.url, "g/i.json?v=2");
+  EXPECT_EQ(document.geometries.at(0).patches.at(0).coord.size(), 1u);
 }
 
 TEST(ReadScene, LeavesOutImagesOfAttributesThatItCannotRead) {

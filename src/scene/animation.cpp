@@ -56,7 +56,7 @@ bool isList(InterpolatorKind kind) {
 }
 
 std::string faultOf(const Interpolator& interpolator) {
-  const auto& [kind, keys, values, url] = interpolator;
+  const auto& [kind, keys, values, url, video] = interpolator;
   const auto isFinite = [](float number) { return std::isfinite(number); };
   if (!std::ranges::all_of(keys, isFinite) || !std::ranges::all_of(values, isFinite))
     return "its keys or values are not all finite";

@@ -41,6 +41,9 @@ struct Interpolator {
   /// A CoordinateInterpolator without keys and values states the index of the sequence (sequence/sequence_index.h) that
   /// has its frames. The node is a child of the Shape whose vertices it moves.
   std::string url = {};
+  /// A lossless video of the same frames (video/sequence_video.h). With one, documents have a MovieTexture in place of
+  /// the CoordinateInterpolator, which names the video and, for pages that cannot decode it, the index.
+  std::string video = {};
   friend bool operator==(const Interpolator&, const Interpolator&) = default;
 };
 

@@ -163,7 +163,7 @@ constexpr NodeRow x3dNodes[] = {
     {"MetadataString", "Core", 1, "metadata", kept, ""},
     {"MicrophoneSource", "Sound", 2, "children", kept, sounds},
     {"MotorJoint", "RigidBodyPhysics", 2, "joints", dropped, noPhysics},
-    {"MovieTexture", "Texturing", 3, "texture", dropped, "pages play no movies"},
+    {"MovieTexture", "Texturing", 3, "texture", dropped, "pages play movies as coordinates of an ImageGeometry only"},
     {"MultiTexture", "Texturing", 2, "texture", drawn, "its first texture"},
     {"MultiTextureCoordinate", "Texturing", 2, "texCoord", drawn, "its first set"},
     {"MultiTextureTransform", "Texturing", 2, "textureTransform", drawn, "the transform of each mapping"},

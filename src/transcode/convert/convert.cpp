@@ -109,8 +109,8 @@ ConvertOptions sequenceOptions(const std::vector<fs::path>& frames, ConvertOptio
     throw Error(ErrorKind::usage, "-", "standard input is one file; a sequence has one for each frame");
   if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
     refuseOption("--profile", "the static files of a sequence are SIG classic");
-  if (options.form != MeshForm::mesh)
-    refuseOption("--as", "the frames of a sequence are meshes");
+  if (options.form != MeshForm::mesh && options.form != MeshForm::video)
+    refuseOption("--as", "the frames of a sequence are meshes, or a video");
   if (options.target == Target::x3dom)
     refuseOption("--target", "X3DOM plays no sequences of frames");
   if (options.primitives != Primitives::triangles || !options.indexed)
@@ -439,6 +439,8 @@ ConvertReport convertSequence(const std::vector<fs::path>& frames, const fs::pat
                               const ConvertOptions& options, const Progress& progress) {
   if (frames.empty())
     throw Error(ErrorKind::usage, "", "a sequence has no frames");
+  if (frames.size() == 1 && options.form == MeshForm::video)
+    refuseOption("--as", "a video has the frames of a sequence, and this is one file");
   return run(frames, directory, frames.size() > 1 ? sequenceOptions(frames, options) : options, progress);
 }
 

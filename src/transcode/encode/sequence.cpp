@@ -11,6 +11,7 @@
 #include "sequence/sequence_file.h"
 #include "transcode/encode/encode_report.h"
 #include "transcode/options/resolve_options.h"
+#include "video/sequence_video.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,20 @@ std::vector<float> numbersOf(const std::vector<Rgba>& colors, const std::vector<
   return numbers;
 }
 
+/// The files of a sequence. `video` is empty where there is none.
+struct EncodedFrames {
+  SequenceIndex index;
+  std::string url, video;
+  std::uint64_t videoBytes = 0;
+};
+
+std::vector<Bytes> joined(std::vector<std::vector<Bytes>> lists) {
+  std::vector<Bytes> all;
+  for (std::vector<Bytes>& list : lists)
+    std::ranges::move(list, std::back_inserter(all));
+  return all;
+}
+
 /// One sequence: the description of its frames, and what they need of the first.
 class SequenceEncoding {
 public:
@@ -146,13 +161,17 @@ public:
     return result;
   }
 
-  /// Writes the frames and their index, and returns the index with its URL.
-  std::pair<SequenceIndex, std::string> encodeFrames(double rate, ContentFiles& files, const ElementsDone& done) {
-    SequenceIndex index;
+  /// Writes the frames and their index, and the video if one is asked for.
+  EncodedFrames encodeFrames(double rate, ContentFiles& files, const ElementsDone& done) {
+    EncodedFrames encoded;
+    SequenceIndex& index = encoded.index;
     description_.rate = rate;
     index.description = description_;
     const std::size_t perFile = framesInFile(rate);
     index.files.resize((frames_.count() + perFile - 1) / perFile);
+    const bool hasVideo = options_.form == MeshForm::video;
+    const VideoSize size = hasVideo ? videoSizeOf(description_.layout, "") : VideoSize{};
+    std::vector<std::vector<Bytes>> packets(index.files.size());
     parallelFor(index.files.size(), [&](std::size_t file) {
       const std::size_t first = file * perFile, end = std::min(frames_.count(), first + perFile);
       std::vector<live::Frame> frames;
@@ -163,8 +182,16 @@ public:
       const Bytes bytes = encodeSequenceFile(frames, compressionLevelOf(options_.effort));
       const std::filesystem::path url = files.write(bytes, ".igf");
       index.files[file] = {url.filename(), narrow<std::uint32_t>(frames.size()), bytes.size()};
+      if (hasVideo)
+        packets[file] = encodeVideoFrames(frames, size, options_.effort);
     });
-    return {index, files.write(asBytes(writeSequenceIndex(index)), ".json")};
+    encoded.url = files.write(asBytes(writeSequenceIndex(index)), ".json");
+    if (hasVideo) {
+      const Bytes video = writeWebm(size, joined(std::move(packets)), rate);
+      encoded.videoBytes = video.size();
+      encoded.video = files.write(video, ".webm");
+    }
+    return encoded;
   }
 
 private:
@@ -228,17 +255,18 @@ private:
   std::vector<std::uint32_t> order_;          ///< the source's vertex of each vertex of a frame
 };
 
-/// Adds the clock, the interpolator and the route that play the sequence.
-void addPlayer(SceneGraph& graph, const std::string& url, double seconds) {
+/// Adds the clock, the interpolator or the movie, and the route that play the sequence.
+void addPlayer(SceneGraph& graph, const EncodedFrames& encoded) {
   Node& shape = graph.nodes[shapeNodes(graph).front()];
   const std::string name = shape.name.empty() ? "sequence" : shape.name;
   TimeSensor clock;
-  clock.cycleInterval = seconds;
+  clock.cycleInterval = encoded.index.seconds();
   clock.loop = true;
   const std::size_t shapeNode = shapeNodes(graph).front();
   const std::size_t sensor = addRoot(graph, {name + "-clock", clock, {}, ""});
-  const std::size_t frames =
-      addNode(graph, {name + "-frames", Interpolator{InterpolatorKind::coordinate, {}, {}, url}, {}, ""});
+  const std::size_t frames = addNode(
+      graph,
+      {name + "-frames", Interpolator{InterpolatorKind::coordinate, {}, {}, encoded.url, encoded.video}, {}, ""});
   graph.nodes[shapeNode].children.push_back(frames);
   graph.routes.push_back({sensor, "fraction_changed", frames, "set_fraction"});
 }
@@ -254,11 +282,12 @@ SceneDocument encodeSequence(Scene&& scene, const FrameFiles& frames, const Fram
   EncodedMesh encoded = encoding.encodeStatic(std::move(scene.meshes.front()), files);
   addToReport(report, encoded);
   document.geometries.push_back(std::move(encoded.geometry));
-  const auto [index, url] = encoding.encodeFrames(options.rate, files, done);
-  report.frames = index.frameCount();
-  for (const SequenceFile& file : index.files)
+  const EncodedFrames encodedFrames = encoding.encodeFrames(options.rate, files, done);
+  report.frames = encodedFrames.index.frameCount();
+  report.videoBytes = encodedFrames.videoBytes;
+  for (const SequenceFile& file : encodedFrames.index.files)
     report.frameBytes += file.bytes;
-  addPlayer(document.graph, url, index.seconds());
+  addPlayer(document.graph, encodedFrames);
   return document;
 }
 

@@ -117,6 +117,8 @@ SiteInfo inspect(const fs::path& site) {
     info.frameBytes += add(sequence.url, "frames");
     for (std::size_t file = 0; file < sequence.index.files.size(); ++file)
       info.frameBytes += add(sequence.urlOf(file), "frames");
+    if (!sequence.video.empty())
+      info.videoBytes += add(sequence.video, "video");
   }
   const auto addImages = [&](const std::vector<std::string>& urls, const char* role) {
     for (const std::string& url : urls)

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "containers/unit_vectors.h"
 #include "sequence/sequence_file.h"
+#include "video/sequence_video.h"
 
 #include <numeric>
 
@@ -14,6 +15,14 @@ std::string SiteSequence::urlOf(std::size_t file) const {
 
 void readFrames(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
                 const std::function<void(const live::Frame&)>& visit) {
+  if (sequence.video.empty())
+    return readFrameFiles(document, sequence, first, end, visit);
+  const std::filesystem::path path = fileOf(document, sequence.video);
+  decodeVideoFrames(readFile(path), sequence.index, first, end, path.string(), visit);
+}
+
+void readFrameFiles(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
+                    const std::function<void(const live::Frame&)>& visit) {
   const SequenceIndex& index = sequence.index;
   for (std::size_t file = index.fileOf(first); file < index.files.size() && index.firstFrameOf(file) < end; ++file) {
     const std::filesystem::path path = fileOf(document, sequence.urlOf(file));
@@ -69,9 +78,10 @@ std::vector<SiteSequence> sequencesOf(const SiteDocument& document) {
   for (const std::size_t shape : shapeNodes(graph))
     for (const std::size_t child : graph.nodes[shape].children)
       if (hasFrames(graph.nodes[child])) {
-        const std::string& url = std::get<Interpolator>(graph.nodes[child].content).url;
-        const std::filesystem::path file = fileOf(document, url);
-        sequences.push_back({shape, url, readSequenceIndex(asText(readFile(file)), file.string())});
+        const auto& frames = std::get<Interpolator>(graph.nodes[child].content);
+        const std::filesystem::path file = fileOf(document, frames.url);
+        sequences.push_back(
+            {shape, frames.url, readSequenceIndex(asText(readFile(file)), file.string()), frames.video});
       }
   return sequences;
 }

@@ -16,15 +16,20 @@ struct SiteSequence {
   std::size_t shape = 0; ///< index into SceneGraph::nodes
   std::string url;       ///< of the index
   SequenceIndex index;
+  std::string video; ///< a lossless video of the same frames; empty: there is none
 
   /// The URL of a file of frames, relative to the site.
   std::string urlOf(std::size_t file) const;
 };
 
-/// Reads frames `first` .. `end` - 1 of a sequence and calls visit(frame) with each, in their order. Throws Error for a
-/// file that cannot be read.
+/// Reads frames `first` .. `end` - 1 of a sequence, from its video if it has one, and calls visit(frame) with each, in
+/// their order. Throws Error for a file that cannot be read, and for a video that is not lossless.
 void readFrames(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
                 const std::function<void(const live::Frame&)>& visit);
+
+/// The same, from the files of frames.
+void readFrameFiles(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
+                    const std::function<void(const live::Frame&)>& visit);
 
 /// The mesh of a frame: a vertex for each of the static mesh, which `still` is, with the frame's positions and the
 /// normals and colours that it has. Without normals in the frame the mesh has none.

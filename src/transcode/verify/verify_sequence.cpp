@@ -149,6 +149,22 @@ private:
   std::uint32_t comparedComponents_ = 3;
 };
 
+/// The video has the integers of the frames, each bit of them.
+void compareVideo(const SiteDocument& document, const SiteSequence& sequence, Findings& findings) {
+  const SequenceIndex& index = sequence.index;
+  std::size_t different = 0;
+  for (std::size_t file = 0; file < index.files.size(); ++file) {
+    const std::uint32_t first = index.firstFrameOf(file), end = first + index.files[file].frames;
+    std::vector<live::Frame> frames;
+    readFrameFiles(document, sequence, first, end, [&](const live::Frame& frame) { frames.push_back(frame); });
+    readFrames(document, sequence, first, end, [&](const live::Frame& frame) {
+      different += frame.components != frames.at(frame.number - first).components;
+    });
+  }
+  if (different > 0)
+    findings.add("{} of {} frames of the video are not those of the sequence.", different, index.frameCount());
+}
+
 } // namespace
 
 VerifyReport verifySequence(const fs::path& site, const std::vector<fs::path>& frames, bool outside) {
@@ -174,8 +190,10 @@ VerifyReport verifySequence(const fs::path& site, const std::vector<fs::path>& f
       findings.add("The site has {} frames, the input {}.", sequences[0].index.frameCount(), frames.size());
     else if (checkFiles(document, false, first.scene.graph, findings)) {
       FrameComparison comparison(document, sequences[0], files, report, findings);
-      readFrames(document, sequences[0], 0, sequences[0].index.frameCount(),
-                 [&](const live::Frame& frame) { comparison.compare(frame); });
+      readFrameFiles(document, sequences[0], 0, sequences[0].index.frameCount(),
+                     [&](const live::Frame& frame) { comparison.compare(frame); });
+      if (!sequences[0].video.empty())
+        compareVideo(document, sequences[0], findings);
     }
   } catch (const Error& error) {
     findings.add("{}.", error.what());
