@@ -30,7 +30,7 @@ export interface PageOptions {
   /** Animations are on; pictures are only comparable without them. */
   motion?: boolean;
   /** Runs in the page before its scripts; self-contained. */
-  before?: () => void;
+  before?: (() => void) | { readonly content: string };
   /**
    * The view has its toolbar. Pictures are compared without it, because it appears while the mouse is over the view.
    */

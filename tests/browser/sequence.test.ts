@@ -1,5 +1,5 @@
-// Tests sequences in a page: every frame is the mesh of its file, whatever the clock, a script or the page asks for, and
-// frames take no further memory of the GPU.
+// Tests sequences and videos of the same frames in a page: every frame is the mesh of its file, whatever the clock, a
+// script or the page asks for, and frames take no further memory of the GPU.
 
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
@@ -112,6 +112,118 @@ test("a sequence is displayed frame by frame", async () => {
     await show(view, 24, "sequence: the last frame");
     assert.equal((await gpuCalls(view)).objects, picked.objects, "playing allocates memory on the GPU");
     assert.equal((await view.events("load", "shape")).length, 1);
+  });
+});
+
+/** In the page, before its document: keeps the vertices that were uploaded last, and notes on the console. */
+function recordVertices(vertexCount: number): void {
+  const prototype = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
+  for (const name of ["bufferSubData", "bufferData"]) {
+    const original = prototype[name]!;
+    prototype[name] = function (this: unknown, ...args: unknown[]) {
+      const array = args.find((arg) => arg instanceof Uint16Array);
+      if (array?.length === 4 * vertexCount) Object.assign(window, { vertices: Array.from(array) });
+      return original.apply(this, args);
+    };
+  }
+  const notes: string[] = [];
+  const { info } = console;
+  console.info = (...words: unknown[]) => {
+    notes.push(words.join(" "));
+    info(...words);
+  };
+  Object.assign(window, { notes });
+}
+
+/** Coordinates of vertices as texts, sorted: the order of vertices in a site is its own. */
+const sortedTriples = (values: ArrayLike<number>, stride: number): string[] =>
+  Array.from({ length: values.length / stride }, (_, i) =>
+    [0, 1, 2].map((axis) => values[stride * i + axis]!).join(" "),
+  ).sort();
+
+/** The integers that a frame's file has on the lattice of the sequence. */
+function storedTriples(directory: string, number: number): string[] {
+  const file = readdirSync(join(directory, "geometry")).find((name) => name.endsWith(".json"))!;
+  const { origin, step } = JSON.parse(readFileSync(join(directory, "geometry", file), "utf8")) as {
+    origin: number[];
+    step: number;
+  };
+  const { positions } = frames[number]!;
+  return sortedTriples(
+    Array.from(positions, (value, i) => Math.floor((Math.fround(value) - origin[i % 3]!) * (1 / step) + 0.5)),
+    3,
+  );
+}
+
+const vertexCount = frames[0]!.positions.length / 3;
+const videoSite = (): string => siteOfFrames("breath", frames, "--rate", String(rate), "--as", "video");
+const videoSiteWith = (name: string, attributes: string): string =>
+  variantOf(videoSite(), name, (page) => page.replace(/<x3d/i, `<x3d ${attributes}`));
+
+async function seekExactly(view: View, number: number): Promise<void> {
+  await setAttribute(view, "x3d", "sequence-time", String(number / rate));
+  await displays(view, number);
+  const vertices = await view.page.evaluate(() => (window as unknown as { vertices: number[] }).vertices);
+  const [shown, stored] = [sortedTriples(vertices, 4), storedTriples(videoSite(), number)];
+  const different = stored.filter((triple, i) => shown[i] !== triple).length;
+  assert.equal(different, 0, `${different} of ${stored.length} vertices of frame ${number}, as ${shown[0]}`);
+}
+
+const notesOf = ({ page }: View): Promise<string[]> =>
+  page.evaluate(() => (window as unknown as { notes: string[] }).notes);
+
+const prepareVideo = `(${recordStream.toString()})(); (${recordVertices.toString()})(${vertexCount});`;
+
+test("a lossless video is displayed frame by frame, each bit of it", async () => {
+  const site = videoSiteWith("video", 'sequence-time="0" paused="false"');
+  await withPage(site, { before: { content: prepareVideo } }, async (view) => {
+    await view.promise("complete");
+    for (const number of [0, 1, 2, 9, 10, 11, 24, 0, 17, 3]) await seekExactly(view, number);
+    await show(view, 3, "video: a frame that was sought");
+    assert.deepEqual(await notesOf(view), []);
+    assert.deepEqual(
+      view.requestedPaths.filter((path) => /igf|webm/.test(path)).map((path) => path.replace(/.*\./, "")),
+      ["webm"],
+    );
+
+    // The movie plays by itself, over its end, and stands when it is told to.
+    await view.page.evaluate(() => {
+      document.querySelector("route")!.remove();
+      document.querySelector("timesensor")!.remove();
+      const movie = document.querySelector("movietexture")!;
+      movie.setAttribute("speed", "2");
+      movie.setAttribute("loop", "true");
+    });
+    await setAttribute(view, "x3d", "sequence-time", undefined);
+    await until("the movie has come to its beginning again", async () => {
+      const numbers = (await recorded(view)).map(({ number }) => number);
+      return numbers.some((number, i) => i > 11 && numbers[i - 1]! > 20 && number < 4);
+    });
+    await setAttribute(view, "x3d", "paused", "true");
+    await setAttribute(view, "movietexture", "set_fraction", "0.5");
+    await displays(view, 12);
+  });
+});
+
+test("where a video cannot be decoded exactly, or is not lossless, its frames are displayed", async () => {
+  const breaks = `${prepareVideo}
+    const { copyTo } = VideoFrame.prototype;
+    VideoFrame.prototype.copyTo = async function (bytes, ...options) {
+      const planes = await copyTo.call(this, bytes, ...options);
+      bytes[40] ^= 1;
+      return planes;
+    };`;
+  await withPage(videoSiteWith("inexact", 'sequence-time="0"'), { before: { content: breaks } }, async (view) => {
+    await view.promise("complete");
+    for (const number of [0, 12, 24]) await seekExactly(view, number);
+    const notes = await notesOf(view);
+    assert.equal(notes.length, 1);
+    assert.match(notes[0]!, /plays no lossless videos of vertices, and gets their frames instead: has pixels in frame/);
+    assert.deepEqual(
+      view.requestedPaths.filter((path) => path.endsWith("webm")),
+      [],
+    );
+    assert.equal(await view.page.evaluate(() => (window as unknown as { outages: unknown[] }).outages.length), 0);
   });
 });
 

@@ -99,6 +99,8 @@ const types: readonly FieldType[] = [
     format: formatList,
   },
   { name: "SFString", size: 0, isList: false, parse: (text) => text, format: String },
+  // As its attribute has it: no event changes one of its strings.
+  { name: "MFString", size: 0, isList: false, parse: (text) => text, format: String },
   ...["SFFloat", "SFDouble", "SFTime"].map((name) => single(name)),
   single("SFInt32", true),
   ...["MFFloat", "MFDouble", "MFTime"].map((name) => list(name, 1)),

@@ -113,12 +113,12 @@ class CoordinateInterpolator implements Behaviour {
   }
 }
 
-/** The event of a CoordinateInterpolator with a url. */
-const sequenceFraction = "fraction_changed";
+/** The event of a CoordinateInterpolator with a url, and of a MovieTexture. */
+export const sequenceFraction = "fraction_changed";
 
 /** Whether an event makes a sequence display another frame. */
 export function isSequenceFraction({ localName }: { readonly localName: string }, field: string): boolean {
-  return field === sequenceFraction && localName.toLowerCase() === "coordinateinterpolator";
+  return field === sequenceFraction && /^(coordinateinterpolator|movietexture)$/i.test(localName);
 }
 
 function linear({ values, stride }: Curve): Evaluation {

@@ -2,6 +2,7 @@
 
 import { eventUtilities } from "./eventUtilities.ts";
 import { interpolators } from "./interpolators.ts";
+import { movieTexture } from "./movieTexture.ts";
 import type { NodeType } from "./nodeType.ts";
 import { pointingSensors } from "./pointingSensors.ts";
 import { timeSensor } from "./timeSensor.ts";
@@ -9,6 +10,7 @@ import { viewSensors } from "./viewSensors.ts";
 
 export const nodeTypes: Readonly<Record<string, NodeType>> = {
   TimeSensor: timeSensor,
+  MovieTexture: movieTexture,
   ...interpolators,
   ...eventUtilities,
   ...pointingSensors,

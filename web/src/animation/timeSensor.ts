@@ -6,11 +6,20 @@ import type { Value } from "./fieldTypes.ts";
 import type { NodeType } from "./nodeType.ts";
 import { inputOnly, inputOutput, nodeType, outputOnly } from "./nodeType.ts";
 
+/** What a clock's fractions follow from. */
+export interface Cycle {
+  /** Seconds; infinite: it stands. 0: the clock does not start. */
+  readonly interval: () => number;
+  /** The fraction that is sent for a part of the interval, 0 … 1. */
+  readonly fraction: (part: number) => number;
+}
+
 /** Times since 1970 have steps of 2e-7 seconds. */
 const roundingError = 1e-6;
 
 export class TimeSensor implements Behaviour {
   readonly #node: EventNode;
+  readonly #cycleOf: Cycle;
   /** When the first cycle has begun, later by the time for which it has been paused. */
   #origin = 0;
   #cycle = 0;
@@ -29,8 +38,9 @@ export class TimeSensor implements Behaviour {
   mayStartByItself = true;
   #wasStarted = false;
 
-  constructor(node: EventNode) {
+  constructor(node: EventNode, cycle?: Cycle) {
     this.#node = node;
+    this.#cycleOf = cycle ?? { interval: () => node.numberOf("cycleInterval"), fraction: (part) => part };
   }
 
   get isActive(): boolean {
@@ -60,7 +70,7 @@ export class TimeSensor implements Behaviour {
     const node = this.#node;
     if (!node.isTrue("enabled") || time >= this.#stopTime) return false;
     if (this.isActive) return node.isTrue("loop") || time < this.#endOfCycle;
-    const [start, interval] = [node.numberOf("startTime"), node.numberOf("cycleInterval")];
+    const [start, interval] = [node.numberOf("startTime"), this.#cycleOf.interval()];
     if (time < start || interval <= 0 || (!this.mayStartByItself && !this.#wasStarted)) return false;
     return node.isTrue("loop") || (this.#startUsed !== start && time < start + interval);
   }
@@ -119,7 +129,7 @@ export class TimeSensor implements Behaviour {
   #start(time: number): void {
     const node = this.#node;
     const start = node.numberOf("startTime");
-    this.#interval = node.numberOf("cycleInterval");
+    this.#interval = this.#cycleOf.interval();
     // The default start is long ago: the first cycle begins now.
     this.#origin = start === 0 ? time : start;
     this.#startUsed = start;
@@ -160,7 +170,7 @@ export class TimeSensor implements Behaviour {
     const fraction = part < roundingError ? (whole === 0 ? 0 : 1) : part;
     node.send("elapsedTime", Math.max(0, time - this.#activeSince - this.#pausedFor));
     node.send("time", time);
-    node.send("fraction_changed", fraction);
+    node.send("fraction_changed", this.#cycleOf.fraction(fraction));
   }
 }
 

@@ -14,6 +14,7 @@ import { compactBases, compactPatches } from "./compact/jobs.ts";
 import { frameArrays } from "./frame/frameArrays.ts";
 import { frameImages } from "./frame/frameImages.ts";
 import { sequenceFrames } from "./sequence/sequenceFrames.ts";
+import { videoFrame } from "./video/videoFrame.ts";
 
 export const jobs = {
   classicCoords,
@@ -29,6 +30,7 @@ export const jobs = {
   frameImages,
   frameArrays,
   sequenceFrames,
+  videoFrame,
   gridIndex,
 } as const;
 

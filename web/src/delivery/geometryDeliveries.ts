@@ -135,6 +135,13 @@ export class GeometryDeliveries {
     return longest;
   }
 
+  /** The duration of the sequence of an interpolator, in seconds; 0 before its index has arrived. */
+  sequenceDurationOf(interpolator: number): number {
+    for (const [{ sequence }, { delivery }] of this.#shared)
+      if (sequence?.interpolator === interpolator && delivery instanceof SequenceDelivery) return delivery.duration;
+    return 0;
+  }
+
   /** Updates the priorities of all files. If `granted` is given, budget requests that are not in it are evicted. */
   request(priorityOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     this.#priorityOf = priorityOf;

@@ -78,7 +78,7 @@ describe("images that are children of an ImageGeometry", () => {
     for (const field of ["coord", "index"])
       assert.deepEqual(readImages(video(field) + coord), {
         patch: undefined,
-        warnings: ["movies are not drawn; images and live streams are"],
+        warnings: ["a movie with coordinates names a lossless video and the index of its frames"],
       });
     const { patch, warnings } = readImages(video("normal") + coord);
     assert.deepEqual([patch?.coord, patch?.normal, warnings.length], [[texel("a.png")], undefined, 1]);
@@ -95,7 +95,8 @@ describe("images that are children of an ImageGeometry", () => {
       <canvas containerField="normal"/>
       <ImageTexture url="a.png"/>`);
     assert.deepEqual([patch?.coord.length, patch?.normal], [1, undefined]);
-    assert.equal(warnings.filter((message) => message.startsWith("movies are not drawn")).length, 2);
+    assert.equal(warnings.filter((message) => message.startsWith("movies are not drawn")).length, 1);
+    assert.equal(warnings.filter((message) => message.startsWith("a movie with coordinates names")).length, 1);
     assert.equal(warnings.length, 7);
   });
 
@@ -106,6 +107,22 @@ describe("images that are children of an ImageGeometry", () => {
       );
       assert.deepEqual([patch?.coord[0]?.url, warnings], ["https://a.example/live/cloth-1", []]);
     }
+  });
+
+  test("may be a movie with a lossless video and the index of its frames, which replace the geometry's own", () => {
+    const read = (movie: string) =>
+      readScene(
+        elementsOf(`<X3D><Scene><Shape><ImageGeometry coord="a.png" vertexCount="3">
+          <MovieTexture ${movie}/></ImageGeometry></Shape></Scene></X3D>`),
+      );
+    const scene = read(`containerField="coord" url='"g/a.webm" "g/b.json?v=2"' loop="true"`);
+    const [shape] = shapesOf(scene.root);
+    assert.equal(shape?.geometry?.sequence?.url, "g/b.json?v=2");
+    assert.equal(shape.geometry.sequence.video, "g/a.webm");
+    assert.deepEqual(shape.geometry.patches[0]?.coord, [texel("a.png")]);
+    assert.deepEqual(scene.warnings, []);
+    assert.equal(read(`containerField="coord" url="g/a.webm"`).warnings.length, 1);
+    assert.equal(read(`containerField="normal" url='"g/a.webm" "g/b.json"'`).warnings.length, 1);
   });
 
   test("may be a canvas, whose pixels are read; one with another site's image is left out with a warning", () => {

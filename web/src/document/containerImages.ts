@@ -6,6 +6,7 @@ import { attributeOf, childrenOf, lowerNameOf, substitutedFor, unknownUse } from
 import { MFUrl, SFString } from "./fieldTypes.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields, shortened } from "./nodes.ts";
+import { movieOf } from "./sequence.ts";
 import { entryOf } from "./tables.ts";
 import { UnreadableGeometry } from "./unreadableGeometry.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
@@ -34,6 +35,7 @@ export function containerImagesOf(element: SceneElement, resolve: Resolve, warni
     if (!entryOf(urlReaders, lowerNameOf(child))) continue;
     const used = resolve(child);
     const image = used && substitutedFor(child, used);
+    if (image && lowerNameOf(image) === "movietexture" && movieOf(image)) continue; // frames of a sequence
     const name = attributeOf(image ?? child, "containerField") ?? (used && attributeOf(used, "containerField")) ?? "";
     const field = imageFields.find((known) => known.toLowerCase() === name.toLowerCase());
     const urls =
@@ -67,7 +69,10 @@ export function isStreamUrl(url: string): boolean {
 type ImageUrls = readonly string[] | { readonly problem: string };
 type UrlReader = (element: SceneElement) => ImageUrls;
 
-const refusedMovie: UrlReader = () => ({ problem: "movies are not drawn; images and live streams are" });
+const refusedMovie: UrlReader = () => ({
+  problem: "a movie with coordinates names a lossless video and the index of its frames",
+});
+const refusedVideo: UrlReader = () => ({ problem: "movies are not drawn; images and live streams are" });
 
 /** Readers of the addresses of an image, by the element's lower-case name. */
 const urlReaders: Readonly<Record<string, UrlReader>> = {
@@ -83,7 +88,7 @@ const urlReaders: Readonly<Record<string, UrlReader>> = {
     const [first] = readFields(element, { url: MFUrl([]) }, []).url;
     return first !== undefined && isStreamUrl(first) ? [first] : refusedMovie(element);
   },
-  video: refusedMovie,
+  video: refusedVideo,
 };
 
 function urlsOf(element: SceneElement): ImageUrls {

@@ -155,11 +155,13 @@ export interface TexCoordBox {
   readonly size: Vec2;
 }
 
-/** A CoordinateInterpolator with the frames of a sequence. */
+/** A CoordinateInterpolator or a MovieTexture with the frames of a sequence. */
 export interface SequenceDescription {
   /** The address of the index. */
   readonly url: string;
-  /** The interpolator, as `interpolatorIdOf` numbers its element. */
+  /** The address of a lossless video of the same frames. */
+  readonly video?: string;
+  /** The interpolator or movie, as `interpolatorIdOf` numbers its element. */
   readonly interpolator: number;
 }
 

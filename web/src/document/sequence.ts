@@ -1,8 +1,8 @@
-// Sequences: a CoordinateInterpolator with a url, in the coord field of an ImageGeometry, has the frames of its
-// vertices (docs/formats/sequence.md).
+// Sequences: a CoordinateInterpolator with a url, or a MovieTexture with a video and an index, in the coord field of an
+// ImageGeometry, has the frames of its vertices (docs/formats/sequence.md).
 
 import type { Resolve, SceneElement } from "./element.ts";
-import { childrenOf, lowerNameOf, substitutedFor } from "./element.ts";
+import { attributeOf, childrenOf, lowerNameOf, substitutedFor } from "./element.ts";
 import { MFString } from "./fieldTypes.ts";
 import type { SequenceDescription } from "./geometryDescription.ts";
 import type { Warning } from "./nodes.ts";
@@ -27,12 +27,31 @@ export function readSequence(
   warnings: Warning[],
 ): SequenceDescription | undefined {
   for (const child of childrenOf(geometry)) {
-    if (lowerNameOf(child) !== "coordinateinterpolator") continue;
+    const name = lowerNameOf(child);
+    if (name !== "coordinateinterpolator" && name !== "movietexture") continue;
     const used = resolve(child);
     if (used === undefined) continue;
-    const [url] = readFields(substitutedFor(child, used), { url: MFString([]) }, warnings).url;
+    const element = substitutedFor(child, used);
+    if (name === "movietexture") {
+      const movie = movieOf(element);
+      if (movie !== undefined) return { ...movie, interpolator: interpolatorIdOf(used) };
+      continue; // an image of the geometry, or none
+    }
+    const [url] = readFields(element, { url: MFString([]) }, warnings).url;
     if (url !== undefined) return { url, interpolator: interpolatorIdOf(used) };
     warnings.push({ element: child, message: "an interpolator without url has no part in an ImageGeometry" });
   }
   return undefined;
+}
+
+/**
+ * The addresses in a MovieTexture with the coordinates of an ImageGeometry: a lossless video, and the index of the same
+ * frames as a sequence. Undefined where it lacks one of them. src/documents/animation_element.h does the same.
+ */
+export function movieOf(element: SceneElement): Pick<SequenceDescription, "url" | "video"> | undefined {
+  if (attributeOf(element, "containerField")?.toLowerCase() !== "coord") return undefined;
+  const urls = readFields(element, { url: MFString([]) }, []).url;
+  const isIndex = (url: string) => /^[^?]*\.json(\?|$)/.test(url);
+  const [url, video] = [urls.find(isIndex), urls.find((each) => !isIndex(each))];
+  return url === undefined || video === undefined ? undefined : { url, video };
 }

@@ -202,6 +202,7 @@ export class PageViewer {
       showFraction: (interpolator, fraction) => {
         deliveries.geometries.setFraction(interpolatorIdOf(interpolator), fraction);
       },
+      sequenceDurationOf: (element) => deliveries.geometries.sequenceDurationOf(interpolatorIdOf(element)),
       withoutReports: (write) => {
         this.#writeUnobserved(write);
       },

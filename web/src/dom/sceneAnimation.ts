@@ -8,7 +8,7 @@ import { drawnFieldOf, isOfPose } from "../viewer/drawnFields.ts";
 
 /** Names of elements that send or carry events. */
 const namesOfAnimation =
-  /^(route|easeineaseout|boolean(filter|toggle)|\w+(sensor|interpolator(2d)?|sequencer|trigger))$/i;
+  /^(route|easeineaseout|movietexture|boolean(filter|toggle)|\w+(sensor|interpolator(2d)?|sequencer|trigger))$/i;
 
 /** A field of an element of the page. */
 export interface DocumentChange {

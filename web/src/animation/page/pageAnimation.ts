@@ -13,6 +13,7 @@ import { ViewSensor } from "../viewSensors.ts";
 import { inverseOf, product, rotationIn, transformPoint } from "./matrices.ts";
 import type { Matrix } from "./matrices.ts";
 import { isSequenceFraction } from "../interpolators.ts";
+import { MovieTexture } from "../movieTexture.ts";
 import { LateAttributes } from "./lateAttributes.ts";
 import { OutputEvents } from "./outputEvents.ts";
 import type { PointerSpace } from "./pointerSensing.ts";
@@ -41,6 +42,8 @@ export interface AnimatedScene extends PointerSpace {
   drawFrame(): void;
   /** An interpolator with the frames of a sequence has received a fraction, 0 … 1. */
   showFraction(interpolator: AnimatedElement, fraction: number): void;
+  /** The duration of the sequence that an interpolator or a movie plays, in seconds; 0 until it is known. */
+  sequenceDurationOf(element: AnimatedElement): number;
   /** Calls back so that the changes of attributes that it makes are not reported. */
   withoutReports(write: () => void): void;
   /** The view of the last frame; undefined before the first. */
@@ -68,6 +71,7 @@ export class PageAnimation {
   readonly #attributes: LateAttributes;
   readonly #listAttributes: LateAttributes;
   #viewSensors: readonly { readonly element: AnimatedElement; readonly sensor: ViewSensor }[] = [];
+  #movies: readonly { readonly element: AnimatedElement; readonly movie: MovieTexture }[] = [];
   #isInFrame = false;
 
   constructor(documents: PageDocuments, scene: AnimatedScene, mayStartByItself: boolean) {
@@ -115,6 +119,9 @@ export class PageAnimation {
     this.#viewSensors = Array.from(this.#player.nodes).flatMap(([element, { behaviour }]) =>
       behaviour instanceof ViewSensor ? [{ element, sensor: behaviour }] : [],
     );
+    this.#movies = Array.from(this.#player.nodes).flatMap(([element, { behaviour }]) =>
+      behaviour instanceof MovieTexture ? [{ element, movie: behaviour }] : [],
+    );
     for (const element of this.#player.elements) this.#addScriptAccess(element);
     this.onFrame();
   }
@@ -138,8 +145,12 @@ export class PageAnimation {
     this.#player.mayStartByItself = mayStart;
   }
 
-  /** Call after each frame: the view may have changed. */
+  /** Call after each frame: the view may have changed, and movies may have loaded. */
   onFrame(): void {
+    if (this.#movies.length > 0)
+      this.#player.run((time) => {
+        for (const { element, movie } of this.#movies) movie.setDuration(this.#scene.sequenceDurationOf(element), time);
+      });
     if (this.#viewSensors.length === 0) return;
     const view = this.#scene.view();
     if (view === undefined) return;

@@ -1,16 +1,8 @@
-// The decoded frames of a sequence: the one that is due and a few after it, which workers decode ahead. Frames follow
-// one another in a file, so that a run of them is one job, which goes on from the last frame of the job before.
+// The decoded frames of a sequence: the one that is due and a few after it, which are decoded ahead.
 
-import type { FrameArrays } from "../../decode/frame/frameArrays.ts";
-import type { Frame } from "../../decode/frame/frame.ts";
-import type { FrameImages } from "../../decode/frame/frameImages.ts";
 import { unpackedBytesOf } from "../../decode/frame/frameHeader.ts";
-import type { RunJob } from "../../decode/jobs.ts";
-import type { FrameForm, PackedFrame } from "../../decode/sequence/sequenceFrames.ts";
 import type { SequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
-import { fileOfFrame } from "../../decode/sequence/sequenceIndex.ts";
-
-export type SequenceFrame = FrameImages | FrameArrays;
+import type { FrameRuns, SequenceFrame } from "./frameRuns.ts";
 
 /** Decoded frames that wait: at most so many, of so many bytes, but always two. */
 const maxFramesAhead = 8;
@@ -18,23 +10,18 @@ const maxBytesAhead = 16 * 2 ** 20;
 
 export interface FramesAheadOptions {
   readonly index: SequenceIndex;
-  /** The frames of a file; undefined while it is absent; empty if it cannot be read. */
-  readonly framesOf: (file: number) => readonly PackedFrame[] | undefined;
-  readonly runJob: RunJob;
-  /** What frames are decoded to now. */
-  readonly form: () => FrameForm;
+  readonly runs: FrameRuns;
   /** Further frames have been decoded. */
   readonly onFrames: () => void;
-  /** A file holds a frame that cannot be decoded. */
-  readonly onError: (file: number, error: unknown) => void;
+  /** A frame cannot be decoded, or one that is decoded with it. */
+  readonly onError: (frame: number, error: unknown) => void;
 }
 
 export class FramesAhead {
   readonly #options: FramesAheadOptions;
   readonly #limit: number;
   readonly #ready = new Map<number, SequenceFrame>();
-  /** The frame that was decoded last, from which a difference goes on. */
-  #last: { readonly number: number; readonly components: Frame["components"] } | undefined;
+  #runs: FrameRuns;
   /** The frame that was due last, and how many frames before it have been due since the last jump. */
   #due: number | undefined;
   #maxLag = 0;
@@ -43,6 +30,7 @@ export class FramesAhead {
 
   constructor(options: FramesAheadOptions) {
     this.#options = options;
+    this.#runs = options.runs;
     const frameBytes = 2 * unpackedBytesOf(options.index);
     this.#limit = Math.max(2, Math.min(maxFramesAhead, Math.floor(maxBytesAhead / frameBytes)));
   }
@@ -76,57 +64,42 @@ export class FramesAhead {
     for (const frame of this.#ready.keys()) if (!ahead.includes(frame)) this.#ready.delete(frame);
     const missing = ahead.find((frame) => frame !== displayed && !this.#ready.has(frame));
     if (this.#isBusy || missing === undefined) return;
-    const file = fileOfFrame(this.#options.index, missing);
-    const frames = this.#options.framesOf(file);
-    if (frames === undefined || frames.length === 0) return;
     const upcoming = new Set(ahead.filter((frame) => frame >= missing));
-    void this.#run(file, frames, missing, upcoming);
+    const decoding = this.#runs.decode(missing, upcoming, this.#aborter.signal);
+    if (decoding !== undefined) void this.#receive(missing, decoding, this.#aborter.signal);
+  }
+
+  /** Frames come from elsewhere from now on. Those that are decoded stay. */
+  goOnWith(runs: FrameRuns): void {
+    this.#abort();
+    this.#runs = runs;
   }
 
   /** Forgets all frames, and what is being decoded: they would be decoded to another form now. */
   clear(): void {
+    this.#abort();
+    this.#ready.clear();
+  }
+
+  #abort(): void {
     this.#aborter.abort();
     this.#aborter = new AbortController();
     this.#isBusy = false;
-    this.#ready.clear();
-    this.#last = undefined;
+    this.#runs.reset();
   }
 
-  /** Decodes a frame and the upcoming ones behind it in its file. */
-  async #run(
-    file: number,
-    frames: readonly PackedFrame[],
-    missing: number,
-    upcoming: ReadonlySet<number>,
-  ): Promise<void> {
-    const { runJob, form, onFrames, onError } = this.#options;
-    const { signal } = this.#aborter;
-    const first = frames[0]?.number ?? 0;
-    const target = missing - first;
-    let start = target;
-    while (start > 0 && frames[start]?.isDifference === true && this.#last?.number !== first + start - 1) start -= 1;
-    let end = target + 1;
-    while (end < frames.length && upcoming.has(first + end)) end += 1;
-    const isContinued = frames[start]?.isDifference === true;
+  async #receive(missing: number, decoding: Promise<readonly SequenceFrame[]>, signal: AbortSignal): Promise<void> {
+    const { onFrames, onError } = this.#options;
     this.#isBusy = true;
     try {
-      const decoded = await runJob(
-        "sequenceFrames",
-        {
-          frames: frames.slice(start, end).map(({ bytes }) => bytes),
-          before: isContinued ? this.#last?.components : undefined,
-          from: target - start,
-          form: form(),
-        },
-        signal,
-      );
-      for (const frame of decoded.frames) this.#ready.set(frame.header.number, frame);
-      this.#last = { number: first + end - 1, components: decoded.last };
+      const frames = await decoding;
+      if (signal.aborted) return;
+      this.#isBusy = false;
+      for (const frame of frames) this.#ready.set(frame.header.number, frame);
     } catch (error) {
       if (signal.aborted) return;
-      onError(file, error);
-    } finally {
-      if (!signal.aborted) this.#isBusy = false;
+      this.#isBusy = false;
+      onError(missing, error);
     }
     onFrames();
   }

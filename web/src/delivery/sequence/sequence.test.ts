@@ -13,6 +13,7 @@ import type { SequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
 import { readSequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
 import type { Content, ResourceHandle, ResourceRequest } from "../resourcePool.ts";
 import { FramesAhead } from "./framesAhead.ts";
+import { PackedRuns } from "./packedRuns.ts";
 import { maxBufferedBytes, SequenceFiles } from "./sequenceFiles.ts";
 
 const directory = join(import.meta.dirname, "../../../../vectors/sequence-1");
@@ -53,9 +54,7 @@ function framesAhead() {
   }) as RunJob;
   const ahead = new FramesAhead({
     index,
-    framesOf: () => frames,
-    runJob,
-    form: () => ({ kind: "images" }),
+    runs: new PackedRuns({ index, framesOf: () => frames, runJob, form: () => ({ kind: "images" }) }),
     onFrames: () => undefined,
     onError: (_, error) => errors.push(error),
   });

@@ -16,8 +16,10 @@ import { ImageTarget } from "../live/liveImages.ts";
 import type { Transfer } from "../progress.ts";
 import type { ResourceHandle, ResourcePool } from "../resourcePool.ts";
 import { FramesAhead } from "./framesAhead.ts";
-import type { SequenceFrame } from "./framesAhead.ts";
+import type { SequenceFrame } from "./frameRuns.ts";
+import { PackedRuns } from "./packedRuns.ts";
 import { SequenceFiles } from "./sequenceFiles.ts";
+import { SequenceVideo } from "./sequenceVideo.ts";
 
 /** Where a sequence is: a part of its duration, 0 … 1, or seconds from its beginning. */
 export type SequencePosition = { readonly fraction: number } | { readonly seconds: number };
@@ -162,6 +164,7 @@ export class SequenceDelivery implements Delivery {
     const { url } = this.#sequence;
     const playing = (this.#playing = new Playing({
       index,
+      videoUrl: this.#sequence.video,
       geometry: framesGeometryOf(this.#geometry, url),
       urlOf: (file) => new URL(index.files[file]?.url ?? "", this.#pool.resolve(url)).href,
       readsTextures,
@@ -243,6 +246,8 @@ function frameAt(position: SequencePosition, { frameCount, rate }: SequenceIndex
 
 interface PlayingOptions {
   readonly index: SequenceIndex;
+  /** The address of a video of the same frames. */
+  readonly videoUrl: string | undefined;
   readonly geometry: GeometryDescription;
   readonly urlOf: (file: number) => string;
   readonly readsTextures: boolean;
@@ -261,16 +266,22 @@ class Playing {
   readonly #frames: FrameDelivery;
   readonly #files: SequenceFiles;
   readonly #ahead: FramesAhead;
+  /** Where frames come from, until it turns out not to be exact. */
+  #video: SequenceVideo | undefined;
   readonly #onFrame: () => void;
+  readonly #onError: (error: unknown, url: string) => void;
   #due: number | undefined;
+  #priority = 0;
   #displayed: number | undefined;
   /** Resolved when a frame has been displayed in the present form. */
   #again: PromiseWithResolvers<void> | undefined;
 
   constructor(options: PlayingOptions) {
-    const { index, geometry, urlOf, readsTextures, pool, transfer, onStage, onFrame, onError, onSettled } = options;
+    const { index, videoUrl, geometry, urlOf, readsTextures, pool, transfer } = options;
+    const { onStage, onFrame, onError, onSettled } = options;
     this.index = index;
     this.#onFrame = onFrame;
+    this.#onError = onError;
     this.#files = new SequenceFiles(index, urlOf, pool, {
       onFile: () => {
         this.#advance();
@@ -294,16 +305,26 @@ class Playing {
         onSettled,
       },
     );
+    const form = () => this.#frames.target.form;
+    const runs = new PackedRuns({ index, framesOf: (file) => this.#files.framesOf(file), runJob: pool.runJob, form });
+    if (videoUrl !== undefined)
+      this.#video = new SequenceVideo(videoUrl, index, pool, form, {
+        onFile: () => {
+          this.#advance();
+        },
+        onUnusable: (error) => {
+          this.#leaveVideo(runs, error);
+        },
+      });
     this.#ahead = new FramesAhead({
       index,
-      framesOf: (file) => this.#files.framesOf(file),
-      runJob: pool.runJob,
-      form: () => this.#frames.target.form,
+      runs: this.#video ?? runs,
       onFrames: () => {
         this.#advance();
       },
-      onError: (file, error) => {
-        this.#files.fail(file, error);
+      onError: (frame, error) => {
+        if (this.#video) this.#leaveVideo(runs, error);
+        else this.#files.fail(fileOfFrame(index, frame), error);
       },
     });
   }
@@ -330,21 +351,40 @@ class Playing {
   /** The frame with this number is due. */
   follow(due: number, priority: number): void {
     this.#due = due;
-    this.#files.follow(fileOfFrame(this.index, due), priority);
+    this.#priority = priority;
+    this.#request(due);
     this.#advance();
   }
 
   /** Nobody sees the frames. */
   rest(): void {
     this.#due = undefined;
+    this.#video?.rest();
     this.#files.clear();
   }
 
   close(): void {
     this.#again?.reject(new DOMException("", "AbortError"));
     this.#ahead.clear();
+    this.#video?.close();
     this.#files.clear();
     this.#frames.close();
+  }
+
+  #request(due: number): void {
+    if (this.#video) this.#video.follow(this.#priority);
+    else this.#files.follow(fileOfFrame(this.index, due), this.#priority);
+  }
+
+  /** Goes on with the files of the same frames. `error`: what is wrong with the video; undefined: it was not requested. */
+  #leaveVideo(runs: PackedRuns, error: unknown): void {
+    const video = this.#video;
+    if (video === undefined) return;
+    this.#video = undefined;
+    this.#ahead.goOnWith(runs);
+    video.fail(error);
+    if (error !== undefined) this.#onError(error, video.url);
+    if (this.#due !== undefined) this.#request(this.#due);
   }
 
   #advance(): void {
