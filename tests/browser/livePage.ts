@@ -129,7 +129,8 @@ export async function withLivePage(
     server.when(/^\/$/, { replace: () => html });
     server.contentPolicy = "default-src 'self'; connect-src 'self' http://127.0.0.1:*"; // streams of other servers
   };
-  await withPage(site(), { server, before: recordStream, ...(expectedErrors && { expectedErrors }) }, async (view) => {
+  const options = { server, before: recordStream, isCrossOrigin: true, ...(expectedErrors && { expectedErrors }) };
+  await withPage(site(), options, async (view) => {
     await view.promise("complete");
     await view.promise("complete", "shape");
     await displayed(view, stream);
