@@ -4,12 +4,15 @@
 import {
   AmbientLight,
   AnimationMixer,
+  Box3,
   DirectionalLight,
+  Group,
   Mesh,
   type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
   Scene,
+  Vector3,
   WebGLRenderer,
 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
@@ -17,8 +20,10 @@ import { ImgeoLoader } from "../../web/src/loader/index.ts";
 
 declare global {
   interface Window {
-    /** Loads a GLB, or the document of a site, with a camera at a distance from the origin. */
-    loadModel: (url: string, workerUrl: string, distance: number) => Promise<void>;
+    /** Loads a GLB, or the document of a site, with a camera at a distance from a point, by default the origin. */
+    loadModel: (url: string, workerUrl: string, distance: number, center?: [number, number, number]) => Promise<void>;
+    /** The box around the vertices of a GLB as GLTFLoader poses them at rest. */
+    boundsOf: (url: string) => Promise<{ center: [number, number, number]; size: number }>;
     /** Draws the model at a time of its first animation, in seconds. */
     drawMoment: (seconds: number) => Promise<void>;
     /** The name of the shape at a pixel of the canvas, by ImgeoScene.pick. */
@@ -50,7 +55,12 @@ async function modelOf(url: string, workerUrl: string): Promise<Object3D> {
   return model;
 }
 
-window.loadModel = async (url, workerUrl, distance) => {
+window.boundsOf = async (url) => {
+  const box = new Box3().setFromObject(await modelOf(url, ""), true);
+  return { center: box.getCenter(new Vector3()).toArray(), size: box.getSize(new Vector3()).length() };
+};
+
+window.loadModel = async (url, workerUrl, distance, center = [0, 0, 0]) => {
   renderer = new WebGLRenderer({ antialias: true });
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = PCFShadowMap;
@@ -75,7 +85,9 @@ window.loadModel = async (url, workerUrl, distance) => {
   model.castShadow = model.receiveShadow = true;
   model.position.set(0.1, 0.05, 0);
   model.rotation.y = 0.2;
-  scene.add(new AmbientLight(0xffffff, 1), sun, model);
+  const moved = new Group().add(model);
+  moved.position.set(...center).negate();
+  scene.add(new AmbientLight(0xffffff, 1), sun, moved);
   const [clip] = model.animations;
   mixer = new AnimationMixer(model);
   if (clip) mixer.clipAction(clip).play();

@@ -17,6 +17,7 @@ const withoutPi =
 const allLightsAreGlobal = "X3DOM's lights ignore `global` and light everything";
 
 export const explanations: Readonly<Record<string, string>> = {
+  "Animation-skin": "X3DOM does not move the points of skins",
   "Animation-spline": "X3DOM lacks `SplineScalarInterpolator`",
   "Animation-squad-ease": "X3DOM lacks `SquadOrientationInterpolator` and `EaseInEaseOut`",
   "Appearance-alphaMode-MASK": "X3DOM does not support `alphaMode`",

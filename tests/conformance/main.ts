@@ -1,5 +1,5 @@
 // Draws each document of nodes/ in imgeo's runtime, in X_ITE and in X3DOM, in the same browser, and compares the
-// pictures. imgeo draws documents with NURBS or prototypes as `build/imgeo convert` has written them, and the VRML 1.0
+// pictures. imgeo draws documents with NURBS, prototypes or skins as `build/imgeo convert` has written them, and the VRML 1.0
 // file of the same name where there is one, a format that the other runtimes do not read. Writes docs/conformance.md
 // and its picture; fails if imgeo differs from one of them and explanations.ts does not explain it.
 //
@@ -67,7 +67,8 @@ async function show(page: Page, server: TestServer, runtime: Runtime, name: stri
   const source = readFileSync(path, "utf8");
   const vrml = join(here, "nodes", `${name}.wrl`);
   const isConverted =
-    runtime === "imgeo" && (existsSync(vrml) || /<Nurbs\w*(Surface|Curve)\b|<ProtoDeclare\b/.test(source));
+    runtime === "imgeo" &&
+    (existsSync(vrml) || /<Nurbs\w*(Surface|Curve)\b|<ProtoDeclare\b|containerField="skinCoord"/.test(source));
   const folder = isConverted ? `converted/${name}/` : "nodes/";
   const scene = isConverted ? convert(server, existsSync(vrml) ? vrml : path, folder) : source;
   const address = `${folder}${runtime}-${name}.html`;

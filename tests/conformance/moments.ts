@@ -8,6 +8,7 @@ import type { Runtime } from "./runtimes.ts";
 export const moments: Readonly<Record<string, number>> = {
   "Animation-geometry": 0.3,
   "Animation-linear": 0.35,
+  "Animation-skin": 0.6,
   "Animation-spline": 0.4,
   "Animation-squad-ease": 0.45,
   "Animation-utilities": 0.5,

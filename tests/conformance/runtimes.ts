@@ -32,7 +32,7 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   for (const file of [
     "x_ite.css",
     "assets/lib/mikktspace_bg.wasm",
-    ...["CADGeometry", "EventUtilities", "Geometry2D", "NURBS", "Text"].map(
+    ...["CADGeometry", "EventUtilities", "Geometry2D", "HAnim", "NURBS", "Text"].map(
       (name) => `assets/components/${name}Component.js`,
     ),
     "assets/lib/woff2_decoder.js",

@@ -25,10 +25,12 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
   warnOfUnreadFields(elements, unread);
   const NodeConversions conversions = convertNodes(elements);
   std::vector<std::string> skinFaults;
-  for (const auto& [element, message] : elements.skins.faults)
-    skinFaults.push_back(fmt::format("{}: {}", locationOf(asText(bytes), name, elements.offsets.of(element)), message));
-  if (options.strict && !skinFaults.empty())
-    throw Error(ErrorKind::malformed, "", skinFaults[0]);
+  for (const auto& [element, message] : elements.skins.faults) {
+    const std::string location = locationOf(asText(bytes), name, elements.offsets.of(element));
+    if (options.strict)
+      throw Error(ErrorKind::malformed, location, message);
+    skinFaults.push_back(fmt::format("{}: {}.", location, message));
+  }
   const std::size_t sharedAppearances = shareAppearances(elements);
   const std::string format = elements.format;
   std::vector<std::string> warnings = std::move(elements.warnings);
@@ -47,8 +49,7 @@ Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string&
                                             counted(sharedAppearances, "Appearance is a USE", "Appearances are USEs"),
                                             maxShapesWithOwnAppearance));
   std::ranges::move(unread, std::back_inserter(imported.warnings));
-  for (const std::string& fault : skinFaults)
-    imported.warnings.push_back(fault + ".");
+  std::ranges::move(skinFaults, std::back_inserter(imported.warnings));
   warnOfElements(imported.warnings, "Left out of prototypes", prototypes.leftOut);
   warnOfElements(imported.warnings, "Written as other nodes", conversions.converted);
   warnOfElements(imported.warnings, "Left out of materials", conversions.leftOut);

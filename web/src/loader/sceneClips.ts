@@ -12,7 +12,8 @@ import { drawnFieldOf } from "../viewer/drawnFields.ts";
 /** Has the property that the track of a clip sets. */
 class ClipTime extends Object3D {
   readonly #onTime: (seconds: number) => void;
-  #seconds = 0;
+  /** Before the first time: mixers set only what differs from before, and the first moment of a clip is no rest. */
+  #seconds = -1e-9;
 
   constructor(name: string, onTime: (seconds: number) => void) {
     super();
