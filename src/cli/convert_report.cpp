@@ -32,8 +32,10 @@ std::string positionsOf(const Arguments& arguments, const ConvertReport& report)
                                   ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.minPositionBits,
                                                 report.maxPositionBits, report.maxStep)
                                   : fmt::format("{} bits: step {:.4g}", report.maxPositionBits, report.maxStep);
-  return fmt::format("{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
-                     asFloats ? " as float32" : "", report.positionError);
+  // Rounding moves some vertex by nearly half a step, unless all lie on the lattice already.
+  const bool isOfSource = !asFloats && report.positionError < 0.25 * report.maxStep;
+  return fmt::format("{}{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
+                     asFloats ? " as float32" : "", isOfSource ? ", as in the source" : "", report.positionError);
 }
 
 /// "z up, guessed: it stands upright along z ... (--up states another axis)"

@@ -130,7 +130,8 @@ Command convertCommand() {
                        "off: vertices are repeated wherever they are drawn instead of named by an index"),
                 integer("position-bits", {"-vp", "-qp"}, 8, 32, "",
                         "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
-                        "otherwise 16, or what the coordinates' type holds"),
+                        "otherwise 16, or what the coordinates' type holds; compact takes fewer for a mesh whose "
+                        "coordinates lie on a coarser lattice already, and keeps them"),
                 {.name = "max-error",
                  .valueKind = ValueKind::text,
                  .valueName = "LENGTH|PERCENT",

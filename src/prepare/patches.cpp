@@ -247,9 +247,12 @@ PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& 
     std::vector<std::uint32_t> permutation(mesh.elementCount());
     std::iota(permutation.begin(), permutation.end(), 0u);
     const std::vector<Elements> leaves = leavesOf(ElementTable(mesh), permutation, maxWedges);
+    const std::optional<VertexGrid> grid = lattice.bits <= 16 ? findVertexGrid(points) : std::nullopt;
     result.patches.resize(leaves.size());
-    parallelFor(leaves.size(),
-                [&](std::size_t i) { result.patches[i] = makePatch(mesh, points, leaves[i], maxWedges); });
+    parallelFor(leaves.size(), [&](std::size_t i) {
+      result.patches[i] = makePatch(mesh, points, leaves[i], maxWedges);
+      result.patches[i].grid = grid;
+    });
   }
   for (const Patch& patch : result.patches) {
     const Box3d box = boxOf(patch, lattice);

@@ -3,6 +3,7 @@
 // "simple KD trees to collect triangles in a minimal bounding box").
 
 #include "prepare/lattice.h"
+#include "prepare/vertex_grid.h"
 #include "scene/mesh.h"
 
 #include <cstdint>
@@ -21,6 +22,9 @@ struct Patch : VertexAttributes {
   std::vector<Vec3u> positions;
   std::vector<std::uint32_t> wedgePositions;
   std::vector<std::uint32_t> corners;
+  /// The grid of the whole mesh, of at most 16 bits, if it is cut into several patches: one alone has fewer lines to
+  /// find it by.
+  std::optional<VertexGrid> grid{};
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
   std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }

@@ -26,7 +26,7 @@ TEST_F(Convert, ReportsWhatItChose) {
   const Outcome outcome = run({"convert", input_, "-o", site_});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "silent where standard error is no terminal";
-  for (const char* words : {"sig (PNG images)", "profile compact", "target web", "16 bits: step",
+  for (const char* words : {"sig (PNG images)", "profile compact", "target web", "8 bits: step 0.25, as in the source",
                             "octahedral, 8 bits: off by at most 0.96 degrees; computed", "800 triangles",
                             "1 of at most 65,535 vertices", "patch", "bytes a triangle", "memory"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
@@ -151,21 +151,32 @@ TEST_F(Convert, MakesPointsAndLinesSmallerThanClassicDoes) {
 }
 
 TEST_F(Convert, WritesTheSameReportToAFileAndAsJson) {
+  write(input_, gridPly(14)); // too few vertices for a lattice of its own
   const Outcome outcome =
       run({"convert", "-i", input_, "-o", site_, "-r", directory_ / "report.json", "--json", "-vp", "12"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, textOf(directory_ / "report.json"));
   const Json report = Json::parse(outcome.out);
-  EXPECT_EQ(report["triangles"], 800);
-  EXPECT_EQ(report["vertices"], 441);
+  EXPECT_EQ(report["triangles"], 392);
+  EXPECT_EQ(report["vertices"], 225);
   EXPECT_EQ(report["positionBits"], 12);
   EXPECT_EQ(report["normals"], "area");
-  EXPECT_DOUBLE_EQ(report["step"], 20.0 / 4095);
+  EXPECT_DOUBLE_EQ(report["step"], 14.0 / 4095);
   const Json info = Json::parse(run({"info", site_, "--json"}).out);
   EXPECT_EQ(info["bytesPerTriangle"], report["bytesPerTriangle"]);
 }
 
+TEST_F(Convert, KeepsTheLatticeOfTheSourceWhereItIsCoarser) {
+  const Json report = Json::parse(run({"convert", input_, "-o", site_, "--json", "-vp", "12"}).out);
+  EXPECT_EQ(report["positionBits"], 8);
+  EXPECT_EQ(report["step"], 0.25);
+  EXPECT_EQ(report["positionError"], 0);
+  const Outcome verified = run({"verify", site_, input_});
+  EXPECT_EQ(verified.code, 0) << verified.out;
+}
+
 TEST_F(Convert, TakesEveryShortName) {
+  write(input_, gridPly(14)); // too few vertices for a lattice of its own
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"-vp", "14"},
                                                                                        {"-qp=14"},
                                                                                        {"-vp14"},
@@ -381,7 +392,7 @@ TEST_F(Convert, VerifyExitsWithThreeAndReportsDifferencesOfAnotherSite) {
   EXPECT_EQ(outcome.code, 3);
   const Json report = Json::parse(outcome.out);
   EXPECT_EQ(report["equal"], false);
-  EXPECT_GT(report["missingTriangles"], 0);
+  EXPECT_GT(report["extraTriangles"], 0);
   EXPECT_FALSE(report["findings"].empty());
 }
 

@@ -45,6 +45,11 @@ inline Value valueOf(const OctahedronPoint& point, std::int64_t radius) {
   return value;
 }
 
+/// The direction of a point.
+inline Vec3d directionOf(const Value& point) {
+  return {double(point[0]), double(point[1]), double(point[2])};
+}
+
 /// The largest angle, in radians, between a direction and its rounded point. An error of half a step on two axes, and
 /// so of a whole step on the third, moves the point by sqrt(3 / 2) steps; its distance from the origin is at least
 /// radius / sqrt(3).
@@ -95,10 +100,16 @@ Value codeOtherNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, 
   return valueOf(point, radius);
 }
 
-/// Codes the normals of all wedges, or of the first `limit` for an encoder that measures their cost.
-template <typename Coder>
+/// Accepts no prediction but the value itself.
+struct NoTolerance {
+  bool accepts(std::uint32_t, const Value&) const { return false; }
+};
+
+/// Codes the normals of all wedges, or of the first `limit` for an encoder that measures their cost. An encoder's
+/// `tolerance` accepts predictions that may stand for values (NormalTolerance); `values` become what is stored.
+template <typename Coder, typename Tolerance = NoTolerance>
 void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type, std::vector<Value>& values,
-                 std::uint32_t limit = std::numeric_limits<std::uint32_t>::max()) {
+                 const Tolerance& tolerance = {}, std::uint32_t limit = std::numeric_limits<std::uint32_t>::max()) {
   const Wedges& wedges = surface.wedges;
   const std::int64_t radius = (std::int64_t{1} << (type.bits - 1)) - 1;
   std::vector<bool> repeats(wedges.count());
@@ -126,7 +137,8 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
       direction = {values[wedge - 1][0], values[wedge - 1][1], values[wedge - 1][2]};
     const OctahedronPoint point = octahedronPoint(direction, radius);
     const Value expected = valueOf(point, radius);
-    isExact = type.isDerived() || coder.bit(attributeModels::exact + isExact, values[wedge] == expected);
+    isExact = type.isDerived() || coder.bit(attributeModels::exact + isExact,
+                                            values[wedge] == expected || tolerance.accepts(wedge, expected));
     values[wedge] = isExact ? expected : codeOtherNormal(coder, point, radius, values[wedge]);
   }
 }

@@ -1,9 +1,9 @@
 #pragma once
 // Encodes and decodes positions by the same loop: docs/formats/compact.md, "Positions".
 
-#include "containers/compact/grid.h"
 #include "containers/compact/prediction.h"
 #include "containers/compact/symbols.h"
+#include "prepare/vertex_grid.h"
 
 #include <algorithm>
 #include <limits>
@@ -58,8 +58,9 @@ template <typename Coder> class PositionCoder {
 public:
   /// `positions` are the vertices' positions for an encoder, which replaces them by those that decoders return; a
   /// decoder fills them. Arguments that are passed by reference must outlive the PositionCoder.
-  PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits, const std::optional<Grid>& grid,
-                std::uint32_t normalShift, CoarseResiduals residuals, std::vector<Vec3u>& positions)
+  PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits,
+                const std::optional<VertexGrid>& grid, std::uint32_t normalShift, CoarseResiduals residuals,
+                std::vector<Vec3u>& positions)
       : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1), grid_(grid),
         residuals_(residuals), positions_(positions),
         sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift), masks_(grid ? positions.size() : 0) {}
@@ -202,7 +203,7 @@ private:
   const Connectivity& connectivity_;
   std::uint32_t bits_;
   std::int64_t maximum_;
-  const std::optional<Grid>& grid_;
+  const std::optional<VertexGrid>& grid_;
   CoarseResiduals residuals_;
   std::vector<Vec3u>& positions_;
   NormalSums sums_;

@@ -3,6 +3,7 @@
 // wedges, and except for what `residualShift` rounds in a base.
 
 #include "base/vec.h"
+#include "prepare/vertex_grid.h"
 #include "scene/mesh.h"
 
 #include <array>
@@ -67,14 +68,10 @@ struct Attribute {
   /// Per wedge. Normals are points of the octahedron |x| + |y| + |z| = 2^(bits - 1) - 1; components of other
   /// attributes are 0 .. 2^bits - 1.
   std::vector<Value> values;
-  friend bool operator==(const Attribute&, const Attribute&) = default;
-};
+  /// Encoders only: the unit normals that `values` round, per wedge. Empty if the values are exact.
+  std::vector<Vec3f> sourceNormals{};
 
-/// Planes perpendicular to the axes. Most vertices lie on them, as those of isosurfaces do. The coordinate of plane i
-/// of an axis is round(origin + i * step), where `origin` and `step` are in 1/65536 lattice steps.
-struct Grid {
-  Vec3u origin, step;
-  friend bool operator==(const Grid&, const Grid&) = default;
+  friend bool operator==(const Attribute& a, const Attribute& b) { return a.type == b.type && a.values == b.values; }
 };
 
 struct CompactPatch {
@@ -84,6 +81,8 @@ struct CompactPatch {
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> vertex
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) corners per element
   std::vector<Attribute> attributes;
+  /// Encoders only: see Patch::grid.
+  std::optional<VertexGrid> grid{};
   /// Base only: the segment of each triangle, below `segmentCount`. Empty in a patch.
   std::vector<std::uint32_t> segments;
   std::uint32_t segmentCount = 0; ///< 0: a patch, not a base

@@ -1,5 +1,6 @@
 #include "containers/compact/code_normals.h"
 #include "containers/compact/code_values.h"
+#include "containers/compact/normal_tolerance.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/streams.h"
 #include "containers/stored.h"
@@ -87,9 +88,7 @@ std::uint32_t normalShiftFor(const CompactPatch& patch, const std::vector<std::u
 
 /// The largest angle between two lists of normals, in radians.
 double largestAngle(const std::vector<Value>& a, const std::vector<Value>& b) {
-  const auto vector = [](const Value& value) {
-    return unitNormal({double(value[0]), double(value[1]), double(value[2])});
-  };
+  const auto vector = [](const Value& value) { return unitNormal(directionOf(value)); };
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     largest = std::max(largest, angleBetween(vector(a[i]), vector(b[i])));
@@ -118,14 +117,23 @@ struct CodedPatch {
       values.push_back(attribute.values[sourceWedge(corner)]);
     return values;
   }
+  /// Which predictions may stand for the normals `values` of an attribute.
+  NormalTolerance toleranceOf(const Attribute& attribute, const std::vector<Value>& values) const {
+    std::vector<Vec3f> sources;
+    if (!attribute.sourceNormals.empty())
+      for (const std::uint32_t corner : wedges.corner)
+        sources.push_back(attribute.sourceNormals[sourceWedge(corner)]);
+    return {surface(), attribute.type, values, std::move(sources)};
+  }
 };
 
 /// In patches with fewer points a grid saves less than its own 24 bytes.
 constexpr std::size_t minGridPoints = 64;
 
-std::optional<Grid> gridOf(const CompactPatch& patch) {
-  const bool isWorthIt = patch.positionBits <= 16 && patch.positions.size() >= minGridPoints;
-  return isWorthIt ? findGrid(patch.positions) : std::nullopt;
+std::optional<VertexGrid> gridOf(const CompactPatch& patch) {
+  if (patch.positionBits > 16 || patch.positions.size() < minGridPoints)
+    return std::nullopt;
+  return patch.grid && isWorthwhile(*patch.grid, patch.positions) ? patch.grid : findVertexGrid(patch.positions);
 }
 
 /// The index of a value in a list, to which it is appended if it is missing.
@@ -229,14 +237,14 @@ private:
         .run();
   }
 
-  /// Calls visit(patch, values, patch index) for all patches that have an attribute of the header.
+  /// Calls visit(patch, attribute of its source, patch index) for all patches that have an attribute of the header.
   template <typename Visit> void forEachWith(std::uint32_t attributeIndex, Visit visit) const {
     for (std::size_t i = 0; i < coded_.size(); ++i) {
       const CodedPatch& coded = coded_[i];
       const std::vector<std::uint32_t>& attributeIndices = header_.types[coded.sizes.type].attributes;
       for (std::size_t a = 0; a < attributeIndices.size(); ++a)
         if (attributeIndices[a] == attributeIndex)
-          visit(coded, coded.valuesOf(coded.source.attributes[a]), i);
+          visit(coded, coded.source.attributes[a], i);
     }
   }
 
@@ -245,13 +253,15 @@ private:
     const bool isNormal = type.kind == AttributeKind::normal;
     if (isNormal && effort_ > 0)
       type.mode = bestModeOf(attributeIndex);
-    forEachWith(attributeIndex, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t i) {
+    forEachWith(attributeIndex, [&](const CodedPatch& coded, const Attribute& source, std::size_t i) {
+      std::vector<Value> values = coded.valuesOf(source);
       if (!isNormal)
         ValueCoder(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values).run();
       else if (type.isDerived())
         normalErrors[i] = std::max(normalErrors[i], derivedError(coded, type, values));
       else
-        codeNormals(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values);
+        codeNormals(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values,
+                    coded.toleranceOf(source, values));
       if (isNormal && !type.isDerived())
         normalErrors[i] = std::max(normalErrors[i], octahedronErrorBound(type.bits));
     });
@@ -281,13 +291,14 @@ private:
     std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxCount;
     double error = 0;
     RangeEncoder encoder(attributeModels::count);
-    forEachWith(attributeIndex, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t) {
-      if (coded.source.topology != Topology::triangles)
+    forEachWith(attributeIndex, [&](const CodedPatch& coded, const Attribute& source, std::size_t) {
+      if (coded.source.topology != Topology::triangles || (!as.isDerived() && left == 0))
         return;
+      std::vector<Value> values = coded.valuesOf(source);
       if (as.isDerived()) {
         error = std::max(error, derivedError(coded, as, values));
-      } else if (left > 0) {
-        codeNormals(encoder, coded.surface(), as, values, left);
+      } else {
+        codeNormals(encoder, coded.surface(), as, values, coded.toleranceOf(source, values), left);
         left -= std::min(left, static_cast<std::uint32_t>(values.size()));
       }
     });

@@ -1,10 +1,15 @@
 #include "containers/compact/patch_coding.h"
 
 #include "base/error.h"
+#include "containers/compact/code_normals.h"
 #include "containers/compact/patch_samples.h"
+#include "containers/stored.h"
+#include "containers/unit_vectors.h"
 
 #include <array>
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace imgeo::compact {
@@ -103,6 +108,135 @@ TEST(Compact, EncodesPatchesTogetherInFewerBytesThanAlone) {
     alone += bytesOf(patches.back()).size();
   }
   EXPECT_LT(static_cast<double>(encodePatches(patches, 0).bytes.size()), 0.75 * static_cast<double>(alone));
+}
+
+/// The largest angle between a normal of a patch and the one that its corner decodes to, in radians. Positions tell
+/// which corner it is: they are all different.
+double largestNormalError(const CompactPatch& patch, const CompactPatch& decoded) {
+  std::map<std::array<std::uint32_t, 3>, std::vector<Vec3f>> byPosition;
+  for (std::size_t wedge = 0; wedge < decoded.wedgeCount(); ++wedge) {
+    const Vec3u& at = decoded.positions[decoded.wedgePositions[wedge]];
+    byPosition[{at.x, at.y, at.z}].push_back(unitNormal(directionOf(decoded.attributes.at(0).values[wedge])));
+  }
+  double largest = 0;
+  for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
+    const Vec3u& at = patch.positions[patch.wedgePositions[wedge]];
+    double nearest = 4;
+    for (const Vec3f& normal : byPosition.at({at.x, at.y, at.z}))
+      nearest = std::min(nearest, angleBetween(normal, patch.attributes.at(0).sourceNormals[wedge]));
+    largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+TEST(Compact, StoresPredictedNormalsWithinTheBoundInFewerBytes) {
+  const Mesh sphere = imgeo::testing::sphere(40, 60);
+  for (const std::uint32_t bits : {5u, 8u, 12u}) {
+    SCOPED_TRACE(bits);
+    const CompactPatch exact = testing::patchOf(sphere, 16, {bits}),
+                       tolerant = testing::tolerantPatchOf(sphere, 16, {bits});
+    ASSERT_EQ(tolerant.attributes.at(0).sourceNormals.size(), tolerant.wedgeCount());
+    const Bytes bytes = bytesOf(tolerant);
+    EXPECT_LT(bytes.size(), bytesOf(exact).size());
+    const CompactPatch decoded = decodePatches(bytes, "x.png").at(0);
+    EXPECT_LE(largestNormalError(tolerant, decoded), octahedronErrorBound(bits));
+  }
+}
+
+TEST(Compact, KeepsNormalsAtTheBorderOfAPatch) {
+  // Half a sphere: its rim is the border.
+  Mesh mesh = imgeo::testing::sphere(20, 30);
+  std::vector<std::uint32_t> upper;
+  for (std::size_t first = 0; first < mesh.corners.size(); first += 3) {
+    const auto isUpper = [&](std::size_t i) {
+      return mesh.positions[mesh.wedgePositions[mesh.corners[first + i]]].y > -0.01f;
+    };
+    if (isUpper(0) && isUpper(1) && isUpper(2))
+      upper.insert(upper.end(), mesh.corners.begin() + static_cast<std::ptrdiff_t>(first),
+                   mesh.corners.begin() + static_cast<std::ptrdiff_t>(first + 3));
+  }
+  mesh.corners = upper;
+  const CompactPatch exact = testing::patchOf(mesh, 16, {8}), tolerant = testing::tolerantPatchOf(mesh, 16, {8});
+  const CompactPatch decoded = decodePatches(bytesOf(tolerant), "x.png").at(0);
+  std::set<std::vector<std::int64_t>> stored;
+  for (std::uint32_t wedge = 0; wedge < decoded.wedgeCount(); ++wedge)
+    stored.insert(cornerValues(decoded, wedge));
+  const std::uint32_t rim = std::ranges::min(exact.positions, {}, &Vec3u::y).y;
+  std::size_t atRim = 0, changed = 0;
+  for (std::uint32_t wedge = 0; wedge < exact.wedgeCount(); ++wedge) {
+    const bool isStored = stored.contains(cornerValues(exact, wedge));
+    const bool isAtRim = exact.positions[exact.wedgePositions[wedge]].y == rim;
+    EXPECT_TRUE(isStored || !isAtRim);
+    atRim += isAtRim;
+    changed += !isStored;
+  }
+  EXPECT_GE(atRim, 30u);
+  EXPECT_GT(changed, 30u);
+}
+
+TEST(Compact, KeepsNormalsThatAreRoundedAlready) {
+  CompactPatch patch = testing::patchOf(imgeo::testing::sphere(20, 30), 16, {8});
+  Mesh rounded = imgeo::testing::sphere(20, 30);
+  weld(rounded);
+  ASSERT_EQ(patch.wedgeCount(), rounded.wedgeCount());
+  for (std::size_t wedge = 0; wedge < rounded.wedgeCount(); ++wedge)
+    rounded.normals[wedge] = unitNormal(directionOf(patch.attributes.at(0).values[wedge]));
+  const CompactPatch again = testing::tolerantPatchOf(rounded, 16, {8});
+  EXPECT_TRUE(again.attributes.at(0).sourceNormals.empty());
+  expectDecodesEqual(again);
+}
+
+TEST(Compact, KeepsTheNormalsOfWedgesThatRoundToOneValue) {
+  // Pairs of wedges at one vertex: their normals differ by less than rounding, on either side of the prediction.
+  Mesh mesh = imgeo::testing::sphere(20, 30);
+  mesh.texCoords.clear();
+  const std::size_t count = mesh.wedgeCount();
+  imgeo::testing::Random random(1);
+  for (std::size_t wedge = 0; wedge < count; ++wedge) {
+    mesh.wedgePositions.push_back(mesh.wedgePositions[wedge]);
+    const auto turned = [&](const Vec3f& normal) { return unitNormal(Vec3d(normal) + Vec3d(random.point()) * 0.015); };
+    mesh.normals.push_back(turned(mesh.normals[wedge]));
+    mesh.normals[wedge] = turned(mesh.normals[wedge]);
+  }
+  for (std::uint32_t& corner : mesh.corners)
+    if (random.oneIn(2))
+      corner += static_cast<std::uint32_t>(count);
+  const CompactPatch patch = testing::tolerantPatchOf(mesh, 16, {8});
+  EXPECT_LE(largestNormalError(patch, decodePatches(bytesOf(patch), "x.png").at(0)), octahedronErrorBound(8));
+}
+
+/// An isosurface: each vertex is on an edge of a grid, between two of its points along one axis.
+Mesh isosurface(std::uint32_t columns, std::uint32_t rows, double step) {
+  Mesh mesh;
+  testing::Random random(columns);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t column = 0; column < columns; ++column)
+      mesh.positions.push_back({static_cast<float>(column * step), static_cast<float>(row * step),
+                                static_cast<float>(step * (3 + random.below(1000) / 1000.0))});
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i)
+    mesh.wedgePositions.push_back(i);
+  for (std::uint32_t row = 0; row + 1 < rows; ++row)
+    for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+      const std::uint32_t at = row * columns + column;
+      imgeo::testing::addTriangle(mesh, at, at + 1, at + columns);
+      imgeo::testing::addTriangle(mesh, at + 1, at + columns + 1, at + columns);
+    }
+  return mesh;
+}
+
+TEST(Compact, PredictsFromTheGridOfTheWholeMeshWhereAPatchHasTooFewLinesToFindIt) {
+  // Three columns are fewer lines than a grid is found by.
+  CompactPatch patch = testing::patchOf(isosurface(3, 60, 0.137), 16);
+  const CompactPatch alone = patch;
+  ASSERT_FALSE(findVertexGrid(patch.positions) && isWorthwhile(*findVertexGrid(patch.positions), patch.positions));
+  const double step = 65535.0 / 59 * 65536;
+  patch.grid = VertexGrid{{0, 0, 0},
+                          {static_cast<std::uint32_t>(step + 0.5), static_cast<std::uint32_t>(step + 0.5), UINT32_MAX}};
+  EXPECT_LT(bytesOf(patch).size(), bytesOf(alone).size());
+  expectDecodesEqual(patch);
+
+  patch.grid->step = {1 << 20, 1 << 20, 1 << 20}; // the grid of another mesh
+  EXPECT_EQ(bytesOf(patch), bytesOf(alone));
 }
 
 TEST(Compact, TakesNoMoreBytesAtHighEffortAndDecodesEqual) {

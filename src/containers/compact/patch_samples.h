@@ -15,12 +15,21 @@ namespace imgeo::compact::testing {
 
 using imgeo::testing::Random;
 
-/// A welded mesh on the lattice of its box, as one compact patch with all attributes of the mesh.
-inline CompactPatch patchOf(Mesh mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
+/// A welded mesh on the lattice of its box, as one compact patch with all attributes of the mesh. Normals that are near
+/// to their predictions are stored as these.
+inline CompactPatch tolerantPatchOf(Mesh mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
   const Lattice lattice = latticeFor(boxOf(mesh), bits);
   weld(mesh);
   const PatchedMesh patched = cutIntoPatches(std::move(mesh), lattice, 65535);
   return quantise(patched.patches.at(0), describe(patched, {}), attributeBits);
+}
+
+/// The same with exact normals.
+inline CompactPatch patchOf(Mesh mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
+  CompactPatch patch = tolerantPatchOf(std::move(mesh), bits, attributeBits);
+  for (Attribute& attribute : patch.attributes)
+    attribute.sourceNormals.clear();
+  return patch;
 }
 
 /// Adds an attribute of a type, whose values are random over its whole range.

@@ -3,9 +3,11 @@
 #include "containers/compact/code_normals.h"
 #include "containers/named_attributes.h"
 #include "containers/stored.h"
+#include "containers/unit_vectors.h"
 #include "prepare/line_strips.h"
 #include "prepare/primitives.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -18,6 +20,9 @@ namespace {
 AttributeType typeOf(AttributeKind kind, std::uint32_t components, std::uint32_t bits) {
   return {kind, static_cast<std::uint8_t>(components), static_cast<std::uint8_t>(bits), NormalMode::area};
 }
+
+/// Normals that differ less, in radians, are equal: they differ by the rounding of floats.
+constexpr double exactNormalAngle = 1e-6;
 
 /// The point of the octahedron in a direction, rounded as predictions are, so that floating-point and integer normals
 /// of the same triangles give the same point.
@@ -44,6 +49,11 @@ Attribute normalAttribute(const std::vector<Vec3f>& normals, const AttributeBits
   attribute.values.reserve(normals.size());
   for (const Vec3f& normal : normals)
     attribute.values.push_back(quantiseNormal(normal, bits.normal));
+  const auto isExact = [](const Vec3f& normal, const Value& value) {
+    return angleBetween(normal, unitNormal(directionOf(value))) < exactNormalAngle;
+  };
+  if (!std::ranges::equal(normals, attribute.values, isExact))
+    attribute.sourceNormals = normals;
   return attribute;
 }
 
@@ -79,6 +89,7 @@ CompactPatch quantiseInOrder(Patch patch, const GeometryDescription& geometry, c
   quantised.positions = std::move(patch.positions);
   quantised.wedgePositions = std::move(patch.wedgePositions);
   quantised.corners = std::move(patch.corners);
+  quantised.grid = patch.grid;
   for (const VertexRole role : vertexRoles)
     if (hasAttribute(patch, role))
       quantised.attributes.push_back(attributeOf(role, patch, geometry, bits));
@@ -179,7 +190,7 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
       const Value& value = attribute.values[wedge];
       switch (attribute.type.kind) {
       case AttributeKind::normal:
-        vertices.normals.push_back(unitNormal({double(value[0]), double(value[1]), double(value[2])}));
+        vertices.normals.push_back(unitNormal(directionOf(value)));
         break;
       case AttributeKind::texCoord: {
         const std::size_t set = texCoordSetOf(role.value());

@@ -91,7 +91,7 @@ inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
     return payloadOf(type, static_cast<std::uint32_t>(sizes.size()), {{StreamName::sizes, sizesStream(type, sizes)}});
   };
   const auto withGrid = [&](std::uint32_t origin, std::uint32_t step) {
-    const Grid grid{{0, 0, origin}, {1u << 20, 1u << 20, step}};
+    const VertexGrid grid{{0, 0, origin}, {1u << 20, 1u << 20, step}};
     return withSizes(onGrid, {{0, 1, 1, 1, 0, grid, 0, 0}});
   };
   const Bytes begin{'I', 'G', 'C', 1};

@@ -12,7 +12,7 @@ struct PatchSizes {
   std::uint32_t type = 0; ///< index into FileHeader::types
   std::uint32_t vertexCount = 0, wedgeCount = 0, elementCount = 0;
   std::uint32_t normalShift = 0;
-  std::optional<Grid> grid;
+  std::optional<VertexGrid> grid;
   std::uint32_t segmentCount = 0, residualShift = 0; ///< of a base; 0: a patch
 
   bool hasSeams() const { return wedgeCount > vertexCount; }
@@ -44,7 +44,7 @@ template <typename Coder> std::uint32_t codeWord(Coder& coder, std::uint32_t val
   return low | coder.raw(16, value >> 16) << 16;
 }
 
-template <typename Coder> Grid codeGrid(Coder& coder, Grid grid) {
+template <typename Coder> VertexGrid codeGrid(Coder& coder, VertexGrid grid) {
   for (int axis = 0; axis < 3; ++axis) {
     grid.origin[axis] = codeWord(coder, grid.origin[axis]);
     grid.step[axis] = codeWord(coder, grid.step[axis]);
@@ -77,7 +77,7 @@ PatchSizes codeSizes(Coder& coder, const std::vector<PatchType>& types, PatchSiz
   }
   if (type.positionBits <= 16) {
     const bool hasGrid = coder.bit(models::grid, sizes.grid.has_value());
-    sizes.grid = hasGrid ? std::optional(codeGrid(coder, sizes.grid.value_or(Grid{}))) : std::nullopt;
+    sizes.grid = hasGrid ? std::optional(codeGrid(coder, sizes.grid.value_or(VertexGrid{}))) : std::nullopt;
   }
   if (type.isBase) {
     sizes.segmentCount = 1 + codeNumber(coder, models::segments, sizes.segmentCount - 1);

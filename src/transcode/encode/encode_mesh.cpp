@@ -7,6 +7,7 @@
 #include "containers/stored_coords.h"
 #include "prepare/degenerate_elements.h"
 #include "prepare/patches.h"
+#include "prepare/source_lattice.h"
 #include "transcode/options/resolve_options.h"
 
 #include <algorithm>
@@ -96,10 +97,10 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
   PatchedMesh patched = cutIntoPatches(std::move(mesh), std::move(points), lattice, options.patchVertices);
 
   const EncodeOptions encoding = encodeOptionsFrom(options);
+  const EncodingRow& row = rowOf(encoding.encoding);
   result.geometry = describe(patched, encoding);
   for (const Patch& patch : patched.patches)
     noteAttributes(result, patch, options);
-  const EncodingRow& row = rowOf(encoding.encoding);
   if (mayHaveBase && !moves && row.capabilities.base && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
       result.base = row.sharing->prepareBase(*base, result.geometry, encoding);
@@ -119,7 +120,12 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   const Box3d box = boxOf(mesh);
   const Lattice lattice =
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
-  return encodeOn(lattice, std::move(mesh), true, options, files, done);
+  const bool anyLattice = rowOf(*options.encoding).storage == PatchStorage::packed;
+  const std::optional<SourceLattice> source = anyLattice ? findSourceLattice(mesh.positions, lattice) : std::nullopt;
+  EncodedMesh encoded = encodeOn(source ? source->lattice : lattice, std::move(mesh), true, options, files, done);
+  if (source)
+    encoded.positionError = source->error;
+  return encoded;
 }
 
 EncodedMesh encodeMesh(Mesh mesh, const Lattice& lattice, const ConvertOptions& options, ContentFiles& files,

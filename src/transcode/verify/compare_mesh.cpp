@@ -111,15 +111,23 @@ void addCounts(const ElementDifference& difference, const ElementList& input, co
   report.extra.of(topology) += difference.extra;
 }
 
-/// Lattice points of the input's vertices, as the site stores them.
+/// Whether a mesh has a lattice of its source's (findSourceLattice), which is coarser than that of its box: the last
+/// points of the two lie apart.
+bool isSourceLattice(const GeometryDescription& geometry, const Lattice& ofBox) {
+  return rowOf(geometry).storage == PatchStorage::packed &&
+         (geometry.lattice.step - ofBox.step) * ofBox.maximum() > 0.25 * ofBox.step;
+}
+
+/// Lattice points of the input's vertices, as the site stores them: on the lattice of all meshes in the file, of a
+/// grid, of the source, or of the mesh's box.
 std::vector<Vec3u> quantisedAs(const GeometryDescription& geometry, const std::vector<IndexedPatch>& patches,
                                const Mesh& mesh, bool isForeign) {
   if (isForeign)
     return quantiseLike(patches, mesh.positions, geometry.lattice);
   const bool isHeightMap = geometry.grid == GridKind::heightMap;
-  const Lattice expected = geometry.isShared || isHeightMap
-                               ? geometry.lattice // of all meshes in the file; of the grid
-                               : latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
+  const Lattice ofBox = latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
+  const bool hasOther = geometry.isShared || isHeightMap || isSourceLattice(geometry, ofBox);
+  const Lattice& expected = hasOther ? geometry.lattice : ofBox;
   std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
   for (Vec3u& q : quantised)
     q = pointReadBack(q, expected, geometry);

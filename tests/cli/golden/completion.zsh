@@ -41,9 +41,9 @@ _imgeo() {
       '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
       '--primitives[how patches are drawn, those of lines as lines, line strips or points; a point cloud is always points]:primitives:(triangles strips points)' \
       '--index[off\: vertices are repeated wherever they are drawn instead of named by an index]:index:(on off)' \
-      '-vp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
-      '-qp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
-      '--position-bits[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
+      '-vp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds; compact takes fewer for a mesh whose coordinates lie on a coarser lattice already, and keeps them]:position-bits: ' \
+      '-qp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds; compact takes fewer for a mesh whose coordinates lie on a coarser lattice already, and keeps them]:position-bits: ' \
+      '--position-bits[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds; compact takes fewer for a mesh whose coordinates lie on a coarser lattice already, and keeps them]:position-bits: ' \
       '--max-error[sig\: the fewest position bits that move no vertex farther, in units of the source or, with %, of a mesh'\''s longest edge; geometry images\: the smallest grid whose surface is no farther off]:max-error: ' \
       '--coord-type[bg\: elements of coordinates; auto\: the fewest unsigned bytes; float32 without --position-bits\: the source'\''s numbers]:coord-type:(auto uint8 int8 uint16 int16 float32)' \
       '--layout[bg\: a file for each attribute, or one of records with all of them beside the index]:layout:(separate interleaved)' \

@@ -1,11 +1,12 @@
-#include "containers/compact/grid.h"
+#include "prepare/vertex_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
-namespace imgeo::compact {
+namespace imgeo {
 
 namespace {
 
@@ -105,11 +106,18 @@ std::optional<Axis> findAxis(std::span<const Vec3u> positions, int axis) {
 
 } // namespace
 
-std::optional<Grid> findGrid(std::span<const Vec3u> positions) {
-  Grid grid;
+bool isWorthwhile(const VertexGrid& grid, std::span<const Vec3u> points) {
+  std::size_t onGrid = 0;
+  for (const Vec3u& point : points)
+    onGrid += static_cast<std::size_t>(std::popcount(gridMask(grid, point)));
+  return onGrid * 2 > points.size() * 3;
+}
+
+std::optional<VertexGrid> findVertexGrid(std::span<const Vec3u> points) {
+  VertexGrid grid;
   int missing = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<Axis> found = findAxis(positions, axis);
+    const std::optional<Axis> found = findAxis(points, axis);
     if (!found) { // a height field has no grid along its height: one line at 0
       if (++missing > 1)
         return std::nullopt;
@@ -120,11 +128,7 @@ std::optional<Grid> findGrid(std::span<const Vec3u> positions) {
     const std::int64_t origin = std::llround(found->origin * 65536) % grid.step[axis];
     grid.origin[axis] = static_cast<std::uint32_t>(origin < 0 ? origin + grid.step[axis] : origin);
   }
-  // A grid saves bytes if points have more coordinates on it than off it.
-  std::size_t onGrid = 0;
-  for (const Vec3u& position : positions)
-    onGrid += static_cast<std::size_t>(std::popcount(gridMask(grid, position)));
-  return onGrid * 2 > positions.size() * 3 ? std::optional(grid) : std::nullopt;
+  return isWorthwhile(grid, points) ? std::optional(grid) : std::nullopt;
 }
 
-} // namespace imgeo::compact
+} // namespace imgeo
