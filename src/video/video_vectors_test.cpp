@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 using testing::SequenceSample;
 const std::filesystem::path folder = IMGEO_VECTORS "/video-1";
 
-Bytes videoOf(const SequenceSample& sample) {
+Bytes encodedVideoOf(const SequenceSample& sample) {
   const VideoSize size = videoSizeOf(sample.index.description.layout, "");
   return writeWebm(size, encodeVideoFrames(sample.frames, size, 5), sample.index.description.rate);
 }
@@ -64,7 +64,7 @@ Bytes replaced(Bytes file, std::string_view what, std::string_view with) {
 }
 
 std::vector<std::pair<std::string, Bytes>> files() {
-  const Bytes video = videoOf(testing::sequenceSample("grid", {12, 4}, 2, 50));
+  const Bytes video = encodedVideoOf(testing::sequenceSample("grid", {12, 4}, 2, 50));
   const std::string_view text = asText(video);
   const std::size_t cluster = text.find("\x1f\x43\xb6\x75"), block = text.find("\xa3", cluster);
   Bytes lacing = video, track = video, endless = video, unknownSize = video;
@@ -102,7 +102,7 @@ void rewrite() {
   std::filesystem::create_directories(folder);
   Json videos;
   for (const SequenceSample& sample : testing::sequenceSamples()) {
-    const Bytes file = videoOf(sample);
+    const Bytes file = encodedVideoOf(sample);
     writeFile(folder / (sample.name + ".webm"), file);
     writeFile(folder / (sample.name + ".rgb"), pixelsOf(sample));
     videos[sample.name] = describe(file);
