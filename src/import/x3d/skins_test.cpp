@@ -27,19 +27,19 @@ std::string humanoid(const JointText& hip, const JointText& knee, const std::str
          "<Coordinate USE='C'/></IndexedTriangleSet></Shape></HAnimHumanoid>";
 }
 
-Imported readScene(const std::string& nodes, bool strict = false) {
+Imported readHumanoid(const std::string& nodes, bool strict = false) {
   ImportOptions options;
   options.strict = strict;
   return importBytes(asBytes("<X3D><Scene>" + nodes + "</Scene></X3D>"), "a.x3d", options);
 }
 
-std::size_t nodeNamed(const SceneGraph& graph, const std::string& name) {
+std::size_t indexOfNode(const SceneGraph& graph, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(graph.nodes, name, &Node::name) - graph.nodes.begin());
 }
 
 /// The points of the only shape while the knee is turned by a quarter about z.
 std::vector<Vec3f> pointsWithBentKnee(const Scene& scene) {
-  const std::size_t knee = nodeNamed(scene.graph, "knee");
+  const std::size_t knee = indexOfNode(scene.graph, "knee");
   Pose pose;
   pose.transforms[knee] = std::get<Transform>(scene.graph.nodes.at(knee).content);
   pose.transforms[knee].rotation = {{0, 0, 1}, std::numbers::pi / 2};
@@ -53,7 +53,7 @@ void expectNear(const std::vector<Vec3f>& points, const std::vector<Vec3f>& expe
 }
 
 TEST(HAnimSkins, FollowTheJointsThatNameTheirPoints) {
-  const Imported imported = readScene(humanoid({"0 2", "1 0.5"}, {"1 2", "1 0.5"}));
+  const Imported imported = readHumanoid(humanoid({"0 2", "1 0.5"}, {"1 2", "1 0.5"}));
   EXPECT_TRUE(imported.warnings.empty()) << ::testing::PrintToString(imported.warnings);
   const Scene& scene = imported.scene;
   EXPECT_EQ(posedMesh(scene, shapeNodes(scene.graph).at(0)).positions, scene.meshes.at(0).positions) << "at rest";
@@ -62,38 +62,38 @@ TEST(HAnimSkins, FollowTheJointsThatNameTheirPoints) {
 }
 
 TEST(HAnimSkins, RestWithWhatIsMissingFromTheSumOfTheWeights) {
-  const Imported imported = readScene(humanoid({"", ""}, {"1 2", "1 0.5"}));
+  const Imported imported = readHumanoid(humanoid({"", ""}, {"1 2", "1 0.5"}));
   EXPECT_TRUE(imported.warnings.empty()) << ::testing::PrintToString(imported.warnings);
   expectNear(pointsWithBentKnee(imported.scene), {{0, 0, 0}, {-1, 1, 0}, {0, 2, 0}});
 }
 
 TEST(HAnimSkins, MayBeModelledInAnotherPose) {
-  const Imported imported = readScene(
+  const Imported imported = readHumanoid(
       humanoid({"0", "1"}, {"1 2", "1 1"}, "jointBindingPositions='0 0 0  0 0 5' jointBindingScales='1 1 1  2 2 2'"));
   const Mesh mesh = posedMesh(imported.scene, shapeNodes(imported.scene.graph).at(0));
   expectNear(mesh.positions, {{0, 0, 0}, {0, 4, 5}, {2, 4, 5}});
 }
 
 TEST(HAnimSkins, AreChildrenOfTheHumanoidsTransformBehindItsSkeleton) {
-  const SceneGraph graph = readScene(humanoid({"0 1 2", "1 1 1"}, {"", ""})).scene.graph;
+  const SceneGraph graph = readHumanoid(humanoid({"0 1 2", "1 1 1"}, {"", ""})).scene.graph;
   const Node& transform = graph.nodes.at(graph.roots.at(0));
   EXPECT_EQ(transform.name, "H");
   EXPECT_EQ(std::get<Transform>(transform.content).translation, (Vec3d{10, 0, 0}));
   ASSERT_EQ(transform.children.size(), 2u);
   EXPECT_TRUE(std::get<Transform>(graph.nodes[transform.children[0]].content).isJoint);
   const Humanoid& humanoid = std::get<Humanoid>(graph.nodes[transform.children[1]].content);
-  EXPECT_EQ(humanoid.joints, (std::vector{nodeNamed(graph, "hip"), nodeNamed(graph, "knee")}));
+  EXPECT_EQ(humanoid.joints, (std::vector{indexOfNode(graph, "hip"), indexOfNode(graph, "knee")}));
 }
 
 TEST(HAnimSkins, IgnoreWrongIndicesAndWeightsWithOneWarningForAJoint) {
   const auto expect = [](const JointText& knee, const std::string& warning) {
     const std::string scene = humanoid({"0 1 2", "1 1 1"}, knee);
-    const Imported imported = readScene(scene);
+    const Imported imported = readHumanoid(scene);
     ASSERT_EQ(imported.warnings.size(), 1u) << ::testing::PrintToString(imported.warnings);
     EXPECT_TRUE(imported.warnings[0].ends_with(": HAnimJoint \"knee\": " + warning + ".")) << imported.warnings[0];
     EXPECT_TRUE(imported.warnings[0].starts_with("a.x3d:1:")) << imported.warnings[0];
     EXPECT_EQ(shapeNodes(imported.scene.graph).size(), 1u);
-    EXPECT_THROW(readScene(scene, true), Error);
+    EXPECT_THROW(readHumanoid(scene, true), Error);
   };
   expect({"1 2", "1"}, "skinCoordIndex has 2 numbers and skinCoordWeight 1: only the first 1 of both count");
   expect({"1", "x"}, "skinCoordWeight holds something that is no number and has no effect");
@@ -112,11 +112,11 @@ TEST(HAnimSkins, KeepTheEightLargestWeightsOfAPoint) {
     uses += "<HAnimJoint USE='" + name + "' containerField='joints'/>";
   }
   const Imported imported =
-      readScene("<HAnimHumanoid><Coordinate DEF='C' containerField='skinCoord' point='0 0 0 1 0 0 "
-                "0 1 0'/>" +
-                joints + uses +
-                "<Shape containerField='skin'><TriangleSet><Coordinate USE='C'/></TriangleSet>"
-                "</Shape></HAnimHumanoid>");
+      readHumanoid("<HAnimHumanoid><Coordinate DEF='C' containerField='skinCoord' point='0 0 0 1 0 0 "
+                   "0 1 0'/>" +
+                   joints + uses +
+                   "<Shape containerField='skin'><TriangleSet><Coordinate USE='C'/></TriangleSet>"
+                   "</Shape></HAnimHumanoid>");
   ASSERT_EQ(imported.warnings.size(), 1u) << ::testing::PrintToString(imported.warnings);
   EXPECT_TRUE(imported.warnings[0].ends_with(": 3 of its points have more than 8 joints: the largest weights count."));
   EXPECT_EQ(jointSetCount(imported.scene.meshes.at(0)), 2u);
