@@ -136,6 +136,13 @@ TEST(ExportedPly, HasFurtherAttributes) {
   EXPECT_EQ(attributes[1].values.back(), 0.5f);
 }
 
+TEST(ExportedPly, StatesTheDirectionThatPointsUp) {
+  const Scene scene = sceneOf({testing::grid(1)});
+  EXPECT_EQ(importBytes(writePly(scene), "a.ply").up, std::nullopt);
+  for (const AxisDirection up : {AxisDirection::y, AxisDirection::minusZ})
+    EXPECT_EQ(importBytes(writePly(scene, up), "a.ply").up, up);
+}
+
 TEST(ExportedPly, HasLinesAsEdges) {
   Mesh mesh = testing::grid(1);
   makeLines(mesh);

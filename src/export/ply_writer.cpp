@@ -49,8 +49,10 @@ PlyLayout layoutOf(const Scene& scene) {
   return layout;
 }
 
-std::string headerOf(const PlyLayout& layout) {
+std::string headerOf(const PlyLayout& layout, std::optional<AxisDirection> up) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
+  if (up)
+    header += fmt::format("comment up {}\n", nameOf(*up));
   const auto properties = [&](const char* type, std::initializer_list<const char*> names) {
     for (const char* name : names)
       header += fmt::format("property {} {}\n", type, name);
@@ -140,12 +142,12 @@ void appendElements(Bytes& out, const Mesh& mesh, std::uint64_t firstVertex) {
 
 } // namespace
 
-Bytes writePly(const Scene& scene) {
+Bytes writePly(const Scene& scene, std::optional<AxisDirection> up) {
   const PlyLayout layout = layoutOf(scene);
   if (layout.vertexCount > INT32_MAX)
     throw Error(ErrorKind::limit, "",
                 fmt::format("{} vertices are more than a PLY file can count", layout.vertexCount));
-  const std::string header = headerOf(layout);
+  const std::string header = headerOf(layout, up);
   Bytes out(header.begin(), header.end()), faces, edges;
   std::uint64_t firstVertex = 0;
   forEachWorldShape(scene, [&](const std::string&, const Appearance& appearance, const Mesh& mesh) {

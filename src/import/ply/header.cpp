@@ -65,6 +65,16 @@ PlyElement readElement(TextScanner& line) {
   return element;
 }
 
+/// The direction that a comment states, of which the line holds the rest; empty for another comment.
+std::optional<AxisDirection> upOfComment(TextScanner line) {
+  const std::string_view comment = line.restOfLine();
+  for (const AxisDirection each : {AxisDirection::x, AxisDirection::y, AxisDirection::z, AxisDirection::minusX,
+                                   AxisDirection::minusY, AxisDirection::minusZ})
+    if (comment == fmt::format("up {}", nameOf(each)))
+      return each;
+  return {};
+}
+
 PlyEncoding readEncoding(TextScanner& line) {
   const std::string word = nextWord(line), version = nextWord(line);
   if (version != "1.0")
@@ -137,6 +147,9 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
   bool hasEncoding = false;
   for (;;) {
     const std::string keyword = nextWord(scanner);
+    if (keyword == "comment")
+      if (const std::optional<AxisDirection> up = upOfComment(scanner))
+        builder.header.up = up;
     if (keyword == "comment" || keyword == "obj_info" || (keyword.empty() && !scanner.atEnd())) {
       scanner.skipLine();
       continue;

@@ -2,6 +2,7 @@
 // The header of a PLY file (Turk, "The PLY Polygon File Format", 1994).
 
 #include "base/bytes.h"
+#include "imgeo/source_axes.h"
 
 #include <cstdint>
 #include <optional>
@@ -39,6 +40,8 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements; ///< in the file's order
   std::size_t bodyOffset = 0;       ///< of the first byte after the header
+  /// The direction that points up, where a comment says it as writePly() does: "comment up y".
+  std::optional<AxisDirection> up = {};
 
   const PlyElement* find(std::string_view element) const;
 };
@@ -46,7 +49,7 @@ struct PlyHeader {
 /// The largest number of elements, and of properties of all elements, that a header may declare.
 inline constexpr std::size_t maxPlyElements = 1000, maxPlyProperties = 10000;
 
-/// Reads the header; skips comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws Error
+/// Reads the header; skips other comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws Error
 /// (truncated, malformed, unsupported, limit) naming `name` and the line.
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name);
 

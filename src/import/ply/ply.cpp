@@ -133,6 +133,7 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
 
   Imported imported;
   imported.format = "PLY";
+  imported.up = header.up;
   std::size_t unusableNormals = 0, fans = 0;
   for (Vec3f& normal : content.attributes.normals)
     unusableNormals += !makeUnit(normal);

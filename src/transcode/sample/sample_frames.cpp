@@ -49,7 +49,7 @@ FramesReport writeSampleFrames(Motion& motion, const std::string& name, std::uin
   FramesReport report;
   for (std::uint32_t frame = 1; frame <= count; ++frame) {
     motion.advance(std::min(0.1, 1 / rate));
-    const Bytes bytes = writePly(sceneOf(motion));
+    const Bytes bytes = writePly(sceneOf(motion), AxisDirection::y);
     writeFile(folder / fmt::format("{}-{:04}.ply", name, frame), bytes);
     report.bytes += bytes.size();
     done();
