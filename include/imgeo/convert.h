@@ -51,7 +51,8 @@ enum class MeshForm : std::uint8_t {
   mesh,          ///< the source's vertices and triangles, quantised
   geometryImage, ///< surfaces that are sampled anew on regular grids (Gu, Gortler and Hoppe 2002), in SIG classic
   heightMap,     ///< regular grids of heights, such as elevation models, as images of heights in SIG classic
-  video,         ///< the frames of a sequence, as a lossless video beside their files
+  sequence, ///< as mesh, but shapes with animated joints or morph targets become frames, ConvertOptions::rate a second
+  video,    ///< the frames of a sequence, as a lossless video beside their files
 };
 
 /// The edge of the largest grid, in texels.
@@ -189,6 +190,7 @@ struct ConvertReport {
   std::string x3domVersion;                            ///< target x3dom: the release that the page loads
   std::string x3domUrl;                                ///< target x3dom: URL of its script
   std::size_t frames = 0;                              ///< frames of a sequence; 0: the site has none
+  double frameRate = 0;                                ///< frames per second
   std::uint64_t frameBytes = 0;                        ///< size of all frames
   std::uint64_t videoBytes = 0;                        ///< size of the video of the frames; 0: there is none
   std::vector<RoleBytes> roles;                        ///< sizes by role of the files

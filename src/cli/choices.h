@@ -22,9 +22,11 @@ template <typename Value> struct Choice {
 
 inline constexpr Choice<Target> targetChoices[] = {{"web", Target::web}, {"x3dom", Target::x3dom}};
 
-inline constexpr Choice<MeshForm> formChoices[] = {
-    {"mesh", MeshForm::mesh}, {"geometry-image", MeshForm::geometryImage}, {"height-map", MeshForm::heightMap},
-    {"video", MeshForm::video}};
+inline constexpr Choice<MeshForm> formChoices[] = {{"mesh", MeshForm::mesh},
+                                                   {"geometry-image", MeshForm::geometryImage},
+                                                   {"height-map", MeshForm::heightMap},
+                                                   {"sequence", MeshForm::sequence},
+                                                   {"video", MeshForm::video}};
 
 inline constexpr Choice<Primitives> primitivesChoices[] = {
     {"triangles", Primitives::triangles}, {"strips", Primitives::strips}, {"points", Primitives::points}};

@@ -116,7 +116,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
   if (report.frames > 0)
     printLine("sequence",
-              fmt::format("{} frames, {} a second: {}, {} each", grouped(report.frames), arguments.text("rate"),
+              fmt::format("{} frames, {:.6g} a second: {}, {} each", grouped(report.frames), report.frameRate,
                           byteSize(report.frameBytes), byteSize(report.frameBytes / report.frames)));
   if (report.videoBytes > 0)
     printLine("video", fmt::format("lossless VP9: {}, {} a frame", byteSize(report.videoBytes),
@@ -283,8 +283,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
                   {"duplicateElements", report.weld.duplicateElements},
                   {"drop", arguments.text("drop")}};
   if (report.frames > 0)
-    json["sequence"] = {
-        {"frames", report.frames}, {"rate", std::stod(arguments.text("rate"))}, {"bytes", report.frameBytes}};
+    json["sequence"] = {{"frames", report.frames}, {"rate", report.frameRate}, {"bytes", report.frameBytes}};
   if (report.videoBytes > 0)
     json["video"] = {{"codec", "vp9"}, {"bytes", report.videoBytes}};
   json["roles"] = Json::array();

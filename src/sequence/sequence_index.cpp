@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t maxUrlLength = 128;
+constexpr auto replacesInvalid = Json::error_handler_t::replace; ///< what is no UTF-8
 
 [[noreturn]] void refuse(const std::string& location, const std::string& message) {
   throw Error(ErrorKind::malformed, location, message);
@@ -74,7 +75,10 @@ std::size_t SequenceIndex::fileOf(std::uint32_t frame) const {
 }
 
 std::string writeSequenceIndex(const SequenceIndex& index) {
-  std::string text = fmt::format("{{\"version\": 1, {},\n\"files\": [", live::describe(index.description));
+  std::string text = fmt::format("{{\"version\": 1, {},\n", live::describe(index.description));
+  if (!index.valueName.empty())
+    text += fmt::format("\"valueName\": {},\n", Json(index.valueName).dump(-1, ' ', false, replacesInvalid));
+  text += "\"files\": [";
   for (std::size_t i = 0; i < index.files.size(); ++i)
     text += fmt::format("{}\n{{\"url\": \"{}\", \"frames\": {}, \"bytes\": {}}}", i > 0 ? "," : "", index.files[i].url,
                         index.files[i].frames, index.files[i].bytes);
@@ -92,6 +96,9 @@ SequenceIndex readSequenceIndex(std::string_view text, const std::string& locati
     refuse(location, "is no index of a sequence: it states no \"version\"");
   if (*version != 1)
     throw Error(ErrorKind::unsupported, location, "is a sequence of another version; only 1 is read");
+  const Json valueName = json.value("valueName", Json(""));
+  if (!valueName.is_string())
+    refuse(location, "the sequence states a \"valueName\" that is no text");
   const Json files = json.value("files", Json());
   if (!files.is_array() || files.empty())
     refuse(location, "the sequence has no files");
@@ -99,9 +106,10 @@ SequenceIndex readSequenceIndex(std::string_view text, const std::string& locati
   json.erase("viewToken");
 
   SequenceIndex index;
-  index.description = live::readDescription(json.dump(-1, ' ', false, Json::error_handler_t::replace), location);
+  index.description = live::readDescription(json.dump(-1, ' ', false, replacesInvalid), location);
   if (index.description.rate <= 0)
     refuse(location, "the sequence states no \"rate\" above 0");
+  index.valueName = valueName.get<std::string>();
   std::uint64_t frames = 0;
   for (const Json& file : files) {
     index.files.push_back(fileFrom(file, location));

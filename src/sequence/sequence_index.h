@@ -27,6 +27,7 @@ struct SequenceFile {
 struct SequenceIndex {
   live::Description description; ///< `rate` is above 0; `box` holds all frames
   std::vector<SequenceFile> files;
+  std::string valueName = {}; ///< the further attribute that the frames' values are, if they have any
 
   /// The number of all frames.
   std::uint32_t frameCount() const;

@@ -35,6 +35,8 @@ inline SequenceSample sequenceSample(const std::string& name, const live::FrameL
   description.rate = 25;
   description.box = {{-1, -2, -3}, {3, 2, 1}};
   description.valueRange.assign(layout.valueComponents, {0, 1});
+  if (layout.valueComponents > 0)
+    sample.index.valueName = "speed \"0\"";
   sample.bytes = encodeSequenceFile(sample.frames, 6);
   sample.index.files = {{name + ".igf", count, sample.bytes.size()}};
   return sample;

@@ -17,7 +17,6 @@
 #include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/default_nodes.h"
 #include "transcode/encode/encode_scene.h"
-#include "transcode/encode/sequence.h"
 #include "transcode/encode/textures.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/picture/write_pictures.h"
@@ -26,7 +25,9 @@
 #include "transcode/site/site_pages.h"
 #include "transcode/site/staged_site.h"
 #include "transcode/source/detect_axes.h"
+#include "transcode/source/frame_files.h"
 #include "transcode/source/preparation.h"
+#include "transcode/source/recordings.h"
 
 #include <algorithm>
 #include <chrono>
@@ -103,22 +104,36 @@ void nameScene(SceneGraph& graph, const std::string& statedTitle, const fs::path
     graph.nodes[shapes[0]].name = graph.title;
 }
 
-/// The options of a sequence, whose static files are SIG classic.
-ConvertOptions sequenceOptions(const std::vector<fs::path>& frames, ConvertOptions options) {
-  if (std::ranges::find(frames, fs::path("-")) != frames.end())
-    throw Error(ErrorKind::usage, "-", "standard input is one file; a sequence has one for each frame");
-  if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
-    refuseOption("--profile", "the static files of a sequence are SIG classic");
-  if (options.form != MeshForm::mesh && options.form != MeshForm::video)
-    refuseOption("--as", "the frames of a sequence are meshes, or a video");
+/// Refuses options that contradict sequences.
+void requireSequenceOptions(const ConvertOptions& options) {
+  if (options.encoding.value_or(Encoding::classic) == Encoding::bg)
+    refuseOption("--container", "the static files of a sequence are SIG classic");
   if (options.target == Target::x3dom)
     refuseOption("--target", "X3DOM plays no sequences of frames");
   if (options.primitives != Primitives::triangles || !options.indexed)
     refuseOption(options.indexed ? "--primitives" : "--index", "sequences have an index of triangles");
   if (!(options.rate > 0 && options.rate <= 1000))
     refuseOption("--rate", "a sequence has more than 0 and at most 1000 frames per second");
+}
+
+/// The options of the meshes of sequences, whose static files are SIG classic.
+ConvertOptions ofSequences(ConvertOptions options) {
   options.encoding = Encoding::classic;
+  if (options.form == MeshForm::sequence)
+    options.form = MeshForm::mesh;
   return options;
+}
+
+/// The options for frames in files of their own.
+ConvertOptions optionsForFiles(const std::vector<fs::path>& frames, ConvertOptions options) {
+  if (std::ranges::find(frames, fs::path("-")) != frames.end())
+    throw Error(ErrorKind::usage, "-", "standard input is one file; a sequence has one for each frame");
+  if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
+    refuseOption("--profile", "the static files of a sequence are SIG classic");
+  if (options.form == MeshForm::geometryImage || options.form == MeshForm::heightMap)
+    refuseOption("--as", "the frames of a sequence are meshes, or a video");
+  requireSequenceOptions(options);
+  return ofSequences(options);
 }
 
 /// Warns if more than 1 % of the elements collapsed on the lattice. Fewer are normal: scans contain slivers.
@@ -156,26 +171,30 @@ public:
 
   void readSource() {
     reportProgress(0, "reading");
-    Imported imported = importInput(input_,
-                                    {.attributes = importedAttributes(),
-                                     .folder = {},
-                                     .outside = options_.outside,
-                                     .inlineBytes = inlineBytes,
-                                     .strict = options_.strict},
-                                    report_.sourceBytes);
+    const ImportOptions importOptions{.attributes = importedAttributes(),
+                                      .folder = {},
+                                      .outside = options_.outside,
+                                      .inlineBytes = inlineBytes,
+                                      .strict = options_.strict};
+    Imported imported = importInput(input_, importOptions, report_.sourceBytes);
     requireAttributes(imported, options_);
     report_.format = imported.format;
     report_.warnings = std::move(imported.warnings);
     report_.axes = detectAxes(imported, options_.axes);
     scene_ = std::move(imported.scene);
     applySourceAxes(scene_.graph, report_.axes.axes);
-    if (frames_.size() > 1)
-      surveyFrames();
     nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
+    if (frames_.size() > 1)
+      recordFiles(importOptions);
+    else if (options_.form == MeshForm::sequence)
+      recordings_ = recordDeformations(scene_, options_.rate, locationOf(input_), report_.warnings);
+    surveyRecordings();
   }
 
   /// Fills in the options that depend on the source.
   void resolveOptions() {
+    if (!recordings_.empty())
+      sequenceOptions_ = resolvedFor(scene_, ofSequences(options_));
     options_ = resolvedFor(scene_, options_);
     report_.encoding = *options_.encoding;
     report_.normalEncoding = options_.normals;
@@ -217,18 +236,19 @@ public:
 
   void encodeMeshes() {
     reportProgress(0.3, "writing");
-    if (frameFiles_)
-      return encodeFrames();
     std::size_t elementCount = 0, elementsDone = 0;
     for (const Mesh& mesh : scene_.meshes)
       elementCount += mesh.elementCount();
+    for (const Recording& recording : recordings_)
+      elementCount += recording.frames->count();
     std::mutex doneMutex;
     ContentFiles files(site_.path(), geometryFolder);
-    document_ = encodeScene(std::move(scene_), options_, files, report_, [&](std::size_t count) {
+    const ElementsDone done = [&](std::size_t count) {
       const std::lock_guard lock(doneMutex);
       elementsDone += count;
       reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
-    });
+    };
+    document_ = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, files, report_, done);
     report_.colorError += roundingOfColors_;
   }
 
@@ -287,27 +307,24 @@ public:
   ConvertReport takeReport() { return std::move(report_); }
 
 private:
-  /// Reads all frames, for what they have in common.
-  void surveyFrames() {
-    frameFiles_.emplace(frames_, scene_, options_.outside);
-    std::size_t read = 0;
-    survey_ = frameFiles_->survey(
-        [&] { reportProgress(0.2 * static_cast<double>(++read) / static_cast<double>(frames_.size()), "reading"); });
-    report_.sourceBytes = survey_.bytes;
-    numberVertices(scene_.meshes.front());
+  /// The frames of several files.
+  void recordFiles(const ImportOptions& importOptions) {
+    const auto files = std::make_shared<FrameFiles>(frames_, scene_, importOptions);
+    report_.sourceBytes = files->bytes();
+    recordings_.push_back(recordingOfFiles(scene_.graph, files, options_.rate));
   }
 
-  void encodeFrames() {
-    std::size_t written = 0;
-    std::mutex writtenMutex;
-    ContentFiles files(site_.path(), geometryFolder);
-    document_ =
-        encodeSequence(std::move(scene_), *frameFiles_, survey_, options_, files, report_, [&](std::size_t count) {
-          const std::lock_guard lock(writtenMutex);
-          written += count;
-          reportProgress(0.3 + 0.69 * static_cast<double>(written) / static_cast<double>(frames_.size()), "writing");
-        });
-    report_.colorError += roundingOfColors_;
+  /// Reads all frames, for what they have in common.
+  void surveyRecordings() {
+    std::size_t read = 0, count = 0;
+    for (const Recording& recording : recordings_)
+      count += recording.frames->count();
+    for (Recording& recording : recordings_) {
+      recording.survey = survey(*recording.frames, locationOf(input_), [&] {
+        reportProgress(0.2 * static_cast<double>(++read) / static_cast<double>(count), "reading");
+      });
+      numberVertices(scene_.meshes[shapeOf(scene_.graph, recording.shape).mesh]);
+    }
   }
 
   void reportProgress(double fraction, const std::string& step) const {
@@ -381,6 +398,7 @@ private:
             .dropped = options_.dropped,
             .colorBits = report_.hasColors ? options_.colorBits : 8,
             .attributes = std::move(attributeNames),
+            .sequenceRate = options_.form == MeshForm::sequence ? options_.rate : 0,
             .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
             .sourceTextureBytes = report_.textures.sourceBytes,
             .pictures = std::move(pictureContents)};
@@ -396,11 +414,11 @@ private:
   bool hasOnlyFirstTexCoords_ = false;
   double roundingOfColors_ = 0; ///< before they are encoded
   Scene scene_;                 ///< until encodeMeshes
-  std::optional<FrameFiles> frameFiles_;
-  FrameSurvey survey_;
-  PictureSamples pictureSamples_; ///< from sampleSurfaces on
-  ViewSamples viewSamples_;       ///< from sampleSurfaces on
-  SceneDocument document_;        ///< from encodeMeshes on
+  std::vector<Recording> recordings_;
+  ConvertOptions sequenceOptions_; ///< for their meshes
+  PictureSamples pictureSamples_;  ///< from sampleSurfaces on
+  ViewSamples viewSamples_;        ///< from sampleSurfaces on
+  SceneDocument document_;         ///< from encodeMeshes on
 };
 
 } // namespace
@@ -410,6 +428,8 @@ namespace {
 ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory, const ConvertOptions& options,
                   const Progress& progress) {
   resolved(options); // refuses contradictions before anything is written
+  if (options.form == MeshForm::sequence)
+    requireSequenceOptions(options);
   for (const fs::path& input : inputs)
     if (input != "-")
       requireOutside(input, directory);
@@ -441,7 +461,7 @@ ConvertReport convertSequence(const std::vector<fs::path>& frames, const fs::pat
     throw Error(ErrorKind::usage, "", "a sequence has no frames");
   if (frames.size() == 1 && options.form == MeshForm::video)
     refuseOption("--as", "a video has the frames of a sequence, and this is one file");
-  return run(frames, directory, frames.size() > 1 ? sequenceOptions(frames, options) : options, progress);
+  return run(frames, directory, frames.size() > 1 ? optionsForFiles(frames, options) : options, progress);
 }
 
 } // namespace imgeo

@@ -8,6 +8,7 @@
 #include "transcode/encode/height_map.h"
 #include "transcode/encode/load_groups.h"
 #include "transcode/encode/patch_files.h"
+#include "transcode/encode/sequence.h"
 #include "transcode/encode/spatial_order.h"
 #include "transcode/encode/tiny_meshes.h"
 
@@ -57,9 +58,28 @@ EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files
   return encodeMesh(std::move(mesh), options, files, done);
 }
 
+/// Writes a sequence, of which the document gets the URL.
+GeometryDescription encodeFrames(Mesh mesh, const Recording& recording, const ConvertOptions& options,
+                                 ContentFiles& files, SceneGraph& graph, ConvertReport& report,
+                                 const ElementsDone& done) {
+  EncodedSequence sequence = encodeSequence(std::move(mesh), recording, options, files, done);
+  const EncodedFrames& frames = sequence.frames;
+  Interpolator& interpolator = std::get<Interpolator>(graph.nodes[recording.interpolator].content);
+  interpolator.url = frames.url;
+  interpolator.video = frames.video;
+  addToReport(report, sequence.still);
+  report.frames += frames.index.frameCount();
+  report.frameRate = recording.rate;
+  for (const SequenceFile& file : frames.index.files)
+    report.frameBytes += file.bytes;
+  report.videoBytes += frames.videoBytes;
+  return std::move(sequence.still.geometry);
+}
+
 } // namespace
 
-SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentFiles& files, ConvertReport& report,
+SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
+                          const ConvertOptions& ofSequences, ContentFiles& files, ConvertReport& report,
                           const ElementsDone& done) {
   SceneDocument document;
   document.graph = std::move(scene.graph);
@@ -80,6 +100,13 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, ContentF
       continue;
     isEncoded[geometry] = true;
     Mesh& mesh = scene.meshes[meshOf[geometry]];
+    if (const auto recording = std::ranges::find(
+            recordings, geometry, [&](const Recording& each) { return shapeOf(document.graph, each.shape).mesh; });
+        recording != recordings.end()) {
+      document.geometries[geometry] =
+          encodeFrames(std::move(mesh), *recording, ofSequences, files, document.graph, report, done);
+      continue;
+    }
     if (sharesNodes && isTiny(mesh, options)) {
       tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node]);
       continue;

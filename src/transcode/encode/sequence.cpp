@@ -9,7 +9,6 @@
 #include "prepare/normals.h"
 #include "prepare/patches.h"
 #include "sequence/sequence_file.h"
-#include "transcode/encode/encode_report.h"
 #include "transcode/options/resolve_options.h"
 #include "video/sequence_video.h"
 
@@ -108,13 +107,6 @@ std::vector<float> numbersOf(const std::vector<Rgba>& colors, const std::vector<
   return numbers;
 }
 
-/// The files of a sequence. `video` is empty where there is none.
-struct EncodedFrames {
-  SequenceIndex index;
-  std::string url, video;
-  std::uint64_t videoBytes = 0;
-};
-
 std::vector<Bytes> joined(std::vector<std::vector<Bytes>> lists) {
   std::vector<Bytes> all;
   for (std::vector<Bytes>& list : lists)
@@ -122,10 +114,22 @@ std::vector<Bytes> joined(std::vector<std::vector<Bytes>> lists) {
   return all;
 }
 
+std::vector<float> numbersOf(const NamedAttribute& attribute, const std::vector<std::uint32_t>& order) {
+  std::vector<float> numbers;
+  for (const std::uint32_t i : order)
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      numbers.push_back(attribute.values[std::size_t{i} * attribute.components + c]);
+  return numbers;
+}
+
+const NamedAttribute& attributeNamed(const Mesh& mesh, const std::string& name) {
+  return *std::ranges::find(mesh.namedAttributes, name, &NamedAttribute::name);
+}
+
 /// One sequence: the description of its frames, and what they need of the first.
 class SequenceEncoding {
 public:
-  SequenceEncoding(const FrameFiles& frames, const FrameSurvey& survey, const ConvertOptions& options)
+  SequenceEncoding(const FrameSource& frames, const FrameSurvey& survey, const ConvertOptions& options)
       : frames_(frames), survey_(survey), options_(options) {
     if (!(survey.box.longestEdge() > 0))
       throw Error(ErrorKind::usage, "", "all vertices of the sequence are at one point");
@@ -167,6 +171,7 @@ public:
     SequenceIndex& index = encoded.index;
     description_.rate = rate;
     index.description = description_;
+    index.valueName = survey_.valueName;
     const std::size_t perFile = framesInFile(rate);
     index.files.resize((frames_.count() + perFile - 1) / perFile);
     const bool hasVideo = options_.form == MeshForm::video;
@@ -206,6 +211,9 @@ private:
     computesNormals_ = !survey_.hasNormals && hasSeams && mesh.topology == Topology::triangles;
     layout.normalBits = survey_.hasNormals || computesNormals_ ? options_.normalBits : 0;
     layout.colorComponents = survey_.colorsMove ? mesh.colorComponents : 0;
+    layout.valueComponents = narrow<std::uint32_t>(survey_.valueRange.size());
+    layout.valueBits = layout.valueComponents > 0 ? options_.attributeBits : 0;
+    description_.valueRange = survey_.valueRange;
     description_.box = survey_.box;
   }
 
@@ -233,19 +241,21 @@ private:
     const Mesh mesh = frames_.read(number);
     const live::FrameLayout& layout = description_.layout;
     const std::vector<float> positions = numbersOf(gather(mesh.positions, mesh.wedgePositions), order_);
-    std::vector<float> normals, colors;
+    std::vector<float> normals, colors, values;
     if (layout.normalBits > 0)
       normals = numbersOf(computesNormals_ ? normalsOf(mesh) : mesh.normals, order_);
     if (layout.colorComponents > 0)
       colors = numbersOf(mesh.colors, order_, layout.colorComponents);
+    if (layout.valueComponents > 0)
+      values = numbersOf(attributeNamed(mesh, survey_.valueName), order_);
     live::Frame frame;
-    live::quantise({positions, normals, colors, {}}, description_, frame);
+    live::quantise({positions, normals, colors, values}, description_, frame);
     frame.number = number;
     frame.time = static_cast<double>(number) / description_.rate;
     return frame;
   }
 
-  const FrameFiles& frames_;
+  const FrameSource& frames_;
   const FrameSurvey& survey_;
   const ConvertOptions& options_;
   live::Description description_;
@@ -255,40 +265,15 @@ private:
   std::vector<std::uint32_t> order_;          ///< the source's vertex of each vertex of a frame
 };
 
-/// Adds the clock, the interpolator or the movie, and the route that play the sequence.
-void addPlayer(SceneGraph& graph, const EncodedFrames& encoded) {
-  Node& shape = graph.nodes[shapeNodes(graph).front()];
-  const std::string name = shape.name.empty() ? "sequence" : shape.name;
-  TimeSensor clock;
-  clock.cycleInterval = encoded.index.seconds();
-  clock.loop = true;
-  const std::size_t shapeNode = shapeNodes(graph).front();
-  const std::size_t sensor = addRoot(graph, {name + "-clock", clock, {}, ""});
-  const std::size_t frames = addNode(
-      graph,
-      {name + "-frames", Interpolator{InterpolatorKind::coordinate, {}, {}, encoded.url, encoded.video}, {}, ""});
-  graph.nodes[shapeNode].children.push_back(frames);
-  graph.routes.push_back({sensor, "fraction_changed", frames, "set_fraction"});
-}
-
 } // namespace
 
-SceneDocument encodeSequence(Scene&& scene, const FrameFiles& frames, const FrameSurvey& survey,
-                             const ConvertOptions& options, ContentFiles& files, ConvertReport& report,
-                             const ElementsDone& done) {
-  SceneDocument document;
-  document.graph = std::move(scene.graph);
-  SequenceEncoding encoding(frames, survey, options);
-  EncodedMesh encoded = encoding.encodeStatic(std::move(scene.meshes.front()), files);
-  addToReport(report, encoded);
-  document.geometries.push_back(std::move(encoded.geometry));
-  const EncodedFrames encodedFrames = encoding.encodeFrames(options.rate, files, done);
-  report.frames = encodedFrames.index.frameCount();
-  report.videoBytes = encodedFrames.videoBytes;
-  for (const SequenceFile& file : encodedFrames.index.files)
-    report.frameBytes += file.bytes;
-  addPlayer(document.graph, encodedFrames);
-  return document;
+EncodedSequence encodeSequence(Mesh mesh, const Recording& recording, const ConvertOptions& options,
+                               ContentFiles& files, const ElementsDone& done) {
+  SequenceEncoding encoding(*recording.frames, recording.survey, options);
+  EncodedSequence result;
+  result.still = encoding.encodeStatic(std::move(mesh), files);
+  result.frames = encoding.encodeFrames(recording.rate, files, done);
+  return result;
 }
 
 } // namespace imgeo

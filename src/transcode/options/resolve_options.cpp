@@ -57,7 +57,7 @@ void resolveGrids(ConvertOptions& options) {
   const bool isGeometryImage = options.form == MeshForm::geometryImage;
   if (!isGeometryImage && options.grid != 0)
     refuseOption("--grid", "is the resolution of geometry images: --as geometry-image");
-  if (options.form == MeshForm::mesh || options.form == MeshForm::video)
+  if (options.form == MeshForm::mesh || options.form == MeshForm::sequence || options.form == MeshForm::video)
     return;
   const char* const form = isGeometryImage ? "geometry images" : "height maps";
   if (options.encoding.value_or(Encoding::classic) != Encoding::classic)

@@ -92,6 +92,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["colorBits"] = manifest.colorBits;
   if (!manifest.attributes.empty())
     json["attributes"] = manifest.attributes;
+  if (manifest.sequenceRate > 0)
+    json["sequenceRate"] = manifest.sequenceRate;
   if (manifest.onlyFirstTexCoords)
     json["onlyFirstTexCoords"] = true;
   if (manifest.normalErrorDegrees > 0)
@@ -128,6 +130,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
     manifest.colorBits = json.value("colorBits", 8u);
     manifest.attributes = json.value("attributes", std::vector<std::string>{});
+    manifest.sequenceRate = json.value("sequenceRate", 0.0);
     manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);
     manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});

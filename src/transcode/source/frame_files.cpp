@@ -1,13 +1,10 @@
 #include "transcode/source/frame_files.h"
 
 #include "base/error.h"
-#include "base/parallel.h"
-#include "live/frame.h"
 #include "transcode/source/preparation.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <mutex>
 #include <set>
 #include <utility>
 
@@ -66,6 +63,11 @@ std::string differenceOf(const Mesh& first, const Mesh& mesh) {
     return first.normals.empty() ? "has normals" : "has no normals";
   if (mesh.colors.empty() != first.colors.empty())
     return first.colors.empty() ? "has colours" : "has no colours";
+  const auto isSame = [](const NamedAttribute& a, const NamedAttribute& b) {
+    return a.name == b.name && a.components == b.components;
+  };
+  if (!std::ranges::equal(mesh.namedAttributes, first.namedAttributes, isSame))
+    return "has other further attributes";
   return "";
 }
 
@@ -79,66 +81,32 @@ const Mesh& onlyMesh(const Scene& scene, const std::string& file) {
 
 } // namespace
 
-FrameFiles::FrameFiles(std::vector<std::filesystem::path> files, const Scene& first, bool outside)
-    : files_(std::move(files)), first_(onlyMesh(first, files_.front().string())), outside_(outside) {}
+FrameFiles::FrameFiles(std::vector<std::filesystem::path> files, const Scene& first, ImportOptions options)
+    : files_(std::move(files)), first_(onlyMesh(first, files_.front().string())), options_(std::move(options)) {
+  options_.strict = true;
+}
 
 Mesh FrameFiles::read(std::size_t frame) const {
   const std::filesystem::path& file = files_.at(frame);
-  ImportOptions options;
-  options.outside = outside_;
-  options.strict = true;
   std::uint64_t bytes = 0;
-  Imported imported = importInput(file, options, bytes);
+  Imported imported = importInput(file, options_, bytes);
   onlyMesh(imported.scene, file.string());
   Mesh mesh = std::move(imported.scene.meshes.front());
   if (const std::string difference = differenceOf(first_, mesh); !difference.empty())
     throw Error(ErrorKind::malformed, file.string(),
-                fmt::format("{}, unlike {}: the frames of a sequence differ in positions, normals and colours only",
+                fmt::format("{}, unlike {}: frames of a sequence differ in positions, normals, colours and values only",
                             difference, files_.front().string()));
   return mesh;
 }
 
-FrameSurvey FrameFiles::survey(const std::function<void()>& done) const {
-  FrameSurvey survey;
-  survey.hasNormals = !first_.normals.empty();
-  std::mutex mutex;
-  parallelFor(files_.size(), [&](std::size_t frame) {
-    const Mesh mesh = read(frame);
-    const Box3d box = boxOf(mesh);
-    const bool hasOtherColors = mesh.colors != first_.colors;
-    std::error_code ignored;
-    const std::uintmax_t bytes = std::filesystem::file_size(files_[frame], ignored);
-    const std::lock_guard lock(mutex);
-    survey.box.add(box.min);
-    survey.box.add(box.max);
-    survey.colorsMove |= hasOtherColors;
-    survey.bytes += ignored ? 0 : bytes;
-    done();
-  });
-  return survey;
-}
-
-void numberVertices(Mesh& mesh) {
-  // Up to 2^24 integers are exact floats.
-  static_assert(live::maxFrameVertices <= 1 << 24);
-  if (mesh.wedgeCount() > live::maxFrameVertices)
-    throw Error(
-        ErrorKind::limit, "",
-        fmt::format("a frame has {} vertices; sequences have at most {}", mesh.wedgeCount(), live::maxFrameVertices));
-  NamedAttribute numbers{sourceVertexName, 1, {}};
-  numbers.values.reserve(mesh.wedgeCount());
-  for (std::size_t i = 0; i < mesh.wedgeCount(); ++i)
-    numbers.values.push_back(static_cast<float>(i));
-  mesh.namedAttributes.push_back(std::move(numbers));
-}
-
-std::vector<std::uint32_t> takeVertexNumbers(VertexAttributes& vertices) {
-  const auto found = std::ranges::find(vertices.namedAttributes, sourceVertexName, &NamedAttribute::name);
-  std::vector<std::uint32_t> numbers;
-  for (const float number : found->values)
-    numbers.push_back(static_cast<std::uint32_t>(number));
-  vertices.namedAttributes.erase(found);
-  return numbers;
+std::uint64_t FrameFiles::bytes() const {
+  std::uint64_t sum = 0;
+  for (const std::filesystem::path& file : files_) {
+    std::error_code fault; // read() reports a file that is not there
+    const std::uintmax_t size = std::filesystem::file_size(file, fault);
+    sum += fault ? 0 : size;
+  }
+  return sum;
 }
 
 } // namespace imgeo

@@ -10,9 +10,11 @@
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/source/preparation.h"
+#include "transcode/source/recordings.h"
 #include "transcode/verify/check_files.h"
 #include "transcode/verify/compare_animations.h"
 #include "transcode/verify/compare_appearances.h"
+#include "transcode/verify/compare_frames.h"
 #include "transcode/verify/compare_geometry_nodes.h"
 #include "transcode/verify/compare_mapped.h"
 #include "transcode/verify/compare_mesh.h"
@@ -38,7 +40,9 @@ bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
 }
 
 /// The input, prepared as convert prepared it for this site. For a site of another program normals are not computed.
-Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>& manifest, bool outside) {
+/// `recordings` gets what convert recorded.
+Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>& manifest, bool outside,
+                       std::vector<Recording>& recordings) {
   std::uint64_t bytes = 0;
   ImportOptions options;
   options.outside = outside;
@@ -46,6 +50,8 @@ Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>&
   if (manifest)
     options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
   Imported imported = importInput(input, options, bytes);
+  if (manifest && manifest->sequenceRate > 0)
+    recordings = recordDeformations(imported.scene, manifest->sequenceRate, locationOf(input), imported.warnings);
   std::vector<bool> hadNormals;
   for (const Mesh& mesh : imported.scene.meshes)
     hadNormals.push_back(!mesh.normals.empty());
@@ -81,13 +87,17 @@ private:
 };
 
 /// Compares the transform and material of every instance of a shape, and each mesh once.
-void compareScenes(const SiteDocument& document, const Scene& input, const std::optional<SiteManifest>& manifest,
-                   VerifyReport& report, Findings& findings) {
+/// Frames are compared elsewhere, and the meshes of sequences with them.
+void compareScenes(const SiteDocument& document, const Scene& input, const std::vector<Recording>& recordings,
+                   const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings) {
   const SceneGraph& siteGraph = document.scene.graph;
   const std::vector<ShapeInstance> siteShapes = shapeInstances(siteGraph, (document.root / document.name).string()),
                                    inputShapes = shapeInstances(input.graph);
   if (siteShapes.size() != inputShapes.size())
     return findings.add("The site has {} shapes, the input {}.", siteShapes.size(), inputShapes.size());
+  std::set<std::size_t> recorded;
+  for (const Recording& recording : recordings)
+    recorded.insert(shapeOf(input.graph, recording.shape).mesh);
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
   MovedShapes movedShapes(manifest ? manifest->axes : SourceAxes{});
@@ -105,7 +115,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
       differentLighting += isUnlit(siteGraph, siteGraph.nodes[siteShapes[i].node]).value_or(false) !=
                            isUnlit(input.graph, input.graph.nodes[inputShapes[i].node]).value_or(false);
     movedShapes.compare(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
-    if (!compared.emplace(geometry, mesh).second)
+    if (!compared.emplace(geometry, mesh).second || recorded.contains(mesh))
       continue;
     GeometryDescription description = document.scene.geometries.at(geometry);
     description.lattice = reader.latticeOf(description);
@@ -135,7 +145,8 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
   splitMixedGeometries(document.scene);
   const std::optional<SiteManifest> manifest = manifestOf(document);
   report.isForeign = !manifest;
-  const Imported imported = preparedInput(input, manifest, outside);
+  std::vector<Recording> recordings;
+  const Imported imported = preparedInput(input, manifest, outside, recordings);
 
   // An Error from a file of the site is a finding. Errors of the document, imgeo.json and the input are thrown.
   try {
@@ -151,8 +162,10 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
       compareAnimations(document.scene, imported.scene.graph, findings);
       compareSkins(document.scene.graph, imported.scene.graph, findings);
     }
-    if (checkFiles(document, report.isForeign, imported.scene.graph, findings))
-      compareScenes(document, imported.scene, manifest, report, findings);
+    if (checkFiles(document, report.isForeign, imported.scene.graph, findings)) {
+      compareScenes(document, imported.scene, recordings, manifest, report, findings);
+      compareRecordings(document, recordings, report, findings);
+    }
   } catch (const Error& error) {
     findings.add("{}.", error.what());
   }

@@ -114,7 +114,8 @@ export function colorMapOf(
     warnings.push({ element, message: `colorBy="${values.colorBy}": its fog depends on the distance from the viewer` });
   const colors = values.colorMap;
   if (values.colorRange !== undefined) return { colors, range: values.colorRange };
-  return { colors, range: rangeOf(geometry.value), ...(geometry.encoding === "live" && { isRangeStreamed: true }) };
+  const isRangeStreamed = geometry.encoding === "live" || geometry.sequence !== undefined;
+  return { colors, range: rangeOf(geometry.value), ...(isRangeStreamed && { isRangeStreamed }) };
 }
 
 /** The appearance of a geometry with streamed values: without a stated `colorRange` the stream states the range. */

@@ -22,6 +22,8 @@ export interface SequenceFile {
 export interface SequenceIndex extends FrameDescription {
   readonly files: readonly SequenceFile[];
   readonly frameCount: number;
+  /** The further attribute that the frames' values are; undefined: not stated. */
+  readonly valueName: string | undefined;
 }
 
 /** Checks untrusted bytes. Throws DecodeError. */
@@ -34,6 +36,9 @@ export function readSequenceIndex(bytes: Uint8Array<ArrayBuffer>): SequenceIndex
   const description = readFrameDescription(json);
   if (!(description.rate > 0 && description.rate <= 1000))
     throw new DecodeError("malformed", 'states no "rate" above 0, up to 1000');
+  const { valueName } = json;
+  if (valueName !== undefined && typeof valueName !== "string")
+    throw new DecodeError("malformed", 'states a "valueName" that is no text');
   const listed = Array.isArray(json.files) ? (json.files as unknown[]) : [];
   if (listed.length === 0) throw new DecodeError("malformed", "has no files");
   let first = 0;
@@ -43,7 +48,7 @@ export function readSequenceIndex(bytes: Uint8Array<ArrayBuffer>): SequenceIndex
     return file;
   });
   if (first > maxSequenceFrames) throw new DecodeError("limit", `has ${first} frames; ${maxSequenceFrames} are read`);
-  return { ...description, files, frameCount: first };
+  return { ...description, files, frameCount: first, valueName };
 }
 
 function readFile(json: unknown, first: number): SequenceFile {

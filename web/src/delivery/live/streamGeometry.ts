@@ -41,7 +41,9 @@ export function withStreamState(
   const grid = hasGrid ? ({ kind, columns, rows } as const) : undefined;
   const coord = stated.coord[0];
   const planes = (count: number) => Array.from({ length: count }, () => coord).filter((plane) => plane !== undefined);
-  const value = geometry.value && withRange(geometry.value, state);
+  // Of a sequence, the values may be those of the document.
+  const isValueStatic = state.valueComponents === 0 && stated.value.length > 0;
+  const value = isValueStatic ? geometry.value : geometry.value && withRange(geometry.value, state);
   const streamed: Partial<PatchDescription> = {
     ...(state.normalBits > 0 && { normal: undefined }),
     ...(state.colorComponents > 0 && { color: undefined }),
@@ -56,7 +58,7 @@ export function withStreamState(
     implicitWidth: stated.index === undefined ? columns || Math.min(vertices, 1024) : stated.implicitWidth,
     grid,
     coord: planes(planeCount),
-    value: value === undefined ? [] : planes(Math.ceil(state.valueBits / 8)),
+    value: isValueStatic ? stated.value : value === undefined ? [] : planes(Math.ceil(state.valueBits / 8)),
   };
   return {
     ...geometry,

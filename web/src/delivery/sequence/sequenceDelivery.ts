@@ -2,6 +2,7 @@
 // delivered as those of any geometry. The frames that are due replace them when the index and the first of these have
 // arrived; while one is missing the last one stays.
 
+import type { FrameDescription } from "../../decode/frame/frameDescription.ts";
 import type { SequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
 import { fileOfFrame, readSequenceIndex } from "../../decode/sequence/sequenceIndex.ts";
 import type { GeometryDescription, SequenceDescription } from "../../document/description.ts";
@@ -236,6 +237,11 @@ function framesGeometryOf(geometry: GeometryDescription, url: string): GeometryD
   return { ...geometry, encoding: "live", patches };
 }
 
+/** What the frames state, without values where the shape is coloured by another attribute: that one does not change. */
+function valuesOf({ value }: GeometryDescription, index: SequenceIndex): FrameDescription {
+  return value === undefined || value.name === index.valueName ? index : { ...index, valueComponents: 0 };
+}
+
 /** The number of the frame at a position. */
 function frameAt(position: SequencePosition, { frameCount, rate }: SequenceIndex): number {
   // Times that are multiples of a frame's duration may lie just before it.
@@ -291,7 +297,7 @@ class Playing {
     this.#frames = new FrameDelivery(
       {
         geometry,
-        description: index,
+        description: valuesOf(geometry, index),
         readsTextures,
         pool,
         transfer,

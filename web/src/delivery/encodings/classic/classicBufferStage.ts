@@ -176,9 +176,10 @@ class BufferStageBuilder implements StageBuilder {
       attributes.normal && this.#patch.lowBytes.normal === undefined
         ? normalFormatOf(this.#geometry)
         : ({ kind: "vector" } as const);
-    const value = streamed
-      ? this.#geometry.value && streamed.value
-      : available.value && { ...available.value, maxStored: undefined };
+    const value =
+      this.#geometry.value?.streamedRange === undefined
+        ? available.value && { ...available.value, maxStored: undefined }
+        : streamed?.value;
     const attained = attainedStageName(this.#patch, {
       index: available.indexedDraws,
       attributes,

@@ -19,12 +19,17 @@ export const liveDelivery: EncodingDelivery = {
     ...streamFilesOf(patch),
     ...classicDelivery
       .patchFilesOf(geometry, patch, maxTextureSize)
-      .filter(({ role }) => role !== "coord" && role !== "value"),
+      .filter(({ role }) => role !== "coord" && (role !== "value" || !hasStreamedValues(geometry))),
   ],
   stageBuilder: (geometry, patch, _, tools) =>
     geometry.decode === "gpu" ? imageStageBuilder(geometry, patch) : bufferStageBuilder(geometry, patch, tools),
   needsWorkers: () => true,
 };
+
+/** Whether frames have the values that shaders read. */
+function hasStreamedValues({ value }: GeometryDescription): boolean {
+  return value?.streamedRange !== undefined;
+}
 
 /** The stream, as a file of the patch. */
 export function streamFilesOf({ coord: [reference], vertexCount, coord }: PatchDescription): PatchFile[] {
@@ -52,9 +57,10 @@ function imageStageBuilder(geometry: GeometryDescription, patch: PatchDescriptio
     live?.coord.forEach((_, plane) => {
       builder.drop(fileOf("coord", plane));
     });
-    live?.value.forEach((_, plane) => {
-      builder.drop(fileOf("value", plane));
-    });
+    if (hasStreamedValues(geometry))
+      live?.value.forEach((_, plane) => {
+        builder.drop(fileOf("value", plane));
+      });
     if (live?.color) builder.drop(fileOf("color", 0));
     live = undefined;
   };
@@ -68,7 +74,7 @@ function imageStageBuilder(geometry: GeometryDescription, patch: PatchDescriptio
       const accept = (role: PatchFile["role"], plane: number, image: LiveImages["coord"][number]) =>
         builder.accept(fileOf(role, plane), { kind: "image", image, channels: 4 }, signal);
       for (const [plane, image] of live.coord.entries()) void accept("coord", plane, image);
-      if (geometry.value !== undefined)
+      if (hasStreamedValues(geometry))
         for (const [plane, image] of live.value.entries()) void accept("value", plane, image);
       if (live.color) void accept("color", 0, live.color);
       return undefined;
