@@ -52,7 +52,7 @@ live: build ## run a simulation and serve the page that draws it live [MOTION=cl
 waves: build ## publish a live stream from an example program [IN=python, c or c++]
 	@scripts/waves "$(IN)"
 
-motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF [PORT=8080]
+motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF, a recorded cloth [PORT=8080]
 	@scripts/demo --motion
 
 operators: build ## serve image operators on geometry, with a slider for each (paper, section 7.4) [MODEL=statue.ply PORT=8080]

@@ -2,10 +2,11 @@
 // one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes; and a grid of
 // 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
 // frames, and the median and the minimum of their durations, which other processes lengthen. Then plays 10,000 frames
-// of two scenes and prints the memory before and after.
+// of two scenes and of a sequence, a recorded cloth, and prints the memory before and after.
 //
 //   scripts/bench motion
 
+import { execFileSync } from "node:child_process";
 import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -98,15 +99,43 @@ async function memoryOf(page: Page): Promise<{ heap: number; gpu: number }> {
   return { heap: usedSize, gpu };
 }
 
-/** The memory after 100 frames and after `frameCount`. */
-async function memoryRow(page: Page, name: string): Promise<string> {
-  await changeTimes(page, frames[routes]!, 100, 1);
+/** The memory after 100 frames and after `frameCount`, which `play` displays. */
+async function memoryRow(page: Page, name: string, play: (count: number) => Promise<unknown>): Promise<string> {
+  await play(100);
   const before = await memoryOf(page);
-  await changeTimes(page, frames[routes]!, frameCount - 100, 1);
+  await play(frameCount - 100);
   const after = await memoryOf(page);
   const megabytes = (bytes: number): string => `${(bytes / 1e6).toFixed(2)} MB`;
   const cells = [before.heap, after.heap, before.gpu, after.gpu].map(megabytes);
   return `| ${name} | ${cells.join(" | ")} |`;
+}
+
+const recordedFrames = 90;
+
+/** Converts a cloth of 64 x 64 vertices, three seconds, in a folder of its own. */
+function convertCloth(folder: string): void {
+  const imgeo = (...words: string[]): void =>
+    void execFileSync("build/imgeo", words, { stdio: ["ignore", "ignore", "inherit"] });
+  const files = join(folder, "frames");
+  imgeo("sample", "cloth", "--frames", String(recordedFrames), "--grid", "64", "-o", files);
+  imgeo("convert", join(files, "cloth-*.ply"), "-o", join(folder, "cloth"), "--no-pictures");
+}
+
+/** Displays the frames of the page's sequence, one after the other, from the first again behind the last. */
+function playSequence(page: Page, count: number): Promise<void> {
+  return page.evaluate(
+    async ({ total, length }) => {
+      const x3d = document.querySelector("x3d")!;
+      for (let played = 1; played <= total; ++played) {
+        const displayed = new Promise((resolve) => {
+          x3d.addEventListener("frame", resolve, { once: true, capture: true });
+        });
+        x3d.setAttribute("sequence-time", String((played % length) / 30));
+        await displayed;
+      }
+    },
+    { total: count, length: recordedFrames },
+  );
 }
 
 async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
@@ -149,9 +178,14 @@ try {
     await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
     for (const [name, change] of Object.entries(frames))
       if (name === routes || text.includes("<Transform")) console.log(await row(page, `${scene}: ${name}`, change));
-    if (memoryScenes.includes(scene)) memory.push(await memoryRow(page, scene));
+    if (memoryScenes.includes(scene))
+      memory.push(await memoryRow(page, scene, (played) => changeTimes(page, frames[routes]!, played, 1)));
     await page.close();
   }
+  convertCloth(directory);
+  const page = await browser.newPage({ viewport: { width: 64, height: 48 } });
+  await goUntilComplete(page, `${server.origin}cloth/`, timeout);
+  memory.push(await memoryRow(page, "a sequence of 4,096 vertices", (played) => playSequence(page, played)));
   console.log(`\n| ${frameCount} frames | heap after 100 | heap after all | GPU after 100 | GPU after all |`);
   console.log(`|---|--:|--:|--:|--:|\n${memory.join("\n")}`);
 } finally {

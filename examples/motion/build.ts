@@ -1,5 +1,5 @@
 // Converts scenes that move, and builds the page with all of them in build/motion, for any server: an X3D machine with
-// ROUTEs, and a glTF model with an animation.
+// ROUTEs, a glTF model with an animation, and a recorded simulation.
 //
 //   node examples/motion/build.ts [OUTPUT]
 
@@ -13,9 +13,11 @@ const here = import.meta.dirname;
 const repository = join(here, "../..");
 const [output = join(repository, "build/motion")] = process.argv.slice(2);
 
+const imgeo = (...words: string[]): void =>
+  void execFileSync(join(repository, "build/imgeo"), words, { stdio: "ignore" });
+
 function convert(source: string, folder: string): void {
-  const site = join(output, folder);
-  execFileSync(join(repository, "build/imgeo"), ["convert", source, "-o", site], { stdio: "ignore" });
+  imgeo("convert", source, "-o", join(output, folder));
 }
 
 rmSync(output, { recursive: true, force: true });
@@ -25,6 +27,10 @@ convert(join(here, "engine.x3d"), "engine");
 const model = join(output, "orrery.gltf");
 writeFileSync(model, orrery());
 convert(model, "orrery");
+const frames = join(output, "frames");
+imgeo("sample", "cloth", "--frames", "240", "--grid", "96", "-o", frames);
+convert(join(frames, "cloth-*.ply"), "cloth");
+rmSync(frames, { recursive: true });
 writeFileSync(
   join(output, "index.html"),
   motionPage([
@@ -37,6 +43,11 @@ writeFileSync(
       folder: "orrery",
       title: "An orrery in glTF",
       text: "The animation of a glTF file, converted to the same nodes: arms that turn, one within the other.",
+    },
+    {
+      folder: "cloth",
+      title: "A recorded cloth",
+      text: "Eight seconds of a simulation, frame by frame: files of a second each, which the page requests ahead and plays in a circle.",
     },
   ]),
 );

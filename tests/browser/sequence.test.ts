@@ -5,45 +5,29 @@ import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import { breath, breathSite, frameCount, heatRange, patchOfFrame, rate } from "./breath.ts";
 import { assertSamePicture, boundsOfInput, savePicture } from "./compare.ts";
 import { until, withPage, type View } from "./harness.ts";
 import { gpuCalls, recordStream, type FrameDetail } from "./livePage.ts";
-import { areaWeightedNormals, sphere, withoutNormals, type PlainMesh } from "./meshes.ts";
 import { referencePicture } from "./reference.ts";
 import type { TestServer } from "./server.ts";
-import { pageOf, siteOfFrames, variantOf } from "./sites.ts";
+import type { PlainPatch } from "./siteDecoder.ts";
+import { pageOf, variantOf } from "./sites.ts";
 import { soakTest } from "./soak.ts";
-
-const rate = 10;
-const frameCount = 25;
-
-/** A sphere that breathes and leans: three files of 10, 10 and 5 frames. */
-function frameOf(number: number): PlainMesh {
-  const mesh = withoutNormals(sphere(24));
-  const [swell, lean] = [1 + 0.25 * Math.sin(0.4 * number), 0.3 * Math.sin(0.25 * number)];
-  const positions = mesh.positions.slice();
-  for (let i = 0; i < positions.length; i += 3) {
-    const [x, y, z] = [positions[i]!, positions[i + 1]!, positions[i + 2]!];
-    positions.set([x * swell + lean * y, y / swell, z * swell], i);
-  }
-  return { ...mesh, positions };
-}
-
-const frames = Array.from({ length: frameCount }, (_, number) => frameOf(number));
-
-const site = (): string => siteOfFrames("breath", frames, "--rate", String(rate));
 
 /** A copy whose <x3d> has these attributes. */
 const siteWith = (name: string, attributes: string): string =>
-  variantOf(site(), name, (page) => page.replace(/<x3d/i, `<x3d ${attributes}`));
+  variantOf(breathSite(), name, (page) => page.replace(/<x3d/i, `<x3d ${attributes}`));
 
-async function show(view: View, number: number, name: string): Promise<void> {
-  const { positions, triangles } = frames[number]!;
+/** Where surfaces cross, a few pixels show the other one. */
+const boundsOfCrossing = { ...boundsOfInput, offShare: 0.0005 };
+
+/** Compares the picture with that of a frame, or of several meshes. */
+async function show(view: View, name: string, ...patches: PlainPatch[]): Promise<void> {
   const picture = await view.picture();
   savePicture(name, picture);
-  const normals = areaWeightedNormals({ positions, triangles });
-  const patch = { positions, normals, triangles, lines: new Uint32Array(), points: new Uint32Array() };
-  assertSamePicture(name, picture, await referencePicture(pageOf(site()), [patch]), boundsOfInput);
+  const bounds = patches.length > 1 ? boundsOfCrossing : boundsOfInput;
+  assertSamePicture(name, picture, await referencePicture(pageOf(breathSite()), patches), bounds);
 }
 
 const recorded = ({ page }: View): Promise<FrameDetail[]> =>
@@ -63,11 +47,117 @@ const setAttribute = ({ page }: View, selector: string, name: string, value: str
     { selector, name, value },
   );
 
+/** The path of a file of frames. */
+function fileOfFrames(file: number): string {
+  const folder = join(breathSite(), "geometry");
+  const index = readdirSync(folder).find((name) => name.endsWith(".json"))!;
+  const { files } = JSON.parse(readFileSync(join(folder, index), "utf8")) as { files: { url: string }[] };
+  return files[file]!.url;
+}
+
+const framesDrawn = ({ page }: View): Promise<number> =>
+  page.evaluate(
+    () => (document.querySelector("x3d") as unknown as { statistics: { frames: number } }).statistics.frames,
+  );
+
+/** Nothing is drawn, and no frame follows. */
+async function assertStands(view: View, what: string): Promise<void> {
+  await view.picture(); // what is under way has been drawn
+  const before = [await framesDrawn(view), (await recorded(view)).length];
+  await view.page.waitForTimeout(400);
+  assert.deepEqual([await framesDrawn(view), (await recorded(view)).length], before, what);
+}
+
+async function plays(view: View): Promise<void> {
+  const { length } = await recorded(view);
+  await until("it plays", async () => (await recorded(view)).length > length + 2);
+}
+
+/** While a file is late the last whole frame stays; the due one follows when it has come. */
+async function assertWaitsForFile(view: View, release: () => void): Promise<void> {
+  await setAttribute(view, "x3d", "sequence-time", "0.9");
+  await displays(view, 9);
+  await setAttribute(view, "x3d", "sequence-time", "1.2");
+  await view.page.waitForTimeout(300);
+  await show(view, "sequence: while a file is late", patchOfFrame(9));
+  release();
+  await displays(view, 12);
+  assert.deepEqual(
+    (await recorded(view)).map(({ number }) => number),
+    [0, 9, 12],
+  );
+}
+
+/** A further Shape of the same geometry shows the same frame; both are coloured by the values of the frame. */
+async function assertIsUsedAndColoured(view: View, seek: (number: number) => Promise<void>): Promise<void> {
+  await view.page.evaluate(() => {
+    const shape = document.querySelector("shape")!;
+    shape.querySelector("imagegeometry")!.setAttribute("DEF", "breath");
+    const copy = document.createElement("transform");
+    copy.setAttribute("translation", "0.4 0.3 0");
+    copy.innerHTML = '<shape id="copy"></shape>';
+    copy.firstElementChild!.append(shape.querySelector("appearance")!.cloneNode(true));
+    const geometry = document.createElement("imagegeometry");
+    geometry.setAttribute("USE", "breath");
+    copy.firstElementChild!.append(geometry);
+    shape.parentElement!.append(copy);
+  });
+  const movedPatch = (patch: PlainPatch): PlainPatch => ({
+    ...patch,
+    positions: patch.positions.map((coordinate, i) => coordinate + [0.4, 0.3, 0][i % 3]!),
+  });
+  await seek(5);
+  await show(view, "sequence: in two shapes", patchOfFrame(5), movedPatch(patchOfFrame(5)));
+  for (const shape of ["shape", "#copy"]) {
+    await setAttribute(view, shape, "colorBy", "heat");
+    await setAttribute(view, shape, "colorMap", "0 0 0, 1 1 1");
+  }
+  const colored = (number: number): PlainPatch => {
+    const [min, max] = heatRange;
+    const heat = breath[number]!.numbers!.heat!;
+    return {
+      ...patchOfFrame(number),
+      colors: Float32Array.from({ length: 3 * heat.length }, (_, i) => (heat[Math.floor(i / 3)]! - min) / (max - min)),
+    };
+  };
+  for (const number of [5, 14]) {
+    if (number !== 5) await seek(number);
+    await show(view, `sequence: coloured by values ${number}`, colored(number), movedPatch(colored(number)));
+  }
+}
+
+/** Clocks stand where the user prefers reduced motion, while paused, and in a hidden tab, and nothing is drawn then. */
+async function assertStandsOnDemand(view: View): Promise<void> {
+  const setHidden = (isHidden: boolean): Promise<void> =>
+    view.page.evaluate((hidden) => {
+      Object.defineProperty(document, "hidden", { value: hidden, configurable: true });
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, isHidden);
+  await assertStands(view, "a sequence plays although the user prefers reduced motion");
+  await setAttribute(view, "x3d", "paused", "false");
+  await plays(view);
+  await setAttribute(view, "x3d", "paused", "");
+  await assertStands(view, "a paused sequence is drawn");
+  await setAttribute(view, "x3d", "paused", "false");
+  await plays(view);
+  await setHidden(true);
+  await assertStands(view, "a sequence in a hidden tab is drawn");
+  await setHidden(false);
+  await plays(view);
+}
+
 test("a sequence is displayed frame by frame", async () => {
-  await withPage(siteWith("still", 'sequence-time="0" paused="false"'), { before: recordStream }, async (view) => {
+  const late = Promise.withResolvers<undefined>();
+  const server = (server: TestServer): void =>
+    void server.when((path) => path.endsWith(fileOfFrames(1)), { hold: late.promise });
+  const site = siteWith("still", 'sequence-time="0"');
+  await withPage(site, { before: recordStream, server }, async (view) => {
     await view.promise("complete");
     await displays(view, 0);
-    await show(view, 0, "sequence: the first frame");
+    await show(view, "sequence: the first frame", patchOfFrame(0));
+    await assertWaitsForFile(view, () => {
+      late.resolve(undefined);
+    });
 
     const seek = async (number: number): Promise<void> => {
       await setAttribute(view, "x3d", "sequence-time", String(number / rate));
@@ -77,7 +167,7 @@ test("a sequence is displayed frame by frame", async () => {
     const before = await gpuCalls(view);
     for (const number of [2, 3, 4, 9, 10, 11, 24, 0, 17]) await seek(number);
     assert.equal((await gpuCalls(view)).objects, before.objects, "frames allocate memory on the GPU");
-    await show(view, 17, "sequence: in the second file");
+    await show(view, "sequence: in the second file", patchOfFrame(17));
     const hit = await view.page.evaluate(() => {
       const x3d = document.querySelector<
         HTMLElement & {
@@ -89,14 +179,15 @@ test("a sequence is displayed frame by frame", async () => {
       >("x3d")!;
       return x3d.positionAndNormalFromPoint(innerWidth / 2, innerHeight / 2)?.position;
     });
-    const radius = Math.max(...frames[17]!.positions);
+    const radius = Math.max(...patchOfFrame(17).positions);
     const distance = hit && Math.hypot(hit.x, hit.y, hit.z);
     assert.ok(distance !== undefined && distance > 0.5 * radius && distance < 1.5 * radius, `picked ${distance}`);
 
     const picked = await gpuCalls(view); // picking has images of its own
 
-    // Without the attribute the clock counts, and the first frame follows the last.
+    // Without the attribute the sequence follows its clock, and the first frame follows the last.
     await setAttribute(view, "x3d", "sequence-time", undefined);
+    await assertStandsOnDemand(view);
     await until("the clock has come to the beginning again", async () => {
       const numbers = (await recorded(view)).map(({ number }) => number);
       const last = numbers.lastIndexOf(17);
@@ -106,12 +197,13 @@ test("a sequence is displayed frame by frame", async () => {
     await setAttribute(view, "timesensor", "enabled", "false");
     await setAttribute(view, "timesensor", "set_fraction", "0.5");
     await displays(view, 12);
-    await show(view, 12, "sequence: scrubbed by its clock");
+    await show(view, "sequence: scrubbed by its clock", patchOfFrame(12));
     await setAttribute(view, "coordinateinterpolator", "set_fraction", "1");
     await displays(view, 24);
-    await show(view, 24, "sequence: the last frame");
+    await show(view, "sequence: the last frame", patchOfFrame(24));
     assert.equal((await gpuCalls(view)).objects, picked.objects, "playing allocates memory on the GPU");
     assert.equal((await view.events("load", "shape")).length, 1);
+    await assertIsUsedAndColoured(view, seek);
   });
 });
 
@@ -232,11 +324,9 @@ soakTest("frames of a file that cannot be read are left out, and the others are 
     before: recordStream,
     expectedErrors: /igf/,
     server: (server: TestServer): void => {
-      const index = readdirSync(join(site(), "geometry")).find((name) => name.endsWith(".json"))!;
-      const { files } = JSON.parse(readFileSync(join(site(), "geometry", index), "utf8")) as {
-        files: { url: string }[];
-      };
-      server.when((path) => path.endsWith(files[1]!.url), { replace: (bytes) => bytes.subarray(0, bytes.length - 1) });
+      server.when((path) => path.endsWith(fileOfFrames(1)), {
+        replace: (bytes) => bytes.subarray(0, bytes.length - 1),
+      });
     },
   };
   await withPage(siteWith("damaged", 'sequence-time="0"'), options, async (view) => {
@@ -248,7 +338,7 @@ soakTest("frames of a file that cannot be read are left out, and the others are 
     await setAttribute(view, "x3d", "sequence-time", "1.5");
     await setAttribute(view, "x3d", "sequence-time", "2.2");
     await displays(view, 22);
-    await show(view, 22, "sequence: behind a file that is damaged");
+    await show(view, "sequence: behind a file that is damaged", patchOfFrame(22));
     assert.deepEqual(
       (await recorded(view)).filter(({ number }) => number >= 10 && number < 20),
       [],
@@ -262,11 +352,11 @@ soakTest("ten thousand frames leave the heap and the memory of the GPU as they w
     await displays(view, 0);
     const play = (count: number): Promise<number> =>
       view.page.evaluate(
-        async ({ total, perSecond }) => {
+        async ({ total, perSecond, frames }) => {
           const x3d = document.querySelector("x3d")!;
           const shown = (window as unknown as { frames: unknown[] }).frames;
           for (let played = 0, number = 0; played < total; ++played) {
-            number = (number + 1) % 25;
+            number = (number + 1) % frames;
             const length = shown.length;
             x3d.setAttribute("sequence-time", String(number / perSecond));
             while (shown.length === length) await new Promise(requestAnimationFrame);
@@ -274,7 +364,7 @@ soakTest("ten thousand frames leave the heap and the memory of the GPU as they w
           }
           return (performance as unknown as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize;
         },
-        { total: count, perSecond: rate },
+        { total: count, perSecond: rate, frames: frameCount },
       );
     await play(200);
     const [objects, heap] = [(await gpuCalls(view)).objects, await play(200)];
