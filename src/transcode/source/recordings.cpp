@@ -1,6 +1,7 @@
 #include "transcode/source/recordings.h"
 
 #include "base/error.h"
+#include "scene/deformation.h"
 #include "scene/pose.h"
 #include "sequence/sequence_index.h"
 

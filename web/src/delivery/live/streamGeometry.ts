@@ -41,7 +41,7 @@ export function withStreamState(
   const grid = hasGrid ? ({ kind, columns, rows } as const) : undefined;
   const coord = stated.coord[0];
   const planes = (count: number) => Array.from({ length: count }, () => coord).filter((plane) => plane !== undefined);
-  // Of a sequence, the values may be those of the document.
+  // The values of a sequence may be those of the document.
   const isValueStatic = state.valueComponents === 0 && stated.value.length > 0;
   const value = isValueStatic ? geometry.value : geometry.value && withRange(geometry.value, state);
   const streamed: Partial<PatchDescription> = {

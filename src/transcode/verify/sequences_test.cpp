@@ -6,7 +6,6 @@
 #include "export/export.h"
 #include "imgeo/imgeo.h"
 #include "import/import.h"
-#include "scene/pose.h"
 #include "scene/testing.h"
 #include "transcode/export/export_site.h"
 #include "transcode/site/sequences.h"
