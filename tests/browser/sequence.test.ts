@@ -12,7 +12,7 @@ import { gpuCalls, recordStream, type FrameDetail } from "./livePage.ts";
 import { referencePicture } from "./reference.ts";
 import type { TestServer } from "./server.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
-import { pageOf, variantOf } from "./sites.ts";
+import { pageOf, siteOfFrames, variantOf } from "./sites.ts";
 import { soakTest } from "./soak.ts";
 
 /** A copy whose <x3d> has these attributes. */
@@ -240,15 +240,15 @@ function storedTriples(directory: string, number: number): string[] {
     origin: number[];
     step: number;
   };
-  const { positions } = frames[number]!;
+  const { positions } = breath[number]!;
   return sortedTriples(
     Array.from(positions, (value, i) => Math.floor((Math.fround(value) - origin[i % 3]!) * (1 / step) + 0.5)),
     3,
   );
 }
 
-const vertexCount = frames[0]!.positions.length / 3;
-const videoSite = (): string => siteOfFrames("breath", frames, "--rate", String(rate), "--as", "video");
+const vertexCount = breath[0]!.positions.length / 3;
+const videoSite = (): string => siteOfFrames("breath", breath, "--rate", String(rate), "--as", "video");
 const videoSiteWith = (name: string, attributes: string): string =>
   variantOf(videoSite(), name, (page) => page.replace(/<x3d/i, `<x3d ${attributes}`));
 
@@ -271,7 +271,7 @@ test("a lossless video is displayed frame by frame, each bit of it", async () =>
   await withPage(site, { before: { content: prepareVideo } }, async (view) => {
     await view.promise("complete");
     for (const number of [0, 1, 2, 9, 10, 11, 24, 0, 17, 3]) await seekExactly(view, number);
-    await show(view, 3, "video: a frame that was sought");
+    await show(view, "video: a frame that was sought", patchOfFrame(3));
     assert.deepEqual(await notesOf(view), []);
     assert.deepEqual(
       view.requestedPaths.filter((path) => /igf|webm/.test(path)).map((path) => path.replace(/.*\./, "")),

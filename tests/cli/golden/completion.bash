@@ -17,7 +17,7 @@ _imgeo() {
     "convert --view") COMPREPLY=($(compgen -W "auto front left back right top bottom" -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
     "convert --profile") COMPREPLY=($(compgen -W "auto compact classic" -- "$word")); return ;;
-    "convert --as") COMPREPLY=($(compgen -W "mesh geometry-image height-map video" -- "$word")); return ;;
+    "convert --as") COMPREPLY=($(compgen -W "mesh geometry-image height-map sequence video" -- "$word")); return ;;
     "convert --grid") COMPREPLY=(); return ;;
     "convert --target") COMPREPLY=($(compgen -W "web x3dom" -- "$word")); return ;;
     "convert --x3dom-url") COMPREPLY=(); return ;;

@@ -35,7 +35,7 @@ _imgeo() {
       '--view[the side that is shown first; auto\: the source'\''s viewpoint, otherwise the three-quarter view that shows the most of the surface]:view:(auto front left back right top bottom)' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \
       '--profile[of sig. compact\: a coarse shape first, then patches, decoded by workers; classic\: three times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; auto\: compact, but classic with --primitives strips, --index off, --normals palette or spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep]:profile:(auto compact classic)' \
-      '--as[geometry-image\: sample surfaces anew on regular grids, one for each chart, without an index; height-map\: a regular grid of heights as images of them; both in profile classic; video\: frames of a sequence as a lossless video, too]:as:(mesh geometry-image height-map video)' \
+      '--as[geometry-image\: sample surfaces anew on regular grids, one for each chart, without an index; height-map\: a regular grid of heights as images of them; both in profile classic; sequence\: animated joints and morph targets as recorded frames, --rate a second; video\: frames of a sequence as a lossless video, too]:as:(mesh geometry-image height-map sequence video)' \
       '--grid[geometry images\: N * N texels for a mesh, 4..4096, otherwise 256]:grid: ' \
       '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
       '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
