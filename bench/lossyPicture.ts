@@ -1,7 +1,9 @@
 // Draws the picture of docs/decisions/lossless.md: the meshes that `build/bench/lossy MODEL --write DIRECTORY` wrote,
-// from one viewpoint.
+// from one viewpoint; and that of docs/sequences.md: the meshes of `build/bench/lossy_video --write DIRECTORY`, which
+// has panels.json.
 //
 //   scripts/node bench/lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]
+//   scripts/node bench/lossyPicture.ts DIRECTORY panels OUTPUT.png
 
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -17,7 +19,8 @@ if (directory === undefined || model === undefined)
   throw new Error("usage: lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]");
 
 const panel = { width: 300, height: 280 };
-const variants: readonly { file: string; bits?: number; caption: string }[] = [
+type Variant = { readonly file: string; readonly bits?: number; readonly caption: string };
+const ofModel: readonly Variant[] = [
   { file: "lossless", caption: "PNG, 16 bits" },
   { file: "JPEG80", caption: "JPEG 80, second byte only" },
   { file: "JPEG100-both", caption: "JPEG 100, both bytes" },
@@ -25,8 +28,14 @@ const variants: readonly { file: string; bits?: number; caption: string }[] = [
   { file: "WebP80", caption: "WebP 80, second byte only" },
   { file: "WebP100-both", caption: "WebP 100, both bytes" },
 ];
+const variants =
+  model === "panels"
+    ? (JSON.parse(readFileSync(join(directory, "panels.json"), "utf8")) as readonly Variant[])
+    : ofModel.map((variant) => ({ ...variant, file: `${model}-${variant.file}` }));
 
-const viewpointElement = /<Viewpoint[\s\S]*?<\/Viewpoint>/;
+const viewpointElement = /<Viewpoint[\s\S]*?<\/Viewpoint>/i;
+
+const viewpoints = new RegExp(viewpointElement, "gi");
 
 /** A picture of the site's page with its Viewpoint element replaced. */
 async function picture(browser: Browser, site: string, viewpoint: string): Promise<Buffer> {
@@ -34,9 +43,10 @@ async function picture(browser: Browser, site: string, viewpoint: string): Promi
   const page = await browser.newPage({ viewport: panel, reducedMotion: "reduce" });
   try {
     const html = readFileSync(join(site, "index.html"), "utf8");
+    const views = [viewpoint];
     server.put(
       "/index.html",
-      html.replace(viewpointElement, () => viewpoint),
+      html.replaceAll(viewpoints, () => views.pop() ?? ""), // several have a menu
     );
     await page.goto(`${server.origin}index.html`);
     await page.waitForFunction(() => "complete" in (document.querySelector("x3d") ?? {}));
@@ -74,13 +84,14 @@ try {
       converter,
       [
         "convert",
-        join(directory, `${model}-${file}.ply`),
+        join(directory, `${file}.ply`),
         "-o",
         site,
         "--profile",
         "classic",
         "--effort",
         "0",
+        ...(model === "panels" ? ["--up", "y"] : []),
         ...(bits === undefined ? [] : ["--position-bits", `${bits}`]),
       ],
       { stdio: "ignore" },

@@ -1,14 +1,13 @@
 // Bytes and times of the frames of a recorded sequence beside other codings of the same integers: frames that all stand
-// alone, images (PNG, lossless WebP) and lossless video (VP9, AV1), for three motions on grids of three sizes. Prints a
-// Markdown table. Usage: build/bench/sequence (no model is read).
+// alone, images (PNG, MPNG, lossless WebP) and lossless video (VP9, H.264, AV1), for three motions on grids of three
+// sizes. Prints a Markdown table. Usage: build/bench/sequence (no model is read).
 
 #include "base/file.h"
 #include "bench/live_rivals.h"
+#include "bench/recorded_motion.h"
 #include "containers/webp/webp.h"
 #include "images/encode_image.h"
 #include "live/frame_image.h"
-#include "live/quantise.h"
-#include "motions/motion.h"
 #include "sequence/sequence_file.h"
 
 #include <cstdio>
@@ -17,37 +16,11 @@ namespace {
 
 using namespace imgeo;
 
-constexpr std::uint32_t perFile = 30;
-constexpr double interval = 1.0 / perFile;
-
 struct Row {
   std::string coding;
   double bytes = 0, decodeMs = 0, seekMs = 0; ///< of a frame; seeks: the mean over all frames of a file
   bool isExact = false;
 };
-
-live::Description describe(const Motion& motion) {
-  live::Description description;
-  description.layout.vertices = static_cast<std::uint32_t>(motion.positions().size());
-  description.layout.columns = motion.columns();
-  description.box = motion.box();
-  description.rate = perFile;
-  return description;
-}
-
-std::vector<live::Frame> framesOf(Motion& motion, const live::Description& description) {
-  for (std::uint32_t warmUp = 0; warmUp < perFile; ++warmUp)
-    motion.advance(interval);
-  std::vector<live::Frame> frames(perFile);
-  for (std::uint32_t i = 0; i < perFile; ++i) {
-    motion.advance(interval);
-    live::quantise({{&motion.positions().front().x, 3 * motion.positions().size()}, {}, {}, {}}, description,
-                   frames[i]);
-    frames[i].number = i;
-    frames[i].time = i * interval;
-  }
-  return frames;
-}
 
 Row sequenceRow(const std::vector<live::Frame>& frames, const live::Description& description) {
   const Bytes bytes = encodeSequenceFile(frames, 5);
@@ -87,6 +60,14 @@ bool hasColors(const Image& image, const Image& expected) {
     if (image.pixels[i / 3 * image.channels + i % 3] != expected.pixels[i])
       return false;
   return true;
+}
+
+/// An image as a server of images sends it (the paper's MPNG): the fastest PNG, with the head of its part.
+Bytes partOf(const Bytes& png) {
+  const std::string head = fmt::format("--frame\r\nContent-Type: image/png\r\nContent-Length: {}\r\n\r\n", png.size());
+  Bytes part(head.begin(), head.end());
+  part.insert(part.end(), png.begin(), png.end());
+  return part;
 }
 
 struct Codec {
@@ -151,6 +132,14 @@ void measure(const std::string& name, Motion& motion, const std::filesystem::pat
         sequence.bytes);
   print(name,
         aloneRow(
+            "MPNG", frames, [&](const live::Frame& frame) { return partOf(encodePng(imageAt(frame), 0)); },
+            [&](const Bytes& bytes, const live::Frame& frame) {
+              const std::size_t head = asText(bytes).find("\x89PNG");
+              return decodePng(ByteSpan(bytes).subspan(head), "").pixels == imageAt(frame).pixels;
+            }),
+        sequence.bytes);
+  print(name,
+        aloneRow(
             "WebP", frames, [&](const live::Frame& frame) { return encodeLosslessWebp(rasterOf(imageAt(frame))); },
             [&](const Bytes& bytes, const live::Frame& frame) {
               return hasColors(decodeWebp(bytes, ""), imageAt(frame));
@@ -158,6 +147,7 @@ void measure(const std::string& name, Motion& motion, const std::filesystem::pat
         sequence.bytes);
   for (const Codec& codec :
        {Codec{"VP9", "webm", {"-c:v", "libvpx-vp9", "-lossless", "1", "-deadline", "good", "-cpu-used", "4"}},
+        Codec{"H.264", "mkv", {"-c:v", "libx264rgb", "-qp", "0", "-preset", "medium", "-pix_fmt", "rgb24"}},
         Codec{"AV1", "mkv", {"-c:v", "libaom-av1", "-usage", "good", "-cpu-used", "6", "-aom-params", "lossless=1"}}})
     if (const std::optional<Row> row = videoRow(codec, images, folder))
       print(name, *row, sequence.bytes);
