@@ -85,7 +85,8 @@ test("a page of X3DOM's nodes has the picture of what convert makes of it, and b
     await view.promise("complete", "x3d", patience);
     original = await view.picture();
     const refusals = await refusalsIn(view);
-    const namesOf = (numbers: Iterable<number>): string[] => Array.from(numbers, (n) => names[n] ?? `shape ${n}`).sort();
+    const namesOf = (numbers: Iterable<number>): string[] =>
+      Array.from(numbers, (n) => names[n] ?? `shape ${n}`).sort();
     // In the page it is a geometry that draws nothing, with a warning.
     leftOut.delete(names.indexOf("no count of images"));
     assert.deepEqual(namesOf(refusals.keys()), namesOf(leftOut.keys()));
