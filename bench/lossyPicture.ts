@@ -19,7 +19,11 @@ if (directory === undefined || model === undefined)
   throw new Error("usage: lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]");
 
 const panel = { width: 300, height: 280 };
-type Variant = { readonly file: string; readonly bits?: number; readonly caption: string };
+interface Variant {
+  readonly file: string;
+  readonly bits?: number;
+  readonly caption: string;
+}
 const ofModel: readonly Variant[] = [
   { file: "lossless", caption: "PNG, 16 bits" },
   { file: "JPEG80", caption: "JPEG 80, second byte only" },
