@@ -5,7 +5,7 @@ import type { FrameLayout } from "../../decode/frame/frameHeader.ts";
 import { imagesOfFrame } from "../../decode/frame/frameImages.ts";
 import { frameOfVideo, videoSizeOf } from "../../decode/video/videoFrame.ts";
 import { decoderConfigOf, VideoRuns } from "./videoRuns.ts";
-import { testPackets, testRow } from "./testVideo.ts";
+import { testPackets, testRow } from "./knownVideo.ts";
 
 /** A grid of 16 x 5 vertices; the high bytes of their coordinates in one image, the low ones below. */
 export const testLayout: FrameLayout = {
