@@ -319,6 +319,22 @@ test("where a video cannot be decoded exactly, or is not lossless, its frames ar
   });
 });
 
+soakTest("a video that is cut is reported once, and its frames are displayed", async () => {
+  const options = {
+    before: { content: prepareVideo },
+    expectedErrors: /webm/,
+    server: (server: TestServer): void => {
+      server.when(/webm$/, { replace: (bytes) => bytes.subarray(0, bytes.length - 1) });
+    },
+  };
+  await withPage(videoSiteWith("cut", 'sequence-time="0"'), options, async (view) => {
+    await view.promise("complete");
+    for (const number of [0, 12, 24]) await seekExactly(view, number);
+    assert.equal(await view.page.evaluate(() => (window as unknown as { outages: unknown[] }).outages.length), 1);
+    assert.deepEqual(await notesOf(view), []);
+  });
+});
+
 soakTest("frames of a file that cannot be read are left out, and the others are displayed", async () => {
   const options = {
     before: recordStream,
