@@ -182,8 +182,18 @@ function recordAges(): void {
   );
 }
 
-async function openPage(browser: Browser, port: number): Promise<Page> {
-  const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
+/** Pictures of the small one take no time even without a GPU: ages in it are those of a page with a fast one. */
+const viewports = [
+  { width: 640, height: 480 },
+  { width: 64, height: 48 },
+] as const;
+
+async function openPage(
+  browser: Browser,
+  port: number,
+  viewport: (typeof viewports)[number] = viewports[0],
+): Promise<Page> {
+  const page = await browser.newPage({ viewport });
   await page.addInitScript(recordAges);
   await page.goto(`http://127.0.0.1:${port}/`);
   return page;
@@ -211,24 +221,41 @@ async function measureReceipt(grid: number, isSlow: boolean, url: string): Promi
   printRow(gridName(grid), lineName(isSlow), "received", rateReached, viewer.skipped, quantiles(ages, 0.5, 0.95, 1));
 }
 
-/** Prints a row for a fast line and one for a slow line. */
+async function measurePage(
+  browser: Browser,
+  grid: number,
+  isSlow: boolean,
+  port: number,
+  viewport: (typeof viewports)[number],
+): Promise<void> {
+  const page = await openPage(browser, port, viewport);
+  await page.waitForFunction(() => (window as unknown as { ages: number[] }).ages.length > 10, undefined, {
+    timeout: 120_000,
+  });
+  const before = (await agesOf(page)).length;
+  await pause(10_000);
+  const ages = (await agesOf(page)).slice(before).sort((a, b) => a - b);
+  const skipped = await page.evaluate(() => (window as unknown as { skippedCount: () => number }).skippedCount());
+  const where = `page of ${viewport.width} × ${viewport.height}`;
+  printRow(
+    gridName(grid),
+    lineName(isSlow),
+    where,
+    (ages.length / 10).toFixed(1),
+    skipped,
+    quantiles(ages, 0.5, 0.95, 1),
+  );
+  await page.close();
+}
+
+/** Prints rows for a fast line and for a slow line. */
 async function measureAges(browser: Browser, grid: number): Promise<void> {
   for (const isSlow of [false, true]) {
     const stream = await startStream(["cloth", "--grid", `${grid}`, "--rate", `${rate}`], [tool]);
     const line = isSlow ? await startLine(stream.port, slowLine) : undefined;
     const port = line?.port ?? stream.port;
     await measureReceipt(grid, isSlow, `http://127.0.0.1:${port}/live/cloth`);
-    const page = await openPage(browser, port);
-    await page.waitForFunction(() => (window as unknown as { ages: number[] }).ages.length > 10, undefined, {
-      timeout: 120_000,
-    });
-    const before = (await agesOf(page)).length;
-    await pause(10_000);
-    const ages = (await agesOf(page)).slice(before).sort((a, b) => a - b);
-    const skipped = await page.evaluate(() => (window as unknown as { skippedCount: () => number }).skippedCount());
-    const rateReached = (ages.length / 10).toFixed(1);
-    printRow(gridName(grid), lineName(isSlow), "page", rateReached, skipped, quantiles(ages, 0.5, 0.95, 1));
-    await page.close();
+    for (const viewport of viewports) await measurePage(browser, grid, isSlow, port, viewport);
     line?.close();
     await stream.stop();
   }
