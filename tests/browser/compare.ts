@@ -52,8 +52,9 @@ export const boundsOfQuantised: Bounds = { mean: 0.01 };
 /** Bounds for a comparison with plain buffers that hold the float input. */
 export const boundsOfInput: Bounds = { mean: 0.05, offShare: 0.0001 };
 
-/** The same for compact, whose normals of 8 bits differ by up to a degree (classic: 0.4). */
-export const boundsOfCompact: Bounds = { mean: 0.12, offShare: 0.0001 };
+/** The same for compact, whose normals of 8 bits differ by up to a degree (classic: 0.4), also on average by more:
+ * docs/decisions/source-precision.md. */
+export const boundsOfCompact: Bounds = { mean: 0.16, offShare: 0.0001 };
 
 export function isWithin(difference: Difference, bounds: Bounds): boolean {
   return difference.mean <= bounds.mean && difference.offShare <= (bounds.offShare ?? 1);
