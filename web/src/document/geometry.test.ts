@@ -142,7 +142,10 @@ describe("a geometry", () => {
       ],
       ["<ImageGeometry><GeometryPatch/></ImageGeometry>", /^there are no coordinates$/],
       ['<ImageGeometry profile="compact"/>', /^a patch of compact has no data$/],
-      ["<ImageGeometry><MovieTexture containerField='coord' url='m.webm'/></ImageGeometry>", /^a movie with coordinates names/],
+      [
+        "<ImageGeometry><MovieTexture containerField='coord' url='m.webm'/></ImageGeometry>",
+        /^a movie with coordinates names/,
+      ],
       ['<ImageGeometry USE="none"/>', /^USE="none" names no DEF of this scene$/],
       ['<Box USE="none"/>', /^USE="none" names no DEF of this scene$/],
       ['<ImageGeometry coord="c" size="0 0 0"/>', /^size is the extent of no box$/],
