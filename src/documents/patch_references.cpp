@@ -97,15 +97,27 @@ bool holdsImage(const char* name) {
                              [&](const char* known) { return equalIgnoringCase(name, known); });
 }
 
-/// The element that a USE names; the element itself without one.
-pugi::xml_node usedNode(const DocumentText& source, const FieldReader& fields) {
+/// The element that a USE names, null if there is none; the element itself without a USE.
+pugi::xml_node findUsedNode(const DocumentText& source, const FieldReader& fields) {
   const std::string name = fields.text("USE");
   if (name.empty())
     return fields.node();
   const auto found = source.defs.find(name);
-  if (found == source.defs.end())
-    fields.fail(ErrorKind::malformed, fmt::format("USE=\"{}\" names no DEF of this scene", name));
-  return found->second;
+  return found == source.defs.end() ? pugi::xml_node() : found->second;
+}
+
+/// The same; fails if there is none.
+pugi::xml_node usedNode(const DocumentText& source, const FieldReader& fields) {
+  const pugi::xml_node used = findUsedNode(source, fields);
+  if (!used)
+    fields.fail(ErrorKind::malformed, fmt::format("USE=\"{}\" names no DEF of this scene", fields.text("USE")));
+  return used;
+}
+
+/// Whether a child with an image is a movie that holds coordinates.
+bool isReadAsMovie(const DocumentText& source, const pugi::xml_node& child) {
+  const pugi::xml_node used = findUsedNode(source, FieldReader(source, child));
+  return used && readMovie(FieldReader(source, used));
 }
 
 /// Whether a URL, which may have a query with a token, names a live stream (docs/live.md).
@@ -235,7 +247,7 @@ void readTextures(const DocumentText& source, const pugi::xml_node& node, Encodi
                   PatchDescription& patch) {
   ImagesByRole images;
   for (const pugi::xml_node& child : node.children())
-    if (holdsImage(child.name()) && !readMovie(FieldReader(source, usedNode(source, FieldReader(source, child)))))
+    if (holdsImage(child.name()) && !isReadAsMovie(source, child))
       readTexture(source, child, encoding, warnings, images);
   const FieldReader fields(source, node, warnings);
   const auto first = [&](Role role, std::size_t limit) {
@@ -279,14 +291,11 @@ std::optional<std::string> reasonImagesAreNotInFiles(const DocumentText& source,
   if (const auto urls = FieldReader(source, patch).strings("coord"); !urls.empty() && isStreamUrl(urls[0]))
     return streamReason;
   for (const pugi::xml_node& child : patch.children()) {
-    if (!holdsImage(child.name()))
-      continue;
-    const pugi::xml_node used = usedNode(source, FieldReader(source, child));
-    if (readMovie(FieldReader(source, used)))
+    if (!holdsImage(child.name()) || isReadAsMovie(source, child))
       continue;
     const std::optional<Role> role = imageRoleOf(source, child);
     if (role == Role::coord || role == Role::index)
-      if (const auto reason = reasonNotInFiles(source, used))
+      if (const auto reason = reasonNotInFiles(source, usedNode(source, FieldReader(source, child))))
         return reason;
   }
   return {};

@@ -432,9 +432,11 @@ test("a live stream is drawn from buffers as from images, and with normals of it
     await setGeometry({ decode: "cpu" });
     await view.promise("complete", "shape");
     await changeSeveral("images in workers", showImages);
-    await view.page.evaluate(() => {
-      document.querySelector("imagegeometry")!.outerHTML = '<BinaryGeometry solid="false"></BinaryGeometry>';
-    });
+    const { url } = binary(0);
+    await view.page.evaluate((url) => {
+      document.querySelector("imagegeometry")!.outerHTML =
+        `<BinaryGeometry solid="false" primType="POINTS" coordType="Float32" coord="${url}"></BinaryGeometry>`;
+    }, url);
     await changeSeveral("typed arrays", showBinary);
   });
 });
