@@ -112,6 +112,7 @@ async function assertIsUsedAndColoured(view: View, seek: (number: number) => Pro
     await setAttribute(view, shape, "colorBy", "heat");
     await setAttribute(view, shape, "colorMap", "0 0 0, 1 1 1");
   }
+  await view.promise("complete");
   const colored = (number: number): PlainPatch => {
     const [min, max] = heatRange;
     const heat = breath[number]!.numbers!.heat!;
