@@ -176,8 +176,7 @@ std::vector<Codec> codecs() {
     all.push_back(
         {fmt::format("H.264, crf {}", quality), "mkv", h264(quality), false, quality == 10 ? "H.264, crf 10" : ""});
   for (const int quality : {1, 4})
-    all.push_back(
-        {fmt::format("MJPEG, q {}", quality), "mkv", mjpeg(quality), false, ""});
+    all.push_back({fmt::format("MJPEG, q {}", quality), "mkv", mjpeg(quality), false, ""});
   for (const int quality : {15, 45})
     all.push_back({fmt::format("high bytes lossless, low bytes VP9, crf {}", quality), "webm", vp9(quality), true,
                    quality == 45 ? "low bytes VP9, crf 45" : ""});

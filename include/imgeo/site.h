@@ -16,9 +16,9 @@ namespace imgeo {
 
 /// A file of a site.
 struct SiteFile {
-  std::string path; ///< relative to the site
-  std::string role; ///< "document" (the page), "runtime", "coord" and other geometry roles, "frames", "video",
-                    ///< "texture", "preview", "picture", "scene", "style", "marker"
+  std::string path;        ///< relative to the site
+  std::string role;        ///< "document" (the page), "runtime", "coord" and other geometry roles, "frames", "video",
+                           ///< "texture", "preview", "picture", "scene", "style", "marker"
   std::uint64_t bytes = 0; ///< size
 };
 

@@ -24,9 +24,9 @@ Bytes exportScene(const Scene& scene, MeshFormat format);
 
 /// PLY, binary little-endian: all shapes as one mesh in world coordinates, because PLY has no objects. Each wedge is a
 /// vertex with x y z, nx ny nz, s t, red green blue (alpha); triangles are `face`, lines `edge` elements; points need
-/// no elements. A comment "up y" states `up`, if any. Further attributes are float properties NAME or, for several components, NAME_0, NAME_1 .... If only
-/// some shapes have an attribute, the others get (0, 0, 0) as normals, (0, 0) as texture coordinates, their diffuse
-/// colour, and zeros.
+/// no elements. A comment "up y" states `up`, if any. Further attributes are float properties NAME or, for several
+/// components, NAME_0, NAME_1 .... If only some shapes have an attribute, the others get (0, 0, 0) as normals, (0, 0)
+/// as texture coordinates, their diffuse colour, and zeros.
 Bytes writePly(const Scene& scene, std::optional<AxisDirection> up = {});
 
 /// Wavefront OBJ: an `o` for each shape, in world coordinates; a position is a `v`, a wedge a `vt` and a `vn`. Colours

@@ -57,7 +57,7 @@ Vp9Encoder::Vp9Encoder(VideoSize size, int speed) : state_(new State{size, {}, {
   vpx_img_wrap(&state->image, VPX_IMG_FMT_I444, size.width, size.height, 1, state->planes.data());
   state->image.cs = VPX_CS_SRGB;
   state->image.range = VPX_CR_FULL_RANGE;
-  state.release();
+  static_cast<void>(state.release()); // state_ owns it
 }
 
 Vp9Encoder::~Vp9Encoder() {
@@ -116,7 +116,7 @@ Vp9Decoder::Vp9Decoder(VideoSize size, std::string location) : state_(new State{
   require(vpx_codec_dec_init(&state->codec, vpx_codec_vp9_dx(), nullptr, 0), "decoder");
   require(vpx_codec_set_frame_buffer_functions(&state->codec, &State::takeBuffer, &State::giveBufferBack, state.get()),
           "memory of the decoder");
-  state.release();
+  static_cast<void>(state.release()); // state_ owns it
 }
 
 Vp9Decoder::~Vp9Decoder() {

@@ -49,8 +49,8 @@ struct PlyHeader {
 /// The largest number of elements, and of properties of all elements, that a header may declare.
 inline constexpr std::size_t maxPlyElements = 1000, maxPlyProperties = 10000;
 
-/// Reads the header; skips other comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws Error
-/// (truncated, malformed, unsupported, limit) naming `name` and the line.
+/// Reads the header; skips other comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws
+/// Error (truncated, malformed, unsupported, limit) naming `name` and the line.
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name);
 
 } // namespace imgeo

@@ -125,7 +125,7 @@ ConvertOptions ofSequences(ConvertOptions options) {
 }
 
 /// The options for frames in files of their own.
-ConvertOptions optionsForFiles(const std::vector<fs::path>& frames, ConvertOptions options) {
+ConvertOptions optionsForFiles(const std::vector<fs::path>& frames, const ConvertOptions& options) {
   if (std::ranges::find(frames, fs::path("-")) != frames.end())
     throw Error(ErrorKind::usage, "-", "standard input is one file; a sequence has one for each frame");
   if (options.encoding.value_or(Encoding::classic) != Encoding::classic)

@@ -58,7 +58,7 @@ export function checkQuantization(geometry: GeometryDescription): void {
       : storage === "arrays"
         ? bits <= 8 * bytes
         : Math.ceil(bits / 8) === bytes;
-  if (bits < 8 || !isHeld)
+  if (bits < (storage === "packed" ? 1 : 8) || !isHeld)
     throw new UnreadableGeometry(`positionBits is no precision of coordinates of ${bytes} bytes`);
   const needsBox = encoding !== "live" && !(isFloat && bits === sourceBits);
   if (needsBox && !(Math.min(...size) >= 0 && Math.max(...size) > 0))
