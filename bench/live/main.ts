@@ -182,18 +182,8 @@ function recordAges(): void {
   );
 }
 
-/** Pictures of the small one take no time even without a GPU: ages in it are those of a page with a fast one. */
-const viewports = [
-  { width: 640, height: 480 },
-  { width: 64, height: 48 },
-] as const;
-
-async function openPage(
-  browser: Browser,
-  port: number,
-  viewport: (typeof viewports)[number] = viewports[0],
-): Promise<Page> {
-  const page = await browser.newPage({ viewport });
+async function openPage(browser: Browser, port: number): Promise<Page> {
+  const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
   await page.addInitScript(recordAges);
   await page.goto(`http://127.0.0.1:${port}/`);
   return page;
@@ -221,14 +211,8 @@ async function measureReceipt(grid: number, isSlow: boolean, url: string): Promi
   printRow(gridName(grid), lineName(isSlow), "received", rateReached, viewer.skipped, quantiles(ages, 0.5, 0.95, 1));
 }
 
-async function measurePage(
-  browser: Browser,
-  grid: number,
-  isSlow: boolean,
-  port: number,
-  viewport: (typeof viewports)[number],
-): Promise<void> {
-  const page = await openPage(browser, port, viewport);
+async function measurePage(browser: Browser, grid: number, isSlow: boolean, port: number): Promise<void> {
+  const page = await openPage(browser, port);
   await page.waitForFunction(() => (window as unknown as { ages: number[] }).ages.length > 10, undefined, {
     timeout: 120_000,
   });
@@ -236,11 +220,10 @@ async function measurePage(
   await pause(10_000);
   const ages = (await agesOf(page)).slice(before).sort((a, b) => a - b);
   const skipped = await page.evaluate(() => (window as unknown as { skippedCount: () => number }).skippedCount());
-  const where = `page of ${viewport.width} × ${viewport.height}`;
   printRow(
     gridName(grid),
     lineName(isSlow),
-    where,
+    "page",
     (ages.length / 10).toFixed(1),
     skipped,
     quantiles(ages, 0.5, 0.95, 1),
@@ -255,7 +238,7 @@ async function measureAges(browser: Browser, grid: number): Promise<void> {
     const line = isSlow ? await startLine(stream.port, slowLine) : undefined;
     const port = line?.port ?? stream.port;
     await measureReceipt(grid, isSlow, `http://127.0.0.1:${port}/live/cloth`);
-    for (const viewport of viewports) await measurePage(browser, grid, isSlow, port, viewport);
+    await measurePage(browser, grid, isSlow, port);
     line?.close();
     await stream.stop();
   }

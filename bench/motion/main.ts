@@ -4,7 +4,7 @@
 // frames, and the median and the minimum of their durations, which other processes lengthen. Then plays 10,000 frames
 // of two scenes and of a sequence, a recorded cloth, and prints the memory before and after.
 //
-//   scripts/bench motion
+//   scripts/bench motion            FRAMES=3000: plays fewer frames
 
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -18,7 +18,7 @@ import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
 const rounds = 100;
-const frameCount = 10_000;
+const frameCount = Number(process.env.FRAMES ?? 10_000);
 const timeout = 120_000;
 
 type Kind = "PositionInterpolator" | "OrientationInterpolator";
