@@ -183,7 +183,7 @@ try {
     await page.close();
   }
   convertCloth(directory);
-  const page = await browser.newPage({ viewport: { width: 64, height: 48 } });
+  const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
   await goUntilComplete(page, `${server.origin}cloth/`, timeout);
   memory.push(await memoryRow(page, "a sequence of 4,096 vertices", (played) => playSequence(page, played)));
   console.log(`\n| ${frameCount} frames | heap after 100 | heap after all | GPU after 100 | GPU after all |`);
