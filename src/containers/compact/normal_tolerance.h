@@ -1,6 +1,6 @@
 #pragma once
-// Normals that need no bytes: an encoder may store the prediction of a normal in its place where the prediction differs
-// from the source's normal by no more than rounding does at worst.
+// Normals that need no bytes: an encoder may store a prediction instead of a normal if the angle between the two is at
+// most the largest error of rounding.
 
 #include "containers/compact/code_normals.h"
 

@@ -52,6 +52,14 @@ protected:
     const Vec3d p = position(wedge) - box.center();
     return {p.x / box.size().x, p.y / box.size().y, p.z / box.size().z};
   }
+  /// The positions of all wedges as Float32.
+  Bytes floatCoords() const {
+    Bytes coords;
+    for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+      for (int axis = 0; axis < 3; ++axis)
+        appendLittle(coords, static_cast<float>(position(w)[axis]));
+    return coords;
+  }
   std::int16_t int16(double value) const { return static_cast<std::int16_t>(std::lround(32767 * value)); }
 
   void write(const std::string& name, const Bytes& bytes) { writeFile(directory.path() / name, bytes); }
@@ -304,10 +312,7 @@ TEST_F(AoptSite, IsReadWithImagesAsImageTextures) {
 }
 
 TEST_F(AoptSite, IsReadAndExportedFromDataUrls) {
-  Bytes coords;
-  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
-    for (int axis = 0; axis < 3; ++axis)
-      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  const Bytes coords = floatCoords();
   const auto url = [](const Bytes& bytes) { return dataUrlOf(bytes, "application/octet-stream"); };
   expectEqual(readBack("<BinaryGeometry " + boxFields() + " " + draws() + " index='" + url(index) + "' coord='" +
                        url(coords) + "'></BinaryGeometry>"),
@@ -321,10 +326,8 @@ TEST_F(AoptSite, IsReadAndExportedFromDataUrls) {
 }
 
 TEST_F(AoptSite, IsReadWithTrianglesLinesAndPointsInOneNode) {
-  Bytes coords, mixed = index;
-  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
-    for (int axis = 0; axis < 3; ++axis)
-      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  Bytes mixed = index;
+  const Bytes coords = floatCoords();
   for (const std::uint16_t vertex : std::initializer_list<std::uint16_t>{0, 1, 2, 3, 4, 5, 6, 7})
     appendLittle(mixed, vertex);
   write("i.bin", mixed);
@@ -449,10 +452,7 @@ TEST_F(AoptSite, MayHaveFloatsOutsideOfItsBoxAndFlatShading) {
 }
 
 TEST_F(AoptSite, WithFlatShadingIsComparedValueByValue) {
-  Bytes coords;
-  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
-    for (int axis = 0; axis < 3; ++axis)
-      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  const Bytes coords = floatCoords();
   write("i.bin", index);
   write("c.bin", coords);
   readPage("<BinaryGeometry " + draws() + " index='i.bin' coord='c.bin' normalPerVertex='false'></BinaryGeometry>");
@@ -510,10 +510,7 @@ TEST_F(AoptSite, ThatIsNotLitIsExportedAndConvertedAgainAsUnlit) {
 }
 
 TEST_F(AoptSite, CanBeInspectedAndExported) {
-  Bytes coords;
-  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
-    for (int axis = 0; axis < 3; ++axis)
-      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  const Bytes coords = floatCoords();
   write("i.bin", index);
   write("c.bin", coords);
   readBack("<BinaryGeometry " + boxFields() + " " + draws() +
