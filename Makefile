@@ -17,7 +17,7 @@ IN ?= c++
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall terrain live waves motion operators test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall terrain live waves motion sequence operators test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -54,6 +54,9 @@ waves: build ## publish a live stream from an example program [IN=python, c or c
 
 motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF, a recorded cloth [PORT=8080]
 	@scripts/demo --motion
+
+sequence: build ## serve a page written by hand around a recorded cloth, with a slider for its time [PORT=8080]
+	@scripts/demo --sequence
 
 operators: build ## serve image operators on geometry, with a slider for each (paper, section 7.4) [MODEL=statue.ply PORT=8080]
 	@scripts/demo --operators
