@@ -174,6 +174,10 @@ async function assertPlays(view: View): Promise<void> {
   await page.evaluate(() => {
     document.querySelector("x3d")!.removeAttribute("paused");
   });
+  await page.waitForTimeout(200);
+  const stood = await framesOf(view);
+  await page.waitForTimeout(300);
+  assert.equal(await framesOf(view), stood, "what has started by itself runs although the user prefers reduced motion");
 }
 
 /** In a hidden tab nothing is drawn, and what moved goes on from where it was. */

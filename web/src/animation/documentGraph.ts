@@ -26,6 +26,8 @@ export interface FieldChange {
   value: Value;
   /** Whether the value has not been handed on since it arrived. */
   isPending: boolean;
+  /** Whether the attribute has another value, and is written later. */
+  isLate: boolean;
 }
 
 export type DrawnFieldOf = (
@@ -41,6 +43,13 @@ export interface DocumentGraphOptions {
   readonly warn: (message: string) => void;
 }
 
+/** A behaviour that depends on time. */
+export type TimedBehaviour = Behaviour & Required<Pick<Behaviour, "tick" | "nextTick">>;
+
+function isTimed(behaviour: Behaviour): behaviour is TimedBehaviour {
+  return behaviour.tick !== undefined && behaviour.nextTick !== undefined;
+}
+
 const drawn: Behaviour = { receive: () => undefined };
 
 export class DocumentGraph {
@@ -51,7 +60,7 @@ export class DocumentGraph {
   #nodes: ReadonlyMap<AnimatedElement, EventNode> = new Map();
   /** Nodes without behaviour at which routes end or begin. */
   readonly #drawnNodes = new Map<AnimatedElement, EventNode>();
-  #elements: ReadonlyMap<EventNode, AnimatedElement> = new Map();
+  #timed: readonly TimedBehaviour[] = [];
 
   constructor(documents: AnimatedDocuments, graph: EventGraph, options: DocumentGraphOptions) {
     this.#documents = documents;
@@ -74,9 +83,9 @@ export class DocumentGraph {
     return this.#nodes.get(element) ?? this.#drawnNodes.get(element);
   }
 
-  /** The element of a node with behaviour. */
-  elementOf(node: EventNode): AnimatedElement | undefined {
-    return this.#elements.get(node);
+  /** The behaviours that depend on time, in document order. */
+  get timed(): readonly TimedBehaviour[] {
+    return this.#timed;
   }
 
   /** Reads nodes and routes again. */
@@ -90,7 +99,9 @@ export class DocumentGraph {
     for (const node of [...nodes.values(), ...this.#drawnNodes.values()]) node.clearRoutes();
     this.#drawnNodes.clear();
     this.#nodes = nodes;
-    this.#elements = new Map(Array.from(nodes, ([element, node]) => [node, element]));
+    for (const node of before.values()) node.element = undefined;
+    for (const [element, node] of nodes) node.element = element;
+    this.#timed = Array.from(nodes.values(), ({ behaviour }) => behaviour).filter(isTimed);
     for (const { label, route, ends } of names.routes()) this.#addRoute(label, route, ends);
   }
 
@@ -185,7 +196,16 @@ export class DocumentGraph {
       }
       const attribute = attributeNameIn(element, field) ?? field;
       const isOfPose = read?.isOfPose === true;
-      const change: FieldChange = { element, field, attribute, type, isOfPose, value: "", isPending: false };
+      const change: FieldChange = {
+        element,
+        field,
+        attribute,
+        type,
+        isOfPose,
+        value: "",
+        isPending: false,
+        isLate: false,
+      };
       node.addField(candidate, { type, access: "inputOutput", defaultValue: undefined }, (value) => {
         change.value = value;
         if (change.isPending) return;

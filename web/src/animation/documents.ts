@@ -12,11 +12,6 @@ export interface AnimatedDocuments {
   documentOf(inline: AnimatedElement): AnimatedElement | undefined;
 }
 
-/** A document that inlines none. */
-export function singleDocument(root: AnimatedElement): AnimatedDocuments {
-  return { roots: [root], documentOf: () => undefined };
-}
-
 /** What a name stands for, or what is wrong with it; undefined for a node of a document that has not loaded yet. */
 export type NamedNode =
   | { readonly element: AnimatedElement; readonly fault?: undefined }

@@ -2,22 +2,19 @@
 // routes, all with the time of the first.
 
 import type { Value } from "./fieldTypes.ts";
-import type { Destination, EventNode, EventSink } from "./eventNode.ts";
+import type { EventNode, EventSink, Field } from "./eventNode.ts";
 
 export interface EventGraphListener {
   /** A node has sent an event. Values of lists are not copied. */
-  onEvent(node: EventNode, field: string, value: Value): void;
+  onEvent(field: Field, value: Value): void;
   onWarning(node: EventNode, message: string): void;
-}
-
-interface Delivery {
-  readonly destination: Destination;
-  readonly value: Value;
 }
 
 export class EventGraph implements EventSink {
   readonly #listener: EventGraphListener;
-  readonly #queue: Delivery[] = [];
+  /** The inputs at which events of the present cascade arrive, and their values: two lists, without objects. */
+  readonly #inputs: Field[] = [];
+  readonly #values: Value[] = [];
   #cascade = 0;
   #isRunning = false;
 
@@ -40,16 +37,24 @@ export class EventGraph implements EventSink {
     try {
       begin();
       // Events that a node sends are appended while the loop runs.
-      for (const { destination, value } of this.#queue) destination.node.receive(destination.field, value, time);
+      let at = 0;
+      for (const input of this.#inputs) {
+        const value = this.#values[at++];
+        if (value !== undefined) input.node.receiveAt(input, value, time);
+      }
     } finally {
-      this.#queue.length = 0;
+      this.#inputs.length = 0;
+      this.#values.length = 0;
       this.#isRunning = false;
     }
   }
 
-  sent(node: EventNode, field: string, value: Value, routes: readonly Destination[]): void {
-    for (const destination of routes) this.#queue.push({ destination, value });
-    this.#listener.onEvent(node, field, value);
+  sent(field: Field, value: Value): void {
+    for (const input of field.routes) {
+      this.#inputs.push(input);
+      this.#values.push(value);
+    }
+    this.#listener.onEvent(field, value);
   }
 
   warn(node: EventNode, message: string): void {

@@ -1,5 +1,6 @@
 // A node that receives and sends events: its fields with their values, and the routes that begin at them.
 
+import type { AnimatedElement } from "./elements.ts";
 import type { FieldType, Value } from "./fieldTypes.ts";
 
 /** X3D's access types (ISO/IEC 19775-1, 4.4.2.2). An attribute sets the first value of fields that are not outputs. */
@@ -14,17 +15,14 @@ export interface FieldSpecification {
 
 export type FieldSpecifications = ReadonlyMap<string, FieldSpecification>;
 
-/** Where a route ends. */
-export interface Destination {
-  readonly node: EventNode;
-  readonly field: string;
-}
-
 /** A field of a node, and what has happened to it. */
-interface Field {
+export interface Field {
+  readonly node: EventNode;
+  readonly name: string;
   readonly specification: FieldSpecification;
   value: Value | undefined;
-  readonly routes: Destination[];
+  /** Where the routes end that begin at it. */
+  readonly routes: Field[];
   /** The last cascade in which it has sent an event. */
   cascade: number;
   /** Called with the value of each event that arrives. */
@@ -48,8 +46,8 @@ export interface Behaviour {
 export interface EventSink {
   /** The number of the present cascade. */
   readonly cascade: number;
-  /** A node has sent an event. */
-  sent(node: EventNode, field: string, value: Value, routes: readonly Destination[]): void;
+  /** A node has sent an event, which goes along the field's routes. */
+  sent(field: Field, value: Value): void;
   /** One sentence without subject: what is wrong with the node. */
   warn(node: EventNode, message: string): void;
 }
@@ -57,6 +55,8 @@ export interface EventSink {
 export class EventNode {
   /** The node's name in messages, such as `PositionInterpolator DEF="move"`. */
   readonly name: string;
+  /** That of a node with behaviour, while it is in the document. */
+  element: AnimatedElement | undefined;
   readonly #fields = new Map<string, Field>();
   readonly #sink: EventSink;
   readonly behaviour: Behaviour;
@@ -75,7 +75,8 @@ export class EventNode {
 
   /** `onValue` is called with the value of each event that arrives at the field. */
   addField(field: string, specification: FieldSpecification, onValue?: (value: Value) => void): void {
-    this.#fields.set(field, { specification, value: specification.defaultValue, routes: [], cascade: -1, onValue });
+    const value = specification.defaultValue;
+    this.#fields.set(field, { node: this, name: field, specification, value, routes: [], cascade: -1, onValue });
   }
 
   specificationOf(field: string): FieldSpecification | undefined {
@@ -109,8 +110,9 @@ export class EventNode {
     if (known) known.value = value;
   }
 
-  addRoute(field: string, destination: Destination): void {
-    this.#fields.get(field)?.routes.push(destination);
+  addRoute(field: string, { node, field: input }: { readonly node: EventNode; readonly field: string }): void {
+    const destination = node.#fields.get(input);
+    if (destination) this.#fields.get(field)?.routes.push(destination);
   }
 
   /** Removes all routes that begin at the node. */
@@ -121,11 +123,15 @@ export class EventNode {
   /** An event arrives at an input. */
   receive(field: string, value: Value, time: number): void {
     const known = this.#fields.get(field);
-    if (known === undefined) return;
-    if (known.specification.access === "inputOutput") this.send(field, value);
-    else known.value = value;
-    known.onValue?.(value);
-    this.behaviour.receive(field, value, time);
+    if (known) this.receiveAt(known, value, time);
+  }
+
+  /** An event arrives at one of the node's own fields. */
+  receiveAt(field: Field, value: Value, time: number): void {
+    if (field.specification.access === "inputOutput") this.#sendFrom(field, value);
+    else field.value = value;
+    field.onValue?.(value);
+    this.behaviour.receive(field.name, value, time);
   }
 
   /**
@@ -134,10 +140,15 @@ export class EventNode {
    */
   send(field: string, value: Value): void {
     const known = this.#fields.get(field);
-    if (known === undefined || known.cascade === this.#sink.cascade) return;
-    known.cascade = this.#sink.cascade;
-    known.value = value;
-    this.#sink.sent(this, field, value, known.routes);
+    if (known) this.#sendFrom(known, value);
+  }
+
+  #sendFrom(field: Field, value: Value): void {
+    const { cascade } = this.#sink;
+    if (field.cascade === cascade) return;
+    field.cascade = cascade;
+    field.value = value;
+    this.#sink.sent(field, value);
   }
 
   warn(message: string): void {

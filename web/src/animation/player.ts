@@ -6,7 +6,7 @@ import type { DrawnFieldOf, FieldChange } from "./documentGraph.ts";
 import { DocumentGraph, fieldNamed } from "./documentGraph.ts";
 import type { AnimatedElement } from "./elements.ts";
 import { EventGraph } from "./eventGraph.ts";
-import type { EventNode } from "./eventNode.ts";
+import type { EventNode, Field } from "./eventNode.ts";
 import type { FieldType, Value } from "./fieldTypes.ts";
 import { isOfType } from "./fieldTypes.ts";
 import { TimeSensor } from "./timeSensor.ts";
@@ -55,8 +55,8 @@ export class AnimationPlayer {
     this.#host = host;
     this.#mayStartByItself = mayStartByItself;
     this.#graph = new EventGraph({
-      onEvent: (node, field, value) => {
-        this.#onEvent(node, field, value);
+      onEvent: (field, value) => {
+        this.#onEvent(field, value);
       },
       onWarning: (node, message) => {
         host.warn(`${node.name} ${message}`);
@@ -165,7 +165,7 @@ export class AnimationPlayer {
   /** Hands on what has changed, and plans the next frame. */
   flush(): void {
     for (const [node, fields] of this.#outdated) {
-      const element = this.#document.elementOf(node);
+      const { element } = node;
       for (const field of fields) {
         const value = node.valueOf(field);
         const type = node.specificationOf(field)?.type;
@@ -186,20 +186,20 @@ export class AnimationPlayer {
     this.#cancelTick?.();
   }
 
-  #onEvent(node: EventNode, field: string, value: Value): void {
-    const element = this.#document.elementOf(node);
+  #onEvent({ node, name, specification: { type, access } }: Field, value: Value): void {
+    const { element } = node;
     if (element === undefined) return;
-    const specification = node.specificationOf(field);
-    if (specification) this.#host.onEvent(element, field, specification.type, value);
-    if (specification?.access !== "inputOutput") return;
+    this.#host.onEvent(element, name, type, value);
+    if (access !== "inputOutput") return;
     const fields = this.#outdated.get(node);
-    if (fields) fields.add(field);
-    else this.#outdated.set(node, new Set([field]));
+    if (fields) fields.add(name);
+    else this.#outdated.set(node, new Set([name]));
   }
 
   #applyMotionRule(): void {
-    for (const { behaviour } of this.#document.nodes.values())
-      if (behaviour instanceof TimeSensor) behaviour.mayStartByItself = this.#mayStartByItself;
+    const { time } = this;
+    for (const behaviour of this.#document.timed)
+      if (behaviour instanceof TimeSensor) behaviour.setMayStartByItself(this.#mayStartByItself, time);
   }
 
   /** Plans the next tick for the time at which a node needs it. */
@@ -209,8 +209,7 @@ export class AnimationPlayer {
     if (this.#isDisposed || this.#pausedAt !== undefined) return;
     const { time } = this;
     let next = Infinity;
-    for (const { behaviour } of this.#document.nodes.values())
-      next = Math.min(next, behaviour.nextTick?.(time) ?? Infinity);
+    for (const behaviour of this.#document.timed) next = Math.min(next, behaviour.nextTick(time) ?? Infinity);
     if (next < Infinity)
       this.#cancelTick = this.#clock.schedule(
         () => {
@@ -223,11 +222,10 @@ export class AnimationPlayer {
   #tick(): void {
     this.#cancelTick = undefined;
     const { time } = this;
-    for (const { behaviour } of this.#document.nodes.values())
-      if (behaviour.tick)
-        this.#graph.run(time, () => {
-          behaviour.tick?.(time);
-        });
+    for (const behaviour of this.#document.timed)
+      this.#graph.run(time, () => {
+        behaviour.tick(time);
+      });
     this.flush();
   }
 }

@@ -133,6 +133,39 @@ test("with reduced motion only what an event starts moves", () => {
   assert.ok(scene.events.includes("loop.isActive true"));
 });
 
+test("with reduced motion what runs by itself stands, and goes on from there when it may or an event says so", () => {
+  const scene = play(
+    `<TimeSensor DEF="loop" cycleInterval="10" loop="true"/><TimeSensor DEF="once" cycleInterval="10" startTime="${now}"/>
+     <TimeTrigger DEF="touch"/><TimeSensor DEF="touched" cycleInterval="100"/>` +
+      routes("touch.triggerTime touched.startTime"),
+  );
+  const lastOf = (name: string): number =>
+    Number(scene.events.findLast((event) => event.startsWith(`${name}.fraction_changed`))?.split(" ")[1]);
+  const lasts = (): number[] => ["loop", "once", "touched"].map(lastOf);
+  scene.frameAt(0);
+  scene.set("touch", "set_boolean", "true");
+  scene.frameAt(2);
+  assertNear(lasts(), [0.2, 0.2, 0.02]);
+  scene.player.mayStartByItself = false;
+  scene.frameAt(20);
+  assertNear(lasts(), [0.2, 0.2, 0.2]); // a touch has started the third one
+  assert.ok(!scene.events.includes("once.isActive false"), "one that stands does not end");
+  scene.set("loop", "loop", "true");
+  scene.frameAt(21);
+  assertNear(lasts(), [0.3, 0.2, 0.21]);
+  scene.player.mayStartByItself = true;
+  scene.frameAt(22);
+  assertNear(lasts(), [0.4, 0.3, 0.22]);
+});
+
+test("with reduced motion a page without other clocks draws no frame", () => {
+  const scene = play(`<TimeSensor DEF="loop" loop="true"/>`);
+  scene.frameAt(0);
+  scene.player.mayStartByItself = false;
+  assert.equal(scene.delay, undefined);
+  assert.equal(scene.player.isMoving, false);
+});
+
 test("a script scrubs by the sensor's fraction", () => {
   const scene = play(
     `<TimeSensor DEF="t" enabled="false"/><ScalarInterpolator DEF="i" key="0 1" keyValue="0 10"/><Material DEF="m"/>` +

@@ -32,11 +32,11 @@ export class TimeSensor implements Behaviour {
   #interval = 1;
   /** The start time with which it has become active last: it does not start twice with the same one. */
   #startUsed: number | undefined;
-  /**
-   * Whether it may start as the document says. False if the user prefers reduced motion: then an event must start it.
-   */
-  mayStartByItself = true;
+  #mayStartByItself = true;
+  /** Whether an event has started it, or has set `startTime`, `enabled` or `loop` while it was active. */
   #wasStarted = false;
+  /** Since when it stands although it is active, as it may not run by itself; undefined while it runs. */
+  #heldAt: number | undefined;
 
   constructor(node: EventNode, cycle?: Cycle) {
     this.#node = node;
@@ -45,6 +45,25 @@ export class TimeSensor implements Behaviour {
 
   get isActive(): boolean {
     return this.#node.isTrue("isActive");
+  }
+
+  /** The duration of a cycle that begins now, in seconds; infinite: it stands, 0: it does not start. */
+  get interval(): number {
+    return this.#cycleOf.interval();
+  }
+
+  /** The fraction that it sends for a part of a cycle, 0 … 1. */
+  fractionAt(part: number): number {
+    return this.#cycleOf.fraction(part);
+  }
+
+  /**
+   * Whether it may run as the document says. False if the user prefers reduced motion: then it stands, and goes on from
+   * where it was, unless an event has started it.
+   */
+  setMayStartByItself(mayStart: boolean, time: number): void {
+    this.#mayStartByItself = mayStart;
+    this.#followRule(time);
   }
 
   receive(field: string, value: Value, time: number): void {
@@ -62,7 +81,25 @@ export class TimeSensor implements Behaviour {
         break;
       default:
     }
+    this.#followRule(time);
     this.tick(time);
+  }
+
+  get #isHeld(): boolean {
+    return this.#heldAt !== undefined;
+  }
+
+  #followRule(time: number): void {
+    if (this.isActive && !this.#mayStartByItself && !this.#wasStarted) {
+      this.#heldAt ??= time;
+      return;
+    }
+    if (this.#heldAt === undefined) return;
+    const gap = time - this.#heldAt;
+    this.#heldAt = undefined;
+    this.#origin += gap;
+    this.#pausedFor += gap;
+    if (this.#pausedAt !== undefined) this.#pausedAt += gap;
   }
 
   /** Whether the sensor is to run at this time. */
@@ -71,7 +108,7 @@ export class TimeSensor implements Behaviour {
     if (!node.isTrue("enabled") || time >= this.#stopTime) return false;
     if (this.isActive) return node.isTrue("loop") || time < this.#endOfCycle;
     const [start, interval] = [node.numberOf("startTime"), this.#cycleOf.interval()];
-    if (time < start || interval <= 0 || (!this.mayStartByItself && !this.#wasStarted)) return false;
+    if (time < start || interval <= 0 || (!this.#mayStartByItself && !this.#wasStarted)) return false;
     return node.isTrue("loop") || (this.#startUsed !== start && time < start + interval);
   }
 
@@ -84,7 +121,7 @@ export class TimeSensor implements Behaviour {
 
   /** Where the sensor stops if it does not loop. */
   get #endOfCycle(): number {
-    return this.#pausedAt === undefined ? this.#origin + (this.#cycle + 1) * this.#interval : Infinity;
+    return this.#pausedAt === undefined && !this.#isHeld ? this.#origin + (this.#cycle + 1) * this.#interval : Infinity;
   }
 
   tick(time: number): void {
@@ -97,6 +134,7 @@ export class TimeSensor implements Behaviour {
       this.#stop(time);
       return;
     }
+    if (this.#isHeld) return;
     const pause = node.numberOf("pauseTime");
     const resume = node.numberOf("resumeTime");
     const isPaused = pause > 0 && time >= pause && pause > resume;
@@ -116,12 +154,13 @@ export class TimeSensor implements Behaviour {
   nextTick(time: number): number | undefined {
     const node = this.#node;
     if (this.isActive) {
+      if (this.#isHeld) return undefined;
       if (this.#pausedAt === undefined) return time;
       const resume = node.numberOf("resumeTime");
       return resume > time ? resume : undefined;
     }
     const start = node.numberOf("startTime");
-    if (!node.isTrue("enabled") || (!this.mayStartByItself && !this.#wasStarted)) return undefined;
+    if (!node.isTrue("enabled") || (!this.#mayStartByItself && !this.#wasStarted)) return undefined;
     if (start > time) return start;
     return this.#shouldRun(time) ? time : undefined;
   }
@@ -146,13 +185,15 @@ export class TimeSensor implements Behaviour {
     const node = this.#node;
     // The last fraction is the one of the time at which the sensor ends, even if the frame comes later.
     const end = Math.min(this.#stopTime, node.isTrue("loop") ? Infinity : this.#endOfCycle);
-    if (node.isTrue("enabled") && this.#pausedAt === undefined) this.#sendTime(Math.min(time, end), true);
+    if (node.isTrue("enabled") && this.#pausedAt === undefined && !this.#isHeld)
+      this.#sendTime(Math.min(time, end), true);
     if (this.#pausedAt !== undefined) {
       this.#pausedAt = undefined;
       node.send("isPaused", false);
     }
     node.send("isActive", false);
     this.#wasStarted = false;
+    this.#heldAt = undefined;
     this.#startUsed = node.numberOf("startTime"); // X3D ignores start times that arrive while the sensor is active
   }
 

@@ -25,6 +25,7 @@ import { FontLoading } from "../text/fontLoading.ts";
 import { Throttle } from "../viewer/throttle.ts";
 import type { ViewerHost } from "../viewer/viewerCore.ts";
 import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
+import { touchWritten } from "../viewer/writtenElements.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { LoadingEvents } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
@@ -206,6 +207,9 @@ export class PageViewer {
       withoutReports: (write) => {
         this.#writeUnobserved(write);
       },
+      touch: (element) => {
+        this.#core.reader.touch(element);
+      },
       ...sceneSpaceOf(x3d, canvas, this.renderer, this.cameraController, (root) => this.#inlineOf(root)),
       warn: (message) => {
         this.#core.log.warn(message);
@@ -226,22 +230,16 @@ export class PageViewer {
   }
 
   #movePoses(changes: readonly PoseChange[]): void {
-    this.#core.move(changes, () => {
-      const { moved, ...built } = this.renderer.move(changes);
-      this.#hasMoved = true;
-      if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
-      if (this.#displayed) this.cameraController.followMoves(this.#displayed);
-      return moved;
-    });
+    const built = this.renderer.move(changes);
+    this.#hasMoved = true;
+    if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
+    if (this.#displayed) this.cameraController.followMoves(this.#displayed);
+    this.#core.followMoves();
   }
 
   /** Reads attributes that animation has written. */
   #readChanges(changes: readonly DocumentChange[]): void {
-    for (const { element } of changes) {
-      this.#core.reader.touch(element);
-      // The reader knows the ancestors of the page's own elements only.
-      if (!this.#x3d.contains(element)) for (const part of partsAround(element)) this.#core.reader.touch(part);
-    }
+    for (const { element } of changes) touchWritten(this.#core.reader, this.#x3d, element);
     this.#core.read();
     for (const { element, attribute } of changes) this.#followBind(element, attribute);
   }
@@ -378,6 +376,7 @@ export class PageViewer {
       },
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
+      takeMoved: () => this.renderer.takeMoved(),
       display: (scene) => this.#display(scene),
       onShapes: (changes) => {
         this.#onShapes(changes);
@@ -548,17 +547,6 @@ export class PageViewer {
   #warn(message: string): void {
     this.#core.log.warn(`<${this.#x3d.localName}> ${message}`);
   }
-}
-
-/** The elements around a part of a node that is read together with its parts, up to that node; none for others. */
-function partsAround(element: Element): readonly Element[] {
-  const node = element.closest(
-    "shape, Shape, texturebackground, TextureBackground, environmentlight, EnvironmentLight",
-  );
-  const parts: Element[] = [];
-  for (let at = node && element.parentElement; at !== null && parts.at(-1) !== node; at = at.parentElement)
-    parts.push(at);
-  return parts;
 }
 
 function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {

@@ -10,6 +10,7 @@ import { noProgress, progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import { interpolatorIdOf } from "../document/sequence.ts";
 import { defaultPointSize } from "../render/stages/stageUniforms.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
@@ -21,7 +22,8 @@ import { makeStandardMaterials } from "./standardMaterials.ts";
 import { appShapeContext } from "./appShapeContext.ts";
 import { ArrayBuffers } from "./arrayBuffers.ts";
 import { BitmapTextures, maxTextureSize } from "./bitmapTextures.ts";
-import { sceneClipsOf } from "./sceneClips.ts";
+import type { SceneClip } from "./sceneClips.ts";
+import { SceneClips } from "./sceneClips.ts";
 import { SceneContents } from "./sceneContents.ts";
 import type { SceneHit } from "./scenePicking.ts";
 import { ScenePicker } from "./scenePicking.ts";
@@ -65,6 +67,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#progress = progressOf(this.transfers, this.#progress);
     this.dispatchEvent({ type: "progress", progress: this.#progress });
   });
+  readonly #clips: SceneClips;
   readonly #picker = new ScenePicker();
   #error: Error | undefined;
 
@@ -107,20 +110,26 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
         onAdvance: () => {
           this.#advance();
         },
+        onDocuments: () => {
+          this.#addClips(this.#clips.read());
+        },
       },
     );
     this.add(this.#contents.root);
-    const { clips, targets } = sceneClipsOf(
-      x3d,
-      (changes) => {
+    this.#clips = new SceneClips({
+      documents: this.#contents.documents,
+      display: (changes) => {
         this.#contents.displayChanges(changes);
       },
-      (message) => {
+      showFraction: (element, fraction) => {
+        this.#contents.geometries.setFraction(interpolatorIdOf(element), fraction);
+      },
+      sequenceDurationOf: (element) => this.#contents.geometries.sequenceDurationOf(interpolatorIdOf(element)),
+      warn: (message) => {
         console.warn("imgeo:", message);
       },
-    );
-    this.animations.push(...clips);
-    for (const target of targets) this.add(target);
+    });
+    this.#addClips(this.#clips.read());
     passOnShadows(this);
     this.#contents.start();
     this.#advance();
@@ -175,8 +184,11 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     );
   }
 
-  /** Makes all sequences display the frame at this time, in seconds from their beginning; before the first call it is 0. */
-  setSequenceTime(seconds: number): void {
+  /**
+   * Makes all sequences display the frame at this time, in seconds from their beginning. Undefined, as before the first
+   * call: they follow the clips of the scene, and are at their first frame while none plays.
+   */
+  setSequenceTime(seconds: number | undefined): void {
     this.#contents.geometries.setSequenceTime(seconds);
   }
 
@@ -215,8 +227,16 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.dispatchEvent({ type: "error", url: error.url, error });
   }
 
+  #addClips(clips: readonly SceneClip[]): void {
+    for (const { clip, target } of clips) {
+      this.animations.push(clip);
+      this.add(target);
+    }
+  }
+
   /** Settles the promises whose condition holds now. */
   #advance(): void {
+    this.#addClips(this.#clips.takeNew());
     if (!this.#contents.isDisplayed) return;
     if (this.#error !== undefined && !this.#contents.shapes.hasPicture) this.#firstImage.reject(this.#error);
     else this.#firstImage.resolve(undefined);

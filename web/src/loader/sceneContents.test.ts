@@ -53,6 +53,7 @@ function appOf(markup: string, files: Record<string, Answer>) {
         throw error;
       },
       onAdvance: () => undefined,
+      onDocuments: () => undefined,
     },
   );
   contents.start();

@@ -5,6 +5,8 @@
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
 import type { FieldChange } from "../animation/documentGraph.ts";
+import type { AnimatedDocuments } from "../animation/documents.ts";
+import type { AnimatedElement } from "../animation/elements.ts";
 import type { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
@@ -17,6 +19,7 @@ import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { lodLevelAt } from "../scene/lodLevel.ts";
 import { isOfPose } from "../viewer/drawnFields.ts";
 import { sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
+import { touchWritten } from "../viewer/writtenElements.ts";
 import type { AppShape, AppShapesListener } from "./appShapes.ts";
 import { AppShapes } from "./appShapes.ts";
 import { CameraObserver } from "./cameraObserver.ts";
@@ -25,12 +28,17 @@ import { loadStates, SceneLod } from "./sceneLod.ts";
 
 export interface SceneSource {
   /** The document's <X3D>. */
-  readonly x3d: SceneElement;
+  readonly x3d: SceneElement & AnimatedElement;
   /** The document's absolute URL. */
   readonly url: string;
   /** Makes a URL of the document absolute. */
   readonly urlOf: (url: string) => string;
   readonly pool: ResourcePool;
+}
+
+export interface SceneContentsListener extends AppShapesListener {
+  /** The document of an Inline has loaded, or all its URLs have failed. */
+  onDocuments(): void;
 }
 
 export class SceneContents {
@@ -58,11 +66,13 @@ export class SceneContents {
   /** Whether a microtask will choose the levels of LODs after this frame. */
   #isLevelUpdateDue = false;
   #isStopped = false;
-  readonly #listener: AppShapesListener;
+  readonly #listener: SceneContentsListener;
+  readonly #x3d: SceneElement & AnimatedElement;
 
   /** Requests nothing, and does not call the listener, before `start`. */
-  constructor({ x3d, url, urlOf, pool }: SceneSource, context: ShapeContext, listener: AppShapesListener) {
+  constructor({ x3d, url, urlOf, pool }: SceneSource, context: ShapeContext, listener: SceneContentsListener) {
     this.#listener = listener;
+    this.#x3d = x3d;
     const deliveries = sceneDeliveriesOf(pool);
     this.geometries = deliveries.geometries;
     this.shapes = new AppShapes(context, deliveries, listener);
@@ -87,6 +97,7 @@ export class SceneContents {
           if (error !== undefined) listener.onError(error);
         },
         onInlineRead: () => {
+          listener.onDocuments();
           listener.onChange();
           listener.onAdvance();
         },
@@ -123,17 +134,31 @@ export class SceneContents {
     return this.#core.inlines.isSettled && this.shapes.areSettled;
   }
 
+  /** The document and those that it inlines, as far as they have loaded. */
+  get documents(): AnimatedDocuments {
+    // Those that a browser reads are DOM elements.
+    const documentOf = (inline: SceneElement): AnimatedElement | undefined =>
+      this.#core.inlines.documentOf(inline)?.x3d as AnimatedElement | undefined;
+    const inlines = (): readonly { readonly element: SceneElement }[] => this.#core.scene?.inlines ?? [];
+    const ownDocument = this.#x3d;
+    return {
+      get roots() {
+        const inlined = inlines().flatMap(({ element }) => documentOf(element) ?? []);
+        return Array.from(new Set([ownDocument, ...inlined]));
+      },
+      documentOf: (inline) => documentOf(inline),
+    };
+  }
+
   /** Displays values that fields of nodes have received. Their attributes have been written. */
   displayChanges(changes: readonly FieldChange[]): void {
     const poses = changes.filter(isOfPose);
-    for (const change of changes) if (!isOfPose(change)) this.#core.reader.touch(change.element);
+    for (const { element } of changes) touchWritten(this.#core.reader, this.#x3d, element);
     if (poses.length < changes.length) this.#core.read();
-    if (poses.length > 0)
-      this.#core.move(poses, () => {
-        this.#groups.move(poses);
-        this.#followGroups();
-        return []; // requests do not depend on the cameras of the app
-      });
+    if (poses.length > 0) {
+      this.#groups.move(poses); // requests do not depend on the cameras of the app
+      this.#followGroups();
+    }
     this.#listener.onChange();
   }
 

@@ -31,6 +31,7 @@ import type {
 import type { SceneElement } from "../document/element.ts";
 import type { BackgroundInstance } from "../scene/instances.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
+import type { NodeInstance } from "../scene/nodeInstance.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
 import { SceneBackground } from "./frames/sceneBackground.ts";
 import { Batches } from "./batches/batches.ts";
@@ -49,7 +50,7 @@ import type { EnvironmentPicture, EnvironmentRole } from "./environment/sceneEnv
 import { SceneEnvironment } from "./environment/sceneEnvironment.ts";
 import { makeFogUniforms } from "./environment/fogs.ts";
 import { makeLightUniforms } from "./lights/sceneLights.ts";
-import type { ChangedScene, MovedScene } from "./shapes/sceneShapes.ts";
+import type { BuiltScene, ChangedScene } from "./shapes/sceneShapes.ts";
 import { SceneShapes } from "./shapes/sceneShapes.ts";
 import { ScreenPicker } from "./picking/screenPicker.ts";
 import { ControllerQueries } from "./picking/controllerQueries.ts";
@@ -231,12 +232,17 @@ export class SceneRenderer {
    * Gives Transforms and displacers of the scene other values, without a description of the whole scene. The next
    * description must have these values.
    */
-  move(changes: Iterable<PoseChange>): MovedScene {
+  move(changes: Iterable<PoseChange>): BuiltScene {
     const built = this.#shapes.move(changes);
     this.#background.follow(built.backgrounds);
     this.#environment.follow(built.environmentLights);
     this.requestFrame();
     return built;
+  }
+
+  /** The instances of shapes that `move` has moved since the last call. */
+  takeMoved(): readonly NodeInstance[] {
+    return this.#shapes.takeMoved();
   }
 
   /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */

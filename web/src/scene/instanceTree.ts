@@ -32,6 +32,8 @@ export interface WeightChange {
 /** What is displayed without a description of the scene. */
 export type PoseChange = TransformChange | WeightChange;
 
+const noNodes: readonly NodeInstance[] = [];
+
 /** Receives the events of each node; those of a parent come before those of its children. */
 export interface InstanceTreeListener {
   onEnter(node: NodeInstance): void;
@@ -46,7 +48,7 @@ export class InstanceTree {
   readonly root: NodeInstance;
   readonly #listener: InstanceTreeListener | undefined;
   /** The instances of each Transform. */
-  readonly #transforms = new Map<SceneElement, Set<NodeInstance>>();
+  readonly #transforms = new Map<SceneElement, NodeInstance[]>();
   /** Used by `move`, and empty otherwise. */
   readonly #moved: NodeInstance[] = [];
 
@@ -71,7 +73,7 @@ export class InstanceTree {
 
   /** An instance of a Transform; undefined where the scene has none. */
   transformOf(element: SceneElement): NodeInstance | undefined {
-    return this.#transforms.get(element)?.values().next().value;
+    return this.#transforms.get(element)?.[0];
   }
 
   /**
@@ -83,7 +85,7 @@ export class InstanceTree {
     const moved = this.#moved;
     const isSummaryOld = new Set<NodeInstance>();
     for (const { element, field, value } of changes)
-      for (const node of this.#transforms.get(element) ?? []) {
+      for (const node of this.#transforms.get(element) ?? noNodes) {
         if (node.movingTransform === undefined) this.#ignoreBoxesAround(node, isSummaryOld);
         // The type of the field has been checked where its value comes from.
         (movingTransformOf(node) as Record<string, PoseChange["value"]>)[field] = value;
@@ -123,9 +125,8 @@ export class InstanceTree {
     if (inherited === undefined) return;
     if (parentFromNode) {
       if (node.isMoved && movingTransform) matrixOf(movingTransform, parentFromNode);
-      // At the root that is the identity.
-      if (inherited.sceneFromNode === this.root.sceneFromNode) node.sceneFromNode.copy(parentFromNode);
-      else node.sceneFromNode.multiplyMatrices(inherited.sceneFromNode, parentFromNode);
+      if (node.sceneFromNode !== parentFromNode)
+        node.sceneFromNode.multiplyMatrices(inherited.sceneFromNode, parentFromNode);
     } else if (node.sceneFromNode !== inherited.sceneFromNode) node.sceneFromNode.copy(inherited.sceneFromNode);
     node.isMoved = false;
     node.areBoundsCurrent = false;
@@ -148,7 +149,7 @@ export class InstanceTree {
     node.areBoundsCurrent = false;
     this.#indexTransform(node, previous, description);
     node.inherited = inherited;
-    if (hasMoved) setFrame(node, inherited.sceneFromNode);
+    if (hasMoved) setFrame(node, inherited.sceneFromNode, inherited.sceneFromNode === this.root.sceneFromNode);
     node.effectScope = effectScopeOf(node, inherited.effectScope);
     if (previouslyInherited === undefined) this.#listener?.onEnter(node);
     else this.#listener?.onChange(node, hasMoved, previous);
@@ -174,14 +175,14 @@ export class InstanceTree {
     if (before) this.#forgetTransform(before, node);
     if (!now) return;
     const instances = this.#transforms.get(now);
-    if (instances) instances.add(node);
-    else this.#transforms.set(now, new Set([node]));
+    if (instances) instances.push(node);
+    else this.#transforms.set(now, [node]);
   }
 
   #forgetTransform(element: SceneElement, node: NodeInstance): void {
-    const instances = this.#transforms.get(element);
-    instances?.delete(node);
-    if (instances?.size === 0) this.#transforms.delete(element);
+    const others = this.#transforms.get(element)?.filter((other) => other !== node) ?? noNodes;
+    if (others.length > 0) this.#transforms.set(element, Array.from(others));
+    else this.#transforms.delete(element);
   }
 
   #leave(node: NodeInstance): void {
@@ -275,11 +276,14 @@ function transformOf(description: NodeDescription): unknown {
   return description.kind === "group" ? (description.transform ?? description.billboardAxis) : undefined;
 }
 
-function setFrame(node: NodeInstance, sceneFromParent: Matrix4): void {
+/** `isAtRoot`: the node's parent has the coordinates of the scene. */
+function setFrame(node: NodeInstance, sceneFromParent: Matrix4, isAtRoot: boolean): void {
   const { description } = node;
   node.parentFromNode =
     description.kind === "group" && description.transform ? matrixOf(description.transform) : undefined;
-  if (node.parentFromNode) node.sceneFromNode = new Matrix4().multiplyMatrices(sceneFromParent, node.parentFromNode);
+  if (node.parentFromNode && isAtRoot) node.sceneFromNode = node.parentFromNode;
+  else if (node.parentFromNode)
+    node.sceneFromNode = new Matrix4().multiplyMatrices(sceneFromParent, node.parentFromNode);
   // The renderer rotates a billboard for each view. Its own matrix makes its descendants count as moved when it begins
   // or ceases to be one.
   else if (description.kind === "group" && description.billboardAxis) node.sceneFromNode = sceneFromParent.clone();

@@ -1,5 +1,6 @@
 // A node instance, which is one occurrence of a node in the scene, and the summary of its subtree.
 
+import type { Object3D } from "three";
 import { Box3, Matrix4 } from "three";
 import type { AnchorDescription, NodeDescription, TransformDescription } from "../document/description.ts";
 import type {
@@ -77,7 +78,8 @@ export class NodeInstance {
   description: NodeDescription;
   /**
    * Transforms the node's coordinates, for a group those of its children, to the scene's. Nodes share the object with the
-   * node around them unless they have a transform. An update of the tree replaces it, a move changes it in place.
+   * node around them unless they have a transform; that of a Transform at the root is its own matrix. An update of the
+   * tree replaces it, a move changes it in place.
    */
   sceneFromNode = new Matrix4();
   /** The matrix of a Transform; undefined for other nodes. Changed in place by a move. */
@@ -94,12 +96,16 @@ export class NodeInstance {
   /** The innermost scope around the node; for a group: around its children. */
   effectScope = sceneScope;
   summary: SubtreeSummary = emptySummary;
-  /** Bounds of the visible shapes at and below the node: see boundsOf. */
+  /** Whether it is among the moved instances of shapes that nobody has taken yet: see SceneShapes.takeMoved. */
+  isAmongMoved = false;
+  /** Bounds of the visible shapes at and below the node, unless it is a group of one child: see boundsOf. */
   readonly bounds = new Box3();
   /** Whether nothing has changed since `bounds` were computed. */
   areBoundsCurrent = false;
   /** Undefined before the first update. */
   inherited: InheritedState | undefined;
+  /** What the listener of the tree displays a group or a shape with; undefined for others. */
+  object: Object3D | undefined;
 
   constructor(description: NodeDescription, parent: NodeInstance | undefined) {
     this.description = description;

@@ -8,14 +8,31 @@ import type { NodeInstance } from "./nodeInstance.ts";
 
 const center = new Vector3();
 
-/** The bounds of the visible shapes at and below a node, in scene coordinates; empty where there are none. */
-export function boundsOf(node: NodeInstance): Box3 {
+/**
+ * The bounds of the visible shapes at and below a node, in scene coordinates; empty where there are none. Not to be
+ * changed.
+ */
+export function boundsOf(around: NodeInstance): Readonly<Box3> {
+  const node = innermostOf(around);
   const { bounds } = node;
   if (node.areBoundsCurrent) return bounds;
   node.areBoundsCurrent = true;
   setOwnBounds(node);
   if (!isDrawable(bounds)) bounds.makeEmpty();
   return bounds;
+}
+
+/** The node whose bounds are those of a node: groups of one child, such as most Transforms, have no bounds of their own. */
+function innermostOf(around: NodeInstance): NodeInstance {
+  let node = around;
+  for (;;) {
+    const { description, children, box } = node;
+    const [child] = children;
+    if (description.kind !== "group" || child === undefined || children.length > 1 || box || description.billboardAxis)
+      return node;
+    node.areBoundsCurrent = true;
+    node = child;
+  }
 }
 
 /** The node, or one below it, has moved. */

@@ -24,6 +24,8 @@ export interface DeliveryControlOptions {
   readonly view: () => View | undefined;
   /** Keys (textureKeyOf) of textures that are not those of shapes and that fill the view. */
   readonly sceneTextures: () => ReadonlySet<string>;
+  /** The instances of shapes that have moved since the last call. */
+  readonly takeMoved: () => readonly NodeInstance[];
   /** The set of requested files may have changed. */
   readonly onRequests: () => void;
 }
@@ -38,8 +40,6 @@ export class DeliveryControl {
   #maxBytes = Infinity;
   /** GPU memory of all deliveries at the last requests. */
   #storedBytes = 0;
-  /** Instances that have moved since the last requests. */
-  readonly #moved = new Set<NodeInstance>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStarted = false;
 
@@ -62,8 +62,7 @@ export class DeliveryControl {
   }
 
   /** Schedules requests for shapes that have moved; not in each frame, as some may move all the time. */
-  followMoves(moved: Iterable<NodeInstance>): void {
-    for (const node of moved) this.#moved.add(node);
+  followMoves(): void {
     this.#requestSoon();
   }
 
@@ -132,8 +131,7 @@ export class DeliveryControl {
   }
 
   #followMoved(): void {
-    this.#instances.follow(Array.from(this.#moved, (node) => [node, shapeInstanceOf(node)] as const));
-    this.#moved.clear();
+    this.#instances.follow(this.#options.takeMoved().map((node) => [node, shapeInstanceOf(node)] as const));
   }
 
   #cancelTimer(): void {

@@ -18,7 +18,6 @@ import { refusals } from "../document/refused.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
-import type { PoseChange } from "../scene/instanceTree.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
 import { measureRun } from "../text/glyphRendering.ts";
@@ -39,6 +38,8 @@ export interface ViewerHost {
   view(): View | undefined;
   /** Keys (textureKeyOf) of textures that the host displays around the viewer. */
   sceneTextures?(): ReadonlySet<string>;
+  /** The instances of shapes that have moved since the last call. Default: none, as requests do not depend on them. */
+  takeMoved?(): readonly NodeInstance[];
   /** Displays a scene that differs from the previous one, and returns the differences. */
   display(scene: SceneDescription): SceneChanges;
   /** Shapes have joined deliveries, whose files are requested next. */
@@ -125,6 +126,7 @@ export class ViewerCore<Shape extends LoadingShape> {
       deliveries,
       view: () => host.view(),
       sceneTextures: () => host.sceneTextures?.() ?? noTextures,
+      takeMoved: () => host.takeMoved?.() ?? [],
       onRequests: () => {
         host.onRequests?.();
       },
@@ -161,12 +163,11 @@ export class ViewerCore<Shape extends LoadingShape> {
   }
 
   /**
-   * Moves Transforms and vertices whose attributes have been written, without reading the document, which happens when
-   * something else changes. `display` moves them on the screen, and returns the instances of shapes that have moved.
+   * Instances of shapes have moved on the screen. The document has not been read; the reader is told when attributes are
+   * written.
    */
-  move(changes: Iterable<PoseChange>, display: () => Iterable<NodeInstance>): void {
-    for (const { element } of changes) this.reader.touch(element);
-    this.control.followMoves(display());
+  followMoves(): void {
+    this.control.followMoves();
   }
 
   /** Requests files from now on. */

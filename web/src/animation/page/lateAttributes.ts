@@ -12,7 +12,7 @@ const rest = 500;
 export class LateAttributes {
   readonly #write: (changes: Iterable<FieldChange>) => void;
   readonly #isForLists: boolean;
-  readonly #late = new Set<FieldChange>();
+  readonly #late: FieldChange[] = [];
   /** When the last value has come. */
   #changedAt = -Infinity;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -25,12 +25,14 @@ export class LateAttributes {
 
   /** A field has got a value: see `schedule`. */
   add(change: FieldChange): void {
-    this.#late.add(change);
+    if (change.isLate) return;
+    change.isLate = true;
+    this.#late.push(change);
   }
 
   /** Writes the attributes of fields that have been added, now or later. */
   schedule(): void {
-    if (this.#late.size === 0) return;
+    if (this.#late.length === 0) return;
     const now = performance.now();
     const hasRested = now - this.#changedAt > rest;
     this.#changedAt = now;
@@ -49,14 +51,14 @@ export class LateAttributes {
   writeNow(): void {
     clearTimeout(this.#timer);
     this.#timer = undefined;
-    if (this.#late.size === 0) return;
-    const late = Array.from(this.#late);
-    this.#late.clear();
+    if (this.#late.length === 0) return;
+    const late = this.#late.splice(0);
+    for (const change of late) change.isLate = false;
     this.#write(late);
   }
 
   dispose(): void {
     clearTimeout(this.#timer);
-    this.#late.clear();
+    this.#late.length = 0;
   }
 }

@@ -46,6 +46,8 @@ export interface AnimatedScene extends PointerSpace {
   sequenceDurationOf(element: AnimatedElement): number;
   /** Calls back so that the changes of attributes that it makes are not reported. */
   withoutReports(write: () => void): void;
+  /** Attributes of an element that is drawn have been written: the next reading sees them. */
+  touch(element: AnimatedElement): void;
   /** The view of the last frame; undefined before the first. */
   view(): SceneView | undefined;
   /** One sentence for the author. */
@@ -178,7 +180,7 @@ export class PageAnimation {
     const read = this.#scene.move(changes);
     const written = read.length > 0 ? new Set(read) : undefined;
     for (const change of changes)
-      if (!written?.has(change)) (change.type.isList ? this.#listAttributes : this.#attributes).add(change);
+      if (written?.has(change) !== true) (change.type.isList ? this.#listAttributes : this.#attributes).add(change);
     if (written) {
       this.#write(written);
       this.#scene.read(read); // which calls writeAttributes
@@ -190,7 +192,10 @@ export class PageAnimation {
 
   #write(changes: Iterable<FieldChange>): void {
     this.#scene.withoutReports(() => {
-      for (const { element, attribute, type, value } of changes) element.setAttribute(attribute, type.format(value));
+      for (const { element, attribute, type, value } of changes) {
+        element.setAttribute(attribute, type.format(value));
+        this.#scene.touch(element);
+      }
     });
   }
 

@@ -36,9 +36,14 @@ export interface BatchedDraw {
   readonly materialKey: string;
 }
 
+/** A group with the members that are drawn in its place. */
+export interface BatchedGroup extends ShapeGroup {
+  members?: Member[] | undefined;
+}
+
 export interface Member {
   readonly draw: BatchedDraw;
-  readonly group: ShapeGroup;
+  readonly group: BatchedGroup;
   /** Index of its record in the instance table. */
   readonly instanceIndex: number;
   batch: Batch | undefined;

@@ -10,7 +10,7 @@ import type { MaterialFactory, MaterialRequest } from "../materials/materialFact
 import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
-import type { Batch, BatchedDraw, Member } from "./batch.ts";
+import type { Batch, BatchedDraw, BatchedGroup, Member } from "./batch.ts";
 import { visibleRuns } from "./depthOrder.ts";
 import { InstancedBatch } from "./instancedBatch.ts";
 import { MergedBatch } from "./mergedBatch.ts";
@@ -27,7 +27,6 @@ export class Batches {
   readonly #buffers: BufferProvider;
   readonly #table = new InstanceTable();
   readonly #members = new Set<Member>();
-  readonly #membersOf = new Map<ShapeGroup, Member[]>();
   /** Members of draws that blend. */
   readonly #blended = new Set<Member>();
   /** Batches by the key of their members. New members join the last batch of their key. */
@@ -68,9 +67,7 @@ export class Batches {
     this.#table.write(member.instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
     this.#table.write(member.instanceIndex, instanceFields.material, numbers);
     this.#members.add(member);
-    const others = this.#membersOf.get(group);
-    if (others) others.push(member);
-    else this.#membersOf.set(group, [member]);
+    (member.group.members ??= []).push(member);
     if (draw.isBlended) this.#blended.add(member);
     this.#write(member);
     this.#join(member);
@@ -84,9 +81,7 @@ export class Batches {
 
   remove(member: Member): void {
     this.#members.delete(member);
-    const others = this.#membersOf.get(member.group)?.filter((other) => other !== member) ?? [];
-    if (others.length > 0) this.#membersOf.set(member.group, others);
-    else this.#membersOf.delete(member.group);
+    member.group.members = member.group.members?.filter((other) => other !== member);
     this.#blended.delete(member);
     member.batch?.remove(member);
     this.#table.release(member.instanceIndex);
@@ -94,8 +89,7 @@ export class Batches {
   }
 
   /** Call when the group has moved. */
-  follow(group: ShapeGroup): void {
-    const members = this.#membersOf.get(group);
+  follow({ members }: BatchedGroup): void {
     if (members) for (const member of members) this.updateRecord(member);
   }
 
@@ -150,6 +144,7 @@ export class Batches {
 
   dispose(): void {
     this.#disposeBatches();
+    for (const { group } of this.#members) group.members = undefined;
     this.#members.clear();
     this.#blended.clear();
     this.#table.dispose();

@@ -70,9 +70,6 @@ export interface DeformedPose {
 export class SceneGroups implements InstanceTreeListener {
   readonly root = new Group();
   readonly #tree = new InstanceTree(this);
-  readonly #groups = new Map<NodeInstance, Object3D>();
-  /** The groups of shape instances. */
-  readonly #shapeGroups = new Map<NodeInstance, ShapeGroup>();
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
   readonly #listener: ShapeInstanceListener;
   #lightInstances: readonly LightInstance[] = [];
@@ -202,7 +199,7 @@ export class SceneGroups implements InstanceTreeListener {
     if (summary === this.#summary) return false;
     this.#summary = summary;
     this.#boundedGroups = summary.boundedGroups.flatMap((node) => {
-      const group = this.#groups.get(node);
+      const { object: group } = node;
       return group && node.box ? [{ group, box: node.box }] : [];
     });
     const areEffectScopesRenumbered = numberEffectScopes(summary.effectScopes);
@@ -227,7 +224,7 @@ export class SceneGroups implements InstanceTreeListener {
   /** Call before a frame: turns billboards to the camera, whose matrix must be up to date. */
   rotateBillboards({ matrixWorld }: Camera): void {
     for (const node of this.#tree.root.summary.billboards) {
-      const group = this.#groups.get(node);
+      const { object: group } = node;
       if (!group?.parent || node.description.kind !== "group") continue;
       const parentFromScene = group.parent.matrixWorld.clone().invert();
       const eye = new Vector3().setFromMatrixPosition(matrixWorld).applyMatrix4(parentFromScene);
@@ -241,13 +238,13 @@ export class SceneGroups implements InstanceTreeListener {
 
   /** Updates world matrices of a node and its descendants, after a billboard around it has rotated. */
   #updateMatrices(node: NodeInstance): void {
-    const shapeGroup = this.#shapeGroups.get(node);
+    const { object: group } = node;
+    const shapeGroup = shapeGroupOf(node);
     if (shapeGroup && node.description.kind === "shape") {
       shapeGroup.updateMatrixWorld(true);
       this.#listener.onRotate?.(node.description, shapeGroup);
       return;
     }
-    const group = this.#groups.get(node);
     if (group?.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
     for (const child of node.children) this.#updateMatrices(child);
   }
@@ -259,7 +256,6 @@ export class SceneGroups implements InstanceTreeListener {
     if (description.kind !== "shape") return;
     const group: ShapeGroup = new Group();
     group.effectScope = node.effectScope;
-    this.#shapeGroups.set(node, group);
     if (description.deformer) this.#deformed.add(node);
     this.#addGroup(node, description, group);
     this.#listener.onEnter(description, node, group);
@@ -267,10 +263,10 @@ export class SceneGroups implements InstanceTreeListener {
 
   onChange(node: NodeInstance, hasMoved: boolean, before: NodeDescription): void {
     const { description } = node;
-    const group = this.#groups.get(node);
+    const { object: group } = node;
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
     this.#applyDescription(node, description, group, hasMoved);
-    const shapeGroup = this.#shapeGroups.get(node);
+    const shapeGroup = shapeGroupOf(node);
     if (shapeGroup) shapeGroup.effectScope = node.effectScope;
     if (description.kind === "shape" && description.deformer) this.#deformed.add(node);
     else this.#deformed.delete(node);
@@ -280,9 +276,9 @@ export class SceneGroups implements InstanceTreeListener {
 
   onMove(node: NodeInstance): void {
     const { description } = node;
-    const shapeGroup = description.kind === "shape" ? this.#shapeGroups.get(node) : undefined;
+    const shapeGroup = shapeGroupOf(node);
     // Groups that share the matrices of their nodes have moved.
-    const group = shapeGroup ?? (this.#sharesAll ? undefined : this.#groups.get(node));
+    const group = shapeGroup ?? (this.#sharesAll ? undefined : node.object);
     if (group === undefined) return;
     if (group.matrixWorld !== node.sceneFromNode) applyTransform(node, group);
     else if (group.children.length > 0 && shapeGroup) group.updateMatrixWorld(true);
@@ -290,18 +286,17 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   onLeave(node: NodeInstance): void {
-    const shapeGroup = this.#shapeGroups.get(node);
+    const shapeGroup = shapeGroupOf(node);
     if (shapeGroup && node.description.kind === "shape") this.#listener.onLeave(node.description, node, shapeGroup);
-    this.#groups.get(node)?.removeFromParent();
-    this.#groups.delete(node);
-    this.#shapeGroups.delete(node);
+    node.object?.removeFromParent();
+    node.object = undefined;
     this.#deformed.delete(node);
   }
 
   #addGroup(node: NodeInstance, description: GroupDescription | ShapeDescription, group: Object3D): void {
     group.matrixAutoUpdate = false;
-    this.#groups.set(node, group);
-    const parent = node.parent === undefined ? this.root : this.#groups.get(node.parent);
+    node.object = group;
+    const parent = node.parent === undefined ? this.root : node.parent.object;
     parent?.add(group);
     this.#applyDescription(node, description, group, true);
   }
@@ -319,6 +314,11 @@ export class SceneGroups implements InstanceTreeListener {
     if (this.#listener.isWorld === true) shareMatrices(node, group);
     applyTransform(node, group);
   }
+}
+
+/** The group of an instance of a shape. */
+function shapeGroupOf({ description, object }: NodeInstance): ShapeGroup | undefined {
+  return description.kind === "shape" ? (object as ShapeGroup | undefined) : undefined;
 }
 
 /** A joint that is not in the scene stays where the shape was modelled. */

@@ -59,11 +59,6 @@ export interface ChangedScene extends BuiltScene {
   readonly changes: SceneChanges;
 }
 
-export interface MovedScene extends BuiltScene {
-  /** The instances of shapes that have moved; valid until the next call. */
-  readonly moved: readonly NodeInstance[];
-}
-
 export class SceneShapes {
   readonly #context: ShapeContext;
   readonly #batches: Batches;
@@ -72,7 +67,8 @@ export class SceneShapes {
   readonly #plan = new BatchingPlan();
   readonly #boundFogs = new BindingStack<SceneElement>();
   #changes = new ShapeChangeRecorder();
-  readonly #moved: NodeInstance[] = [];
+  /** Each once. */
+  #moved: NodeInstance[] = [];
   /** Shapes whose document does not state their bounds, so that their vertices determine them. */
   readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
@@ -105,6 +101,8 @@ export class SceneShapes {
       },
       onMove: (_, instance, group) => {
         this.#batches.follow(group);
+        if (instance.isAmongMoved) return;
+        instance.isAmongMoved = true;
         this.#moved.push(instance);
       },
       onLeave: (shape, instance, group) => {
@@ -152,11 +150,18 @@ export class SceneShapes {
   }
 
   /** Gives Transforms and displacers other values: see `SceneGroups.move`. */
-  move(changes: Iterable<PoseChange>): MovedScene {
-    this.#moved.length = 0;
+  move(changes: Iterable<PoseChange>): BuiltScene {
     const areEffectScopesRenumbered = this.#graph.move(changes);
     if (areEffectScopesRenumbered || this.#graph.hasEffects) this.#setEffects();
-    return { ...this.#built(areEffectScopesRenumbered), moved: this.#moved };
+    return this.#built(areEffectScopesRenumbered);
+  }
+
+  /** The instances of shapes that `move` has moved since the last call. */
+  takeMoved(): readonly NodeInstance[] {
+    const moved = this.#moved;
+    this.#moved = [];
+    for (const instance of moved) instance.isAmongMoved = false;
+    return moved;
   }
 
   /** Transforms the coordinates of a Transform's children to the scene's; undefined if it is not in the scene. */
