@@ -81,6 +81,21 @@ describe("a skin", () => {
   });
 });
 
+test("an HAnimMotion, and HAnimDisplacers of joints and segments, have no effect, with a sentence each", () => {
+  const scene = sceneOf(`<HAnimHumanoid><HAnimJoint containerField="skeleton" rotation="0 0 1 1">
+      <HAnimDisplacer containerField="displacers" weight="1"/>
+      <HAnimSegment><Coordinate point="0 0 0"/><HAnimDisplacer weight="1"/><Shape><Box/></Shape></HAnimSegment>
+    </HAnimJoint><HAnimMotion containerField="motions" values="1 2 3"/></HAnimHumanoid>`);
+  assert.equal(shapesOf(scene.root).length, 1);
+  const displacer =
+    "HAnimDisplacer has no effect on an HAnimJoint or HAnimSegment: pages move the vertices of a Shape that it is a child of";
+  assert.deepEqual(messagesOf(scene), [
+    displacer,
+    displacer,
+    "HAnimMotion has no effect: pages play interpolators whose values are routed to the joints",
+  ]);
+});
+
 describe("displacers", () => {
   const morph = geometry(attribute("displacer.0", 3) + attribute("displacer.1", 3));
 

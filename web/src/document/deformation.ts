@@ -102,7 +102,7 @@ export function readSkin(
 /** Whether a child of an HAnimHumanoid is there for another node to name it, and is not drawn. */
 export function isOnlyNamed(child: SceneElement): boolean {
   const field = (attributeOf(child, "containerField") ?? "").toLowerCase();
-  return ["joints", "segments", "sites", "viewpoints", "motions", "skincoord", "skinnormal"].includes(field);
+  return ["joints", "segments", "sites", "viewpoints", "skincoord", "skinnormal"].includes(field);
 }
 
 function isJointUse(child: SceneElement): boolean {

@@ -82,6 +82,19 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
       const drawn = { ...context, childrenOf: () => context.childrenOf(node).filter((child) => !isOnlyNamed(child)) };
       return groupReader(node, transform, drawn, { transform, transformElement: node }, skin);
     }
+    case "hanimdisplacer":
+      warnings.push({
+        element: node,
+        message:
+          "has no effect on an HAnimJoint or HAnimSegment: pages move the vertices of a Shape that it is a child of",
+      });
+      return constantReader([], warningsOnly(warnings));
+    case "hanimmotion":
+      warnings.push({
+        element: node,
+        message: "has no effect: pages play interpolators whose values are routed to the joints",
+      });
+      return constantReader([], warningsOnly(warnings));
     case "switch":
       return switchReader(node, context);
     case "lod":
