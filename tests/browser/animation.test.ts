@@ -3,8 +3,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertSamePicture } from "./compare.ts";
+import { assertSamePicture, savePicture } from "./compare.ts";
 import { finalPicture, until, withPage, type View } from "./harness.ts";
+import type { Picture } from "./png.ts";
 import { sceneOf } from "./scenes.ts";
 import type { TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
@@ -312,5 +313,41 @@ test("a scene moves as its ROUTEs say, by its clocks, its scripts and the pointe
     await assertPlays(view);
     await assertSensors(view);
     await assertInlinedPlays(view);
+  });
+});
+
+/** The first and the last column of a picture that the green shape covers; undefined where it is not in the picture. */
+function columnsOfGreen({ width, height, channels, data }: Picture): readonly [number, number] | undefined {
+  const columns = Array.from({ length: width }, (_, x) => x).filter((x) =>
+    Array.from({ length: height }, (_, y) => channels * (y * width + x)).some(
+      (at) => data[at + 1]! > 60 && data[at]! < 40 && data[at + 2]! < 40,
+    ),
+  );
+  const [first, last] = [columns[0], columns.at(-1)];
+  return first === undefined || last === undefined ? undefined : [first, last];
+}
+
+test("without a Viewpoint the start view shows the whole motion, and stands while the scene moves", async () => {
+  const moving = `<TimeSensor DEF="clock" cycleInterval="2"></TimeSensor>
+    <PositionInterpolator DEF="way" key="0 1" keyValue="-6 0 0  6 0 0"></PositionInterpolator>
+    <Transform DEF="t" translation="-6 0 0">${shape(box, "0 0.8 0")}</Transform>
+    ${route("clock.fraction_changed", "way.set_fraction")}${route("way.value_changed", "t.translation")}`;
+  const site = sceneOf("animation-unframed", { trefoil: siteOfGenerated("trefoil") }, moving);
+  await withPage(site, { size }, async (view) => {
+    await view.promise("complete");
+    await until("the animation is loaded", () =>
+      view.page.evaluate(() => "getFieldValue" in document.querySelector('[DEF="clock"]')!),
+    );
+    const columnsAt = async (fraction: number): Promise<readonly [number, number]> => {
+      await set(view, "clock", "set_fraction", String(fraction));
+      const picture = await view.picture();
+      savePicture(`animation-unframed-${fraction}`, picture);
+      const columns = columnsOfGreen(picture);
+      assert.ok(columns, `the shape is not in the picture of ${fraction}`);
+      return columns;
+    };
+    const [left, middle, right] = [await columnsAt(0), await columnsAt(0.5), await columnsAt(1)];
+    assert.ok(left[0] > 0 && left[1] < middle[0], `${left.join()} is not left of ${middle.join()}`);
+    assert.ok(right[0] > middle[1] && right[1] < size.width - 1, `${right.join()} is not right of ${middle.join()}`);
   });
 });

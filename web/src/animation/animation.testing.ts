@@ -1,6 +1,6 @@
 // A scene with animation for tests without a browser: elements that can be changed, and a clock that tests set.
 
-import type { FieldChange } from "./documentGraph.ts";
+import type { DrawnFieldOf, FieldChange } from "./documentGraph.ts";
 import type { AnimatedElement } from "./elements.ts";
 import { AnimationPlayer } from "./player.ts";
 import type { Value } from "./fieldTypes.ts";
@@ -106,6 +106,13 @@ export interface TestScene {
   set(name: string, attribute: string, value: string): void;
 }
 
+/** The fields of the few nodes that tests draw. */
+export const drawnFieldOf: DrawnFieldOf = (element, field) => {
+  const fields = drawnFields[element.localName.toLowerCase()] ?? {};
+  const name = Object.keys(fields).find((candidate) => candidate.toLowerCase() === field.toLowerCase());
+  return name === undefined ? undefined : { name, type: fields[name] ?? "", isOfPose: false };
+};
+
 /** `inlined`: the documents that have loaded, by the DEF of their Inline. */
 export function play(
   markup: string,
@@ -134,11 +141,7 @@ export function play(
       },
     },
     {
-      drawnFieldOf(element, field) {
-        const fields = drawnFields[element.localName.toLowerCase()] ?? {};
-        const name = Object.keys(fields).find((candidate) => candidate.toLowerCase() === field.toLowerCase());
-        return name === undefined ? undefined : { name, type: fields[name] ?? "", isOfPose: false };
-      },
+      drawnFieldOf,
       apply(changes: readonly FieldChange[]) {
         frames += 1;
         for (const { element, field, value } of changes) drawn.set(`${nameOf(element)}.${field}`, value);

@@ -24,6 +24,8 @@ import type { Stage, StageName } from "../stage/stage.ts";
 import { FontLoading } from "../text/fontLoading.ts";
 import { Throttle } from "../viewer/throttle.ts";
 import type { ViewerHost } from "../viewer/viewerCore.ts";
+import type { VisitMoments } from "../viewer/motionSphere.ts";
+import { motionSphereOf } from "../viewer/motionSphere.ts";
 import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
 import { touchWritten } from "../viewer/writtenElements.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
@@ -204,6 +206,9 @@ export class PageViewer {
         deliveries.geometries.setFraction(interpolatorIdOf(interpolator), fraction);
       },
       sequenceDurationOf: (element) => deliveries.geometries.sequenceDurationOf(interpolatorIdOf(element)),
+      onMotion: (visitMoments) => {
+        this.#showMotion(visitMoments);
+      },
       withoutReports: (write) => {
         this.#writeUnobserved(write);
       },
@@ -235,6 +240,13 @@ export class PageViewer {
     if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
     if (this.#displayed) this.cameraController.followMoves(this.#displayed);
     this.#core.followMoves();
+  }
+
+  /** Without viewpoints the start view shows everything that moves. */
+  #showMotion(visitMoments: VisitMoments): void {
+    const { scene } = this.#core;
+    const isFramed = scene !== undefined && this.#displayed?.viewpoints.length === 0;
+    this.cameraController.setMotion(isFramed ? motionSphereOf(scene, visitMoments) : undefined);
   }
 
   /** Reads attributes that animation has written. */

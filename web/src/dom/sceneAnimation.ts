@@ -5,6 +5,7 @@ import type { FieldChange } from "../animation/documentGraph.ts";
 import type { AnimatedScene, PageAnimation, PageDocuments } from "../animation/page/pageAnimation.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
 import { drawnFieldOf, isOfPose } from "../viewer/drawnFields.ts";
+import type { VisitMoments } from "../viewer/motionSphere.ts";
 
 /** Names of elements that send or carry events. */
 const namesOfAnimation =
@@ -29,6 +30,8 @@ export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" |
   moveVertices(change: DocumentChange): boolean;
   /** Reads attributes that have been written. */
   read(changes: readonly DocumentChange[]): void;
+  /** What the document's clocks move may have changed. */
+  onMotion(visitMoments: VisitMoments): void;
 }
 
 export class SceneAnimation {
@@ -43,6 +46,14 @@ export class SceneAnimation {
   #isDisposed = false;
   readonly #onVisibility = (): void => {
     this.#applyState();
+  };
+
+  readonly #onMotion = (): void => {
+    const animation = this.#animation;
+    if (animation === undefined || this.#isDisposed) return;
+    this.#host.onMotion((visit) => {
+      animation.visitMoments(visit);
+    });
   };
 
   constructor(x3d: Element, host: SceneAnimationHost) {
@@ -70,7 +81,10 @@ export class SceneAnimation {
       if (!this.#isRequested && records.some(concernsAnimation)) void this.#load();
       return records;
     }
-    if (records.some(changesGraph)) animation.read();
+    if (records.some(changesGraph)) {
+      animation.read();
+      queueMicrotask(this.#onMotion); // once the scene has been read
+    }
     return records.filter(
       ({ type, target, attributeName }) =>
         type !== "attributes" || !animation.attributeChanged(target as Element, attributeName ?? ""),
@@ -81,8 +95,10 @@ export class SceneAnimation {
   followInlined(roots: readonly Element[]): void {
     if (roots.length === this.#inlined.length && roots.every((root, index) => root === this.#inlined[index])) return;
     this.#inlined = roots;
-    if (this.#animation) this.#animation.read();
-    else if (!this.#isRequested && roots.some(hasAnimation)) void this.#load();
+    if (this.#animation) {
+      this.#animation.read();
+      this.#onMotion();
+    } else if (!this.#isRequested && roots.some(hasAnimation)) void this.#load();
   }
 
   /** Call before the document is read: writes attributes that are late. */
@@ -109,6 +125,7 @@ export class SceneAnimation {
       if (this.#isDisposed) return;
       this.#animation = new Animation(this.#documents(), this.#scene(), this.#mayStartByItself);
       this.#applyState();
+      this.#onMotion();
     } catch (error) {
       this.#isRequested = false;
       this.#host.warn(`the module that animates the scene could not be loaded: ${String(error)}`);

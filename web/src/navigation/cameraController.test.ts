@@ -197,6 +197,19 @@ describe("the controller", () => {
     assertPose(controller.advance(0), frontPose);
   });
 
+  test("without viewpoints shows the bounds of what moves, and all of the scene beside them", () => {
+    const { controller } = controllerFor({}, []);
+    assertPose(controller.pose, poseFraming(sphere));
+    const motion = new Sphere(sphere.center.clone().add(new Vector3(sphere.radius, 0, 0)), 4 * sphere.radius);
+    controller.setMotion(motion);
+    assertPose(controller.pose, poseFraming(motion));
+    const beside = new Sphere(motion.center.clone().add(new Vector3(0, 9 * sphere.radius, 0)), sphere.radius);
+    controller.setMotion(beside);
+    assertPose(controller.pose, poseFraming(beside.clone().union(sphere)));
+    controller.setMotion(undefined);
+    assertPose(controller.pose, poseFraming(sphere));
+  });
+
   test("moves to a bound viewpoint within the document's transition time", () => {
     const { controller } = controllerFor({ transitionTime: 2 });
     controller.bind(side.element);

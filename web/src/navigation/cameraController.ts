@@ -48,6 +48,7 @@ export class CameraController {
   #scene: NavigatedScene | undefined;
   #home = poseFraming(new Sphere(new Vector3(), 1));
   #homeKey = "";
+  #motion: Sphere | undefined;
   #camera = unsetCamera;
   #pose = this.#home;
   #transition: CameraTransition | undefined;
@@ -132,6 +133,13 @@ export class CameraController {
     this.#typesKey = typesKey;
     this.#updateHome(!isFirst && this.bound !== before);
     this.#onNavigation();
+  }
+
+  /** The bounds of all moments of what moves in the scene, which the initial view shows; undefined where nothing does. */
+  setMotion(sphere: Sphere | undefined): void {
+    if (sphere === this.#motion) return;
+    this.#motion = sphere;
+    if (this.#scene !== undefined) this.#updateHome(false);
   }
 
   /** The scene has moved: the camera follows the bound viewpoint, but without one it does not frame the scene anew. */
@@ -259,6 +267,15 @@ export class CameraController {
     return this.autoRotation.isRotating && this.#type === "examine";
   }
 
+  /** What the initial view shows. */
+  get #homeSphere(): Sphere {
+    const [sphere, motion] = [this.#sphere, this.#motion];
+    if (motion === undefined) return sphere;
+    // The sphere around a box that is within another box protrudes by less than this from the other's sphere.
+    const isWithin = motion.center.distanceTo(sphere.center) + sphere.radius <= Math.SQRT2 * motion.radius;
+    return isWithin ? motion : motion.clone().union(sphere);
+  }
+
   get #sphere(): Sphere {
     return this.#scene?.sphere ?? new Sphere(new Vector3(), 1);
   }
@@ -327,7 +344,7 @@ export class CameraController {
   /** Recomputes the home pose and moves the camera there where it has changed; `isAnimated`: by a transition. */
   #updateHome(isAnimated: boolean): void {
     const viewpoint = boundPoseOf(this.#viewpoints, this.viewpoints);
-    const home = homePoseOf(viewpoint, this.#camera, this.#sphere);
+    const home = homePoseOf(viewpoint, this.#camera, this.#homeSphere);
     const key = JSON.stringify([viewpoint, this.#camera]);
     const hasChanged = key !== this.#homeKey;
     if (!hasChanged && JSON.stringify(home) === JSON.stringify(this.#home)) return;

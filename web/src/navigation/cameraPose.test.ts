@@ -56,6 +56,14 @@ describe("a pose that frames the scene", () => {
   });
 });
 
+test("a scene at the side of the view is within the depth range, as one in the middle is", () => {
+  for (const shift of [0.5, 1, 2, 5])
+    for (const point of surface) {
+      const { z } = projected(panPose(start, shift, -shift / 2), 1, point);
+      assert.ok(Math.abs(z) <= 1, `moved by ${shift}: ${z}`);
+    }
+});
+
 describe("a viewpoint", () => {
   const fields = {
     set_bind: false,

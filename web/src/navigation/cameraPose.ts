@@ -141,10 +141,11 @@ export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: nu
   const halfHeight = Math.tan(pose.fieldOfView / 2) * Math.max(height, width / aspect);
   // Depth precision is spent on the scene only. Inside it the near plane is at 1/10000 … 1/100 of the far plane: 1/100
   // still shows the walls of a room whose author allows no smaller clearance.
-  const distance = pose.position.distanceTo(sphere.center);
+  const toCenter = sphere.center.clone().sub(pose.position);
   const radius = Math.max(sphere.radius * 1.01, 1e-9);
-  const far = distance + radius;
-  const near = Math.max(distance - radius, MathUtils.clamp(clearance, far * 1e-4, far * 1e-2));
+  const far = toCenter.length() + radius;
+  // Planes are at depths: a scene at the side of the view is nearer along the axis than its distance.
+  const near = Math.max(toCenter.dot(forwardOf(pose)) - radius, MathUtils.clamp(clearance, far * 1e-4, far * 1e-2));
   return { fieldOfView: 2 * Math.atan(halfHeight), near, far };
 }
 

@@ -13,6 +13,7 @@ import { ViewSensor } from "../viewSensors.ts";
 import { inverseOf, product, rotationIn, transformPoint } from "./matrices.ts";
 import type { Matrix } from "./matrices.ts";
 import { isSequenceFraction } from "../interpolators.ts";
+import { visitMoments } from "../motionMoments.ts";
 import { MovieTexture } from "../movieTexture.ts";
 import { LateAttributes } from "./lateAttributes.ts";
 import { OutputEvents } from "./outputEvents.ts";
@@ -66,6 +67,7 @@ interface ScriptAccess {
 
 export class PageAnimation {
   readonly #scene: AnimatedScene;
+  readonly #documents: PageDocuments;
   readonly #player: AnimationPlayer;
   readonly #events = new OutputEvents();
   readonly #listeners = new AbortController();
@@ -78,6 +80,7 @@ export class PageAnimation {
 
   constructor(documents: PageDocuments, scene: AnimatedScene, mayStartByItself: boolean) {
     this.#scene = scene;
+    this.#documents = documents;
     const write = (changes: Iterable<FieldChange>): void => {
       this.#write(changes);
     };
@@ -135,6 +138,11 @@ export class PageAnimation {
   attributeChanged(element: Element, attribute: string): boolean {
     this.#player.attributeChanged(element, attribute);
     return this.#player.nodes.has(element) && attribute.toLowerCase() !== "url";
+  }
+
+  /** Calls back with what each clock moves at its moments, without moving it: see motionMoments.ts. */
+  visitMoments(visit: (changes: readonly FieldChange[]) => void): void {
+    visitMoments(this.#documents, this.#scene.drawnFieldOf, visit);
   }
 
   /** Stops all clocks, or lets them go on from where they were. */
