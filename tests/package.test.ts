@@ -127,6 +127,7 @@ describe("the package", () => {
         "lib/loader/index.d.ts",
         "lib/dom/index.js",
         "lib/workers/imgeo-worker.js",
+        "lib/workers/imgeo-decoder.wasm",
         "README.md",
         "LICENSE",
         "NOTICE",
@@ -181,6 +182,8 @@ describe("the package", () => {
         files.get(worker),
         readFileSync(join(app, "node_modules/imgeo/lib/workers/imgeo-worker.js"), "utf8"),
       );
+      const decoder = Array.from(files.keys()).find((file) => /^assets\/imgeo-decoder-[^/]*\.wasm$/.test(file));
+      assert.ok(decoder !== undefined && bundle.includes(basename(decoder)), "the bundle names the decoder, too");
       assert.match(bundle, /WebGLRenderer|isObject3D/, "the bundle holds the parts of three.js that it uses");
       assert.equal(bundle.includes("customElements.define"), name === "element.ts");
     });

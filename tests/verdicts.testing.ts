@@ -3,7 +3,7 @@
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { DecodeError } from "../web/src/decode/decodeError.ts";
-import { payloadOf } from "../web/src/decode/compact/jobs.ts";
+import { payloadOf } from "../web/src/decode/compact/payload.ts";
 import { TestRandom } from "../web/src/decode/compact/rangeEncoder.testing.ts";
 import { verdictOn } from "../web/src/decode/compact/verdict.testing.ts";
 

@@ -1,6 +1,6 @@
 // Makes the contents of the npm package `imgeo`. web/lib holds a module with its types
 // for each source, of which an app's bundler takes what the app uses, and the worker
-// in one file, which the bundler copies. Licence and notice come from the repository.
+// in one file, which the bundler copies, as the decoder in WebAssembly. Licence and notice come from the repository.
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
 import { copyFileSync, rmSync } from "node:fs";
@@ -16,4 +16,5 @@ execFileSync(
   { stdio: "inherit" },
 );
 await build({ ...workerBundle, outfile: join(web, "lib/workers/imgeo-worker.js") });
+copyFileSync(join(web, "dist/imgeo-decoder.wasm"), join(web, "lib/workers/imgeo-decoder.wasm"));
 for (const name of ["LICENSE", "NOTICE"]) copyFileSync(join(web, "..", name), join(web, name));

@@ -26,4 +26,5 @@ await build({
   minify: true,
   logLevel: "warning",
 });
-cpSync(join(repository, "web/dist/imgeo-worker.js"), join(output, "imgeo-worker.js"));
+for (const file of ["imgeo-worker.js", "imgeo-decoder.wasm"])
+  cpSync(join(repository, "web/dist", file), join(output, file));

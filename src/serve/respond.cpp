@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint64_t maxEncodedBytes = 16u << 20;
 
 constexpr std::string_view indexName = "index.html";
-constexpr std::string_view contentPolicy = "default-src 'self'";
+/// WebAssembly, which workers decode with, has to be allowed by name.
+constexpr std::string_view contentPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'";
 
 /// The fields that 200 and 304 share (RFC 9110, section 15.4.5).
 void addCacheFields(Response& response, std::string_view fileName, const std::string& tag, bool varies) {

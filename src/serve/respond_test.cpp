@@ -52,7 +52,7 @@ TEST_F(Respond, AFileComesWithItsTypeLengthTagAndPolicy) {
   EXPECT_EQ(response.field("Content-Type"), "application/octet-stream");
   EXPECT_EQ(response.field("Content-Length"), "10");
   EXPECT_EQ(response.field("Accept-Ranges"), "bytes");
-  EXPECT_EQ(response.field("Content-Security-Policy"), "default-src 'self'");
+  EXPECT_EQ(response.field("Content-Security-Policy"), "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'");
   EXPECT_EQ(response.field("X-Content-Type-Options"), "nosniff");
   EXPECT_TRUE(response.field("ETag").starts_with('"'));
 }

@@ -7,7 +7,7 @@
 // - Files whose stem ends in the 16 hex digits of their content's hash may be cached indefinitely; all others are
 //   revalidated by their ETag at each use.
 // - Text is sent as brotli or gzip where the client accepts it.
-// - Every page runs under `Content-Security-Policy: default-src 'self'`.
+// - Every page runs under `Content-Security-Policy: default-src 'self'; script-src 'self' 'wasm-unsafe-eval'`.
 // - Nothing outside the directory is served, neither by ".." nor through symbolic links, and no name that starts with a
 //   dot. Safe for untrusted requests.
 

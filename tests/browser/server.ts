@@ -10,6 +10,8 @@ import { extname, join, normalize } from "node:path";
 import { NetworkLink, type LinkOptions } from "./networkLink.ts";
 
 export interface RequestRecord {
+  /** "GET", or "HEAD" where only headers were asked for. */
+  method: string;
   /** Decoded path, without the query. */
   path: string;
   /** HTTP status; 0 until answered, and if the client disconnected first. */
@@ -89,7 +91,7 @@ export async function startServer(directory: string): Promise<TestServer> {
       response.writeHead(204).end();
       return;
     }
-    const record: RequestRecord = { path, status: 0, state: "waiting" };
+    const record: RequestRecord = { method: request.method ?? "GET", path, status: 0, state: "waiting" };
     requests.push(record);
     response.on("close", () => {
       if (!response.writableFinished) record.state = "aborted";
@@ -109,7 +111,7 @@ export async function startServer(directory: string): Promise<TestServer> {
     record.status = behaviour.status ?? made?.status ?? (body ? 200 : 404);
     response.on("finish", () => (record.state = "answered"));
     const packed = Object.keys(behaviour).length === 0 ? encodedFor(request, path) : undefined;
-    const sent = packed?.body ?? body ?? Buffer.alloc(0);
+    const sent = (request.method === "HEAD" ? undefined : (packed?.body ?? body)) ?? Buffer.alloc(0);
     response.writeHead(record.status, {
       "Content-Type": mediaTypes[extname(path) || ".html"] ?? "application/octet-stream",
       "Content-Length": sent.length,

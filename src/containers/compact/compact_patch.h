@@ -83,6 +83,8 @@ struct CompactPatch {
   std::vector<Attribute> attributes;
   /// Encoders only: see Patch::grid.
   std::optional<VertexGrid> grid{};
+  /// Decoders only, triangles only: see Connectivity::fans.
+  std::vector<std::uint32_t> fans{};
   /// Base only: the segment of each triangle, below `segmentCount`. Empty in a patch.
   std::vector<std::uint32_t> segments;
   std::uint32_t segmentCount = 0; ///< 0: a patch, not a base

@@ -32,6 +32,10 @@ struct Connectivity {
   std::vector<std::uint32_t> behind;  ///< per vertex: the previous vertex on the boundary at that time
   std::vector<std::uint32_t> second;  ///< per vertex: the corner opposite the edge of a second parallelogram
 
+  /// Triangles only; decoders only: for each node of the boundary, in the order of creation, the numbers of triangles
+  /// and of nodes when all triangles around it were decoded.
+  std::vector<std::uint32_t> fans;
+
   std::vector<std::uint32_t> from; ///< lines only, per vertex: the other end of the line that introduced it
 };
 

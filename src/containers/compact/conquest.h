@@ -56,6 +56,8 @@ public:
       perVertex->assign(vertexCount, none);
     degrees_.assign(vertexCount, 0);
     nodes_.reserve(vertexCount + vertexCount / 4);
+    if constexpr (!Coder::encodes)
+      out_.fans.reserve(2 * nodes_.capacity());
   }
 
   Connectivity run() {
@@ -68,6 +70,10 @@ public:
             guide_.expect(vertexOf(pivot + lookahead));
         while (!isComplete() && nodes_[pivot].previous != none)
           crossEdgeTo(pivot);
+        if constexpr (!Coder::encodes) {
+          out_.fans.push_back(static_cast<std::uint32_t>(out_.across.size()));
+          out_.fans.push_back(static_cast<std::uint32_t>(nodes_.size()));
+        }
       }
     }
     coder_.require(out_.vertexCount == vertexCount_, "there are fewer vertices than the header states");

@@ -44,7 +44,7 @@ private:
     CompactPatch patch;
     patch.topology = type.topology;
     patch.positionBits = type.positionBits;
-    const Connectivity connectivity = decodeConnectivity(type.topology, sizes);
+    Connectivity connectivity = decodeConnectivity(type.topology, sizes);
     Segments segments;
     if (type.isBase)
       segments = codeSegments(streams_[StreamName::segments], connectivity, sizes.segmentCount,
@@ -60,6 +60,7 @@ private:
     patch.segments = std::move(segments.ofTriangle);
     patch.segmentCount = sizes.segmentCount;
     patch.residualShift = sizes.residualShift;
+    patch.fans = std::move(connectivity.fans);
     patch.corners = std::move(wedges.ofCorner);
     patch.wedgePositions = std::move(wedges.vertex);
     return patch;

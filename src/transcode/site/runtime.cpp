@@ -14,6 +14,7 @@ extern const char imgeoSharedBegin[], imgeoSharedEnd[];
 extern const char imgeoSceneBegin[], imgeoSceneEnd[];
 extern const char imgeoAnimationBegin[], imgeoAnimationEnd[];
 extern const char imgeoWorkerBegin[], imgeoWorkerEnd[];
+extern const char imgeoDecoderBegin[], imgeoDecoderEnd[];
 }
 
 namespace imgeo {
@@ -22,7 +23,8 @@ namespace {
 
 /// A bundle as a file of a site. Replaces the bundle names of the modules that it imports by their file names.
 RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
-                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> imports) {
+                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> imports,
+                     const char* extension = "js") {
   std::string text(bundle);
   for (const auto& [bundledName, file] : imports) {
     std::size_t position = text.find(bundledName);
@@ -31,30 +33,31 @@ RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
       text.replace(position, std::string_view(bundledName).size(), file->name);
     }
   }
-  std::string name = fmt::format("{}-{}.js", stem, contentName(asBytes(text)));
+  std::string name = fmt::format("{}-{}.{}", stem, contentName(asBytes(text)), extension);
   return {std::move(name), std::move(text)};
 }
 
 } // namespace
 
 RuntimeModules<std::string_view> bundledRuntime() {
-  return {{imgeoPageBegin, imgeoPageEnd},
-          {imgeoSharedBegin, imgeoSharedEnd},
-          {imgeoSceneBegin, imgeoSceneEnd},
-          {imgeoAnimationBegin, imgeoAnimationEnd},
-          {imgeoWorkerBegin, imgeoWorkerEnd}};
+  return {{imgeoPageBegin, imgeoPageEnd},     {imgeoSharedBegin, imgeoSharedEnd},
+          {imgeoSceneBegin, imgeoSceneEnd},   {imgeoAnimationBegin, imgeoAnimationEnd},
+          {imgeoWorkerBegin, imgeoWorkerEnd}, {imgeoDecoderBegin, imgeoDecoderEnd}};
 }
 
 Runtime runtimeOfSite() {
   // The names are those of web/bundle.ts and of web/src/workers/pageWorkers.ts.
-  const auto [page, shared, scene, animation, worker] = bundledRuntime();
+  const auto [page, shared, scene, animation, worker, decoder] = bundledRuntime();
   Runtime site;
   site.worker = siteFile("imgeo-worker", worker, {});
+  site.decoder = siteFile("imgeo-decoder", decoder, {}, "wasm");
   site.shared = siteFile("imgeo-shared", shared, {});
   site.animation = siteFile("imgeo-animation", animation, {});
-  site.scene = siteFile(
-      "imgeo-scene", scene,
-      {{"imgeo-shared.js", &site.shared}, {"imgeo-animation.js", &site.animation}, {"imgeo-worker.js", &site.worker}});
+  site.scene = siteFile("imgeo-scene", scene,
+                        {{"imgeo-shared.js", &site.shared},
+                         {"imgeo-animation.js", &site.animation},
+                         {"imgeo-worker.js", &site.worker},
+                         {"imgeo-decoder.wasm", &site.decoder}});
   site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
   return site;
 }

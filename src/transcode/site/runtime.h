@@ -6,13 +6,14 @@
 
 namespace imgeo {
 
-/// One value for each ES module of the runtime.
+/// One value for each module of the runtime: JavaScript except for the last.
 template <typename Module> struct RuntimeModules {
   Module page;      ///< the page loads it first: draws the preview and loads the others
   Module shared;    ///< used by `page` and `scene`
   Module scene;     ///< three.js and all else
   Module animation; ///< loaded by `scene` where the document has nodes that send events
   Module worker;    ///< runs in workers
+  Module decoder;   ///< WebAssembly that workers decode compact with (src/wasm)
 };
 
 /// The modules as they were bundled into web/dist when the tool was built.

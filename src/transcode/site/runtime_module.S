@@ -8,4 +8,5 @@
     BUNDLE(imgeoSceneBegin, imgeoSceneEnd, IMGEO_SCENE_MODULE)
     BUNDLE(imgeoAnimationBegin, imgeoAnimationEnd, IMGEO_ANIMATION_MODULE)
     BUNDLE(imgeoWorkerBegin, imgeoWorkerEnd, IMGEO_WORKER_MODULE)
+    BUNDLE(imgeoDecoderBegin, imgeoDecoderEnd, IMGEO_DECODER_MODULE)
     .section .note.GNU-stack,"",%progbits

@@ -48,8 +48,9 @@ void writeX3domPages(const SceneDocument& document, const X3domRelease& release,
 Runtime writeRuntime(const fs::path& site) {
   Runtime runtime = runtimeOfSite();
   fs::create_directory(site / runtimeFolder);
-  for (const RuntimeFile& file : {runtime.page, runtime.shared, runtime.scene, runtime.animation, runtime.worker})
-    writeFile(site / runtimeFolder / file.name, asBytes(file.text));
+  for (const RuntimeFile* file :
+       {&runtime.page, &runtime.shared, &runtime.scene, &runtime.animation, &runtime.worker, &runtime.decoder})
+    writeFile(site / runtimeFolder / file->name, asBytes(file->text));
   writeFile(site / runtimeFolder / runtimeModuleName, asBytes(runtimeModuleText(runtime)));
   return runtime;
 }

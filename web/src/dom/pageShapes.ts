@@ -220,6 +220,11 @@ export class PageShapes extends LoadingShapes<PageShape> {
     return count;
   }
 
+  /** Whether files of compact are requested. */
+  get hasCompact(): boolean {
+    return Array.from(this).some(({ geometry, isVisible }) => isVisible && geometry?.encoding === "compact");
+  }
+
   /** The loading of each visible shape: files of hidden shapes are fetched when they become visible. */
   get visibleLoadings(): readonly LoadingEvents[] {
     return Array.from(this)

@@ -325,6 +325,7 @@ export class PageViewer {
     this.#isLoading = true;
     this.#core.load();
     this.#workers.prepare(this.#shapes.workerJobCount);
+    if (this.#shapes.hasCompact) this.#workers.requestDecoder();
     this.renderer.requestFrame();
   }
 

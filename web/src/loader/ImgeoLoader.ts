@@ -41,7 +41,10 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     return this;
   }
 
-  /** Sets the URL of the package's `imgeo-worker.js`, if that is not beside the bundle. */
+  /**
+   * Sets the URL of the package's `imgeo-worker.js`, if that is not beside the bundle. Its `imgeo-decoder.wasm` lies
+   * beside the worker.
+   */
   setWorkerUrl(url: string | URL): this {
     this.#workerUrl = url;
     this.#workers?.dispose();

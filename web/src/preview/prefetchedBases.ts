@@ -3,7 +3,7 @@
 // runtime, which reports the error.
 
 import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
-import { decodeBases } from "../decode/compact/jobs.ts";
+import { decodeBases } from "../decode/compact/decodeBases.ts";
 
 /** The bases in one file. */
 interface DecodedBases<Decoded> {

@@ -1,6 +1,7 @@
 // The worker pool of a page. The file of the worker is next to that of the runtime.
 
 import { DecodeError } from "../decode/decodeError.ts";
+import { fetchDecoder } from "./fetchDecoder.ts";
 import { WorkerPool } from "./workerPool.ts";
 
 interface WorkerModule {
@@ -9,13 +10,17 @@ interface WorkerModule {
 
 const idleMs = 10_000;
 
-// `imgeo convert` replaces this name by the file's name in the site; bundlers that know this pattern copy the file.
+// `imgeo convert` replaces these names by the files' names in the site; bundlers that know this pattern copy the files.
 const workerUrl = (): URL => new URL("./imgeo-worker.js", import.meta.url);
+const decoderUrl = (): URL => new URL("./imgeo-decoder.wasm", import.meta.url);
 
-export function pageWorkers(url: string | URL = workerUrl()): WorkerPool {
+/** `givenUrl`: the URL of imgeo-worker.js, with imgeo-decoder.wasm beside it. */
+export function pageWorkers(givenUrl?: string | URL): WorkerPool {
+  const url = new URL(givenUrl ?? workerUrl(), document.baseURI);
+  const decoder = givenUrl === undefined ? decoderUrl() : new URL("imgeo-decoder.wasm", url);
   let module: Promise<WorkerModule> | undefined;
   const load = () =>
-    (module ??= importedFrom(new URL(url, document.baseURI).href).catch((error: unknown) => {
+    (module ??= importedFrom(url.href).catch((error: unknown) => {
       module = undefined; // the next call tries again
       throw error;
     }));
@@ -23,6 +28,7 @@ export function pageWorkers(url: string | URL = workerUrl()): WorkerPool {
     // Leaves one core to the page. There are at least two workers, since the page often waits for them.
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
+    fetchDecoder: () => fetchDecoder(url, decoder),
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
     runOnMainThread: async (message) => (await load()).runJob(message),
     prepareMainThread: () => {

@@ -8,6 +8,11 @@ export interface JobMessage {
   readonly input: unknown;
 }
 
+/** The bytes of the WebAssembly module that decodes compact from now on. A worker does not answer it. */
+export interface DecoderMessage {
+  readonly decoder: ArrayBuffer;
+}
+
 export type AnswerMessage =
   | { readonly output: unknown }
   | { readonly error: { readonly kind: DecodeError["kind"] | undefined; readonly message: string } };

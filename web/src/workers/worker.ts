@@ -1,8 +1,9 @@
 // The entry module of workers, a file of its own next to the runtime. A page that cannot start workers imports it and
 // runs the jobs on its main thread.
 
+import { useWasm } from "../decode/compact/decodeFile.ts";
 import { jobs } from "../decode/jobs.ts";
-import type { JobMessage } from "./protocol.ts";
+import type { DecoderMessage, JobMessage } from "./protocol.ts";
 import { asAnswer, buffersIn } from "./protocol.ts";
 
 export async function runJob({ name, input }: JobMessage): Promise<unknown> {
@@ -19,8 +20,18 @@ async function answer(message: JobMessage): Promise<void> {
   }
 }
 
+/** Compiles the decoder while jobs run. Where that is not possible, jobs go on with TypeScript. */
+async function receive({ decoder }: DecoderMessage): Promise<void> {
+  try {
+    useWasm(await WebAssembly.compile(decoder));
+  } catch {
+    // See above.
+  }
+}
+
 if ("WorkerGlobalScope" in globalThis) {
   addEventListener("message", ({ data }) => {
-    void answer(data as JobMessage);
+    const message = data as JobMessage | DecoderMessage;
+    void ("decoder" in message ? receive(message) : answer(message));
   });
 }

@@ -4,19 +4,30 @@ import { describe, test } from "node:test";
 import type { IndexJob, NormalJob } from "../decode/classic/classicArrays.ts";
 import { DecodeError } from "../decode/decodeError.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
-import type { AnswerMessage, JobMessage } from "./protocol.ts";
+import type { AnswerMessage, DecoderMessage, JobMessage } from "./protocol.ts";
 import { asAnswer, asError, buffersIn } from "./protocol.ts";
 import { runJob } from "./worker.ts";
 import type { JobWorker } from "./workerPool.ts";
 import { WorkerPool } from "./workerPool.ts";
 
 /** A pool with fake workers, which answer when the test calls `answer`. */
-function poolWithFakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
-  const workers: { received: JobMessage[]; isEnded: boolean; answer: (answer: AnswerMessage) => void }[] = [];
+function poolWithFakes({
+  size = 2,
+  idleMs = 1000,
+  start = true,
+  broken = false,
+  fetchDecoder = () => Promise.resolve<ArrayBuffer | undefined>(undefined),
+} = {}) {
+  const workers: {
+    received: (JobMessage | DecoderMessage)[];
+    isEnded: boolean;
+    answer: (answer: AnswerMessage) => void;
+  }[] = [];
   const onMainThread: JobMessage[] = [];
   const pool = new WorkerPool({
     size,
     idleMs,
+    fetchDecoder,
     start: () => {
       if (!start) throw new DOMException("no", "SecurityError");
       const worker: JobWorker = {
@@ -31,7 +42,7 @@ function poolWithFakes({ size = 2, idleMs = 1000, start = true, broken = false }
         },
       };
       const fake = {
-        received: [] as JobMessage[],
+        received: [] as (JobMessage | DecoderMessage)[],
         isEnded: false,
         answer: (answer: AnswerMessage) => worker.onmessage?.({ data: answer } as MessageEvent<AnswerMessage>),
       };
@@ -201,4 +212,58 @@ test("messages transfer the buffer of each array once, and errors keep their kin
     [back(new DecodeError("limit", "m")).name, back(new RangeError("m")).name, back("m").message],
     ["DecodeError", "Error", "m"],
   );
+});
+
+describe("the decoder in WebAssembly", () => {
+  const file = new Uint8Array(1);
+  const decoder = new ArrayBuffer(8);
+
+  test("is fetched once, when a job needs it, and given to workers that run and to those that start later", async () => {
+    const fetched = Promise.withResolvers<ArrayBuffer | undefined>();
+    let requests = 0;
+    const { pool, workers } = poolWithFakes({
+      fetchDecoder: () => {
+        ++requests;
+        return fetched.promise;
+      },
+    });
+    void pool.run("classicNormals", input(1), noAbort);
+    assert.equal(requests, 0);
+    workers[0]?.answer(output(1));
+    for (let job = 0; job < 3; ++job) void pool.run("compactPatches", file, noAbort);
+    pool.requestDecoder();
+    assert.equal(requests, 1);
+    assert.equal(workers.length, 2);
+    const jobsBefore = workers.map(({ received }) => received.length);
+    fetched.resolve(decoder);
+    await soon();
+    assert.deepEqual(
+      workers.map(({ received }, n) => received.slice(jobsBefore[n])),
+      [[{ decoder }], [{ decoder }]],
+    );
+    pool.dispose();
+  });
+
+  test("reaches a worker before its first job, where it has been fetched", async () => {
+    const { pool, workers } = poolWithFakes({ fetchDecoder: () => Promise.resolve(decoder) });
+    pool.requestDecoder();
+    await soon();
+    void pool.run("compactPatches", file, noAbort);
+    assert.deepEqual(workers[0]?.received, [{ decoder }, { name: "compactPatches", input: file }]);
+    pool.dispose();
+  });
+
+  test("is not fetched where no workers can be started", () => {
+    let requests = 0;
+    const { pool } = poolWithFakes({
+      start: false,
+      fetchDecoder: () => {
+        ++requests;
+        return Promise.resolve(undefined);
+      },
+    });
+    pool.prepare(1);
+    pool.requestDecoder();
+    assert.equal(requests, 0);
+  });
 });

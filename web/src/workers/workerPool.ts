@@ -3,14 +3,14 @@
 // run on the main thread.
 
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
-import type { AnswerMessage, JobMessage } from "./protocol.ts";
+import type { AnswerMessage, DecoderMessage, JobMessage } from "./protocol.ts";
 import { asError } from "./protocol.ts";
 
 /** The members of Worker that the pool uses. */
 export interface JobWorker {
   onmessage: ((event: MessageEvent<AnswerMessage>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
-  postMessage(message: JobMessage): void;
+  postMessage(message: JobMessage | DecoderMessage): void;
   terminate(): void;
 }
 
@@ -21,9 +21,17 @@ export interface WorkerPoolOptions {
   readonly runOnMainThread: (message: JobMessage) => Promise<unknown>;
   /** Loads what `runOnMainThread` needs, before it is called. */
   readonly prepareMainThread: () => void;
+  /**
+   * Fetches the WebAssembly module that decodes compact, once: workers use TypeScript until they have it. Undefined
+   * where there is none.
+   */
+  readonly fetchDecoder: () => Promise<ArrayBuffer | undefined>;
   /** Milliseconds after which an idle worker is ended. */
   readonly idleMs: number;
 }
+
+/** The jobs that the module decodes. */
+const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases"]);
 
 interface Job {
   readonly message: JobMessage;
@@ -45,6 +53,8 @@ export class WorkerPool {
   #canStart = true;
   #isDisposed = false;
   #mainThreadJobs: Promise<void> = Promise.resolve();
+  #isDecoderRequested = false;
+  #decoder: ArrayBuffer | undefined;
 
   constructor(options: WorkerPoolOptions) {
     this.#options = options;
@@ -77,6 +87,7 @@ export class WorkerPool {
       const job: Job = { message: { name, input }, signal, resolve: settled(resolve), reject: settled(reject) };
       this.#waiting.push(job);
       this.#pump();
+      if (decoderJobs.has(name)) this.requestDecoder();
     }) as Promise<OutputOf<Name>>;
   }
 
@@ -86,6 +97,17 @@ export class WorkerPool {
       const idle = this.#tryStart();
       if (idle !== undefined) this.#endWhenIdle(idle);
     }
+  }
+
+  /** Call where files of compact have been requested; has no effect from the second time on. */
+  requestDecoder(): void {
+    if (this.#isDecoderRequested || !this.#canStart || this.#isDisposed) return;
+    this.#isDecoderRequested = true;
+    void this.#options.fetchDecoder().then((decoder) => {
+      if (decoder === undefined) return;
+      this.#decoder = decoder;
+      for (const { worker } of this.#workers) worker.postMessage({ decoder });
+    });
   }
 
   /** Call where jobs for `runOnMainThread` are expected. */
@@ -156,6 +178,7 @@ export class WorkerPool {
   #add(worker: JobWorker): PoolWorker {
     const poolWorker: PoolWorker = { worker, job: undefined, idleTimer: undefined };
     this.#workers.add(poolWorker);
+    if (this.#decoder !== undefined) worker.postMessage({ decoder: this.#decoder });
     worker.onmessage = ({ data }) => {
       this.#finishJob(poolWorker, data);
     };

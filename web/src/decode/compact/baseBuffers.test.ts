@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Base } from "./baseBuffers.ts";
+import { decodedOf } from "./typescriptDecoder.ts";
 import { decodeVector, readVector } from "./vectors.testing.ts";
 
 interface Expected {
@@ -36,7 +37,7 @@ describe("the segments of a base mesh", () => {
             : [],
         ),
       );
-      const buffers = new Base(decodeVector(name)[0]!).segments;
+      const buffers = new Base(decodedOf(decodeVector(name)[0]!)).segments;
       assert.equal(buffers.length, segmentCount);
       assert.deepEqual(
         buffers.map((segment) => {
@@ -69,7 +70,7 @@ describe("the segments of a base mesh", () => {
 
   test("are joined in the whole base mesh", () => {
     const { corners, wedgePositions, positions } = (readVector("base-seams") as Expected[])[0]!;
-    const { whole, segmentCount } = new Base(decodeVector("base-seams")[0]!);
+    const { whole, segmentCount } = new Base(decodedOf(decodeVector("base-seams")[0]!));
     assert.deepEqual(Array.from(whole.index!), corners);
     const { array, stride } = whole.coord;
     const vertexPositions = Array.from({ length: whole.vertexCount }, (_, w) =>
@@ -85,7 +86,7 @@ describe("the segments of a base mesh", () => {
   test("have one normal at each position, whatever seams the texture has", () => {
     const normals = new Map<string, string>();
     let seams = 0;
-    for (const segment of new Base(decodeVector("base-seams")[0]!).segments) {
+    for (const segment of new Base(decodedOf(decodeVector("base-seams")[0]!)).segments) {
       if (segment?.attributes.normal === undefined) continue;
       const { coord } = segment;
       const { normal } = segment.attributes;
@@ -101,6 +102,6 @@ describe("the segments of a base mesh", () => {
   });
 
   test("are refused in a patch that is no base mesh", () => {
-    assert.throws(() => new Base(decodeVector("sphere")[0]!), /a patch where a base should be/);
+    assert.throws(() => new Base(decodedOf(decodeVector("sphere")[0]!)), /a patch where a base should be/);
   });
 });

@@ -4,9 +4,9 @@
 import { byVertexRole } from "../../stage/attributeRows.ts";
 import type { ElementArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
-import type { CompactPatch } from "./patch.ts";
+import type { DecodedPatch, SegmentsOfTriangles } from "./decodedFile.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
-import { indexOf, verticesOf } from "./patchBuffers.ts";
+import { indexOf } from "./patchBuffers.ts";
 
 /** The buffers of each segment, in order; undefined for a segment without triangles. */
 export type BaseBuffers = (PatchBuffers | undefined)[];
@@ -16,31 +16,25 @@ export class Base {
   readonly segmentCount: number;
   /** All segments in one. */
   readonly whole: PatchBuffers;
-  readonly #segment: Int32Array;
-  readonly #wedge: Int32Array;
+  readonly #segments: SegmentsOfTriangles;
   #buffers: BaseBuffers | undefined;
 
   /** Throws DecodeError for a patch that is no base mesh. */
-  constructor(patch: CompactPatch) {
-    const {
-      header,
-      segments,
-      wedges: { wedge },
-    } = patch;
+  constructor({ buffers, segments }: DecodedPatch) {
     if (segments === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
-    this.segmentCount = header.segmentCount;
-    this.whole = { ...verticesOf(patch), index: indexOf(wedge, header.wedgeCount) };
-    this.#segment = segments.segment;
-    this.#wedge = wedge;
+    this.segmentCount = segments.segmentCount;
+    this.whole = buffers;
+    this.#segments = segments;
   }
 
   /** The buffers of each segment, computed on first use. */
   get segments(): BaseBuffers {
-    return (this.#buffers ??= segmentsOf(this.whole, this.#wedge, this.#segment, this.segmentCount));
+    return (this.#buffers ??= segmentsOf(this.whole, this.#segments));
   }
 }
 
-function segmentsOf(whole: PatchBuffers, wedge: Int32Array, segment: Int32Array, segmentCount: number): BaseBuffers {
+function segmentsOf(whole: PatchBuffers, { segment, segmentCount }: SegmentsOfTriangles): BaseBuffers {
+  const wedge = whole.index!;
   const { firsts, triangles } = trianglesBySegment(segment, segmentCount);
   const newIndices = new Int32Array(whole.vertexCount).fill(-1);
   return Array.from({ length: segmentCount }, (_, s) => {

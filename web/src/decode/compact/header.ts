@@ -4,11 +4,11 @@ import { attributeRows } from "../../stage/attributeRows.ts";
 import { DecodeError } from "../decodeError.ts";
 
 export type Topology = "points" | "lines" | "triangles";
-const topologies: readonly (Topology | undefined)[] = [undefined, "points", "lines", "triangles"];
+export const topologies: readonly (Topology | undefined)[] = [undefined, "points", "lines", "triangles"];
 
 /** A patch may have several attributes of the kind "texCoord": the sets of texture coordinates, in order. */
 export type AttributeKind = "normal" | "texCoord" | "color" | "other";
-const attributeKinds: readonly (AttributeKind | undefined)[] = ["normal", "texCoord", "color", "other"];
+export const attributeKinds: readonly (AttributeKind | undefined)[] = ["normal", "texCoord", "color", "other"];
 
 export interface AttributeType {
   readonly kind: AttributeKind;

@@ -6,30 +6,14 @@ import { DecodeError } from "../decodeError.ts";
 import { decodePatches } from "./patch.ts";
 import { TestRandom } from "./rangeEncoder.testing.ts";
 import { stated, verdictOn } from "./verdict.testing.ts";
-import { readPayload, readVector, vectorNames } from "./vectors.testing.ts";
+import type { Edit, Refused } from "./vectors.testing.ts";
+import { editedPayload, payloadOfRefused, readPayload, readVector, vectorNames } from "./vectors.testing.ts";
 
 const names = vectorNames();
 const payloads = new Map(names.map((name) => [name, readPayload(name)]));
 
 const decode = (payload: Uint8Array) => decodePatches(payload, stated);
 const headersOf = (payload: Uint8Array) => decodePatches(payload, ({ header }) => header);
-
-interface Edit {
-  readonly file: string;
-  /** Byte offsets, and the new values of the bytes. */
-  readonly edits: [number, number][];
-  /** The length to cut the payload to after that. */
-  readonly length?: number;
-  readonly verdict: number | DecodeError["kind"];
-}
-
-/** A payload that is refused. */
-interface Refused {
-  readonly name: string;
-  /** In hexadecimal. */
-  readonly payload: string;
-  readonly verdict: DecodeError["kind"];
-}
 
 /** Everything that a reader must refuse in a payload (docs/formats/compact.md), by the messages of this reader. */
 const refusals = [
@@ -91,12 +75,6 @@ function refusalOf(payload: Uint8Array): string {
   }
 }
 
-function edited({ file, edits, length }: Edit): Uint8Array {
-  const payload = payloads.get(file)!.slice();
-  for (const [byteOffset, value] of edits) payload[byteOffset] = value;
-  return payload.subarray(0, length);
-}
-
 describe("a file of compact", () => {
   for (const name of names) {
     test(`"${name}" decodes to what its vector states`, () => {
@@ -127,17 +105,17 @@ describe("a file of compact", () => {
 
   test("is refused or decoded as the vectors state, after every edit that they state", () => {
     for (const edit of readVector("edits") as Edit[])
-      assert.equal(verdictOn(edited(edit)), edit.verdict, JSON.stringify(edit));
+      assert.equal(verdictOn(editedPayload(edit)), edit.verdict, JSON.stringify(edit));
   });
 
   test("is refused as the vectors state, which cover every reason to refuse it", () => {
     const refused = (readVector("refused") as Refused[]).map((each) => ({
       ...each,
-      payload: Uint8Array.from(Buffer.from(each.payload, "hex")),
+      payload: payloadOfRefused(each),
     }));
     for (const { name, payload, verdict } of refused) assert.equal(verdictOn(payload), verdict, name);
     const messages = new Set(
-      [...refused.map(({ payload }) => payload), ...(readVector("edits") as Edit[]).map(edited)].map(refusalOf),
+      [...refused.map(({ payload }) => payload), ...(readVector("edits") as Edit[]).map(editedPayload)].map(refusalOf),
     );
     for (const refusal of refusals)
       assert.ok(

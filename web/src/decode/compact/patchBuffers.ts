@@ -2,7 +2,7 @@
 // holds their bits; positions stay lattice integers.
 
 import { makeIndex } from "../indexArray.ts";
-import type { ByVertexRole, VertexRole } from "../../stage/attributeRows.ts";
+import type { ByVertexRole } from "../../stage/attributeRows.ts";
 import { byVertexRole, withTexCoordRoles } from "../../stage/attributeRows.ts";
 import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { AttributeKind, AttributeType, Topology } from "./header.ts";
@@ -29,41 +29,63 @@ export interface OtherValues {
   readonly vertices: VertexArray;
 }
 
-/** Uses the first normals and colours of the patch, and the n-th texture coordinates as those of set n. */
+/** The vertices of one attribute of a file. */
+export interface AttributeBuffer {
+  readonly kind: AttributeKind;
+  readonly bits: number;
+  readonly vertices: VertexArray;
+}
+
+/** The arrays of a patch, whose triangles are put into an order that suits the GPU. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
   return { ...verticesOf(patch), index: patch.header.topology === "points" ? undefined : orderedIndexOf(patch) };
 }
 
+/** The arrays of a patch of triangles or lines, which keep their order. */
+export function unorderedBuffersOf(patch: CompactPatch): PatchBuffers {
+  return { ...verticesOf(patch), index: indexOf(patch.wedges.wedge, patch.header.wedgeCount) };
+}
+
+/**
+ * Finds the roles of a patch's attributes: the first normals and colours, and the n-th texture coordinates as those of
+ * set n.
+ */
+export function withRoles(attributes: readonly AttributeBuffer[]): Pick<PatchBuffers, "attributes" | "others"> {
+  const verticesOfKind = (of: AttributeKind) =>
+    attributes.flatMap(({ kind, vertices }) => (kind === of ? [vertices] : []));
+  const byRole: ByVertexRole<VertexArray> = {
+    normal: verticesOfKind("normal")[0],
+    ...withTexCoordRoles((set) => verticesOfKind("texCoord")[set]),
+    color: verticesOfKind("color")[0],
+  };
+  return {
+    attributes: byVertexRole((role) => byRole[role]),
+    others: attributes.flatMap(({ kind, bits, vertices }) => (kind === "other" ? [{ bits, vertices }] : [])),
+  };
+}
+
 /** Makes the array of an attribute from its decoded values. */
-const makeArray: Readonly<Record<VertexRole, (values: Int32Array, type: AttributeType) => VertexArray>> = {
+const makeArray: Readonly<Record<AttributeKind, (values: Int32Array, type: AttributeType) => VertexArray>> = {
   normal: directionsOf,
-  ...withTexCoordRoles(() => normalizedOf),
+  texCoord: normalizedOf,
   color: normalizedOf,
+  other: othersOf,
 };
 
 /** All arrays except the index. */
-export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
-  const { header } = patch;
-  const indicesOf = (of: AttributeKind) => header.attributes.flatMap(({ kind }, i) => (kind === of ? [i] : []));
-  const attributeIndices: ByVertexRole<number> = {
-    normal: indicesOf("normal")[0],
-    ...withTexCoordRoles((set) => indicesOf("texCoord")[set]),
-    color: indicesOf("color")[0],
-  };
-  const attribute = (role: VertexRole) => {
-    const attributeIndex = attributeIndices[role];
-    return attributeIndex === undefined
-      ? undefined
-      : makeArray[role](patch.attributes[attributeIndex]!, header.attributes[attributeIndex]!);
-  };
+function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
+  const { header, attributes } = patch;
   return {
     topology: header.topology,
     positionBits: header.positionBits,
     vertexCount: header.wedgeCount,
     coord: coordOf(patch),
-    attributes: byVertexRole(attribute),
-    others: header.attributes.flatMap((type, attributeIndex) =>
-      type.kind === "other" ? [othersOf(patch.attributes[attributeIndex]!, type)] : [],
+    ...withRoles(
+      header.attributes.map((type, i) => ({
+        kind: type.kind,
+        bits: type.bits,
+        vertices: makeArray[type.kind](attributes[i]!, type),
+      })),
     ),
   };
 }
@@ -113,7 +135,7 @@ function normalizedOf(values: Int32Array, { components, bits }: AttributeType): 
   return interleaved(values, components as 2 | 3 | 4, array, maxOutput / (2 ** bits - 1));
 }
 
-function othersOf(values: Int32Array, { components, bits }: AttributeType): OtherValues {
+function othersOf(values: Int32Array, { components, bits }: AttributeType): VertexArray {
   const count = values.length / components;
   const stride = 4 * Math.ceil(components / 4);
   const array =
@@ -122,7 +144,7 @@ function othersOf(values: Int32Array, { components, bits }: AttributeType): Othe
       : bits <= 16
         ? new Uint16Array(components <= 2 ? 2 * count : stride * count)
         : new Float32Array(components * count);
-  return { bits, vertices: interleaved(values, components as 1 | 2 | 3 | 4, array, 1) };
+  return interleaved(values, components as 1 | 2 | 3 | 4, array, 1);
 }
 
 function interleaved(values: Int32Array, components: 1 | 2 | 3 | 4, array: ElementArray, factor: number): VertexArray {

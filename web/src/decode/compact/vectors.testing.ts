@@ -3,6 +3,7 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
+import type { DecodeError } from "../decodeError.ts";
 import type { CompactPatch } from "./patch.ts";
 import { decodePatches } from "./patch.ts";
 
@@ -43,4 +44,32 @@ export function decodeVector(name: string): CompactPatch[] {
 /** The bytes of NAME.png. */
 export function readVectorFile(name: string): Uint8Array<ArrayBuffer> {
   return new Uint8Array(readFileSync(join(folder, `${name}.png`)));
+}
+
+/** An entry of edits.json: a damaged payload, and the verdict on it. */
+export interface Edit {
+  readonly file: string;
+  /** Byte offsets, and the new values of the bytes. */
+  readonly edits: [number, number][];
+  /** The length to cut the payload to after that. */
+  readonly length?: number;
+  readonly verdict: number | DecodeError["kind"];
+}
+
+export function editedPayload({ file, edits, length }: Edit): Uint8Array {
+  const payload = readPayload(file);
+  for (const [byteOffset, value] of edits) payload[byteOffset] = value;
+  return payload.subarray(0, length);
+}
+
+/** An entry of refused.json: a payload that is refused. */
+export interface Refused {
+  readonly name: string;
+  /** In hexadecimal. */
+  readonly payload: string;
+  readonly verdict: DecodeError["kind"];
+}
+
+export function payloadOfRefused({ payload }: Refused): Uint8Array {
+  return Uint8Array.from(Buffer.from(payload, "hex"));
 }

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Base } from "../../../decode/compact/baseBuffers.ts";
 import { buffersOf } from "../../../decode/compact/patchBuffers.ts";
+import { decodedOf } from "../../../decode/compact/typescriptDecoder.ts";
 import { decodeVector, readVectorFile, vectorNames } from "../../../decode/compact/vectors.testing.ts";
 import { pngWithTexels } from "../../../decode/png.testing.ts";
 import { dequantizationOf } from "../../../document/dequantization.ts";
@@ -277,7 +278,7 @@ describe("a geometry of compact", () => {
     await settled;
     assert.deepEqual(errors, []);
     assert.deepEqual(site.requested, ["base.png", "sphere.png", "soup.png"]);
-    const segments = new Base(decodeVector("base")[0] ?? assert.fail()).segments;
+    const segments = new Base(decodedOf(decodeVector("base")[0] ?? assert.fail())).segments;
     for (const patch of [0, 1, 2]) {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
@@ -304,7 +305,7 @@ describe("a geometry of compact", () => {
     const value = { name: "flow", components: 2, bits: 16, fileCount: 0, min: [0, 0], size: [1, 1] } as const;
     const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
     await settled;
-    const segments = new Base(decodeVector("base-seams")[0] ?? assert.fail()).segments;
+    const segments = new Base(decodedOf(decodeVector("base-seams")[0] ?? assert.fail())).segments;
     assert.deepEqual(
       new Set(stages.map(({ patch }) => patch)),
       new Set(segments.flatMap((segment, segmentIndex) => (segment ? [segmentIndex] : []))),

@@ -1,0 +1,11 @@
+// The WebAssembly module that `scripts/build` compiles.
+
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+
+const path = join(import.meta.dirname, "../../../dist/imgeo-decoder.wasm");
+
+export function wasmModule(): WebAssembly.Module {
+  if (!existsSync(path)) throw new Error(`there is no ${path}: run scripts/wasm`);
+  return new WebAssembly.Module(readFileSync(path));
+}
