@@ -146,12 +146,12 @@ test("a CylinderSensor counts turns", () => {
   assertNear(lastOf(scene, "rotation_changed"), [0, 1, 0, 6]);
 });
 
-/** The view of an eye that looks along -z, in a square frustum of 90 degrees. */
+/** The view of an eye that looks along -z, in a square frustum of 90 degrees, of depths from 0.1 to 100. */
 function viewFrom(position: [number, number, number]): LocalView {
   const [x, y, z] = position;
   // prettier-ignore
   return { position, orientation: [0, 0, 0, 1], centerOfRotation: [0, 0, 0],
-    clipFromLocal: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, -1, -1,  -x, -y, z - 0.1, z] };
+    clipFromLocal: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, -1.002, -1,  -x, -y, 1.002 * z - 0.2002, z] };
 }
 
 function followView(scene: TestScene, position: [number, number, number]): void {
@@ -189,6 +189,14 @@ test("a VisibilitySensor knows whether its box may be in the view", () => {
   assert.equal(scene.events[2], "it.isActive false");
   followView(scene, [20, 0, 5]);
   assert.equal(scene.events.length, 4);
+});
+
+test("a VisibilitySensor whose box is farther away than all shapes, or around the viewer, is active", () => {
+  for (const fields of ['center="0 0 -5000" size="9 9 9"', 'size="20 20 20"']) {
+    const scene = play(`<VisibilitySensor DEF="it" ${fields}/>`);
+    followView(scene, [0, 0, 5]);
+    assert.equal(scene.events[0], "it.isActive true", fields);
+  }
 });
 
 test("a sensor without size, or switched off, notices nothing", () => {

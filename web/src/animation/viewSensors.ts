@@ -74,19 +74,23 @@ class ProximitySensor extends ViewSensor {
 }
 
 class VisibilitySensor extends ViewSensor {
-  /** Whether a part of the box may be in the view: not all its corners are beyond one side of it. */
+  /**
+   * Whether a part of the box may be in the view: not all its corners are beyond one side of it, or behind the viewer.
+   * The depths that pages draw are those of the shapes, and do not count.
+   */
   protected override perceives({ clipFromLocal: m }: LocalView): boolean {
-    const beyond = [0, 0, 0, 0, 0, 0];
+    const isParallel = m[3] === 0 && m[7] === 0 && m[11] === 0;
+    const beyond = [0, 0, 0, 0, 0];
     for (let corner = 0; corner < 8; corner++) {
       const [x = 0, y = 0, z = 0] = this.center.map(
         (middle, axis) => middle + (((corner >> axis) & 1) - 0.5) * (this.size[axis] ?? 0),
       );
       const row = (r: number): number => (m[r] ?? 0) * x + (m[r + 4] ?? 0) * y + (m[r + 8] ?? 0) * z + (m[r + 12] ?? 0);
       const w = row(3);
-      for (let axis = 0; axis < 3; axis++) {
-        if (row(axis) > w) beyond[2 * axis] = (beyond[2 * axis] ?? 0) + 1;
-        if (row(axis) < -w) beyond[2 * axis + 1] = (beyond[2 * axis + 1] ?? 0) + 1;
-      }
+      const sides = [row(0) > w, row(0) < -w, row(1) > w, row(1) < -w, isParallel ? row(2) < -w : w <= 0];
+      sides.forEach((isBeyond, side) => {
+        if (isBeyond) beyond[side] = (beyond[side] ?? 0) + 1;
+      });
     }
     return beyond.every((count) => count < 8);
   }
