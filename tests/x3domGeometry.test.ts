@@ -169,6 +169,27 @@ test("convert warns once of the same values, with the words of the runtime", () 
   }
 });
 
+/** A node with a patch of the test vectors of compact. */
+function compactShape(vector: string, positionBits: number, vertexCount: number): string {
+  const file = readFileSync(join(root, `vectors/compact-1/${vector}.png`)).toString("base64");
+  return `<Shape><ImageGeometry profile="compact" data="data:image/png;base64,${file}" positionBits="${positionBits}" vertexCount="${vertexCount}"/></Shape>`;
+}
+
+test("pages and convert read compact of the bits that its files can have, 1 to 30, and refuse others", () => {
+  const bits = Array.from({ length: 34 }, (_, n) => n);
+  const shapes = bits.map((n) => compactShape("fine", n, 240));
+  const refusal = "positionBits is no precision";
+  const read = shapes.flatMap((markup, n) => (warningsOf(markup).some((text) => text.includes(refusal)) ? [] : [n]));
+  assert.deepEqual(read, bits.slice(0, 31)); // 0: as where it is not stated
+  const warnings = convertWarningsOf(shapes.join("\n"));
+  const readByTool = bits.filter((n) => {
+    const ofLine = warnings.filter((warning) => new RegExp(`old\\.x3d:${n + 1}(:\\d+)?: `).test(warning));
+    assert.equal(ofLine.length, n === 30 ? 0 : 1, `${n}: ${ofLine.join("; ")}`);
+    return !ofLine.some((text) => text.includes(refusal));
+  });
+  assert.deepEqual(readByTool, read);
+});
+
 test("with --strict, convert refuses each of these values", () => {
   const folder = mkdtempSync(join(tmpdir(), "imgeo-"));
   try {

@@ -19,7 +19,7 @@ ElementType unsignedTypeOf(std::uint32_t bytes);
 /// A lattice of 32 bits marks Float32 coordinates as the source's own numbers. Our readers round them to that lattice.
 inline constexpr std::uint32_t sourceBits = 32;
 
-/// The bits of packed coordinates if a node states no positionBits.
+/// The bits of packed coordinates if a node states no positionBits; compact/compact_patch.h has the range.
 inline constexpr std::uint32_t packedPositionBits = 16;
 
 /// Whether a type can store the coordinates of a lattice of `bits` bits, at least 8: integer types store up to their

@@ -1,8 +1,10 @@
 #include "documents/geometry_reader.h"
 
+#include "containers/compact/compact_patch.h"
 #include "containers/encodings.h"
 #include "containers/grid.h"
 #include "containers/normals.h"
+#include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "documents/field_messages.h"
 #include "documents/geometry_element.h"
@@ -109,15 +111,24 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
   return 8 * static_cast<std::uint32_t>(planes);
 }
 
+/// Whether coordinates of `stored` bits can hold a lattice of `bits` bits. web/src/document/geometryChecks.ts has the
+/// same ranges.
+bool holdsLattice(const GeometryDescription& geometry, std::uint32_t bits, std::uint32_t stored) {
+  switch (rowOf(geometry).storage) {
+  case PatchStorage::packed:
+    return bits >= compact::minPositionBits && bits <= compact::maxPositionBits;
+  case PatchStorage::bytePlanes:
+    return bits >= 8 && bits <= 32 && 8 * coordBytes(geometry.encoding, bits) == stored;
+  default:
+    return imgeo::holdsLattice(geometry.coordType, bits);
+  }
+}
+
 Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
   const std::uint32_t stored = storedBits(fields, geometry), stated = fields.integer("positionBits", 0);
   const std::uint32_t bits = stated != 0 ? stated : stored;
   const PatchStorage storage = rowOf(geometry).storage;
-  const bool canHoldLattice = storage == PatchStorage::arrays ? holdsLattice(geometry.coordType, bits)
-                                                              : bits >= 8 && bits <= 32 &&
-                                                                    (storage == PatchStorage::packed ||
-                                                                     8 * coordBytes(geometry.encoding, bits) == stored);
-  if (!canHoldLattice)
+  if (!holdsLattice(geometry, bits, stored))
     fields.fail(ErrorKind::malformed,
                 "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
   const std::optional<DecodeFields> cube =
@@ -150,6 +161,16 @@ void checkElementTypes(const FieldReader& fields, const GeometryDescription& geo
                 fmt::format("normals of two numbers of type {} are not read; Uint8 and Uint16 are", nameOf(type)));
   if (!isPair(geometry.normalEncoding) && isUnsigned(type))
     fields.fail(ErrorKind::unsupported, fmt::format("normals of type {} are not read; signed types are", nameOf(type)));
+}
+
+/// Refuses images of which nothing is drawn: unlike arrays, they do not state how many numbers they hold. Packed files
+/// are compared with the counts when they are decoded. web/src/document/geometryChecks.ts does the same.
+void checkDraws(const FieldReader& fields, const GeometryDescription& geometry) {
+  const PatchStorage storage = rowOf(geometry).storage;
+  const bool isAll = storage == PatchStorage::packed || geometry.grid;
+  for (const PatchDescription& patch : geometry.patches)
+    if (!isAll && (storage != PatchStorage::arrays || patch.draws.size() > 1) && drawnCount(patch.draws) == 0)
+      fields.fail(ErrorKind::malformed, "vertexCount is 0; nothing is drawn");
 }
 
 /// Sets the bits of attributes in images: as a field states, otherwise those of so many images.
@@ -310,6 +331,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   if (row.storage == PatchStorage::arrays)
     checkElementTypes(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
+  checkDraws(fields, geometry);
   return geometry;
 }
 

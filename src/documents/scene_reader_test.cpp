@@ -71,14 +71,14 @@ TEST(ReadScene, RefusesDocumentTypesAndEntities) {
 TEST(ReadScene, ReportsTheLineOfAFieldThatCannotBeReadAndOfOneThatCountsAsAbsent) {
   const std::string before = "<X3D><Scene>\n<Shape>\n";
   const auto shape = [&](const std::string& fields) {
-    return before + "<ImageGeometry><GeometryPatch coord='a' " + fields +
+    const std::string count = fields.starts_with("vertexCount") ? "" : " vertexCount='3'";
+    return before + "<ImageGeometry><GeometryPatch coord='a' " + fields + count +
            "></GeometryPatch></ImageGeometry></Shape></Scene></X3D>";
   };
   for (const std::string fields : {"vertexCount='-1'", "recordCount='-1'", "index='a#b'", "index='#5'", "index='a#1+4'",
                                    "index='a#1#4'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
     EXPECT_EQ(errorKindOf(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
   for (const auto& [fields, sentence] : std::initializer_list<std::pair<std::string, std::string>>{
-           {"vertexCount='4294967296'", "vertexCount=\"4294967296\" is no MFInt32"},
            {"recordCount='1 2'", "recordCount=\"1 2\" is no SFInt32"},
            {"bboxSize='1 nan 1'", "bboxSize=\"1 nan 1\" is no SFVec3f"},
            {"bboxSize='1 1e39 1'", "bboxSize=\"1 1e39 1\" is no SFVec3f"},
@@ -91,6 +91,23 @@ GeometryDescription readBinaryGeometry(const std::string& fields) {
   const SceneDocument document =
       readScene("<X3D><Scene><Shape><BinaryGeometry " + fields + "/></Shape></Scene></X3D>", "x");
   return document.geometries.at(0);
+}
+
+TEST(ReadScene, RefusesImagesOfWhichNothingIsDrawn) {
+  const auto scene = [](const std::string& geometry) {
+    return "<X3D><Scene>\n<Shape>" + geometry + "</Shape></Scene></X3D>";
+  };
+  for (const std::string geometry :
+       {"<ImageGeometry coord='a'/>", "<ImageGeometry coord='a' vertexCount='4294967296'/>",
+        "<ImageGeometry coord='a' primType='LINES POINTS' vertexCount='0 0'/>",
+        "<ImageGeometry><GeometryPatch coord='a' vertexCount='3'/><GeometryPatch coord='b'/></ImageGeometry>",
+        "<BinaryGeometry coord='a' primType='LINES POINTS' vertexCount='0 0'/>"})
+    EXPECT_EQ(errorKindOf(scene(geometry), "s.x3d:2"), ErrorKind::malformed) << geometry;
+  for (const std::string geometry :
+       {"<BinaryGeometry coord='a'/>", "<BinaryGeometry coord='a' vertexCount='0'/>",
+        "<ImageGeometry coord='a' primType='LINES POINTS' vertexCount='0 1'/>",
+        "<ImageGeometry coord='a' implicitMeshMode='geometryImage' implicitMeshSize='2 2'/>"})
+    EXPECT_EQ(readScene(scene(geometry), "s.x3d").geometries.size(), 1u) << geometry;
 }
 
 TEST(ReadScene, ReadsTheStrideOfAUrlAsX3domDoes) {
@@ -162,7 +179,7 @@ TEST(ReadScene, ReadsX3domsSphericalNormalsFromTheFourthElementOfCoordinates) {
 TEST(ReadScene, ReadsIndicesOf16And32BitsFromImages) {
   const auto read = [](const std::string& type) {
     return readScene("<X3D><Scene><Shape><ImageGeometry indexType='" + type +
-                         "' coord='a' index='i'/></Shape></Scene></X3D>",
+                         "' coord='a' index='i' vertexCount='3'/></Shape></Scene></X3D>",
                      "x")
         .geometries.at(0)
         .indexType;
@@ -200,7 +217,8 @@ TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
 
 TEST(ReadScene, RefusesGeometryWithoutALattice) {
   const auto geometry = [](const std::string& fields, const std::string& coord) {
-    return "<X3D><Scene><Shape><ImageGeometry " + fields + " coord='" + coord + "'/></Shape></Scene></X3D>";
+    return "<X3D><Scene><Shape><ImageGeometry vertexCount='3' " + fields + " coord='" + coord +
+           "'/></Shape></Scene></X3D>";
   };
   EXPECT_EQ(errorKindOf(geometry("size='1 -2 1'", "a")), ErrorKind::malformed);
   EXPECT_EQ(errorKindOf(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
@@ -234,7 +252,9 @@ TEST(ReadScene, ReadsImagesGivenByUseTexturesAndImgElements) {
 
 TEST(ReadScene, TakesThePrecisionOfAttributesFromTheirImagesUnlessTheNodeStatesIt) {
   const auto read = [](const std::string& fields) {
-    return readScene("<X3D><Scene><Shape><ImageGeometry coord='a' " + fields + "/></Shape></Scene></X3D>", "s.x3d")
+    return readScene("<X3D><Scene><Shape><ImageGeometry coord='a' vertexCount='3' " + fields +
+                         "/></Shape></Scene></X3D>",
+                     "s.x3d")
         .geometries.at(0)
         .imageBits;
   };
@@ -292,10 +312,11 @@ TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
   };
   for (const auto& [geometry, reason] : cases) {
     SCOPED_TRACE(geometry);
-    const SceneDocument document = readScene("<X3D><Scene>\n<Shape><ImageGeometry DEF='g'" + geometry +
-                                                 "</ImageGeometry></Shape><Shape><ImageGeometry USE='g'/></Shape>"
-                                                 "<Shape><ImageGeometry coord='alive/c'/></Shape></Scene></X3D>",
-                                             "folder/s.x3d");
+    const SceneDocument document =
+        readScene("<X3D><Scene>\n<Shape><ImageGeometry DEF='g'" + geometry +
+                      "</ImageGeometry></Shape><Shape><ImageGeometry USE='g'/></Shape>"
+                      "<Shape><ImageGeometry coord='alive/c' vertexCount='3'/></Shape></Scene></X3D>",
+                  "folder/s.x3d");
     EXPECT_EQ(document.geometries.size(), 1u);
     EXPECT_EQ(document.warnings,
               std::vector<std::string>{"s.x3d:2: ImageGeometry: " + reason + "; its Shape is left out."});
@@ -303,10 +324,10 @@ TEST(ReadScene, LeavesOutGeometryThatIsInNoFile) {
 }
 
 TEST(ReadScene, ReadsTheMovieOfAGeometry) {
-  const SceneDocument document =
-      readScene("<X3D><Scene><Shape><ImageGeometry coord='a'><MovieTexture DEF='m' containerField='coord' "
-                R"(url='"g/v.webm" "g/i.json?v=2"' loop='true'/></ImageGeometry></Shape></Scene></X3D>)",
-                "s.x3d");
+  const SceneDocument document = readScene(
+      "<X3D><Scene><Shape><ImageGeometry coord='a' vertexCount='3'><MovieTexture DEF='m' containerField='coord' "
+      R"(url='"g/v.webm" "g/i.json?v=2"' loop='true'/></ImageGeometry></Shape></Scene></X3D>)",
+      "s.x3d");
   EXPECT_EQ(document.warnings, std::vector<std::string>{});
   ASSERT_EQ(document.graph.nodes.size(), 2u);
   const auto& frames = std::get<Interpolator>(document.graph.nodes[0].content);
@@ -318,8 +339,8 @@ TEST(ReadScene, ReadsTheMovieOfAGeometry) {
 TEST(ReadScene, LeavesOutImagesOfAttributesThatItCannotRead) {
   for (const char* image : {"<video containerField='normal'/>", "<Texture containerField='color'/>",
                             "<ImageTexture containerField='texcoords' url='a.png'/>"}) {
-    const SceneDocument document = readScene("<X3D><Scene><Shape><ImageGeometry coord='a'>" + std::string(image) +
-                                                 "</ImageGeometry></Shape></Scene></X3D>",
+    const SceneDocument document = readScene("<X3D><Scene><Shape><ImageGeometry coord='a' vertexCount='3'>" +
+                                                 std::string(image) + "</ImageGeometry></Shape></Scene></X3D>",
                                              "s.x3d");
     const PatchDescription& patch = document.geometries.at(0).patches.at(0);
     std::size_t files = 0;
@@ -332,7 +353,7 @@ TEST(ReadScene, LeavesOutImagesOfAttributesThatItCannotRead) {
 
 TEST(ReadScene, HasTheImagesOfChildrenInsteadOfThoseOfTheFields) {
   const SceneDocument document =
-      readScene("<X3D><Scene><Shape><ImageGeometry coord='a' normal='\"n\" \"o\"' color='c'>"
+      readScene("<X3D><Scene><Shape><ImageGeometry coord='a' vertexCount='3' normal='\"n\" \"o\"' color='c'>"
                 "<ImageTexture containerField='coord' url='b'/><ImageTexture containerField='normal' url='p'/>"
                 "</ImageGeometry></Shape></Scene></X3D>",
                 "s.x3d");
@@ -345,7 +366,7 @@ TEST(ReadScene, HasTheImagesOfChildrenInsteadOfThoseOfTheFields) {
 }
 
 TEST(ReadScene, KeepsTheFurtherUrlsOfAFile) {
-  const SceneDocument images = readScene(R"(<X3D><Scene><Shape><ImageGeometry index='"i.png" "j.png"'>
+  const SceneDocument images = readScene(R"(<X3D><Scene><Shape><ImageGeometry vertexCount='3' index='"i.png" "j.png"'>
       <ImageTexture containerField='coord' url='"a.png#3" "b.png#3" "c.png"'/></ImageGeometry></Shape></Scene></X3D>)",
                                          "s.x3d");
   const PatchDescription& patch = images.geometries.at(0).patches.at(0);
@@ -363,7 +384,7 @@ TEST(ReadScene, KeepsTheFurtherUrlsOfAFile) {
 }
 
 TEST(ReadScene, WarnsOfImagesBeyondThoseThatAnAttributeHas) {
-  std::string text = "<X3D><Scene><Shape><ImageGeometry>";
+  std::string text = "<X3D><Scene><Shape><ImageGeometry vertexCount='3'>";
   for (const char* role : {"coord", "index", "normal", "color", "texCoord"})
     for (int i = 0; i < 5; ++i)
       text += std::string("<ImageTexture containerField='") + role + "' url='" + role + std::to_string(i) + ".png'/>";
@@ -385,10 +406,11 @@ TEST(ReadScene, WarnsOfImagesBeyondThoseThatAnAttributeHas) {
 }
 
 TEST(ReadScene, WarnsOfMalformedFieldsAndReadsTheRest) {
-  const SceneDocument document = readScene("<X3D><Scene>\n<Shape/><Viewpoint position='1 2' fieldOfView='1'/>\n"
-                                           "<Shape><Appearance USE='a'/><ImageGeometry coord='c'/></Shape>"
-                                           "</Scene></X3D>",
-                                           "folder/s.x3d");
+  const SceneDocument document =
+      readScene("<X3D><Scene>\n<Shape/><Viewpoint position='1 2' fieldOfView='1'/>\n"
+                "<Shape><Appearance USE='a'/><ImageGeometry coord='c' vertexCount='3'/></Shape>"
+                "</Scene></X3D>",
+                "folder/s.x3d");
   EXPECT_EQ(document.warnings,
             (std::vector<std::string>{
                 "s.x3d:2: Viewpoint: position=\"1 2\" is no SFVec3f; it counts as absent.",

@@ -74,9 +74,13 @@ struct Attribute {
   friend bool operator==(const Attribute& a, const Attribute& b) { return a.type == b.type && a.values == b.values; }
 };
 
+/// The bits of coordinates that a file can have (docs/formats/compact.md); `convert` writes 8 and more.
+/// web/src/stage/packedPositionBits.ts has the same.
+inline constexpr std::uint32_t minPositionBits = 1, maxPositionBits = 30;
+
 struct CompactPatch {
   Topology topology = Topology::triangles;
-  std::uint32_t positionBits = 16;           ///< 1 .. 30
+  std::uint32_t positionBits = 16;           ///< minPositionBits .. maxPositionBits
   std::vector<Vec3u> positions;              ///< per vertex, 0 .. 2^positionBits - 1
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> vertex
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) corners per element

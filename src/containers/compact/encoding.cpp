@@ -38,7 +38,7 @@ constinit const EncodingRow compactEncoding{
     .isAutomatic = true,
     .capabilities =
         {
-            .maxPositionBits = 30,
+            .maxPositionBits = compact::maxPositionBits,
             .maxPatchVertices = compact::maxCount,
             .maxNamedAttributes = compact::maxAttributes - 3, // beside normals, texture coordinates and colours
             .texCoordBits = {.min = 1, .max = 16, .defaultBits = 12},

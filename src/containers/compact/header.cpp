@@ -84,7 +84,7 @@ AttributeType takeAttribute(FieldReader& reader) {
 PatchType takeType(FieldReader& reader, std::size_t attributeCount) {
   PatchType type;
   type.topology = static_cast<Topology>(reader.takeByte(1, 3, "elements"));
-  type.positionBits = reader.takeByte(1, 30, "position bits");
+  type.positionBits = reader.takeByte(minPositionBits, maxPositionBits, "position bits");
   type.isBase = reader.takeByte(0, baseFlag, "flags") == baseFlag;
   reader.require(!type.isBase || type.topology == Topology::triangles, "segments");
   const std::uint8_t count = reader.takeByte(0, maxAttributes, "attributes");

@@ -1,8 +1,12 @@
 #include "import/x3d/container_geometry.h"
 
 #include "base/data_url.h"
+#include "containers/compact/patch_coding.h"
+#include "containers/compact/payload_image.h"
 #include "import/testing.h"
 
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -34,6 +38,34 @@ TEST(ContainerGeometry, HasTheNormalsOfItsTrianglesWhereTheyAreNotPerVertex) {
   EXPECT_EQ(mesh.positions.size(), 4u);
   for (std::size_t corner = 0; corner < 6; ++corner)
     EXPECT_EQ(mesh.normals[mesh.corners[corner]], (corner < 3 ? Vec3f{0, 0, 1} : Vec3f{-1, 0, 0})) << corner;
+}
+
+TEST(ContainerGeometry, MayBeCompactOfOneToThirtyBitsACoordinate) {
+  for (const std::uint32_t bits : {1, 2, 7, 8, 9, 30}) {
+    SCOPED_TRACE(bits);
+    compact::CompactPatch patch;
+    patch.positionBits = bits;
+    const std::uint32_t last = (1u << bits) - 1;
+    patch.positions = {{0, 0, 0}, {last, 0, 0}, {0, last, 0}};
+    patch.wedgePositions = patch.corners = {0, 1, 2};
+    const Bytes file = compact::imageOfPayload(compact::encodePatches(std::array{patch}, 0).bytes);
+    const Imported imported =
+        importBytes(asBytes(fmt::format("<X3D><Scene><Shape><ImageGeometry profile='compact' size='2 2 2' "
+                                        "positionBits='{}' vertexCount='3' data='{}'/></Shape></Scene></X3D>",
+                                        bits, dataUrlOf(file, "image/png"))),
+                    "old.x3d");
+    EXPECT_TRUE(imported.warnings.empty()) << ::testing::PrintToString(imported.warnings);
+    ASSERT_EQ(imported.scene.meshes.size(), 1u);
+    // Lattice points are the upper bits of whole bytes, which are spread over the box.
+    const std::uint32_t stored = 8 * ((bits + 7) / 8);
+    const double largest =
+        -1 + 2 * std::ldexp(last, static_cast<int>(stored - bits)) / (std::ldexp(1, static_cast<int>(stored)) - 1);
+    Box3d box;
+    for (const Vec3f& position : imported.scene.meshes[0].positions)
+      box.add(Vec3d(position));
+    EXPECT_LT(length(box.min - Vec3d{-1, -1, -1}), 1e-6);
+    EXPECT_LT(length(box.max - Vec3d{largest, largest, -1}), 1e-6);
+  }
 }
 
 TEST(ContainerGeometry, MayHaveFloatsOutsideOfItsBox) {

@@ -3,6 +3,7 @@
 
 import type { VertexRole } from "../stage/attributeRows.ts";
 import type { ElementType } from "../stage/elementType.ts";
+import { packedPositionBits } from "../stage/packedPositionBits.ts";
 import type { Encoding, GeometryDescription, ImageProfile, PatchDescription, Reference } from "./description.ts";
 import { UnreadableGeometry } from "./unreadableGeometry.ts";
 
@@ -101,7 +102,7 @@ export function formatOf({ encoding }: Pick<GeometryDescription, "encoding">): E
 
 /** Bits of a lattice coordinate in compact. */
 export function latticeBitsOf({ positionBits }: GeometryDescription): number {
-  return positionBits > 0 ? positionBits : 16;
+  return positionBits > 0 ? positionBits : packedPositionBits.default;
 }
 
 /**

@@ -25,12 +25,12 @@ import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec2, Vec3 } from "./fieldTypes.ts";
 import {
   checkCounts,
+  checkDraws,
   checkElementTypes,
   checkImageCounts,
   checkPatch,
   checkQuantization,
   choiceOf,
-  drawsNothing,
 } from "./geometryChecks.ts";
 import { withGrids } from "./gridPatches.ts";
 import type { Values } from "./nodes.ts";
@@ -68,7 +68,7 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     patches: withGrids(readPatches(element, encoding, resolve, warnings), mode === "auto" ? "sig" : mode),
   };
   checkImageCounts(geometry, values);
-  const streamed = checked(element, withStream(geometry), warnings);
+  const streamed = checked(withStream(geometry));
   if (sequence === undefined) return streamed;
   if (streamed.encoding === "classic" && streamed.patches.length === 1) return { ...streamed, sequence };
   warnings.push({ element, message: "a sequence moves the vertices of one patch of profile classic, not of this one" });
@@ -139,18 +139,17 @@ export function readBinaryGeometry(element: SceneElement, resolve: Resolve, warn
   };
   const read = values.normalPerVertex && values.normalAsSphericalCoordinates ? withNormalsInCoords(geometry) : geometry;
   checkElementTypes(read);
-  return checked(element, read, warnings);
+  return checked(read);
 }
 
-function checked(element: SceneElement, geometry: GeometryDescription, warnings: Warning[]): GeometryDescription {
+function checked(geometry: GeometryDescription): GeometryDescription {
   const { encoding, patches, attributes } = geometry;
   for (const patch of patches) {
     checkPatch(patch, encoding);
     if (formatOf(geometry).storage !== "packed" && encoding !== "live") checkAttributeFiles(patch, attributes);
   }
   checkQuantization(geometry);
-  if (patches.some((patch) => drawsNothing(patch, encoding)))
-    warnings.push({ element, message: "vertexCount is 0; nothing is drawn" });
+  for (const patch of patches) checkDraws(patch, encoding);
   return geometry;
 }
 

@@ -4,6 +4,7 @@
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { vertexRoles } from "../stage/attributeRows.ts";
 import { byteSizeOf, isUnsigned } from "../stage/elementType.ts";
+import { packedPositionBits } from "../stage/packedPositionBits.ts";
 import type { Encoding, GeometryDescription, NormalEncoding, PatchDescription } from "./description.ts";
 import { isPair } from "./description.ts";
 import { encodingFormats, formatOf } from "./encodings.ts";
@@ -31,11 +32,15 @@ export function checkPatch({ coord, data }: PatchDescription, encoding: Encoding
   if (!isPacked && coord.length === 0) throw new UnreadableGeometry("there are no coordinates");
 }
 
-/** Whether a patch draws nothing: a count of 0 stands for all elements of an array, but not of images. */
-export function drawsNothing({ draws, grid }: PatchDescription, encoding: Encoding): boolean {
+/**
+ * Throws UnreadableGeometry where nothing is drawn of a patch: a count of 0 stands for all elements of an array, but
+ * images do not state how many numbers they hold. Packed files are compared with the counts when they are decoded.
+ */
+export function checkDraws({ draws, grid }: PatchDescription, encoding: Encoding): void {
   const { storage } = encodingFormats[encoding];
   const isAll = storage === "packed" || encoding === "live" || (storage === "arrays" && draws.length === 1);
-  return !isAll && grid === undefined && draws.every(({ count }) => count === 0);
+  if (!isAll && grid === undefined && draws.every(({ count }) => count === 0))
+    throw new UnreadableGeometry("vertexCount is 0; nothing is drawn");
 }
 
 /** Bits of Float32 coordinates without `positionBits`, which are then no integers of a lattice. */
@@ -48,18 +53,20 @@ export function checkQuantization(geometry: GeometryDescription): void {
   const planeCount = patches[0]?.coord.length ?? 0;
   if (storage === "bytePlanes" && patches.some(({ coord }) => coord.length !== planeCount))
     throw new UnreadableGeometry("patches differ in their coordinate images");
-  const bytes = storage === "packed" ? 2 : storage === "bytePlanes" ? planeCount : byteSizeOf(coordType);
-  const bits = positionBits || 8 * bytes;
   const isFloat = storage === "arrays" && coordType === "Float32";
-  const isHeld = isFloat
-    ? bits <= 24 || bits === sourceBits
-    : storage === "packed"
-      ? bits <= 32
-      : storage === "arrays"
-        ? bits <= 8 * bytes
-        : Math.ceil(bits / 8) === bytes;
-  if (bits < (storage === "packed" ? 1 : 8) || !isHeld)
-    throw new UnreadableGeometry(`positionBits is no precision of coordinates of ${bytes} bytes`);
+  const bytes =
+    storage === "packed"
+      ? packedPositionBits.default / 8
+      : storage === "bytePlanes"
+        ? planeCount
+        : byteSizeOf(coordType);
+  const bits = positionBits || 8 * bytes;
+  const isHeld = {
+    packed: bits >= packedPositionBits.min && bits <= packedPositionBits.max,
+    bytePlanes: bits >= 8 && Math.ceil(bits / 8) === bytes,
+    arrays: bits >= 8 && (isFloat ? bits <= 24 || bits === sourceBits : bits <= 8 * bytes),
+  };
+  if (!isHeld[storage]) throw new UnreadableGeometry(`positionBits is no precision of coordinates of ${bytes} bytes`);
   const needsBox = encoding !== "live" && !(isFloat && bits === sourceBits);
   if (needsBox && !(Math.min(...size) >= 0 && Math.max(...size) > 0))
     throw new UnreadableGeometry("size is the extent of no box");

@@ -1,6 +1,7 @@
 // Reads the header of a file, which precedes its streams: docs/formats/compact.md, "File".
 
 import { attributeRows } from "../../stage/attributeRows.ts";
+import { packedPositionBits } from "../../stage/packedPositionBits.ts";
 import { DecodeError } from "../decodeError.ts";
 
 export type Topology = "points" | "lines" | "triangles";
@@ -93,7 +94,7 @@ function readCount(reader: FieldReader, what: string, max: number): number {
 
 function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
   const topology = topologies[within("topology", reader.byte(), 1, 3)] ?? "points";
-  const positionBits = within("bits of a position", reader.byte(), 1, 30);
+  const positionBits = within("bits of a position", reader.byte(), packedPositionBits.min, packedPositionBits.max);
   const isBase = within("flags", reader.byte(), 0, 1) === 1;
   if (isBase && topology !== "triangles") throw new DecodeError("malformed", `holds segments of ${topology}`);
   const count = within("number of attributes", reader.byte(), 0, maxPatchAttributeCount);

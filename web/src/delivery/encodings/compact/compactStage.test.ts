@@ -432,7 +432,7 @@ describe("a geometry of compact", () => {
       const geometry = geometryOf(
         `<ImageGeometry profile="compact" position="1 2 3" size="4 4 4" positionBits="${bits}" data="x.png"/>`,
       );
-      const classic = geometryOf(`<ImageGeometry position="1 2 3" size="4 4 4" positionBits="${bits}"
+      const classic = geometryOf(`<ImageGeometry position="1 2 3" size="4 4 4" vertexCount="3" positionBits="${bits}"
         coord='${Array.from({ length: Math.ceil(bits / 8) }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
       const [compactFrame, classicFrame] = [geometry, classic].map((one) =>
         dequantizationOf(one, one.patches[0] ?? assert.fail()),
