@@ -72,13 +72,8 @@ void FieldReader::warnOrFail(const std::string& message, const char* consequence
     fail(ErrorKind::malformed, message);
   // Without the folder, which may be a temporary one.
   const std::string file = std::filesystem::path(source_.name).filename();
-  std::string warning = fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, source_.offsets.of(node_)),
-                                    validText(node_.name()), message, consequence);
-  // A field that is read again is soon read again.
-  constexpr std::ptrdiff_t recent = 16;
-  const auto first = warnings_->end() - std::min(recent, std::ssize(*warnings_));
-  if (std::find(first, warnings_->end(), warning) == warnings_->end())
-    warnings_->push_back(std::move(warning));
+  warnings_->add(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, source_.offsets.of(node_)),
+                             validText(node_.name()), message, consequence));
 }
 
 std::string FieldReader::text(const char* name) const {

@@ -3,6 +3,7 @@
 // document's name and the line.
 
 #include "base/error.h"
+#include "documents/document_warnings.h"
 #include "markup/x3d_element.h"
 #include "scene/transform.h"
 
@@ -25,9 +26,6 @@ struct DocumentText {
   const ElementOffsets& offsets;
   const ElementsByDef& defs;
 };
-
-/// Faults of elements that are shown nevertheless: one sentence each, with the line.
-using DocumentWarnings = std::vector<std::string>;
 
 [[noreturn]] void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
                        const std::string& message);

@@ -53,8 +53,7 @@ bool hasColors(const GeometryDescription& geometry) {
 
 class SceneReader {
 public:
-  SceneReader(const DocumentText& source)
-      : source_(source), appearances_(source, document_.graph, document_.warnings) {}
+  SceneReader(const DocumentText& source) : source_(source), appearances_(source, document_.graph, warnings_) {}
 
   SceneDocument read(const pugi::xml_node& x3d) {
     bool found = false;
@@ -81,7 +80,7 @@ private:
       fail(parent, ErrorKind::limit, "elements are nested too deeply");
     std::vector<std::size_t> children;
     for (const pugi::xml_node& node : parent.children())
-      if (const std::optional<std::size_t> child = readChild(FieldReader(source_, node, &document_.warnings), depth))
+      if (const std::optional<std::size_t> child = readChild(FieldReader(source_, node, &warnings_), depth))
         children.push_back(*child);
     return children;
   }
@@ -187,7 +186,7 @@ private:
 
   std::string extrasOf(const pugi::xml_node& node) {
     for (const pugi::xml_node& child : node.children()) {
-      const FieldReader fields(source_, child, &document_.warnings);
+      const FieldReader fields(source_, child, &warnings_);
       if (!equalIgnoringCase(child.name(), "MetadataString") || fields.text("name") != "extras")
         continue;
       const std::vector<std::string> values = fields.strings("value");
@@ -203,7 +202,7 @@ private:
     Humanoid humanoid;
     std::vector<std::size_t> shapes;
     for (const pugi::xml_node& child : fields.node().children()) {
-      const FieldReader childFields(source_, child, &document_.warnings);
+      const FieldReader childFields(source_, child, &warnings_);
       if (!isJointElement(childFields)) {
         if (const std::optional<std::size_t> shape = readChild(childFields, depth + 1))
           shapes.push_back(*shape);
@@ -322,7 +321,7 @@ private:
       if (child.type() != pugi::node_element)
         continue;
       if (equalIgnoringCase(child.name(), "HAnimDisplacer")) {
-        if (const auto displacer = readDisplacer(FieldReader(source_, child, &document_.warnings)))
+        if (const auto displacer = readDisplacer(FieldReader(source_, child, &warnings_)))
           children.push_back(*displacer);
         continue;
       }
@@ -336,7 +335,7 @@ private:
         }
       } else if (std::string_view(child.name()).starts_with("Metadata")) {
         continue;
-      } else if (const FieldReader other(source_, child, &document_.warnings); !other.has("USE")) {
+      } else if (const FieldReader other(source_, child, &warnings_); !other.has("USE")) {
         ++document_.otherElements[child.name()];
       } else if (const std::string use = other.text("USE"); !source_.defs.contains(use)) {
         other.warnOrFail(fmt::format("USE=\"{}\" names no DEF of this scene", use), "it is left out");
@@ -362,12 +361,12 @@ private:
     std::vector<std::size_t> nodes;
     for (const pugi::xml_node& child : geometry.children())
       if (interpolatorKindOf(child.name()) == InterpolatorKind::coordinate) {
-        const FieldReader fields(source_, child, &document_.warnings);
+        const FieldReader fields(source_, child, &warnings_);
         if (Interpolator interpolator = readInterpolator(InterpolatorKind::coordinate, fields);
             !interpolator.url.empty())
           nodes.push_back(add(fields, std::move(interpolator)));
       } else if (std::optional<Interpolator> movie = readMovie(FieldReader(source_, child))) {
-        nodes.push_back(add(FieldReader(source_, child, &document_.warnings), *std::move(movie)));
+        nodes.push_back(add(FieldReader(source_, child, &warnings_), *std::move(movie)));
       }
     return nodes;
   }
@@ -379,7 +378,7 @@ private:
     const std::optional<std::string> reason = reasonGeometryIsNotInFiles(source_, fields.node());
     if (!reason)
       return true;
-    FieldReader(source_, fields.node(), &document_.warnings).warnOrFail(*reason, "its Shape is left out");
+    FieldReader(source_, fields.node(), &warnings_).warnOrFail(*reason, "its Shape is left out");
     geometriesNotInFiles_.insert(fields.text("DEF"));
     return false;
   }
@@ -389,7 +388,7 @@ private:
     const std::string def = fields.text("DEF");
     if (def.empty())
       return;
-    SharedGeometry shared{readGeometry(source_, fields.node(), &document_.warnings), readSolid(fields), {}};
+    SharedGeometry shared{readGeometry(source_, fields.node(), &warnings_), readSolid(fields), {}};
     if (rowOf(shared.geometry).storage != PatchStorage::packed || shared.geometry.patches.size() != 1)
       fields.fail(ErrorKind::unsupported, "a geometry outside of a Shape is no patch of compact");
     shared.geometry.box = shared.geometry.patches[0].box;
@@ -427,7 +426,7 @@ private:
     Shape read;
     read.mesh = document_.geometries.size();
     read.solid = readSolid(fields);
-    GeometryDescription geometry = readGeometry(source_, fields.node(), &document_.warnings);
+    GeometryDescription geometry = readGeometry(source_, fields.node(), &warnings_);
     const Box3d own = fields.box(); // a Shape whose vertices move has another one
     geometry.box = own.empty() ? shape.box() : own;
     const bool hasPatches = std::ranges::any_of(
@@ -449,6 +448,7 @@ private:
 
   const DocumentText& source_;
   SceneDocument document_;
+  DocumentWarnings warnings_{document_.warnings};
   AppearanceReader appearances_;
   std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
   std::vector<bool> isJoinable_;               ///< by geometry: it is its own only patch, and has no DEF

@@ -64,6 +64,10 @@ GeometryDescription ContainerGeometries::describe(pugi::xml_node node) const {
   return geometry;
 }
 
+bool ContainerGeometries::isSolid(pugi::xml_node node) const {
+  return readSolid(FieldReader(source_.documentText(), node, warnings_));
+}
+
 std::optional<std::vector<Mesh>> ContainerGeometries::read(std::span<const pugi::xml_node> nodes,
                                                            const AttributeChoice& kept,
                                                            std::set<std::string>& attributes) const {

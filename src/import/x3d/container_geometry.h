@@ -37,6 +37,9 @@ public:
       : source_(source), warnings_(warnings),
         fetch_([&references](const std::string& url) { return references.fetch(url); }), reader_(fetch_) {}
 
+  /// Whether only the front of a geometry's triangles is visible: see readSolid().
+  bool isSolid(pugi::xml_node node) const;
+
   /// The meshes, one for each kind of element, of nodes whose patches belong together, or of one node that is no
   /// ExternalGeometry; empty where nodes differ in more than their patches. Of the named attributes it has those in
   /// `kept`; the names of all are added to `attributes`. Throws Error with the file and line of the node or with the

@@ -28,7 +28,7 @@ ShapeReader::ShapeReader(const Source& source, const References& references, con
                          Imported& imported, Summary& summary, Faults& faults, const Routes& routes)
     : source_(source), imported_(imported), summary_(summary), faults_(faults), routes_(routes),
       inlineBytes_(options.inlineBytes), keptAttributes_(options.attributes), mappings_(options.attributes),
-      containers_(source, references, options.strict ? nullptr : &imported.warnings),
+      warnings_(imported.warnings), containers_(source, references, options.strict ? nullptr : &warnings_),
       sharedPatches_(source, containers_, keptAttributes_, attributes_,
                      [this](Mesh mesh, bool isSolid) { return addShape(std::move(mesh), isSolid); }) {
   addTextureMappings();
@@ -91,16 +91,11 @@ std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap)
   summary_.fans += geometry->fans;
   if (!operate(node, geometry->mesh))
     return {};
-  return found->second = {addShape(std::move(geometry->mesh), geometry->solid && isSolid(node))};
+  return found->second = {addShape(std::move(geometry->mesh), geometry->solid && containers_.isSolid(node))};
 }
 
 std::optional<Shape> ShapeReader::shapeOfSharedPatch(pugi::xml_node element) {
   return sharedPatches_.shapeOf(element, faults_.isStrict());
-}
-
-/// Whether only the front of a geometry's triangles is visible: see readSolid().
-bool ShapeReader::isSolid(pugi::xml_node geometry) const {
-  return readSolid(FieldReader(source_.documentText(), geometry, &imported_.warnings));
 }
 
 /// Maps a mesh by the operators of its node, in the box around it. False where that fails, which is noted.
@@ -123,7 +118,7 @@ Shape ShapeReader::addShape(Mesh mesh, bool isSolid) {
 }
 
 std::optional<Shape> ShapeReader::shapeOfPatches(const std::vector<pugi::xml_node>& geometries) {
-  const std::size_t warningCount = imported_.warnings.size();
+  const std::size_t warningCount = warnings_.count();
   std::optional<std::vector<Mesh>> meshes;
   try {
     meshes = containers_.read(geometries, keptAttributes_, attributes_);
@@ -131,10 +126,10 @@ std::optional<Shape> ShapeReader::shapeOfPatches(const std::vector<pugi::xml_nod
     meshes.reset();
   }
   if (!meshes || meshes->size() != 1 || meshes->front().corners.empty()) {
-    imported_.warnings.resize(warningCount); // the Shapes, which are read one by one, have them again
+    warnings_.keepFirst(warningCount); // the Shapes, which are read one by one, have them again
     return {};
   }
-  return addShape(std::move(meshes->front()), isSolid(geometries[0]));
+  return addShape(std::move(meshes->front()), containers_.isSolid(geometries[0]));
 }
 
 template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, const Read& read) -> decltype(read()) {
@@ -164,7 +159,7 @@ std::vector<Shape> ShapeReader::shapesOfFiles(pugi::xml_node node) {
   std::vector<Shape> shapes;
   for (Mesh& mesh : *meshes)
     if (!mesh.corners.empty())
-      shapes.push_back(addShape(std::move(mesh), isSolid(node)));
+      shapes.push_back(addShape(std::move(mesh), containers_.isSolid(node)));
   if (shapes.empty())
     ++summary_.empty[node.name()];
   return shapes;

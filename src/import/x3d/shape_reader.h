@@ -46,7 +46,6 @@ private:
   bool staysInline(pugi::xml_node node) const;
   void addTextureMappings();
   Shape addShape(Mesh mesh, bool isSolid);
-  bool isSolid(pugi::xml_node geometry) const;
   bool operate(pugi::xml_node node, Mesh& mesh);
   std::vector<Shape> shapesOfFiles(pugi::xml_node node);
   std::vector<Shape> shapesOfResource(pugi::xml_node node, gltf::ShapeResource resource);
@@ -62,7 +61,8 @@ private:
   const Routes& routes_;
   std::size_t inlineBytes_;
   const AttributeChoice& keptAttributes_;
-  AttributeChoice mappings_; ///< keptAttributes_ and the sets of texture coordinates that textures use
+  AttributeChoice mappings_;  ///< keptAttributes_ and the sets of texture coordinates that textures use
+  DocumentWarnings warnings_; ///< of fields, in the list of `imported_`
   ContainerGeometries containers_;
   std::set<std::string> attributes_; ///< names of the vertex attributes of geometries of files
   SharedPatches sharedPatches_;

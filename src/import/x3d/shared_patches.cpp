@@ -70,7 +70,7 @@ void SharedPatches::findNames() {
 }
 
 void SharedPatches::readNode(pugi::xml_node geometry, GeometryNode& node) {
-  const bool isSolid = readSolid(FieldReader(source_.documentText(), geometry));
+  const bool isSolid = containers_.isSolid(geometry);
   try {
     for (auto& [index, patch] : containers_.readShared(geometry, node.indices, kept_, attributes_))
       if (const Error* error = std::get_if<Error>(&patch))
