@@ -368,6 +368,34 @@ describe("a texture", () => {
     );
   });
 
+  test("is the first of its URLs that decodes, without an error event", async () => {
+    const site = siteOf(quad(1), "--profile", "classic");
+    const names = ["absent.png", "cut.png", "page.png", "texels.png", "other.png"];
+    const urls = names.map((name) => `"${name}"`).join(" ");
+    const shape = shapeInFolder(site, "q").replace(
+      /<Appearance[\s\S]*<\/Appearance>/i,
+      `<Appearance>${white}<ImageTexture url='${urls}'>${nearest}</ImageTexture></Appearance>`,
+    );
+    const directory = sceneOf("texture-urls", { q: site }, viewpoint(distance) + shape);
+    const png = encodePng(picture);
+    const files = { "cut.png": png.subarray(0, png.length / 2), "page.png": "<!DOCTYPE html>", "texels.png": png };
+    for (const [name, bytes] of Object.entries(files)) writeFileSync(join(directory, name), bytes);
+    await withPage(directory, { expectedErrors: /404/ }, async (view) => {
+      await view.promise("complete");
+      for (const [u, v] of [
+        [0.12, 0.2],
+        [0.4, 0.8],
+        [0.9, 0.3],
+      ] as const)
+        assert.deepEqual(colorAt(await view.picture(), pixelAt(2 * u - 1, 2 * v - 1)), texelAt(u, v));
+      assert.deepEqual(await view.events("error", "x3d"), []);
+      assert.deepEqual(
+        names.map((name) => view.server.requestsOf(new RegExp(name)).length),
+        [1, 1, 1, 1, 0],
+      );
+    });
+  });
+
   test("that fails is missing from its shape only; without a texture its coordinates are not fetched", async () => {
     const site = siteOf(quad(1), "--profile", "classic");
     const plain = sceneOf("untextured", { q: site }, viewpoint(distance) + shapeInFolder(site, "q"));

@@ -15,21 +15,29 @@ bool isRemote(const std::string& url) {
   return url.starts_with("http:") || url.starts_with("https:");
 }
 
+std::size_t NodeImages::imageOf(const std::string& url) {
+  if (const auto found = read_.find(url); found != read_.end())
+    return found->second;
+  ImageFile file{isDataUrl(url) ? "" : url, references_.fetch(url)};
+  requireImage(file.bytes, url);
+  images_.push_back(std::move(file));
+  return read_[url] = images_.size() - 1;
+}
+
 std::optional<std::size_t> NodeImages::read(const std::vector<std::string>& urls) {
   std::vector<Error> errors;
   for (const std::string& url : urls) {
-    if (const auto found = read_.find(url); found != read_.end())
-      return found->second;
     if (isRemote(url))
       continue;
     try {
-      ImageFile file{isDataUrl(url) ? "" : url, references_.fetch(url)};
-      requireImage(file.bytes, url);
-      // A browser goes on to the next URL where an image is damaged.
-      if (isDecodable(imageType(file.bytes)) && &url != &urls.back())
-        decodeRaster(file.bytes, url);
-      images_.push_back(std::move(file));
-      return read_[url] = images_.size() - 1;
+      if (&url != &urls.back() && !whole_.contains(url)) { // a browser goes on to the next URL where one is damaged
+        const Bytes bytes = references_.fetch(url);
+        requireImage(bytes, url);
+        if (isDecodable(imageType(bytes)))
+          decodeRaster(bytes, url);
+        whole_.insert(url);
+      }
+      return imageOf(url);
     } catch (const Error& error) {
       errors.push_back(error);
     }

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,15 +20,17 @@ public:
   /// Images are added to `images`.
   NodeImages(const References& references, std::vector<ImageFile>& images) : references_(references), images_(images) {}
 
-  /// The index of the image of the first URL that can be read, each URL read once; empty where none can and other hosts
-  /// may have it. Throws the joined Errors of all where none can and all URLs are
-  /// local.
+  /// The index of the image of the first URL that can be read and decoded, or of the last if it can be read; empty
+  /// where none can and other hosts may have it. Throws the joined Errors of all where none can and all URLs are local.
   std::optional<std::size_t> read(const std::vector<std::string>& urls);
 
 private:
+  std::size_t imageOf(const std::string& url);
+
   const References& references_;
   std::vector<ImageFile>& images_;
   std::map<std::string, std::size_t> read_; ///< by URL
+  std::set<std::string> whole_;             ///< URLs of images that can be decoded
 };
 
 /// Keeps, of fields for images without an image, only the URLs of other hosts: pages request the first URL, and the

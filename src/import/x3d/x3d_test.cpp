@@ -366,6 +366,21 @@ TEST(X3d, ReadsTexturesFromItsOwnFolderOnly) {
   EXPECT_TRUE(read("http://example.org/a.png").scene.graph.images.empty());
 }
 
+TEST(X3d, GoesOnToTheNextUrlOfADamagedTextureThatAnotherNodeHasAlone) {
+  const testing::TemporaryDirectory directory;
+  writeFile(directory / "damaged.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  const auto shape = [](const std::string& urls) {
+    return "<Shape><Appearance><ImageTexture url='" + urls + "'/></Appearance><TriangleSet>" + square +
+           "</TriangleSet></Shape>";
+  };
+  writeFile(directory / "a.x3d", asBytes("<X3D><Scene>" + shape("\"damaged.png\"") +
+                                         shape("\"damaged.png\" \"wood.png\"") + "</Scene></X3D>"));
+  const std::vector<ImageFile>& images = importFile(directory / "a.x3d").scene.graph.images;
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(images[1].url, "wood.png");
+}
+
 TEST(X3d, ReadsThePicturesOfABackground) {
   const testing::TemporaryDirectory directory;
   for (const char* name : {"front.png", "top.png"})

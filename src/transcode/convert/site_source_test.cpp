@@ -3,9 +3,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/testing.h"
+#include "images/decode_image.h"
+#include "images/encode_image.h"
+#include "images/testing.h"
 #include "scene/testing.h"
 #include "transcode/site/testing.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -202,6 +206,33 @@ TEST_F(SourcePage, TakesTheFirstUrlOfAFileThatCanBeRead) {
     EXPECT_NE(text.find("lost.bin: "), text.npos) << text;
     EXPECT_NE(text.find("gone.bin: "), text.npos) << text;
   }
+}
+
+TEST_F(SourcePage, TakesTheFirstUrlOfATextureThatDecodes) {
+  const Bytes good = encodeLosslessWebp(testing::testRaster(8, 8));
+  writeFile(directory_ / "in/good.webp", good);
+  writeFile(directory_ / "in/broken.webp", ByteSpan(good).first(good.size() / 2)); // of the right type, but cut
+  writeFile(directory_ / "in/other.webp", encodeLosslessWebp(testing::testRaster(4, 4)));
+  writePage("<binarygeometry vertexcount=3 size='2 2 0' position='1 1 0' coord=c.bin></binarygeometry></shape><shape>"
+            R"(<appearance><imagetexture url='"lost.webp" "broken.webp" "good.webp" "other.webp"'></imagetexture>)"
+            "</appearance><binarygeometry vertexcount=3 size='2 2 0' position='1 1 0' coord=c.bin texcoord=c.bin>"
+            "</binarygeometry>");
+  EXPECT_TRUE(convertPage(true).warnings.empty());
+  const auto edgeOf = [](const std::filesystem::path& file) { return decodeRaster(readFile(file), "").width; };
+  const SceneDocument site = openDocument(directory_ / "site").scene;
+  ASSERT_EQ(site.graph.images.size(), 1u);
+  EXPECT_EQ(edgeOf(directory_ / "site" / site.graph.images[0].url), 8u);
+  EXPECT_TRUE(verify(directory_ / "site", directory_ / "in/index.html").equal);
+
+  const SceneDocument direct = openDocument(directory_ / "in").scene; // without convert
+  ASSERT_EQ(direct.graph.images.size(), 1u);
+  EXPECT_EQ(direct.graph.images[0].url, "good.webp");
+  const SiteInfo info = inspect(directory_ / "in");
+  EXPECT_EQ(info.textureBytes, good.size());
+  EXPECT_TRUE(info.missing.empty());
+  exportSite(directory_ / "in", directory_ / "out.glb");
+  const Bytes glb = readFile(directory_ / "out.glb");
+  EXPECT_FALSE(std::ranges::search(glb, good).empty());
 }
 
 TEST(SourceDocument, IsReadWithTheFilesOfItsGeometry) {
