@@ -168,6 +168,8 @@ struct ConvertReport {
   ElementCounts elements;                              ///< elements as drawn
   std::size_t vertices = 0;                            ///< vertices of all patches
   std::size_t patches = 0;                             ///< patches of all meshes
+  std::uint32_t largestPatch = 0;                      ///< vertices of the largest patch
+  std::size_t grids = 0;                               ///< patches that are grids, which have no index
   WeldReport weld;                                     ///< what welding did
   bool normalsComputed = false;                        ///< normals of at least one mesh were computed
   std::uint32_t minPositionBits = 0;                   ///< minimum over all meshes

@@ -111,6 +111,15 @@ void printWelding(const Arguments& arguments, const ConvertReport& report) {
                             dropped.repeated ? "dropped" : "kept", grouped(weld.duplicateElements)));
 }
 
+/// "7 of at most 65,512 vertices", "4 grids of at most 263,169 vertices"
+std::string patchesText(const ConvertReport& report) {
+  const std::string largest = fmt::format("of at most {} vertices", grouped(report.largestPatch));
+  if (report.grids == 0 || report.grids < report.patches)
+    return fmt::format("{} {}{}", report.patches, largest,
+                       report.grids > 0 ? fmt::format(", {} of them grids", report.grids) : "");
+  return fmt::format("{} {} {}", report.grids, report.grids == 1 ? "grid" : "grids", largest);
+}
+
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const EncodingRow& row = rowOf(report.encoding);
   printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
@@ -163,8 +172,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("attribute",
               fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits, attribute.error));
   printTextures(report.textures);
-  printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
-                                   grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
+  printLine("patches", patchesText(report));
   printWelding(arguments, report);
 }
 
@@ -276,6 +284,8 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   json["points"] = report.elements.points;
   json["vertices"] = report.vertices;
   json["patches"] = report.patches;
+  json["largestPatch"] = report.largestPatch;
+  json["grids"] = report.grids;
   json["weld"] = {{"mergedPositions", report.weld.mergedPositions},
                   {"mergedWedges", report.weld.mergedWedges},
                   {"unreferencedPositions", report.weld.unreferencedPositions},

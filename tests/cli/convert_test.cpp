@@ -28,11 +28,27 @@ TEST_F(Convert, ReportsWhatItChose) {
   EXPECT_EQ(outcome.err, "") << "silent where standard error is no terminal";
   for (const char* words : {"sig (PNG images)", "profile compact", "target web", "8 bits: step 0.25, as in the source",
                             "octahedral, 8 bits: off by at most 0.96 degrees; computed", "800 triangles",
-                            "1 of at most 65,535 vertices", "patch", "bytes a triangle", "memory"})
+                            "patches    1 of at most 441 vertices\n", "patch", "bytes a triangle", "memory"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "colours are for terminals";
   EXPECT_EQ(namesIn(site_), (std::vector<std::string>{"geometry", "icon.png", "imgeo.css", "imgeo.json", "index.html",
                                                       "picture.png", "runtime", "scene.x3d"}));
+}
+
+TEST_F(Convert, ReportsTheSizeOfGrids) {
+  // More vertices than other patches may have.
+  const std::size_t columns = 300, rows = 299;
+  std::string heights = "ncols 300\nnrows 299\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  for (std::size_t n = 0; n < columns * rows; ++n)
+    heights += std::to_string(n % 7) + (n % columns == columns - 1 ? "\n" : " ");
+  const std::string source = directory_ / "hills.asc";
+  write(source, heights);
+  const Outcome outcome = run({"convert", source, "-o", site_, "--as", "height-map", "--no-pictures"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("patches    1 grid of at most 89,700 vertices\n"), std::string::npos) << outcome.out;
+  const Json report = Json::parse(run({"convert", source, "-o", site_, "--as", "height-map", "--json"}).out);
+  EXPECT_EQ(report["grids"], 1);
+  EXPECT_EQ(report["largestPatch"], 89'700);
 }
 
 TEST_F(Convert, PrintsHowToEmbedTheSiteInAPageBesideItsFolder) {

@@ -28,6 +28,9 @@ void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
   report.elements += encoded.elements;
   report.vertices += encoded.vertices;
   report.patches += encoded.geometry.patches.size();
+  for (const PatchDescription& patch : encoded.geometry.patches)
+    report.largestPatch = std::max(report.largestPatch, patch.vertexCount);
+  report.grids += encoded.geometry.grid ? encoded.geometry.patches.size() : 0;
   report.collapsed += encoded.collapsed;
   report.positionError = std::max(report.positionError, encoded.positionError);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);

@@ -93,6 +93,8 @@ TEST(TerrainSite, IsAHeightMapOfSeveralImagesIfItIsLarge) {
   const ConvertReport report = convert(directory / "hills.asc", directory / "site", options);
   EXPECT_EQ(report.elements.triangles, 2u * 59 * 38);
   EXPECT_EQ(report.patches, 8u); // 59 cells in four parts, 38 in two: at most 19 in each
+  EXPECT_EQ(report.grids, 8u);
+  EXPECT_EQ(report.largestPatch, 16u * 20u);
   const SiteDocument document = openDocument(directory / "site");
   const GeometryDescription& geometry = document.scene.geometries.at(0);
   ASSERT_EQ(geometry.patches.size(), 8u);
