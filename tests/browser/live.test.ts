@@ -11,6 +11,7 @@ import { areaWeightedNormals } from "./meshes.ts";
 import { encodePng, type Picture } from "./png.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
 import { soakTest } from "./soak.ts";
+import { TestStream } from "./testStream.ts";
 
 /** A surface, mirrored in x and scaled around the origin. */
 function mirrored(mesh: PlainPatch, scale: number): PlainPatch {
@@ -226,6 +227,60 @@ function indexImageOf({ triangles }: PlainPatch): Buffer {
   });
   return encodePng({ width: 256, height, channels: 3, data });
 }
+
+test("another lattice and another stream take the GPU objects of the one before, or free them", async () => {
+  await withLivePage({}, async (view) => {
+    const { stream, show, setGeometry, server } = view;
+    const sheet = (size: number, moment: number): GridExample =>
+      exampleOf("geometryImage", 40, 30, [0.1, 0, 0], [size, size, size], 2, 3, (u, v) => [
+        0.2 + 0.6 * u,
+        0.8 - 0.6 * v,
+        0.5 + 0.1 * Math.sin(7 * u + moment),
+      ]);
+    const second = new TestStream(server, "second");
+    for (const decode of [undefined, "cpu"]) {
+      await setGeometry({ coord: "live/sheet", decode });
+      const publish = async (to: TestStream, example: GridExample, name: string): Promise<void> => {
+        to.publish(example);
+        await displayed(view, to);
+        await show(plainOf(example), `live, decode ${decode ?? "auto"}: ${name}`);
+      };
+      /** A page keeps the memory of what was replaced for two seconds. */
+      const liveObjects = async (): Promise<string> => {
+        let live = "";
+        const read = async (): Promise<string> => JSON.stringify((await view.observed()).live);
+        await until("objects are freed", async () => {
+          await new Promise((resolve) => setTimeout(resolve, 2500));
+          const before = live;
+          return before === (live = await read());
+        });
+        return live;
+      };
+      stream.begin(sheet(3, 0));
+      await publish(stream, sheet(3, 0), "a lattice");
+      const live = await liveObjects();
+      const before = await gpuCalls(view);
+
+      stream.begin(sheet(4, 1));
+      await publish(stream, sheet(4, 1), "another box");
+      second.begin(sheet(3.5, 3));
+      second.publish(sheet(3.5, 3));
+      await setGeometry({ coord: "live/second" });
+      await publish(second, sheet(3.5, 4), "another stream");
+      assert.equal((await gpuCalls(view)).objects, before.objects, "an equal layout allocates memory on the GPU");
+
+      second.begin(wave(0, 60, 50));
+      await publish(second, wave(0, 60, 50), "another layout");
+      assert.ok((await gpuCalls(view)).objects > before.objects);
+      assert.equal(await liveObjects(), live, "objects of the layout before are not freed");
+      stream.begin(sheet(3, 5));
+      stream.publish(sheet(3, 5));
+      await setGeometry({ coord: "live/sheet" });
+      await publish(stream, sheet(3, 5), "a stream of another layout");
+      assert.equal(await liveObjects(), live, "objects of the stream before are not freed");
+    }
+  });
+});
 
 test("a live stream is drawn from buffers as from images, and with normals of its triangles", async () => {
   await withLivePage({}, async (view) => {

@@ -174,6 +174,9 @@ export class GeometryDeliveries {
         else stages.set(patch, [stage, drawn]);
         for (const listener of members) listener.onStage(patch, stage, drawn);
       },
+      onSwap() {
+        for (const listener of members) listener.onSwap?.();
+      },
       onFrame(frame) {
         for (const listener of members) listener.onFrame?.(frame);
       },

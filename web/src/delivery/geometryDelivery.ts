@@ -20,6 +20,8 @@ export interface DeliveryListener {
    * `drawn`: the geometry with what the document does not state (live streams); absent: the geometry itself.
    */
   onStage(patchIndex: number, stage: Stage | undefined, drawn?: GeometryDescription): void;
+  /** The stages end; others replace them before the page's next frame, for which their memory may be used. */
+  onSwap?(): void;
   /** The vertices of a live stream have changed; the stage stays the same. */
   onFrame?(frame: LiveFrame): void;
   /** Called once for each URL that fails. */

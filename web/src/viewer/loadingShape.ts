@@ -186,6 +186,9 @@ export abstract class LoadingShape {
       onStage: (patch, stage, drawn = source.geometry) => {
         this.#receiveStage(source, patch, stage, drawn);
       },
+      onSwap: () => {
+        this.onSwap();
+      },
       onFrame: (frame) => {
         if (source === this.#displayed) {
           this.#displayFrame(source, frame);

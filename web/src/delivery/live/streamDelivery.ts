@@ -205,9 +205,12 @@ class StreamDelivery implements Delivery {
     const before = this.#displayed;
     this.#displayed = epoch;
     this.#next = undefined;
+    if (before !== undefined) {
+      this.#listener.onSwap?.();
+      before.close();
+    }
     this.#listener.onStage(0, epoch.stage, epoch.geometry);
     this.#reportFrame(epoch);
-    before?.close();
     this.#followNeeds();
   }
 }

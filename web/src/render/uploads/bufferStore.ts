@@ -22,6 +22,8 @@ const maxBytesKept = bytesPerStep;
 interface KeptArray {
   readonly array: ElementArray;
   readonly use: ArrayUse;
+  /** Whether its bytes count as waiting. */
+  readonly isCounted: boolean;
 }
 
 export class BufferStore implements BufferProvider {
@@ -63,24 +65,27 @@ export class BufferStore implements BufferProvider {
     const waits = byteLength > maxBytesKept && this.isReplacing && this.#waitingBytes + byteLength <= maxWaitingBytes;
     if (waits) this.#waitingBytes += byteLength;
     if (waits || byteLength <= maxBytesKept)
-      return { bytes: this.#add(byteLength, use, { array, use }), steps: deferredUpload(byteLength) };
+      return { bytes: this.#add(byteLength, use, { array, use, isCounted: waits }), steps: deferredUpload(byteLength) };
     const buffer = this.#allocate(byteLength, use);
     return { bytes: this.#add(byteLength, use, buffer), steps: uploadPieces(this.#gl, buffer, array) };
   }
 
-  /** Stores vertices that can be replaced, all at once, before a frame is drawn. */
+  /**
+   * Stores vertices that can be replaced, all at once, before a frame is drawn. Their buffer is allocated when a draw
+   * needs it: it may then take that of an array that it replaces.
+   */
   makeWritable(array: ElementArray): WritableArray {
-    const gl = this.#gl;
     const { byteLength } = array;
-    const buffer = this.#allocate(byteLength, "vertices");
-    const bytes = Object.assign(this.#add(byteLength, "vertices", buffer), { version: 0 });
+    const kept = (elements: ElementArray): KeptArray => ({ array: elements, use: "vertices", isCounted: false });
+    const bytes = Object.assign(this.#add(byteLength, "vertices", kept(array)), { version: 0 });
     const write = (elements: ElementArray): void => {
       if (elements.byteLength !== byteLength) throw new RangeError("another number of elements");
-      if (!this.#buffers.has(bytes)) return;
-      uploadPiece(gl, buffer, 0, elements);
+      const held = this.#buffers.get(bytes);
+      if (held === undefined) return;
+      if (held instanceof WebGLBuffer) uploadPiece(this.#gl, held, 0, elements);
+      else this.#buffers.set(bytes, kept(elements));
       bytes.version += 1;
     };
-    write(array);
     return { bytes, write };
   }
 
@@ -154,10 +159,11 @@ export class BufferStore implements BufferProvider {
       byteLength,
       close: () => {
         const held = this.#buffers.get(bytes);
-        if (!this.#buffers.delete(bytes)) return;
+        if (held === undefined) return;
+        this.#buffers.delete(bytes);
         this.#bytes -= byteLength;
         if (held instanceof WebGLBuffer) this.#spare.release(spareKeyOf(byteLength, use), held);
-        else this.#endWait(byteLength);
+        else this.#endWait(held);
       },
     };
     this.#buffers.set(bytes, held);
@@ -169,15 +175,15 @@ export class BufferStore implements BufferProvider {
     if (held instanceof WebGLBuffer) return held;
     const { array, use } = held;
     const buffer = this.#allocate(array.byteLength, use);
-    for (const steps = uploadPieces(this.#gl, buffer, array); steps.next().done !== true;);
+    uploadPiece(this.#gl, buffer, 0, array);
     this.#buffers.set(bytes, buffer);
-    this.#endWait(array.byteLength);
+    this.#endWait(held);
     return buffer;
   }
 
   /** An array that was kept is on the GPU, or closed. */
-  #endWait(byteLength: number): void {
-    if (byteLength > maxBytesKept) this.#waitingBytes -= byteLength;
+  #endWait({ array, isCounted }: KeptArray): void {
+    if (isCounted) this.#waitingBytes -= array.byteLength;
   }
 
   #heldOf(bytes: GpuArray): WebGLBuffer | KeptArray {

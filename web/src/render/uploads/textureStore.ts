@@ -25,6 +25,11 @@ interface WaitingImage {
   readonly renderer: WebGLRenderer;
 }
 
+/** An image whose texels can be replaced, and no draw has needed yet. `texels`: the newest. */
+interface WritableTexels {
+  texels: Uint8Array<ArrayBuffer> | undefined;
+}
+
 /** Images of three channels have four on the GPU, too. */
 const bytesPerTexel = 4;
 const bytesPerStep = 2 ** 18;
@@ -35,9 +40,9 @@ export class TextureStore {
    * of those before. Only as many as may be uploaded in one frame.
    */
   isReplacing = false;
-  readonly #textures = new WeakMap<DecodedImage, Texture | WaitingImage>();
+  readonly #textures = new WeakMap<DecodedImage, Texture | WaitingImage | WritableTexels>();
   #waitingBytes = 0;
-  readonly #spare = new SpareMemory<Texture>((texture) => {
+  readonly #spare = new SpareMemory<DataTexture>((texture) => {
     texture.dispose();
   });
   #bytes = 0;
@@ -62,22 +67,30 @@ export class TextureStore {
     const held = this.#textures.get(image);
     if (held === undefined) throw new RangeError("the image is not on the GPU");
     if (held instanceof Texture) return held;
-    const { bitmap, renderer } = held;
-    const { width, height } = image;
-    this.#waitingBytes -= bytesOf(image);
-    const texture = this.#take(width, height);
+    const texture = this.#take(image.width, image.height);
     this.#textures.set(image, texture);
+    if (isWritable(held)) {
+      if (held.texels !== undefined) writeTexels(texture, held.texels);
+      return texture;
+    }
+    const { bitmap, renderer } = held;
+    this.#waitingBytes -= bytesOf(image);
     for (const steps = uploadStrips(bitmap, texture, renderer); steps.next().done !== true;);
     return texture;
   }
 
-  /** Allocates an image of vertex data whose texels can be replaced, all at once, before a frame is drawn. */
+  /**
+   * Makes an image of vertex data whose texels can be replaced, all at once, before a frame is drawn. Its texture is
+   * allocated when a draw needs it: it may then take that of an image that it replaces.
+   */
   makeWritable(width: number, height: number): WritableImage {
-    const texture = emptyTexture(width, height);
+    const image = this.#add({ texels: undefined }, { width, height }, true);
     return {
-      image: this.#add(texture, { width, height }),
+      image,
       write: (texels) => {
-        writeTexels(texture, texels);
+        const held = this.#textures.get(image);
+        if (held instanceof DataTexture) writeTexels(held, texels);
+        else if (held !== undefined && isWritable(held)) held.texels = texels;
       },
     };
   }
@@ -95,7 +108,7 @@ export class TextureStore {
     return { image, steps: uploadStrips(bitmap, texture, renderer) };
   }
 
-  #take(width: number, height: number): Texture {
+  #take(width: number, height: number): DataTexture {
     return this.#spare.take(sizeKeyOf(width, height)) ?? emptyTexture(width, height);
   }
 
@@ -103,7 +116,12 @@ export class TextureStore {
    * `isReusable`: after it is closed, the texture may become that of another image of this size. `bitmap`: is being
    * uploaded.
    */
-  #add(held: Texture | WaitingImage, { width, height }: Size, isReusable = false, bitmap?: ImageBitmap): DecodedImage {
+  #add(
+    held: Texture | WaitingImage | WritableTexels,
+    { width, height }: Size,
+    isReusable = false,
+    bitmap?: ImageBitmap,
+  ): DecodedImage {
     const hasMipmaps = held instanceof Texture && held.generateMipmaps;
     const bytes = bytesOf({ width, height }) * (hasMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
@@ -117,9 +135,11 @@ export class TextureStore {
         this.#bytes -= bytes;
         bitmap?.close();
         if (!(held instanceof Texture)) {
+          if (isWritable(held)) return;
           this.#waitingBytes -= bytes;
           held.bitmap.close();
-        } else if (isReusable) {
+        } else if (isReusable && held instanceof DataTexture) {
+          forgetTexels(held);
           this.#spare.release(sizeKeyOf(width, height), held);
         } else {
           held.dispose();
@@ -163,6 +183,17 @@ function* uploadStrips(bitmap: ImageBitmap, target: Texture, renderer: WebGLRend
 /** Accounts for an upload that happens later, when a draw needs the image. */
 function* deferredUpload(byteLength: number): Generator<number, void, void> {
   yield byteLength;
+}
+
+function isWritable(held: Texture | WaitingImage | WritableTexels): held is WritableTexels {
+  return "texels" in held;
+}
+
+/** Frees the memory of texels that have been written in JavaScript; the texture keeps its own. */
+function forgetTexels(texture: DataTexture): void {
+  const { width, height } = texture.image as { width: number; height: number };
+  texture.image = { data: null, width, height };
+  texture.source.dataReady = false;
 }
 
 /** Replaces the texels of a data texture: three.js uploads them into the same texture before it draws it. */
