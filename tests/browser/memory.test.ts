@@ -195,6 +195,54 @@ describe("a budget", () => {
   }
 });
 
+describe("a container whose URL changes", () => {
+  /** Points of 12 bytes. */
+  const cloud = (vertexCount: number, shift: number): Buffer => {
+    const coords = Float32Array.from({ length: 3 * vertexCount }, (_, n) => Math.sin(n + shift));
+    return Buffer.from(coords.buffer);
+  };
+  for (const [what, vertexCount, sets] of [
+    ["of at most 4 MiB has one set of GPU objects throughout", 100_000, 1],
+    ["of more than 4 MiB has two sets for a moment, and then one", 500_000, 2],
+  ] as const) {
+    test(what, async (context) => {
+      const geometry = `<BinaryGeometry coord="cloud/0.bin" primType="POINTS" vertexCount="${vertexCount}" size="2 2 2"></BinaryGeometry>`;
+      const directory = sceneOf(
+        `replaced-${vertexCount}`,
+        { q: siteOfGenerated("trefoil", "--profile", "classic") },
+        `<Viewpoint position="0 0 6"></Viewpoint><Shape>${geometry}</Shape>`,
+      );
+      const server = (server: View["server"]): void => {
+        for (let n = 0; n < 4; ++n) server.put(`/cloud/${n}.bin`, cloud(vertexCount, n));
+      };
+      await withPage(directory, { before: recordMemory, server }, async (view) => {
+        await view.promise("complete");
+        await settle(view.page);
+        const { gpuBytes: before } = await memoryOf(view);
+        const cloudBytes = 12 * vertexCount;
+        assert.ok(before >= cloudBytes && before < 1.1 * cloudBytes, `${before} bytes for ${cloudBytes}`);
+        await view.page.evaluate(() => {
+          const { memory } = window as unknown as { memory: Memory };
+          memory.maxGpuBytes = memory.gpuBytes;
+        });
+        for (let n = 1; n < 4; ++n) {
+          await view.page.evaluate((url) => {
+            document.querySelector("binarygeometry")!.setAttribute("coord", url);
+          }, `cloud/${n}.bin`);
+          await view.promise("complete", "shape");
+          await settle(view.page);
+        }
+        await new Promise((resolve) => setTimeout(resolve, 2500)); // spare objects are kept for two seconds
+        const { gpuBytes, maxGpuBytes } = await memoryOf(view);
+        const others = before - cloudBytes;
+        context.diagnostic(`up to ${maxGpuBytes - others} bytes, ${gpuBytes - others} in the end, of ${cloudBytes}`);
+        assert.equal(maxGpuBytes, before + (sets - 1) * cloudBytes);
+        assert.equal(gpuBytes, before);
+      });
+    });
+  }
+});
+
 test("a large image is uploaded in bands of rows", async () => {
   const before = (): void => {
     const uploads: number[] = [];
