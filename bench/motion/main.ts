@@ -2,7 +2,8 @@
 // one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes; and a grid of
 // 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
 // frames, and the median and the minimum of their durations, which other processes lengthen. Then plays 10,000 frames
-// of two scenes and of a sequence, a recorded cloth, and prints the memory before and after.
+// of two scenes and of a sequence, a recorded cloth, and prints the memory before and after; and the time that a page
+// takes to display frames of that cloth, from its files of frames and from its lossless video.
 //
 //   scripts/bench motion            FRAMES=3000: plays fewer frames
 
@@ -112,13 +113,45 @@ async function memoryRow(page: Page, name: string, play: (count: number) => Prom
 
 const recordedFrames = 90;
 
-/** Converts a cloth of 64 x 64 vertices, three seconds, in a folder of its own. */
+/** Converts a cloth of 64 x 64 vertices, three seconds, to frames and to a video, in folders of their own. */
 function convertCloth(folder: string): void {
   const imgeo = (...words: string[]): void =>
     void execFileSync("build/imgeo", words, { stdio: ["ignore", "ignore", "inherit"] });
   const files = join(folder, "frames");
   imgeo("sample", "cloth", "--frames", String(recordedFrames), "--grid", "64", "-o", files);
   imgeo("convert", join(files, "cloth-*.ply"), "-o", join(folder, "cloth"), "--no-pictures");
+  imgeo("convert", join(files, "cloth-*.ply"), "-o", join(folder, "video"), "--no-pictures", "--as", "video");
+}
+
+/** Milliseconds from asking for a frame until it is displayed, for each of these frames, one after the other. */
+function frameTimes(page: Page, numbers: readonly number[]): Promise<number[]> {
+  return page.evaluate(async (frames) => {
+    const x3d = document.querySelector("x3d")!;
+    const times: number[] = [];
+    for (const number of frames) {
+      const displayed = new Promise((resolve) => {
+        x3d.addEventListener("frame", resolve, { once: true, capture: true });
+      });
+      const begun = performance.now();
+      x3d.setAttribute("sequence-time", String((number + 0.5) / 30));
+      await displayed;
+      times.push(performance.now() - begun);
+    }
+    return times;
+  }, numbers);
+}
+
+/** Frames in their order, and frames in the middle between key frames, forwards and backwards. */
+async function frameTimeRow(page: Page, name: string): Promise<string> {
+  const forwards = Array.from({ length: recordedFrames - 1 }, (_, n) => n + 1);
+  const seeks = Array.from({ length: 40 }, (_, n) => ((n * 37) % 3) * 30 + 15 + (n % 2));
+  await frameTimes(page, forwards); // all files have been fetched, and the code compiled
+  const cells: string[] = [];
+  for (const numbers of [forwards, seeks]) {
+    const sorted = (await frameTimes(page, numbers)).sort((a, b) => a - b);
+    for (const time of [sorted[Math.floor(sorted.length / 2)]!, sorted[0]!]) cells.push(`${time.toFixed(1)} ms`);
+  }
+  return `| ${name} | ${cells.join(" | ")} |`;
 }
 
 /** Displays the frames of the page's sequence, one after the other, from the first again behind the last. */
@@ -186,6 +219,16 @@ try {
   const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
   await goUntilComplete(page, `${server.origin}cloth/`, timeout);
   memory.push(await memoryRow(page, "a sequence of 4,096 vertices", (played) => playSequence(page, played)));
+  await page.close();
+  console.log(
+    "\n| a cloth of 4,096 vertices | next frame, median | minimum | seek, median | minimum |\n|---|--:|--:|--:|--:|",
+  );
+  for (const [folder, name] of Object.entries({ cloth: "files of frames", video: "lossless video" })) {
+    const player = await browser.newPage({ viewport: { width: 320, height: 240 } });
+    await goUntilComplete(player, `${server.origin}${folder}/`, timeout);
+    console.log(await frameTimeRow(player, name));
+    await player.close();
+  }
   console.log(`\n| ${frameCount} frames | heap after 100 | heap after all | GPU after 100 | GPU after all |`);
   console.log(`|---|--:|--:|--:|--:|\n${memory.join("\n")}`);
 } finally {

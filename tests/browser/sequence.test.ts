@@ -9,8 +9,9 @@ import { breath, breathSite, frameCount, heatRange, patchOfFrame, rate } from ".
 import { assertSamePicture, boundsOfInput, savePicture } from "./compare.ts";
 import { until, withPage, type View } from "./harness.ts";
 import { gpuCalls, recordStream, type FrameDetail } from "./livePage.ts";
+import { sphere, withoutNormals, type PlainMesh } from "./meshes.ts";
 import { referencePicture } from "./reference.ts";
-import type { TestServer } from "./server.ts";
+import { startServer, type TestServer } from "./server.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
 import { pageOf, siteOfFrames, variantOf } from "./sites.ts";
 import { soakTest } from "./soak.ts";
@@ -335,6 +336,86 @@ soakTest("a video that is cut is reported once, and its frames are displayed", a
     assert.deepEqual(await notesOf(view), []);
   });
 });
+
+/** In the page, before its document: from the request of the video on, decoding changes pixels, as after lossy coding. */
+const losePixels = `
+  const { copyTo } = VideoFrame.prototype;
+  const { fetch } = window;
+  let isLossy = false;
+  window.fetch = (...request) => {
+    isLossy ||= String(request[0]).endsWith(".webm");
+    return fetch(...request);
+  };
+  VideoFrame.prototype.copyTo = async function (bytes, ...options) {
+    const planes = await copyTo.call(this, bytes, ...options);
+    if (isLossy) bytes[100] ^= 1;
+    return planes;
+  };`;
+
+const otherVideo = (name: string, meshes: readonly PlainMesh[]): Buffer => {
+  const folder = join(siteOfFrames(name, meshes, "--rate", String(rate), "--as", "video"), "geometry");
+  return readFileSync(
+    join(
+      folder,
+      readdirSync(folder).find((file) => file.endsWith(".webm"))!,
+    ),
+  );
+};
+
+/** What may be wrong with a video, and the sentence that says so. */
+const unusable: Readonly<Record<string, { readonly replace?: () => Buffer; readonly sentence: RegExp }>> = {
+  "that is lossy": { sentence: /is not lossless/ },
+  "of another size": {
+    replace: () =>
+      otherVideo(
+        "small",
+        Array.from({ length: frameCount }, () => withoutNormals(sphere(8))),
+      ),
+    sentence: /has images of \d+ x \d+ pixels; those of its frames have \d+ x \d+/,
+  },
+  "with fewer frames": {
+    replace: () => otherVideo("short", breath.slice(0, 12)),
+    sentence: /has 12 images; its index states 25 frames/,
+  },
+  "of another origin without CORS": { sentence: /could not be fetched|CORS|Failed to fetch/ },
+};
+
+for (const [name, { replace, sentence }] of Object.entries(unusable))
+  soakTest(`a video ${name} is reported once, and its frames are displayed`, async () => {
+    const foreign = name.includes("origin") ? await startServer(videoSite()) : undefined;
+    const site = variantOf(videoSite(), name.replaceAll(" ", "-"), (page) =>
+      page
+        .replace(/<x3d/i, '<x3d sequence-time="0"')
+        .replace(/"(geometry\/\w+\.webm)"/, (quoted, path: string) =>
+          foreign ? `"${foreign.origin}${path}"` : quoted,
+        ),
+    );
+    const lossy = name.includes("lossy") ? losePixels : "";
+    const options = {
+      before: { content: prepareVideo + lossy },
+      expectedErrors: /webm|ERR_FAILED/,
+      isCrossOrigin: foreign !== undefined,
+      server: (server: TestServer): void => {
+        if (foreign) server.contentPolicy = `default-src 'self'; connect-src 'self' ${foreign.origin}`;
+        const video = replace?.();
+        if (video) server.when(/webm$/, { replace: () => video });
+      },
+    };
+    try {
+      await withPage(site, options, async (view) => {
+        await view.promise("complete");
+        for (const number of [0, 12, 24]) await seekExactly(view, number);
+        const outages = await view.page.evaluate(() => (window as unknown as { outages: unknown[] }).outages);
+        assert.equal(outages.length, 1);
+        const own = view.errors.filter((message) => message.includes("imgeo: ") && message.includes("webm"));
+        assert.equal(own.length, 1, view.errors.join("\n"));
+        assert.match(own[0]!, sentence);
+        assert.deepEqual(await notesOf(view), []);
+      });
+    } finally {
+      await foreign?.close();
+    }
+  });
 
 soakTest("frames of a file that cannot be read are left out, and the others are displayed", async () => {
   const options = {
