@@ -52,7 +52,7 @@ live: build ## run a simulation and serve the page that draws it live [MOTION=cl
 waves: build ## publish a live stream from an example program [IN=python, c or c++]
 	@scripts/waves "$(IN)"
 
-motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF, a recorded cloth [PORT=8080]
+motion: build ## serve scenes that move: an X3D machine with ROUTEs, an animated glTF, recorded cloth, water as a video [PORT=8080]
 	@scripts/demo --motion
 
 sequence: build ## serve a page written by hand around a recorded cloth, with a slider for its time [PORT=8080]

@@ -1,5 +1,5 @@
 // Converts scenes that move, and builds the page with all of them in build/motion, for any server: an X3D machine with
-// ROUTEs, a glTF model with an animation, and a recorded simulation.
+// ROUTEs, a glTF model with an animation, and two recorded simulations, one as files of frames, one as a lossless video.
 //
 //   node examples/motion/build.ts [OUTPUT]
 
@@ -16,8 +16,16 @@ const [output = join(repository, "build/motion")] = process.argv.slice(2);
 const imgeo = (...words: string[]): void =>
   void execFileSync(join(repository, "build/imgeo"), words, { stdio: "ignore" });
 
-function convert(source: string, folder: string): void {
-  imgeo("convert", source, "-o", join(output, folder));
+function convert(source: string, folder: string, ...options: string[]): void {
+  imgeo("convert", source, "-o", join(output, folder), ...options);
+}
+
+/** Records a simulation frame by frame, and converts it. */
+function record(simulation: string, folder: string, ...options: string[]): void {
+  const frames = join(output, "frames");
+  imgeo("sample", simulation, "--frames", "240", "--grid", "96", "-o", frames);
+  convert(join(frames, `${simulation}-*.ply`), folder, ...options);
+  rmSync(frames, { recursive: true });
 }
 
 rmSync(output, { recursive: true, force: true });
@@ -27,10 +35,8 @@ convert(join(here, "engine.x3d"), "engine");
 const model = join(output, "orrery.gltf");
 writeFileSync(model, orrery());
 convert(model, "orrery");
-const frames = join(output, "frames");
-imgeo("sample", "cloth", "--frames", "240", "--grid", "96", "-o", frames);
-convert(join(frames, "cloth-*.ply"), "cloth");
-rmSync(frames, { recursive: true });
+record("cloth", "cloth");
+record("water", "water", "--as", "video");
 writeFileSync(
   join(output, "index.html"),
   motionPage([
@@ -48,6 +54,11 @@ writeFileSync(
       folder: "cloth",
       title: "A recorded cloth",
       text: "Eight seconds of a simulation, frame by frame: files of a second each, which the page requests ahead and plays in a circle.",
+    },
+    {
+      folder: "water",
+      title: "Water in a lossless video",
+      text: "Eight seconds of waves as one video, which <code>MovieTexture</code> names: its images hold the coordinates of the vertices, and the page displays each of them exactly. Browsers that cannot decode it play files of frames, which are there, too.",
     },
   ]),
 );
