@@ -6,8 +6,10 @@ import { join } from "node:path";
 import { converter, repository } from "../../tests/browser/paths.ts";
 import type { Model } from "../load/models.ts";
 
+export type DecoderName = "typescript" | "wasm" | "draco" | "meshopt";
+
 /** The files of one model, by the name of their decoder. */
-export type Inputs = Record<"imgeo" | "draco" | "meshopt", Buffer[]>;
+export type Inputs = Record<DecoderName, Buffer[]>;
 
 export function inputsOf(model: Model, directory: string): Inputs {
   const run = (program: string, ...words: string[]): void =>
@@ -32,8 +34,10 @@ export function inputsOf(model: Model, directory: string): Inputs {
     "8",
     "-cc",
   );
+  const patches = readdirSync(geometry).map((file) => readFileSync(join(geometry, file)));
   return {
-    imgeo: readdirSync(geometry).map((file) => readFileSync(join(geometry, file))),
+    typescript: patches,
+    wasm: patches,
     draco: [readFileSync(drc)],
     meshopt: [readFileSync(glb)],
   };

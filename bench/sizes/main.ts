@@ -66,6 +66,8 @@ const loader = `export { ImgeoLoader } from "./web/src/loader/index.ts";`;
 // The modules of three.js that an app uses to display a mesh, as bench/load's pages do.
 const app = `export { Scene, WebGLRenderer, PerspectiveCamera, DirectionalLight, Mesh, MeshStandardMaterial } from "three";`;
 
+const decoder = readFileSync(join(repository, "web/dist/imgeo-decoder.wasm"));
+
 type Files = Buffer | Buffer[];
 
 const rows: [name: string, withThree: Files | undefined, without: Files | undefined][] = [
@@ -79,6 +81,7 @@ const rows: [name: string, withThree: Files | undefined, without: Files | undefi
   ],
   ["imgeo, `ImgeoLoader`", await bundleOf(app + loader), await bundleOf(loader, withoutThree)],
   ["imgeo's worker, for compact", undefined, await workerModule()],
+  ["the decoder of compact in WebAssembly", undefined, decoder],
   ["three.js itself, in an app", await bundleOf(app), undefined],
   [
     "three.js' GLTFLoader and MeshoptDecoder",
