@@ -31,6 +31,11 @@ function print(...cells: (string | number)[]): void {
   console.log(`| ${cells.join(" | ")} |`);
 }
 
+/** The page's physical limit: its bytes at the line's rate, after the round trips of connection, page and first files. */
+function limitMsOf(bytes: number, { bitsPerSecond, roundTripMs }: LinkOptions): number {
+  return (8000 * bytes) / bitsPerSecond + 3 * roundTripMs;
+}
+
 async function withServer(
   page: BenchPage,
   use: (server: Awaited<ReturnType<typeof serve>>) => Promise<void>,
@@ -61,10 +66,11 @@ async function printLoads(model: string, page: BenchPage): Promise<void> {
     const cells: string[] = [];
     let sent = 0;
     for (const connection of Object.values(connections)) {
-      const { first, nearlyFinal, final, bytes } = await medianLoad(browser, page, server, connection, runs);
+      const { first, nearlyFinal, final, bytes, idle } = await medianLoad(browser, page, server, connection, runs);
       sent = bytes;
       const seconds = (ms: number): string => (ms / 1000).toFixed(2);
       cells.push(first === final ? seconds(final) : [first, nearlyFinal, final].map(seconds).join(" / "));
+      if (connection !== undefined) cells.push(seconds(limitMsOf(bytes, connection)), seconds(idle));
     }
     print(model, page.name, Math.round(sent / 1000), ...cells);
   });
@@ -87,9 +93,17 @@ try {
       "model",
       "format",
       "kB",
-      ...Object.keys(connections).map((connection) => `${connection}: first / 90 % / final image, s`),
+      ...Object.entries(connections).flatMap(([name, connection]) => [
+        `${name}: first / 90 % / final image, s`,
+        ...(connection ? ["limit of the line, s", "line idle, s"] : []),
+      ]),
     );
-    print("---", "---", "--:", ...Object.keys(connections).map(() => "--:"));
+    print(
+      "---",
+      "---",
+      "--:",
+      ...Object.values(connections).flatMap((link) => (link ? ["--:", "--:", "--:"] : ["--:"])),
+    );
   }
   let largest: { model: Model; pages: BenchPage[] } | undefined;
   for (const model of models) {

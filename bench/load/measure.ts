@@ -13,6 +13,8 @@ import { completeMessage, timesOf, recordFrames, type Times } from "./frameRecor
 
 export interface Load extends Times {
   bytes: number;
+  /** Milliseconds between the page's first byte and its last in which the line carried nothing; 0 without a link. */
+  idle: number;
 }
 
 /**
@@ -68,6 +70,7 @@ export async function medianLoad(
     nearlyFinal: median(({ nearlyFinal }) => nearlyFinal),
     final: median(({ final }) => final),
     bytes: median(({ bytes }) => bytes),
+    idle: median(({ idle }) => idle),
   };
 }
 
@@ -94,9 +97,11 @@ async function coldLoad(browser: Browser, page: BenchPage, server: TestServer): 
 async function loadOnce(context: BrowserContext, page: BenchPage, server: TestServer): Promise<Load> {
   const tab = await openTab(context, page, true);
   const sentBefore = server.bytesSent;
+  server.takeLinkUsage();
   await load(tab, page, server);
+  const idle = server.takeLinkUsage()?.idleMs ?? 0;
   await tab.waitForTimeout(100); // a last frame may follow
-  return { ...(await tab.evaluate(timesOf)), bytes: server.bytesSent - sentBefore };
+  return { ...(await tab.evaluate(timesOf)), bytes: server.bytesSent - sentBefore, idle };
 }
 
 /** Opens an idle tab that will record the page's frames. */

@@ -9,6 +9,15 @@ export interface LinkOptions {
   roundTripMs: number;
 }
 
+/** What a link has carried since its `usage` was read last. */
+export interface LinkUsage {
+  bytes: number;
+  /** Milliseconds that the bytes take at the link's bandwidth. */
+  busyMs: number;
+  /** Milliseconds between the first byte and the last in which the link carried nothing. */
+  idleMs: number;
+}
+
 /** Small enough that connections take turns on a slow line, large enough for node's timers on a fast one. */
 const packetBytes = 4096;
 /** Status line and headers, roughly. */
@@ -19,9 +28,23 @@ export class NetworkLink {
   readonly #connected = new WeakSet<Socket>();
   /** Time at which the link will have sent everything that it has been given. */
   #freeAt = 0;
+  #firstAt = 0;
+  #bytes = 0;
 
   constructor(options: LinkOptions) {
     this.#options = options;
+  }
+
+  /** What the link has carried since the last call. */
+  takeUsage(): LinkUsage {
+    const busyMs = this.#msOf(this.#bytes);
+    const usage = { bytes: this.#bytes, busyMs, idleMs: Math.max(0, this.#freeAt - this.#firstAt - busyMs) };
+    this.#bytes = 0;
+    return usage;
+  }
+
+  #msOf(bytes: number): number {
+    return (8000 * bytes) / this.#options.bitsPerSecond;
   }
 
   /** Waits until the server's first byte can arrive; a new connection takes an additional round trip. */
@@ -45,7 +68,10 @@ export class NetworkLink {
   /** Resolves when `bytes` bytes have been sent. */
   async #transmit(bytes: number): Promise<void> {
     const now = performance.now();
-    this.#freeAt = Math.max(this.#freeAt, now) + (8000 * bytes) / this.#options.bitsPerSecond;
+    const begin = Math.max(this.#freeAt, now);
+    if (this.#bytes === 0) this.#firstAt = begin;
+    this.#bytes += bytes;
+    this.#freeAt = begin + this.#msOf(bytes);
     await pause(this.#freeAt - now);
   }
 }

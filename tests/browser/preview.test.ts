@@ -177,6 +177,78 @@ test("a preview displays the base before the runtime, which then displays the sa
   });
 });
 
+for (const [name, mesh, hasBase] of [
+  ["a small scene", "sphere-large", true],
+  ["a small scene without a base", "trefoil", false],
+] as const) {
+  test(`a preview displays the patches of ${name} before the runtime, which then displays the same`, async () => {
+    const small = siteOfGenerated(mesh, "--profile", "compact");
+    const tags = tagsOf(pageOf(small));
+    assert.equal(
+      tags.some(({ attributes: { base } }) => base !== undefined),
+      hasBase,
+    );
+    const patches = tags.flatMap(({ attributes: { data } }) => (data ? [data.replace(/#.*/, "")] : []));
+    const [runtime, files] = [gate(), gate()];
+    const options = {
+      size: { width: 400, height: 300 },
+      before: watchPreview,
+      server: (server: View["server"]): void => {
+        server.when(runtimeFile, { hold: runtime.closed });
+        server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
+      },
+    };
+    await withPage(small, options, async (view) => {
+      if (hasBase) await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
+      else await until("the patch is requested", () => view.server.requestsOf(new RegExp(patches[0] ?? "")).length > 0);
+      const before = await screenshotOf(view.page);
+      const full = await pictureAfter(view, () => {
+        files.open();
+        return Promise.resolve();
+      });
+      const events = await view.events(hasBase ? "refine" : "first-image");
+      assert.deepEqual(
+        events.map(({ target, detail }) => [target, detail.stage]),
+        [
+          ["shape", "full"],
+          ["x3d", "full"],
+        ],
+      );
+      assert.ok((view.server.requestsOf(runtimeFile)[0]?.status ?? 0) === 0, "the runtime is not here");
+      assert.ok(difference(before, full).mean > 0.05, "the patches are seen");
+
+      runtime.open();
+      const taken = await pictureOfTakeOver(view);
+      assert.ok(
+        difference(full, taken).mean < 0.2,
+        `the runtime draws the same: ${JSON.stringify(difference(full, taken))}`,
+      );
+      await view.promise("complete");
+      assert.equal((await view.events("refine", "x3d")).length, hasBase ? 1 : 0, "no event is sent twice");
+      assert.equal((await view.events("first-image", "x3d")).length, 1);
+      for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
+    });
+  });
+}
+
+test("a preview requests patches when the runtime has arrived, and the runtime takes them over", async () => {
+  const patches = tagsOf(pageOf(site())).flatMap(({ attributes: { data } }) => (data ? [data.replace(/#.*/, "")] : []));
+  const runtime = gate();
+  const options = {
+    before: watchPreview,
+    server: (server: View["server"]): void => void server.when(runtimeFile, { hold: runtime.closed }),
+  };
+  await withPage(site(), options, async (view) => {
+    const requests = (): number =>
+      patches.filter((patch) => view.server.requestsOf(new RegExp(patch)).length > 0).length;
+    await until("the preview has drawn", async () => (await firstImages(view)) === 1);
+    assert.equal(requests(), 0, "the runtime has the line");
+    runtime.open();
+    await view.promise("complete");
+    for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1, patch);
+  });
+});
+
 test("a base that does not come delays the runtime for a limited time", async () => {
   const base = tagsOf(pageOf(site())).find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
   const bases = gate();

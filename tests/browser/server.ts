@@ -7,7 +7,7 @@ import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
-import { NetworkLink, type LinkOptions } from "./networkLink.ts";
+import { NetworkLink, type LinkOptions, type LinkUsage } from "./networkLink.ts";
 
 export interface RequestRecord {
   /** "GET", or "HEAD" where only headers were asked for. */
@@ -53,6 +53,8 @@ export interface TestServer {
   bytesSent: number;
   /** Sets the network link between the server and its clients; by default there is none. */
   useLink(options: LinkOptions | undefined): void;
+  /** What the network link has carried since the last call; undefined without a link. */
+  takeLinkUsage(): LinkUsage | undefined;
   /** Sends this body with `Content-Encoding` to clients that accept the encoding. */
   putEncoded(path: string, encoding: "br" | "gzip", body: Buffer): void;
   /** Content-Security-Policy of every answer. The default is the strictest; pages of other runtimes need more. */
@@ -146,6 +148,7 @@ export async function startServer(directory: string): Promise<TestServer> {
     requests,
     bytesSent: 0,
     useLink: (options) => void (link = options && new NetworkLink(options)),
+    takeLinkUsage: () => link?.takeUsage(),
     putEncoded: (path, encoding, body) => void encoded.set(path, { encoding, body }),
     put: (path, body) => void bodies.set(path, Buffer.from(body)),
     when(matches, behaviour) {

@@ -1,6 +1,7 @@
 // The files that a patch needs. Each encoding lists them (encodings/encodings.ts).
 
 import type { PatchDescription, Reference } from "../document/description.ts";
+import { cornerCountOf } from "../document/patchSizes.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { vertexRoles } from "../stage/attributeRows.ts";
@@ -31,11 +32,6 @@ export interface PatchFile {
 
 /** Bytes of a texel on the GPU: three channels are stored as four. */
 export const bytesPerTexel = 4;
-
-/** Number of indices that a patch draws. */
-export function cornerCountOf({ draws }: Pick<PatchDescription, "draws">): number {
-  return draws.reduce((sum, { count }) => sum + count, 0);
-}
 
 /** What moves vertices is needed before anything can be drawn. */
 function chunkOf(role: AttributeRole, plane: number): Chunk {

@@ -130,8 +130,8 @@ export interface DeliveryOptions {
   readonly runJob: RunJob;
   /** Runs a job on the main thread, for small files that must not wait for a worker; default: `runJob`. */
   readonly runOnMainThread?: RunJob;
-  /** Base meshes whose download began before the runtime; given to the first caller, undefined for all other URLs. */
-  readonly prefetchedBases?: (url: string) => Promise<PrefetchedBases> | undefined;
+  /** Files whose download began before the runtime; given to the first caller, undefined for all other URLs. */
+  readonly prefetched?: (kind: "bases" | "patches", url: string) => Promise<PrefetchedContent> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makeTextureImage: MakeTextureImage;
   /** Allocates an image on the GPU. */
@@ -145,11 +145,10 @@ export interface DeliveryOptions {
   readonly onTransfer: () => void;
 }
 
-/** A file of base meshes whose download began before the runtime. */
-export interface PrefetchedBases {
-  readonly byteLength: number;
-  readonly bases: readonly BaseBuffers[];
-}
+/** The content of a file whose download began before the runtime. */
+export type PrefetchedContent = { readonly byteLength: number } & (
+  { readonly bases: readonly BaseBuffers[] } | { readonly patches: readonly PatchBuffers[] }
+);
 
 /** Downloaded bytes that may wait for decoding and upload. */
 const maxPendingBytes = 8 * 2 ** 20;
@@ -288,6 +287,12 @@ class Resource {
     return this.#priority;
   }
 
+  /** Bytes to be received; for the scheduler. */
+  get remainingBytes(): number {
+    const { state, totalBytes, loadedBytes } = this.transfer;
+    return state === "decoding" ? 0 : Math.max(0, totalBytes - loadedBytes);
+  }
+
   get isUnused(): boolean {
     return this.#handles.size === 0;
   }
@@ -353,7 +358,9 @@ class Resource {
     const { transfer } = this;
     try {
       const file =
-        request.kind === "bases" ? this.#options.prefetchedBases?.(this.#options.resolve(request.url)) : undefined;
+        request.kind === "bases" || request.kind === "patches"
+          ? this.#options.prefetched?.(request.kind, this.#options.resolve(request.url))
+          : undefined;
       const content = (file && (await this.#takeOver(file))) ?? (await this.#firstContent(request));
       transfer.state = "ready";
       return content;
@@ -384,15 +391,17 @@ class Resource {
   /**
    * Takes over a download that began before the runtime; undefined if it failed: the file is then requested again.
    */
-  async #takeOver(file: Promise<PrefetchedBases>): Promise<Content | undefined> {
+  async #takeOver(file: Promise<PrefetchedContent>): Promise<Content | undefined> {
     const { transfer } = this;
     transfer.state = "loading";
     try {
-      const { byteLength, bases } = await file;
+      const content = await file;
       transfer.tries = 1;
-      transfer.loadedBytes = byteLength;
+      transfer.loadedBytes = content.byteLength;
       this.#hasBytes = true;
-      return { kind: "bases", bases };
+      return "bases" in content
+        ? { kind: "bases", bases: content.bases }
+        : { kind: "patches", patches: content.patches };
     } catch {
       return undefined;
     }

@@ -202,6 +202,11 @@ function rankOf(stage: StageName | "none"): number {
   return stage === "none" ? -1 : stageNames.indexOf(stage);
 }
 
+/** Whether a stage is the other one or a better one. */
+export function reachesStage(stage: StageName | "none", other: StageName | "none"): boolean {
+  return rankOf(stage) >= rankOf(other);
+}
+
 /** The lowest of the stages; "none" if there are none. */
 export function lowestStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
   return stages.reduce((lowest, stage) => (rankOf(stage) < rankOf(lowest) ? stage : lowest), stages[0] ?? "none");

@@ -40,20 +40,28 @@ function preloadInlined(): void {
 }
 
 /**
- * Waits until the files of the previews have been downloaded, then preloads the runtime, and waits until the previews
- * are drawn; at most `maxWaitMs`.
+ * Loads what previews need, then requests the runtime and the first patches, so that each answer begins when the one
+ * before it ends. Resolves when the previews are drawn, at the latest after `maxWaitMs`.
  */
 async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
   const timeout = new Promise((resolve) => setTimeout(resolve, maxWaitMs));
-  await Promise.race([
-    Promise.all(previews.map(({ downloaded, settled }) => Promise.race([downloaded, settled]))),
-    timeout,
-  ]);
+  const withTimeout = (promises: readonly Promise<unknown>[]) => Promise.race([Promise.all(promises), timeout]);
+  await withTimeout(previews.map(({ isNear, settled }) => Promise.race([isNear, settled])));
+  const small = previews.filter(({ drawsPatches }) => drawsPatches);
+  await withTimeout(small.map((preview) => preview.loadPatches()));
+  preloadRuntime(() => {
+    for (const preview of previews) if (!small.includes(preview)) void preview.loadPatches();
+  });
+  await withTimeout(previews.map(({ settled }) => settled));
+}
+
+/** Requests the runtime; calls back when it has arrived, or has failed. */
+function preloadRuntime(onArrival: () => void): void {
   const link = document.createElement("link");
   link.rel = "modulepreload";
   link.href = runtimeUrl.href;
+  link.onload = link.onerror = onArrival;
   document.head.append(link);
-  await Promise.race([Promise.all(previews.map(({ settled }) => settled)), timeout]);
 }
 
 /** An error in a preview does not keep the runtime from being loaded. */

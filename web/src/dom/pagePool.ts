@@ -2,6 +2,7 @@
 // in the page's workers.
 
 import { ResourcePool } from "../delivery/resourcePool.ts";
+import type { EarlyLoading } from "../preview/earlyLoading.ts";
 import { takePrefetchedBases } from "../preview/previewRegistry.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
@@ -10,6 +11,8 @@ import { UploadPipeline } from "../viewer/uploadPipeline.ts";
 import type { WorkerPool } from "../workers/workerPool.ts";
 
 export interface PagePoolOptions {
+  /** What a preview has loaded. */
+  readonly early: Pick<EarlyLoading, "take"> | undefined;
   /** Whether shaders read vertices from images. */
   readonly readsTextures: () => boolean;
   /** Called whenever a transfer has changed. */
@@ -20,7 +23,7 @@ export function makePagePool(
   renderer: SceneRenderer,
   scheduler: Scheduler,
   workers: WorkerPool,
-  { readsTextures, onTransfer }: PagePoolOptions,
+  { early, readsTextures, onTransfer }: PagePoolOptions,
 ): ResourcePool {
   const uploads = new UploadPipeline(renderer);
   return new ResourcePool({
@@ -35,7 +38,7 @@ export function makePagePool(
     makeWritableArray: (array) => renderer.makeWritableArray(array),
     storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
     download: defaultDownloadOptions,
-    prefetchedBases: takePrefetchedBases,
+    prefetched: (kind, url) => (kind === "bases" ? takePrefetchedBases(url) : early?.take(url)),
     resolve: absoluteUrlOf,
     onTransfer,
   });

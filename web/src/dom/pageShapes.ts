@@ -16,6 +16,7 @@ import type {
   TextureRole,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import type { PreviewedShape } from "../preview/preview.ts";
 import { cubeMapProblemOf } from "../render/environment/cubeLayout.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
@@ -24,7 +25,7 @@ import { stageNames } from "../stage/stage.ts";
 import type { DisplayedFrame, StageChange } from "../viewer/loadingShape.ts";
 import { LoadingShape } from "../viewer/loadingShape.ts";
 import { LoadingShapes } from "../viewer/loadingShapes.ts";
-import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
+import { reachesStage, lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
 
 export interface PageShapesListener {
   /** A patch displays another stage. */
@@ -51,21 +52,17 @@ export class PageShape extends LoadingShape {
   #stages: (StageName | "none")[];
   readonly #listener: PageShapeListener;
 
-  /** `isPreviewed`: the preview has displayed the shape's base. */
+  /** `previewStage`: what the preview displays of the shape. */
   constructor(
     deliveries: SceneDeliveries,
     described: ShapeDescription,
-    isPreviewed: boolean,
+    previewStage: StageName | "none",
     listener: PageShapeListener,
   ) {
     super(deliveries, described);
     this.#listener = listener;
     this.#stages = noStages(described.geometry);
-    this.#loading = new LoadingEvents(
-      described.element as Element,
-      () => this.transfers,
-      isPreviewed ? "base" : "none",
-    );
+    this.#loading = new LoadingEvents(described.element as Element, () => this.transfers, previewStage);
     if (described.geometry === undefined) this.#loading.settle();
   }
 
@@ -151,8 +148,8 @@ export class PageShapes extends LoadingShapes<PageShape> {
   readonly #incomplete = new Set<PageShape>();
   /** Shapes that display a geometry in place of the described one. */
   readonly #replacing = new Set<PageShape>();
-  /** Elements of shapes that the preview displays and that have not begun to load. */
-  readonly #previewed: Set<SceneElement>;
+  /** What the preview displays of shapes that have not begun to load. */
+  readonly #previewed: Map<SceneElement, StageName>;
   /**
    * Whether every visible shape has sent its last event. Stored, so that a frame does not visit each of ten thousand
    * shapes.
@@ -163,13 +160,13 @@ export class PageShapes extends LoadingShapes<PageShape> {
     renderer: SceneRenderer,
     deliveries: SceneDeliveries,
     listener: PageShapesListener,
-    previewed: Iterable<SceneElement>,
+    previewed: readonly PreviewedShape[],
   ) {
     super();
     this.#renderer = renderer;
     this.#deliveries = deliveries;
     this.#listener = listener;
-    this.#previewed = new Set(previewed);
+    this.#previewed = new Map(previewed.map(({ element, stage }) => [element, stage]));
   }
 
   override follow(changes: SceneChanges): () => void {
@@ -198,16 +195,16 @@ export class PageShapes extends LoadingShapes<PageShape> {
   }
 
   /**
-   * Whether each of these patches of a shape displays something. Also true for a shape that is hidden, complete or
-   * gone.
+   * Whether each patch that a preview displays is displayed here in at least the same stage. Also true for a shape that
+   * is hidden, complete or gone.
    */
-  displays(element: SceneElement, patches: readonly number[]): boolean {
+  displays({ element, patches, stage }: PreviewedShape): boolean {
     const shape = this.get(element);
     return (
       shape === undefined ||
       !shape.isVisible ||
       shape.loading.isSettled ||
-      patches.every((patch) => shape.stages[patch] !== "none")
+      patches.every((patch) => reachesStage(shape.stages[patch] ?? "none", stage))
     );
   }
 
@@ -280,7 +277,10 @@ export class PageShapes extends LoadingShapes<PageShape> {
 
   protected override makeShape(described: ShapeDescription): PageShape {
     this.#isQuiet = false;
-    return new PageShape(this.#deliveries, described, this.#previewed.delete(described.element), {
+    const { element: previewedElement } = described;
+    const previewStage = this.#previewed.get(previewedElement) ?? "none";
+    this.#previewed.delete(previewedElement);
+    return new PageShape(this.#deliveries, described, previewStage, {
       onStage: (shape, change) => {
         this.#onStage(shape, change);
       },

@@ -10,7 +10,8 @@ import { interpolatorIdOf } from "../document/sequence.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import type { NavigatedScene } from "../navigation/cameraController.ts";
 import { CameraController } from "../navigation/cameraController.ts";
-import type { PreviewedShape } from "../preview/preview.ts";
+import type { EarlyLoading } from "../preview/earlyLoading.ts";
+import type { Preview, PreviewedShape } from "../preview/preview.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -29,7 +30,8 @@ import { motionSphereOf } from "../viewer/motionSphere.ts";
 import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
 import { touchWritten } from "../viewer/writtenElements.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
-import { LoadingEvents } from "./loadingEvents.ts";
+import type { WorkerPool } from "../workers/workerPool.ts";
+import { LoadingEvents, lowestStageOf } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
 import { PageSurroundings } from "./pageSurroundings.ts";
 import { PageInlines } from "./pageInlines.ts";
@@ -66,8 +68,9 @@ export class PageViewer {
   readonly cameraController: CameraController;
   readonly #x3d: Element;
   readonly #canvas: HTMLCanvasElement;
-  readonly #scheduler = new Scheduler(slotCountFor(""));
-  readonly #workers = pageWorkers();
+  readonly #scheduler: Scheduler;
+  readonly #workers: WorkerPool;
+  readonly #early: EarlyLoading | undefined;
   readonly #deliveries: SceneDeliveries;
   readonly #core: ViewerCore<PageShape>;
   readonly #shapes: PageShapes;
@@ -105,19 +108,24 @@ export class PageViewer {
 
   readonly #transfers = () => this.#core.transfers;
 
-  /** `previewed`: shapes that a preview displays. */
+  /** `preview`: displays shapes, and has begun to load patches. */
   constructor(
     x3d: Element,
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
     listener: PageViewerListener,
-    previewed: readonly PreviewedShape[] = [],
+    preview: Pick<Preview, "shapes" | "early"> | undefined,
   ) {
+    const previewed = preview?.shapes ?? [];
+    this.#early = preview?.early;
+    this.#scheduler = this.#early?.scheduler ?? new Scheduler(slotCountFor(""));
+    this.#scheduler.slotCount = slotCountFor("");
+    this.#workers = this.#early?.workers ?? pageWorkers();
     this.#x3d = x3d;
     this.#canvas = canvas;
     this.#listener = listener;
     this.#isPreviewed = previewed.length > 0;
-    this.#loading = new LoadingEvents(x3d, this.#transfers, this.#isPreviewed ? "base" : "none");
+    this.#loading = new LoadingEvents(x3d, this.#transfers, previewStageOf(previewed));
     this.cameraController = new CameraController(
       () => {
         this.renderer.requestFrame();
@@ -131,6 +139,7 @@ export class PageViewer {
     });
     this.#readsTextures = this.renderer.hasVertexTextureUnits;
     const pool = makePagePool(this.renderer, this.#scheduler, this.#workers, {
+      early: this.#early,
       readsTextures: () => this.#readsTextures,
       onTransfer: () => {
         this.#progress.request();
@@ -149,7 +158,7 @@ export class PageViewer {
         },
         maySettle: () => this.#textureTest !== "due" && this.#textureTest !== "running",
       },
-      previewed.map(({ element }) => element),
+      previewed,
     );
     this.#surroundings = new PageSurroundings(this.renderer, deliveries.textures, {
       onError: (error, element) => {
@@ -324,6 +333,7 @@ export class PageViewer {
   load(): void {
     this.#isLoading = true;
     this.#core.load();
+    this.#early?.dropFiles(); // the others are not needed now
     this.#workers.prepare(this.#shapes.workerJobCount);
     if (this.#shapes.hasCompact) this.#workers.requestDecoder();
     this.renderer.requestFrame();
@@ -331,7 +341,7 @@ export class PageViewer {
 
   /** Whether all patches that a preview displays are displayed by the runtime, or have failed. */
   displays(shapes: readonly PreviewedShape[]): boolean {
-    return shapes.every(({ element, patches }) => this.#shapes.displays(element, patches));
+    return shapes.every((shape) => this.#shapes.displays(shape));
   }
 
   /** The title of the first inlined document that has one; undefined if there is none, or none has loaded. */
@@ -560,6 +570,11 @@ export class PageViewer {
   #warn(message: string): void {
     this.#core.log.warn(`<${this.#x3d.localName}> ${message}`);
   }
+}
+
+/** The stage that all previewed shapes display. */
+function previewStageOf(previewed: readonly PreviewedShape[]): StageName | "none" {
+  return lowestStageOf(previewed.map(({ stage }) => stage));
 }
 
 function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {

@@ -113,7 +113,7 @@ export class ViewController {
           this.#links.update(anchors);
         },
       },
-      preview?.shapes,
+      preview,
     );
     const { signal } = this.#listeners;
     const { cameraController } = this.viewer;

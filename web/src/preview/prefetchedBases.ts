@@ -4,6 +4,8 @@
 
 import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import { decodeBases } from "../decode/compact/decodeBases.ts";
+import { Arrival } from "../scheduler/arrival.ts";
+import { defaultDownloadOptions, download } from "../scheduler/download.ts";
 
 /** The bases in one file. */
 interface DecodedBases<Decoded> {
@@ -12,6 +14,8 @@ interface DecodedBases<Decoded> {
 }
 
 export interface PrefetchedFile {
+  /** Resolves when little of the file is still to come, or it has failed. */
+  readonly isNear: Promise<unknown>;
   /** Resolves when the file has been downloaded. */
   readonly downloaded: Promise<unknown>;
   /** Rejects if the file cannot be downloaded or decoded. */
@@ -44,18 +48,22 @@ export class PrefetchedBases {
   }
 
   #load(url: string): PrefetchedFile {
-    const downloaded = this.#download(url);
+    const arrival = new Arrival();
+    const downloaded = this.#download(url, arrival);
     const decoded = downloaded.then(async (bytes) => ({
       byteLength: bytes.byteLength,
       bases: await decodeBases(bytes),
     }));
     for (const promise of [downloaded, decoded]) promise.catch(() => undefined); // there may be no other handler
-    return { downloaded, decoded };
+    return { isNear: arrival.isNear, downloaded, decoded };
   }
 
-  async #download(url: string): Promise<Uint8Array<ArrayBuffer>> {
-    const response = await this.#fetch(url);
-    if (!response.ok) throw new Error(`${url}: the server answered ${response.status}`);
-    return new Uint8Array(await response.arrayBuffer());
+  async #download(url: string, arrival: Arrival): Promise<Uint8Array<ArrayBuffer>> {
+    const options = { fetch: this.#fetch, idleTimeoutMs: defaultDownloadOptions.idleTimeoutMs };
+    try {
+      return await download(url, new AbortController().signal, options, arrival);
+    } finally {
+      arrival.end();
+    }
   }
 }

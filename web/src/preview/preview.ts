@@ -4,13 +4,19 @@
 // picture would differ from the runtime's.
 
 import type { Base } from "../decode/compact/baseBuffers.ts";
+import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
+import { compactBytesOf } from "../document/patchSizes.ts";
 import { SceneReader } from "../document/sceneReader.ts";
+import { EarlyLoading } from "./earlyLoading.ts";
+import { patchFilesOf } from "./earlyPatches.ts";
+import type { EarlyFile, PatchFileRequest } from "./earlyLoading.ts";
 import type { PrefetchedBases, PrefetchedFile } from "./prefetchedBases.ts";
-import { PreviewRenderer, isDrawable } from "./previewRenderer.ts";
+import { PreviewRenderer, isDrawable, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
 import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 import { previewSceneOf } from "./previewScene.ts";
 import { contextOf } from "../render/context.ts";
+import type { StageName } from "../stage/stage.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import { cameraSettingOf, readSettings } from "../element/attributes.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
@@ -19,9 +25,19 @@ import { deviceSizeOf, observeDeviceSize } from "../element/visibility.ts";
 /** A shape that a preview displays. */
 export interface PreviewedShape {
   readonly element: SceneElement;
-  /** Indices of the patches whose segment of the base has triangles. */
+  /** Indices of the patches that have triangles: in their segment of the base, or at all. */
   readonly patches: readonly number[];
+  readonly stage: "base" | "full";
 }
+
+/**
+ * Patches of a scene that has at most this much of them are drawn by the preview, before the runtime is requested: on
+ * every line they arrive sooner than the runtime, which is about as large. Expected bytes.
+ */
+const maxDrawnBytes = 192 * 1024;
+
+/** Expected bytes of patches that are requested and decoded before the runtime needs them. */
+const maxEarlyBytes = 2 * 2 ** 20;
 
 interface PreviewContent {
   readonly scene: PreviewScene;
@@ -30,8 +46,10 @@ interface PreviewContent {
 
 export class Preview {
   readonly canvas: HTMLCanvasElement;
-  /** Resolves when all files have been downloaded, or one has failed. */
-  readonly downloaded: Promise<unknown>;
+  /** Resolves when little of the bases is still to come. */
+  readonly isNear: Promise<unknown>;
+  /** What it loads for the runtime. */
+  readonly early: EarlyLoading;
   /** Resolves when the preview has been drawn, or has ended. */
   readonly settled: Promise<unknown>;
   /** Called when the preview ends. */
@@ -39,12 +57,19 @@ export class Preview {
   readonly #x3d: Element;
   readonly #renderer: PreviewRenderer;
   readonly #bases = new Map<string, readonly Base[]>();
+  /** Files of patches that have been decoded, by URL. */
+  readonly #patches = new Map<string, readonly PatchBuffers[]>();
   readonly #settle: () => void;
   readonly #listeners = new AbortController();
   readonly #baseOf = ({ base }: PreviewShape): Base | undefined =>
-    this.#bases.get(absoluteUrlOf(base.url))?.[base.patchIndex];
+    base && this.#bases.get(absoluteUrlOf(base.url))?.[base.patchIndex];
   #content: PreviewContent;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
+  #areBasesDecoded = false;
+  /** Whether the patches have been decoded, or one has failed. */
+  #arePatchesSettled = false;
+  /** Whether the runtime has taken over: it draws further patches, and sends further events. */
+  #isTaken = false;
 
   /**
    * Requests the bases and draws nothing yet. `insert` puts the canvas into the document. Returns undefined if only the
@@ -57,7 +82,8 @@ export class Preview {
   ): Preview | undefined {
     const content = previewContentOf(x3d);
     if (content === undefined) return undefined;
-    for (const { base } of content.scene.shapes) bases.fetch(absoluteUrlOf(base.url)); // first, since all that follows takes time
+    if (!isDrawnEarly(content.scene)) return undefined;
+    for (const url of baseUrlsOf(content.scene)) bases.fetch(url); // first, since all that follows takes time
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
@@ -78,6 +104,7 @@ export class Preview {
   ) {
     const { promise, resolve } = Promise.withResolvers<undefined>();
     this.canvas = canvas;
+    this.early = new EarlyLoading();
     this.settled = promise;
     this.#settle = () => {
       resolve(undefined);
@@ -87,20 +114,42 @@ export class Preview {
     this.#renderer = new PreviewRenderer(context);
     this.#renderer.warmUp(content.scene, canvas.width, canvas.height);
     this.#followChanges();
-    const files = Array.from(new Set(content.scene.shapes.map(({ base }) => absoluteUrlOf(base.url))), (url) => ({
-      url,
-      ...bases.fetch(url),
-    }));
-    this.downloaded = Promise.all(files.map(({ downloaded }) => downloaded)).catch(() => undefined);
+    const files = Array.from(baseUrlsOf(content.scene), (url) => ({ url, ...bases.fetch(url) }));
+    this.isNear = Promise.all(files.map(({ isNear }) => isNear));
     // If a file fails, the runtime requests it again and reports the error.
     this.#load(files).catch(() => {
       this.end();
     });
   }
 
-  /** Whether all files have been downloaded and the preview will be drawn as soon as they are decoded. */
+  /** Call when the runtime takes over. From now on no patches are drawn. */
+  hold(): void {
+    this.#isTaken = true;
+  }
+
+  /** Whether all bases have been downloaded and the preview will be drawn as soon as they are decoded. */
   get isDue(): boolean {
     return this.#state === "decoding";
+  }
+
+  /** Whether the preview draws the patches, too. */
+  get drawsPatches(): boolean {
+    return this.#patchFiles().reduce((sum, { expectedBytes }) => sum + expectedBytes, 0) <= maxDrawnBytes;
+  }
+
+  /**
+   * Requests patches, in the order in which the camera needs them, and starts the workers that decode them. Draws them
+   * where it `drawsPatches`. Resolves when little of them is still to come; a file that fails is left to the runtime.
+   */
+  async loadPatches(): Promise<void> {
+    if (this.#state === "ended") return;
+    const { drawsPatches } = this;
+    let earlyBytes = 0;
+    const requests = this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
+    this.early.workers.prepare(requests.length);
+    const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
+    if (drawsPatches) void this.#drawPatches(files);
+    await Promise.all(files.map(({ isNear }) => isNear));
   }
 
   /** The displayed shapes; empty until the preview has been drawn. */
@@ -109,9 +158,7 @@ export class Preview {
     const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape])); // a shape may have several instances
     return Array.from(shapes.values(), (shape) => ({
       element: shape.element,
-      patches: (this.#baseOf(shape)?.segments ?? []).flatMap((segment, patch) =>
-        segment === undefined ? [] : [patch],
-      ),
+      ...this.#contentOf(shape),
     }));
   }
 
@@ -122,6 +169,8 @@ export class Preview {
     this.#listeners.abort();
     this.canvas.remove();
     this.#renderer.dispose();
+    this.#bases.clear();
+    this.#patches.clear();
     this.#settle();
     this.onEnd();
   }
@@ -130,6 +179,25 @@ export class Preview {
     await Promise.all(files.map(({ downloaded }) => downloaded));
     if (this.#state === "waiting") this.#state = "decoding";
     for (const { url, decoded } of files) this.#bases.set(url, (await decoded).bases);
+    this.#areBasesDecoded = true;
+    this.#onDecoded();
+  }
+
+  /** Draws for the first time when every shape has a mesh; ends the preview if one will never have. */
+  #onDecoded(): void {
+    if (this.#state !== "decoding" || !this.#areBasesDecoded) return;
+    if (this.#hasAllMeshes) this.#drawSoon();
+    else if (this.#arePatchesSettled) this.end();
+  }
+
+  /** Whether every shape has its base, or, where it has none, all of its patches. */
+  get #hasAllMeshes(): boolean {
+    const { shapes } = this.#content.scene;
+    return shapes.every((shape) => shape.base ?? this.#patchesOf(shape));
+  }
+
+  /** Draws before the next frame. Ends the preview if that fails. */
+  #drawSoon(): void {
     beforeNextFrame((isHidden) => {
       try {
         if (!isHidden) this.#drawFirstTime();
@@ -137,6 +205,56 @@ export class Preview {
         if (this.#state !== "drawn") this.end();
       }
     });
+  }
+
+  #patchFiles(): readonly PatchFileRequest[] {
+    const { width, height } = this.canvas;
+    if (width === 0 || height === 0) return [];
+    return patchFilesOf(this.#content.scene, previewCameraOf(this.#content.scene, width, height), absoluteUrlOf);
+  }
+
+  /** Draws the patches when all of them have been decoded; sends `refine` where the bases have been drawn before. */
+  async #drawPatches(files: readonly ({ readonly url: string } & EarlyFile)[]): Promise<void> {
+    const decoded = await Promise.all(
+      files.map(async (file) => [file.url, (await file.decoded).patches] as const),
+    ).catch(() => []);
+    if (this.#isTaken) return;
+    for (const [url, patches] of decoded) this.#patches.set(url, patches);
+    this.#arePatchesSettled = true;
+    this.#onDecoded();
+    if (this.#state !== "drawn" || decoded.length === 0) return; // the first drawing shows them
+    beforeNextFrame((isHidden) => {
+      if (!isHidden && this.#state === "drawn" && this.#draw()) this.#dispatch("refine");
+    });
+  }
+
+  /** The patches of a shape, if the preview has all of them; otherwise undefined. */
+  #patchesOf(shape: PreviewShape): readonly PatchBuffers[] | undefined {
+    const { patches, deformation } = shape.geometry;
+    if (deformation !== undefined) return undefined;
+    const buffers = patches.map(({ data }) =>
+      data && "patchIndex" in data ? this.#patches.get(absoluteUrlOf(data.url))?.[data.patchIndex] : undefined,
+    );
+    const areDrawable = patches.every((patch, n) => isDrawablePatch(shape, patch, buffers[n]));
+    return areDrawable ? buffers.filter((each) => each !== undefined) : undefined;
+  }
+
+  #contentOf(shape: PreviewShape): Pick<PreviewedShape, "patches" | "stage"> {
+    if (this.#patchesOf(shape) !== undefined)
+      return { patches: shape.geometry.patches.map((_, patch) => patch), stage: "full" };
+    const segments = this.#baseOf(shape)?.segments ?? [];
+    return { patches: segments.flatMap((segment, patch) => (segment === undefined ? [] : [patch])), stage: "base" };
+  }
+
+  #dispatch(name: "first-image" | "refine"): void {
+    const shapes = this.shapes;
+    const isFull = shapes.every(({ stage }) => stage === "full");
+    const send = (element: Element, stage: StageName): void => {
+      if (name === "refine" && stage === "base") return;
+      element.dispatchEvent(new CustomEvent(name, { detail: { stage }, bubbles: false }));
+    };
+    for (const { element, stage } of shapes) send(element as Element, stage);
+    send(this.#x3d, isFull ? "full" : "base");
   }
 
   #drawFirstTime(): void {
@@ -149,12 +267,7 @@ export class Preview {
     this.canvas.classList.add("drawn");
     this.#state = "drawn";
     this.#settle();
-    for (const element of new Set([
-      ...this.#content.scene.shapes.map((shape) => shape.element as Element),
-      this.#x3d,
-    ])) {
-      element.dispatchEvent(new CustomEvent("first-image", { detail: { stage: "base" }, bubbles: false }));
-    }
+    this.#dispatch("first-image");
   }
 
   /**
@@ -163,8 +276,14 @@ export class Preview {
   #draw(): boolean {
     const { scene, exposure } = this.#content;
     const { width, height } = this.canvas;
-    const areDrawable = scene.shapes.every((shape) => isDrawable(shape, this.#baseOf(shape)));
-    if (areDrawable && width > 0 && height > 0) this.#renderer.draw(scene, this.#baseOf, width, height, exposure);
+    const areDrawable = scene.shapes.every(
+      (shape) => this.#patchesOf(shape) !== undefined || isDrawable(shape, this.#baseOf(shape)),
+    );
+    const meshesOf = (shape: PreviewShape): readonly PatchBuffers[] => {
+      const base = this.#baseOf(shape);
+      return this.#patchesOf(shape) ?? (base ? [base.whole] : []);
+    };
+    if (areDrawable && width > 0 && height > 0) this.#renderer.draw(scene, meshesOf, width, height, exposure);
     else this.end();
     return this.#state !== "ended";
   }
@@ -202,9 +321,9 @@ export class Preview {
   #update(): void {
     const content = this.#x3d.isConnected ? previewContentOf(this.#x3d) : undefined;
     const needsOtherBases = content?.scene.shapes.some(
-      ({ base }) => this.#state === "drawn" && !this.#bases.has(absoluteUrlOf(base.url)),
+      ({ base }) => this.#state === "drawn" && base !== undefined && !this.#bases.has(absoluteUrlOf(base.url)),
     );
-    if (content === undefined || needsOtherBases === true) {
+    if (content === undefined || !isDrawnEarly(content.scene) || needsOtherBases === true) {
       this.end();
       return;
     }
@@ -223,6 +342,17 @@ function previewContentOf(x3d: Element): PreviewContent | undefined {
   if (x3d.getElementsByTagName("shape").length > maxShapeElements) return undefined;
   const scene = previewSceneOf(new SceneReader(x3d).read(), cameraSettingOf(settings));
   return scene && { scene, exposure: settings.exposure };
+}
+
+/** Whether every shape can be displayed before the runtime: by its base, or by patches that are small enough. */
+function isDrawnEarly({ shapes }: PreviewScene): boolean {
+  if (shapes.every(({ base }) => base !== undefined)) return true;
+  const bytes = shapes.flatMap(({ geometry }) => geometry.patches.map(compactBytesOf));
+  return bytes.reduce((sum, each) => sum + each, 0) <= maxDrawnBytes;
+}
+
+function baseUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
+  return new Set(shapes.flatMap(({ base }) => (base ? [absoluteUrlOf(base.url)] : [])));
 }
 
 function absoluteUrlOf(url: string): string {

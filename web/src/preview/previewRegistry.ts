@@ -15,6 +15,7 @@ export function registerPreview(view: Element, preview: Preview): void {
 export function takePreview(view: Element): Preview | undefined {
   const preview = previews.get(view);
   previews.delete(view);
+  preview?.hold();
   return preview;
 }
 

@@ -5,10 +5,13 @@ import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf, glTypeOf } from "../stage/elementType.ts";
+import type { PatchDescription } from "../document/description.ts";
 import { latticeBitsOf } from "../document/encodings.ts";
 import { isBlended, litParametersOf } from "../lighting/materialParameters.ts";
 import { lensOf } from "../navigation/cameraPose.ts";
 import type { EffectScope } from "../scene/effectScope.ts";
+import type { Camera } from "../scheduler/viewMetrics.ts";
+import { planesOf } from "../scheduler/viewMetrics.ts";
 import type { LightUniforms } from "./previewLights.ts";
 import { lightKindsOf, lightUniformsOf } from "./previewLights.ts";
 import type { PreviewProgram, PreviewProgramKind } from "./previewProgram.ts";
@@ -16,16 +19,36 @@ import { attributeLocations, makePreviewProgram } from "./previewProgram.ts";
 import { resolveOffScreen, warmUpBuffers } from "./warmUp.ts";
 import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 
-/** Gives the base of a shape; undefined until it has been decoded. */
-export type BaseOf = (shape: PreviewShape) => Base | undefined;
+/** What a preview draws of a shape: its whole base, or all of its patches. */
+export type MeshesOf = (shape: PreviewShape) => readonly PatchBuffers[];
 
 /** Whether a base matches what the document states of its shape, and is opaque. */
-export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | undefined): boolean {
+export function isDrawable(shape: PreviewShape, base: Base | undefined): boolean {
+  return base?.segmentCount === shape.geometry.patches.length && isOpaqueOnLattice(shape, base.whole);
+}
+
+/** Whether a patch matches what the document states of it, and is opaque. */
+export function isDrawablePatch(
+  shape: PreviewShape,
+  { vertexCount, draws: [draw, ...others] }: PatchDescription,
+  buffers: PatchBuffers | undefined,
+): boolean {
   return (
-    base?.segmentCount === geometry.patches.length &&
-    base.whole.positionBits === latticeBitsOf(geometry) &&
-    !isBlended(appearance, base.whole.attributes.color?.components === 4)
+    buffers?.index !== undefined &&
+    isOpaqueOnLattice(shape, buffers) &&
+    (vertexCount === 0 || vertexCount === buffers.vertexCount) &&
+    others.length === 0 &&
+    buffers.topology === "triangles" &&
+    draw?.primitive === "triangles" &&
+    draw.count === buffers.index.length
   );
+}
+
+function isOpaqueOnLattice(
+  { geometry, appearance }: PreviewShape,
+  { positionBits, attributes: { color } }: PatchBuffers,
+): boolean {
+  return positionBits === latticeBitsOf(geometry) && !isBlended(appearance, color?.components === 4);
 }
 
 /** A base mesh on the GPU. */
@@ -55,22 +78,16 @@ export class PreviewRenderer {
     const shapes = Array.from(
       new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, warmUpBuffers)), shape])).values(),
     );
-    this.#draw({ ...scene, shapes }, () => warmUpBuffers, width, height, 1);
+    this.#draw({ ...scene, shapes }, () => [warmUpBuffers], width, height, 1);
     resolveOffScreen(this.#gl);
   }
 
-  /** Draws the scene. The size is in device pixels. Every base must be drawable. */
-  draw(scene: PreviewScene, baseOf: BaseOf, width: number, height: number, exposure: number): void {
-    this.#draw(scene, (shape) => baseOf(shape)?.whole, width, height, exposure);
+  /** Draws the scene. The size is in device pixels. Every mesh must be drawable. */
+  draw(scene: PreviewScene, meshesOf: MeshesOf, width: number, height: number, exposure: number): void {
+    this.#draw(scene, meshesOf, width, height, exposure);
   }
 
-  #draw(
-    scene: PreviewScene,
-    buffersOf: (shape: PreviewShape) => PatchBuffers | undefined,
-    width: number,
-    height: number,
-    exposure: number,
-  ): void {
+  #draw(scene: PreviewScene, meshesOf: MeshesOf, width: number, height: number, exposure: number): void {
     const gl = this.#gl;
     const { background } = scene;
     gl.viewport(0, 0, width, height);
@@ -83,16 +100,16 @@ export class PreviewRenderer {
     for (const shape of scene.shapes) {
       const lights = uniformsByScope.get(shape.effectScope) ?? lightUniformsOf(scene, shape.effectScope, viewFromScene);
       uniformsByScope.set(shape.effectScope, lights);
-      const buffers = buffersOf(shape);
-      if (buffers === undefined) continue;
-      const program = this.#programFor(kindOf(shape, scene, buffers));
-      gl.useProgram(program.program);
-      gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
-      gl.uniform1f(program.uniform("exposure"), exposure);
-      setLightUniforms(gl, program, lights);
-      setMaterialUniforms(gl, program, shape, buffers.attributes.color !== undefined);
-      setGeometryState(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
-      this.#drawBuffers(buffers);
+      for (const buffers of meshesOf(shape)) {
+        const program = this.#programFor(kindOf(shape, scene, buffers));
+        gl.useProgram(program.program);
+        gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
+        gl.uniform1f(program.uniform("exposure"), exposure);
+        setLightUniforms(gl, program, lights);
+        setMaterialUniforms(gl, program, shape, buffers.attributes.color !== undefined);
+        setGeometryState(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
+        this.#drawBuffers(buffers);
+      }
     }
   }
 
@@ -171,6 +188,17 @@ function kindOf(
     material: appearance.material.kind,
     isTwoSided: !geometry.solid,
     lights: lightKindsOf(scene),
+  };
+}
+
+/** The camera, as the runtime has it for a canvas of this size in device pixels. */
+export function previewCameraOf(scene: PreviewScene, width: number, height: number): Camera {
+  const { clipFromView, viewFromScene } = cameraMatricesOf(scene, width / height);
+  return {
+    position: scene.pose.position.toArray(),
+    planes: planesOf(new Matrix4().multiplyMatrices(clipFromView, viewFromScene).elements),
+    pixelsPerUnit: (clipFromView.elements[5] * height) / 2,
+    near: lensOf(scene.pose, width / height, scene.sphere, scene.clearance).near,
   };
 }
 

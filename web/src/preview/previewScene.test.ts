@@ -27,11 +27,19 @@ describe("the scene of a preview", () => {
       `<Transform translation="5 0 0" DEF="t">${shape()}</Transform><Transform scale="2 2 2"><Transform USE="t"/></Transform>`,
     );
     assert.deepEqual(
-      scene?.shapes.map(({ base, sceneFromShape }) => [base.url, ...sceneFromShape.elements.slice(12, 15)]),
+      scene?.shapes.map(({ base, sceneFromShape }) => [base?.url, ...sceneFromShape.elements.slice(12, 15)]),
       [
         ["b.png", 5, 0, 0],
         ["b.png", 10, 0, 0],
       ],
+    );
+  });
+
+  test("has shapes without a base, which their patches display", () => {
+    const scene = previewSceneIn(shape() + shape(undefined, geometry("")));
+    assert.deepEqual(
+      scene?.shapes.map(({ base }) => base?.url),
+      ["b.png", undefined],
     );
   });
 
@@ -51,8 +59,8 @@ describe("the scene of a preview", () => {
   /** Scenes that only the runtime can display. */
   const unsupported: Readonly<Record<string, string>> = {
     "no shape": "",
-    "a shape without a base": shape(undefined, geometry("")),
-    "a shape without a base beside one with": shape() + shape(undefined, geometry("")),
+    "a shape of classic": shape(undefined, geometry("").replace('"compact"', '"classic"')),
+    "a shape without a base or patches": shape(undefined, geometry("").replace('data="p.png"', "")),
     "inline geometry": shape() + shape(undefined, "<Box/>"),
     "a text": shape() + shape(undefined, '<Text string="letters"/>'),
     "geometry of another shape": `<Shape><Sphere DEF="s"/></Shape>${shape(undefined, '<Sphere USE="s"/>')}${shape()}`,

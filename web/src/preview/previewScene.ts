@@ -1,4 +1,4 @@
-// The scene of a preview: the bases of a document's shapes with their transforms, solid
+// The scene of a preview: the bases or patches of a document's shapes with their transforms, solid
 // materials and lights. A preview equals the runtime's picture of the bases, so
 // scenes with any other feature have none.
 
@@ -40,7 +40,10 @@ export interface PreviewScene {
 export interface PreviewShape {
   readonly element: SceneElement;
   readonly geometry: GeometryDescription;
-  readonly base: PatchReference;
+  /** The author's priority. */
+  readonly priority: number;
+  /** Undefined: the shape is displayed when its patches have arrived. */
+  readonly base: PatchReference | undefined;
   readonly appearance: AppearanceDescription;
   readonly sceneFromShape: Matrix4;
   /** Maps the lattice coordinates that the base stores to the shape's coordinates. */
@@ -83,14 +86,19 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   };
 }
 
-/** The preview of a shape; undefined if it has no base, is mapped by operators, or is not drawn in opaque colours. */
+/**
+ * The preview of a shape; undefined if it is not of compact, is mapped by operators, is deformed, or is not drawn in
+ * opaque colours.
+ */
 function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | undefined {
-  const { element, geometry, appearance } = shape;
+  const { element, geometry, appearance, priority } = shape;
   const {
     patches: [patch],
     base,
   } = geometry ?? { patches: [], base: undefined };
-  if (geometry?.ccw !== true || base === undefined || !("patchIndex" in base)) return undefined;
+  if (geometry?.ccw !== true || geometry.encoding !== "compact") return undefined;
+  if (base !== undefined && !("patchIndex" in base)) return undefined;
+  if (base === undefined && !hasPlainPatches(geometry)) return undefined;
   if (patch === undefined || appearance.colorMap !== undefined || appearance.operators) return undefined;
   if (
     appearance.textures.length > 0 ||
@@ -102,9 +110,15 @@ function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | u
   return {
     element,
     geometry,
+    priority,
     base,
     appearance,
     ...instance,
     shapeFromStored: shapeFromStoredOf(geometry, patch),
   };
+}
+
+/** Whether a preview could draw all patches as they are stored. */
+function hasPlainPatches({ patches, deformation }: GeometryDescription): boolean {
+  return deformation === undefined && patches.every(({ data }) => data !== undefined && "patchIndex" in data);
 }

@@ -1,10 +1,9 @@
 // Downloads a URL: counts the bytes as they arrive, times out when none arrive, and retries where that can help.
 
 import { pause } from "./pause.ts";
-import type { Prioritized } from "./priorityQueue.ts";
 import type { Failure } from "./retry.ts";
 import { retryDelayMs } from "./retry.ts";
-import type { Scheduler } from "./scheduler.ts";
+import type { JobSubject, Scheduler } from "./scheduler.ts";
 
 export class RequestError extends Error {
   override readonly name = "RequestError";
@@ -71,7 +70,7 @@ export interface AttemptListener extends Partial<Pick<DownloadListener, "onBytes
  */
 export async function downloadInSlot<Result>(
   scheduler: Scheduler,
-  subject: Prioritized,
+  subject: JobSubject,
   url: string,
   signal: AbortSignal,
   options: DownloadOptions,
@@ -83,7 +82,7 @@ export async function downloadInSlot<Result>(
       listener.onState("waiting");
       return await scheduler.run(subject, signal, async (jobSignal) => {
         listener.onState("loading");
-        return take(await download(url, jobSignal, options, listener), jobSignal);
+        return take(await download(url, jobSignal, options, measured(subject, listener, scheduler)), jobSignal);
       });
     } catch (error) {
       const delayMs =
@@ -95,6 +94,23 @@ export async function downloadInSlot<Result>(
       await pause(delayMs, signal);
     }
   }
+}
+
+/** A listener that also tells the scheduler how fast the line is, and that bytes have arrived. */
+function measured(subject: JobSubject, listener: DownloadListener, scheduler: Scheduler): AttemptListener {
+  const requestedAt = performance.now();
+  let loaded = 0;
+  return {
+    onHeaders: () => {
+      scheduler.window.onHeaders(performance.now() - requestedAt);
+    },
+    onBytes: (loadedBytes, totalBytes) => {
+      if (loadedBytes > loaded) scheduler.window.onBytes(loadedBytes - loaded, performance.now());
+      loaded = loadedBytes;
+      listener.onBytes(loadedBytes, totalBytes);
+      scheduler.onBytes(subject);
+    },
+  };
 }
 
 /** One attempt. Rejects with RequestError, or with the signal's reason. */

@@ -13,6 +13,9 @@ export const http1SlotCount = 6;
  */
 export const http2SlotCount = 16;
 
+/** Before the runtime has been loaded. Leaves connections for the runtime's own modules, however slow an answer is. */
+export const earlySlotCount = 3;
+
 /** `protocol` is a PerformanceResourceTiming's `nextHopProtocol`; "" where the browser does not say. */
 export function slotCountFor(protocol: string): number {
   return /^(h2|h3)/.test(protocol) ? http2SlotCount : http1SlotCount;

@@ -273,3 +273,45 @@ describe("jobs", () => {
     assert.equal(ran, count / 2);
   });
 });
+
+describe("the transfer window of a scheduler", () => {
+  /** Starts jobs that never end, each with this much to receive; `started` has the names of those that run. */
+  function startedWith(remaining: readonly number[]) {
+    const scheduler = new Scheduler(6);
+    const { signal } = new AbortController();
+    const started: number[] = [];
+    const subjects = remaining.map((remainingBytes) => ({ priority: 1, remainingBytes }));
+    subjects.forEach((subject, n) => {
+      void scheduler.run(subject, signal, () => {
+        started.push(n);
+        return new Promise(() => undefined);
+      });
+    });
+    return { scheduler, subjects, started };
+  }
+  const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
+
+  test("lets a download wait while those that run have enough to receive", async () => {
+    const { scheduler, subjects, started } = startedWith([200_000, 200_000, 200_000]);
+    await soon();
+    assert.deepEqual(started, [0]);
+    const [first] = subjects;
+    assert.ok(first);
+    first.remainingBytes = 20_000;
+    scheduler.onBytes(first);
+    await soon();
+    assert.deepEqual(started, [0, 1]);
+  });
+
+  test("lets small files have all slots", async () => {
+    const { started } = startedWith([8000, 8000, 8000, 8000, 8000, 8000, 8000]);
+    await soon();
+    assert.equal(started.length, 6);
+  });
+
+  test("does not wait for a download that receives nothing", async () => {
+    const { started } = startedWith([200_000, 200_000]);
+    await new Promise((resolve) => setTimeout(resolve, 700));
+    assert.deepEqual(started, [0, 1]);
+  });
+});

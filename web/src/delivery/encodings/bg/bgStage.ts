@@ -22,7 +22,7 @@ import { isPair } from "../../../document/description.ts";
 import { hasNormalsInCoords, isUnbounded } from "../../../document/geometry.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
-import { cornerCountOf } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../../document/patchSizes.ts";
 import { DeformationCollector } from "../../deformationCollector.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";

@@ -17,7 +17,7 @@ import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../../
 import { asDeliveryError } from "../../deliveryError.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { PatchFile } from "../../patchFiles.ts";
-import { cornerCountOf } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../../document/patchSizes.ts";
 import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
 import type { Content, LiveArrays, LiveVertices } from "../../resourcePool.ts";
 import { DeformationCollector } from "../../deformationCollector.ts";

@@ -4,7 +4,8 @@ import type { GeometryDescription, PatchDescription } from "../../../document/de
 import { isDrawnFromImages } from "../../../document/drawnFromImages.ts";
 import { attributeRows, byVertexRole } from "../../../stage/attributeRows.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
-import { attributeFilesOf, bytesPerTexel, cornerCountOf } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../../document/patchSizes.ts";
+import { attributeFilesOf, bytesPerTexel } from "../../patchFiles.ts";
 import type { ContentTarget } from "../../resourcePool.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
 import { classicStageBuilder } from "./classicStage.ts";

@@ -11,7 +11,7 @@ import type { GeometryDescription, PatchDescription } from "../../../document/de
 import { missingBytesMidpoint } from "../../../document/dequantization.ts";
 import { hasShaderPrimitive } from "../../../document/drawnFromImages.ts";
 import type { PatchFile } from "../../patchFiles.ts";
-import { cornerCountOf } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../../document/patchSizes.ts";
 import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";

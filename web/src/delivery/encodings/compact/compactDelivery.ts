@@ -2,7 +2,7 @@
 
 import type { PatchDescription } from "../../../document/description.ts";
 import type { PatchFile } from "../../patchFiles.ts";
-import { cornerCountOf } from "../../patchFiles.ts";
+import { compactBytesOf, cornerCountOf } from "../../../document/patchSizes.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
 import { compactStageBuilder } from "./compactStage.ts";
 
@@ -43,9 +43,8 @@ export const compactDelivery: EncodingDelivery = {
 
 /** Estimates by typical patches. */
 function sizesOf(patch: PatchDescription): Pick<PatchFile, "expectedBytes" | "storedBytes"> {
-  const cornerCount = cornerCountOf(patch);
   return {
-    expectedBytes: 2 * patch.vertexCount + cornerCount / 6,
-    storedBytes: 12 * patch.vertexCount + 2 * cornerCount, // 8 of coordinates and 4 of the normal, and 16-bit indices
+    expectedBytes: compactBytesOf(patch),
+    storedBytes: 12 * patch.vertexCount + 2 * cornerCountOf(patch), // 8 of coordinates and 4 of the normal, and 16-bit indices
   };
 }

@@ -1,0 +1,85 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { describe, test } from "node:test";
+import { Scheduler } from "../scheduler/scheduler.ts";
+import { runJob } from "../workers/worker.ts";
+import { WorkerPool } from "../workers/workerPool.ts";
+import { EarlyLoading } from "./earlyLoading.ts";
+
+const vectors = join(import.meta.dirname, "../../../vectors/compact-1");
+const file = readFileSync(join(vectors, "sphere.png"));
+
+/** Early loading with one download at a time from a server that gives this answer, and the URLs requested from it. */
+function loadingFrom(answer: () => Promise<Response>): { early: EarlyLoading; requested: string[] } {
+  const requested: string[] = [];
+  const workers = new WorkerPool({
+    size: 1,
+    idleMs: 1,
+    start: () => {
+      throw new DOMException("no workers here", "SecurityError");
+    },
+    prepareMainThread: () => undefined,
+    runOnMainThread: runJob,
+  });
+  const early = new EarlyLoading(new Scheduler(1), workers, (url) => {
+    requested.push(url as string);
+    return answer();
+  });
+  return { early, requested };
+}
+
+const request = (url: string, priority = 1) => ({ url, priority, expectedBytes: file.length });
+const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
+
+describe("patches that are loaded before the runtime", () => {
+  test("are requested in the order of their priorities, each once, and can be taken once", async () => {
+    const { early, requested } = loadingFrom(() => Promise.resolve(new Response(file)));
+    early.request(request("b.png", 1));
+    const { isNear, decoded } = early.request(request("a.png", 2));
+    assert.equal(early.request(request("a.png", 2)).decoded, decoded);
+    await isNear;
+    const { byteLength, patches } = await decoded;
+    assert.ok(patches[0] && patches[0].vertexCount > 0);
+    assert.equal(byteLength, file.length);
+    assert.equal(early.take("a.png"), decoded);
+    assert.equal(early.take("a.png"), undefined);
+    await early.take("b.png");
+    assert.deepEqual(requested, ["a.png", "b.png"]);
+  });
+
+  test("that still wait are left to the runtime, which has an order of its own", async () => {
+    const { early, requested } = loadingFrom(() => new Promise(() => undefined));
+    early.request(request("a.png", 2));
+    const waiting = early.request(request("b.png", 1));
+    await soon();
+    assert.equal(early.take("b.png"), undefined);
+    await assert.rejects(waiting.decoded, { name: "AbortError" });
+    assert.deepEqual(requested, ["a.png"]);
+  });
+
+  test("are dropped where the runtime does not need them", async () => {
+    const { early } = loadingFrom(() => new Promise(() => undefined));
+    const started = early.request(request("a.png"));
+    const waiting = early.request(request("b.png", 0));
+    await soon();
+    early.dropFiles();
+    await assert.rejects(waiting.decoded, { name: "AbortError" });
+    assert.equal(early.take("a.png"), undefined);
+    assert.notEqual(early.request(request("a.png")).decoded, started.decoded);
+  });
+
+  test("reject their promises on failure, without unhandled rejections", async () => {
+    for (const failure of [
+      () => Promise.reject(new TypeError("no network")),
+      () => Promise.resolve(new Response("", { status: 404 })),
+      () => Promise.resolve(new Response(file.subarray(0, 40))),
+    ]) {
+      const { early } = loadingFrom(failure);
+      const { decoded, isNear } = early.request(request("a.png"));
+      await assert.rejects(decoded);
+      await isNear;
+      await assert.rejects(early.take("a.png") ?? Promise.resolve());
+    }
+  });
+});
