@@ -60,7 +60,7 @@ function preloadRuntime(onArrival: () => void): void {
   const link = document.createElement("link");
   link.rel = "modulepreload";
   link.href = runtimeUrl.href;
-  link.onload = link.onerror = onArrival;
+  for (const name of ["load", "error"]) link.addEventListener(name, onArrival, { once: true });
   document.head.append(link);
 }
 

@@ -149,6 +149,7 @@ export class Preview {
     this.early.workers.prepare(requests.length);
     const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
     if (drawsPatches) void this.#drawPatches(files);
+    else this.early.workers.requestDecoder();
     await Promise.all(files.map(({ isNear }) => isNear));
   }
 

@@ -119,6 +119,7 @@ export class PreviewRenderer {
     for (const { vertices } of this.#meshes.values()) gl.deleteVertexArray(vertices);
     for (const buffer of this.#buffers) gl.deleteBuffer(buffer);
     for (const { program } of this.#programs.values()) gl.deleteProgram(program);
+    this.#meshes.clear();
     gl.getExtension("WEBGL_lose_context")?.loseContext();
   }
 
