@@ -51,11 +51,11 @@ Runtime runtimeOfSite() {
   Runtime site;
   site.worker = siteFile("imgeo-worker", worker, {});
   site.decoder = siteFile("imgeo-decoder", decoder, {}, "wasm");
-  site.shared = siteFile("imgeo-shared", shared,
-                         {{"imgeo-worker.js", &site.worker}, {"imgeo-decoder.wasm", &site.decoder}});
+  site.shared =
+      siteFile("imgeo-shared", shared, {{"imgeo-worker.js", &site.worker}, {"imgeo-decoder.wasm", &site.decoder}});
   site.animation = siteFile("imgeo-animation", animation, {});
-  site.scene = siteFile("imgeo-scene", scene,
-                        {{"imgeo-shared.js", &site.shared}, {"imgeo-animation.js", &site.animation}});
+  site.scene =
+      siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-animation.js", &site.animation}});
   site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
   return site;
 }
