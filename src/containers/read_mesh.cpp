@@ -106,7 +106,8 @@ OperatorFrame operatorFrameOf(const GeometryDescription& geometry, const Mesh& m
   return OperatorFrame::of(box);
 }
 
-Mesh readMesh(const ContainerReader& reader, const GeometryDescription& stated, const std::string& location) {
+Mesh readMesh(const ContainerReader& reader, const GeometryDescription& stated, const std::string& location,
+              bool keepsVertices) {
   GeometryDescription geometry = stated;
   geometry.lattice = reader.latticeOf(stated);
   std::vector<DecodedPatch> patches(geometry.patches.size());
@@ -118,7 +119,8 @@ Mesh readMesh(const ContainerReader& reader, const GeometryDescription& stated, 
     append(mesh, std::exchange(patch, {}), geometry.lattice, location);
   const bool isOpaque = std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; });
   mesh.colorComponents = isOpaque ? 3 : 4;
-  weld(mesh);
+  if (!keepsVertices)
+    weld(mesh);
   applyOperators(mesh, geometry.operators, operatorFrameOf(geometry, mesh), location);
   if (geometry.isFlat && mesh.topology == Topology::triangles) {
     makeFlat(mesh);

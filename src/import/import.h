@@ -27,6 +27,16 @@ struct Imported {
   std::optional<double> metres = {};    ///< length of a unit, where the format or the file says it
 };
 
+/// Which animations of vertices of an X3D document become meshes whose interpolator is a child of the Shape
+/// (Interpolator::points), instead of staying text.
+struct RecordingChoice {
+  /// Interpolators with more bytes of keyValue, if there are at most three frames for each key.
+  std::size_t minBytes = std::string::npos;
+  double rate = 30;   ///< frames per second, above 0
+  bool all = false;   ///< all interpolators
+  bool files = false; ///< sequences that a document refers to: they become Interpolators with the paths of their files
+};
+
 struct ImportOptions {
   AttributeChoice attributes;     ///< by default none
   std::filesystem::path folder{}; ///< relative URLs are resolved against it; empty: they are refused
@@ -34,6 +44,7 @@ struct ImportOptions {
   /// Geometry of an X3D document stays in the document where its text is at most this long. Where the document has more
   /// than 64 KiB of such text, only geometry of at most 256 bytes stays.
   std::size_t inlineBytes = 0;
+  RecordingChoice recordings{};   ///< by default none
   bool strict = false;            ///< whether damage is an Error even where the rest could be read
   std::filesystem::path within{}; ///< the folder that URLs may not lead out of; empty: `folder`
   /// The chain of files whose Inlines led to this one, outermost first. Detects a document that inlines itself.

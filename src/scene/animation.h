@@ -44,6 +44,12 @@ struct Interpolator {
   /// A lossless video of the same frames (video/sequence_video.h). With one, documents have a MovieTexture in place of
   /// the CoordinateInterpolator, which names the video and, for pages that cannot decode it, the index.
   std::string video = {};
+  /// For the coordinates and normals of a document that are to become the frames of a sequence, as a child of the Shape
+  /// whose vertices they move: by the wedge of its mesh the number of its value. Empty for other interpolators.
+  std::vector<std::uint32_t> points = {};
+  /// For such coordinates of faces without normals of their own: the crease angle by which normals follow the
+  /// triangles, in radians.
+  std::optional<double> creaseAngle = {};
   friend bool operator==(const Interpolator&, const Interpolator&) = default;
 };
 
@@ -65,6 +71,18 @@ std::optional<InterpolatorKind> interpolatorKindOf(std::string_view element);
 std::size_t componentsOf(InterpolatorKind kind);
 /// Whether each key has a list of values: for coordinates and normals.
 bool isList(InterpolatorKind kind);
+
+/// Steps of equal length into which a recording of an interpolator divides its cycle. Where the keys are equally far
+/// apart from 0 to 1, each of them is the end of a step, and two neighbours have the number of steps between them that
+/// comes closest to `rate` a second; otherwise there are `rate` a second. `seconds` for fractions from 0 to 1, above 0.
+double recordedSteps(const std::vector<float>& keys, double seconds, double rate);
+
+/// Whether keys are equally far apart from 0 to 1, within the rounding to few decimal digits.
+bool areEven(const std::vector<float>& keys);
+
+/// The numbers of a well-formed interpolator with keys at a fraction, linear between keys; of an orientation on the
+/// shorter way.
+std::vector<double> valueAt(const Interpolator& interpolator, double fraction);
 
 /// What is wrong with an interpolator: "its keys are not in ascending order"; "" for one that is well formed or empty.
 std::string faultOf(const Interpolator& interpolator);

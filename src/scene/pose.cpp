@@ -9,41 +9,6 @@ namespace imgeo {
 
 namespace {
 
-Rotation between(const Rotation& a, const Rotation& b, double t) {
-  std::array<double, 4> from = quaternionOf(a), to = quaternionOf(b);
-  double cosine = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    cosine += from[i] * to[i];
-  const double sign = cosine < 0 ? -1 : 1, angle = std::acos(std::min(1.0, std::abs(cosine)));
-  const double f = angle > 1e-6 ? std::sin((1 - t) * angle) / std::sin(angle) : 1 - t;
-  const double g = sign * (angle > 1e-6 ? std::sin(t * angle) / std::sin(angle) : t);
-  for (std::size_t i = 0; i < 4; ++i)
-    from[i] = f * from[i] + g * to[i];
-  return rotationOfQuaternion(from[0], from[1], from[2], from[3]);
-}
-
-/// The numbers of a well-formed interpolator at a fraction.
-std::vector<double> valueAt(const Interpolator& interpolator, double fraction) {
-  const std::vector<float>& keys = interpolator.keys;
-  const std::size_t components = componentsOf(interpolator.kind);
-  const auto numbers = [&](std::size_t key) {
-    const auto begin = interpolator.values.begin() + static_cast<std::ptrdiff_t>(key * components);
-    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(components));
-  };
-  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(keys, fraction) - keys.begin());
-  if (after == 0 || after == keys.size())
-    return numbers(after == 0 ? 0 : after - 1);
-  const double t = (fraction - keys[after - 1]) / (double{keys[after]} - keys[after - 1]);
-  std::vector<double> a = numbers(after - 1), b = numbers(after);
-  if (interpolator.kind == InterpolatorKind::orientation) {
-    const Rotation r = between({{a[0], a[1], a[2]}, a[3]}, {{b[0], b[1], b[2]}, b[3]}, t);
-    return {r.axis.x, r.axis.y, r.axis.z, r.angle};
-  }
-  for (std::size_t c = 0; c < components; ++c)
-    a[c] += t * (b[c] - a[c]);
-  return a;
-}
-
 std::string_view fieldOf(const Route& route) {
   std::string_view field = route.toField;
   if (field.starts_with("set_"))

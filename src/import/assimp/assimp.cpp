@@ -101,7 +101,7 @@ public:
   SceneReader(const aiScene& source, const std::string& name, const References& references,
               const ImportOptions& options, std::string_view extension)
       : source_(source), name_(name), choice_(options.attributes), isStrict_(options.strict),
-        materials_(source, imported_.scene.graph, references, extension) {}
+        isFbx_(extension == "fbx"), materials_(source, imported_.scene.graph, references, extension) {}
 
   Imported read(std::string format) {
     imported_.format = std::move(format);
@@ -158,6 +158,9 @@ private:
         skinned_.insert(mesh);
       else
         node.children.insert(node.children.end(), shapesOf_[mesh].begin(), shapesOf_[mesh].end());
+    for (unsigned i = 0; i < source.mNumMeshes; ++i)
+      if (const std::vector<std::size_t>& displacers = displacersOf_.at(source.mMeshes[i]); !displacers.empty())
+        displacers_[source.mName.C_Str()].insert(displacers);
     addCamera(source, node);
     addLight(source, node);
     for (unsigned i = 0; i < source.mNumChildren; ++i)
@@ -184,7 +187,7 @@ private:
   }
 
   void readAnimations() {
-    AssimpAnimations animations(source_, graph(), movedNodes_);
+    AssimpAnimations animations(source_, graph(), movedNodes_, displacers_);
     animations.read();
     otherChannels_ = animations.otherChannels;
     malformedChannels_ = animations.malformedChannels;
@@ -217,6 +220,9 @@ private:
       std::vector<std::size_t> own(displacers.begin(), displacers.begin() + static_cast<std::ptrdiff_t>(targets));
       shapes.push_back(addNode(graph(), {nameOf(source.mName), shape, std::move(own), ""}));
     }
+    if (!displacers.empty())
+      displacers_[source.mName.C_Str()].insert(displacers);
+    displacersOf_.push_back(std::move(displacers));
     isSkinned_.push_back(std::ranges::any_of(shapes, [&](std::size_t shape) {
       return jointSetCount(imported_.scene.meshes[shapeOf(graph(), shape).mesh]) > 0;
     }));
@@ -225,7 +231,9 @@ private:
 
   std::size_t displacerNode(const aiAnimMesh& target) {
     const std::string name = nameOf(target.mName);
-    return addNode(graph(), {name.empty() ? "displacer" : name, Displacer{name, target.mWeight}, {}, ""});
+    unknownWeights_ += isFbx_;
+    const double weight = isFbx_ ? 0 : target.mWeight; // of FBX Assimp 5.2 reports 1, whatever the file states
+    return addNode(graph(), {name.empty() ? "displacer" : name, Displacer{name, weight}, {}, ""});
   }
 
   /// The sets of texture coordinates that textures use, the first where none uses any, and those that the user named.
@@ -383,13 +391,17 @@ private:
       if (count > 0)
         warnings.push_back(fmt::format("{} not carried over.", counted(count, singular, plural)));
     };
-    add(otherChannels_, "animation of morph targets is", "animations of morph targets are");
+    add(otherChannels_, "animation of morph targets that no mesh has, or of a whole mesh, is",
+        "animations of morph targets that no mesh has, or of whole meshes, are");
     add(malformedChannels_, "animation of a node, whose keys are not in order or not finite, is",
         "animations of nodes, whose keys are not in order or not finite, are");
     add(damagedSkins_, "skin with damaged weights, or bones that are not in the scene, is",
         "skins with damaged weights, or bones that are not in the scene, are");
     add(damagedTargets_, "mesh has damaged or too many morph targets, which are",
         "meshes have damaged or too many morph targets, which are");
+    if (unknownWeights_ > 0)
+      warnings.push_back(fmt::format("The weights at rest of {} are 0: Assimp does not report those of FBX files.",
+                                     counted(unknownWeights_, "morph target", "morph targets")));
     add(furtherTexCoords_, "mesh has texture coordinates that no texture uses, which are",
         "meshes have texture coordinates that no texture uses, which are");
     add(furtherColors_, "mesh has further colours, which are", "meshes have further colours, which are");
@@ -405,6 +417,7 @@ private:
   const std::string& name_;
   const AttributeChoice& choice_;
   bool isStrict_;
+  bool isFbx_;
   Imported imported_;
   AssimpMaterials materials_;
   std::vector<std::vector<std::size_t>> shapesOf_; ///< shape nodes by mesh
@@ -412,12 +425,14 @@ private:
   std::map<std::string, const aiLight*> lights_;
   std::set<std::string> moved_; ///< names of the nodes that animations move
   std::map<std::string, std::size_t> movedNodes_;
+  std::vector<std::vector<std::size_t>> displacersOf_; ///< by mesh
+  DisplacersByName displacers_;
   std::size_t otherChannels_ = 0, malformedChannels_ = 0;
   std::set<std::string> joints_; ///< names of the nodes that are bones
   std::vector<bool> isSkinned_;  ///< by mesh
   std::set<unsigned> skinned_;   ///< meshes of nodes, with bones
-  std::size_t damagedSkins_ = 0, damagedTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
-              lostTransforms_ = 0, fans_ = 0, unusableNormals_ = 0;
+  std::size_t damagedSkins_ = 0, damagedTargets_ = 0, unknownWeights_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0,
+              otherLights_ = 0, lostTransforms_ = 0, fans_ = 0, unusableNormals_ = 0;
 };
 
 /// The last extension in lower case, with its dot. Unlike for extensionOf, that may be ".gz": Assimp reads no gzipped

@@ -70,7 +70,8 @@ bool ContainerGeometries::isSolid(pugi::xml_node node) const {
 
 std::optional<std::vector<Mesh>> ContainerGeometries::read(std::span<const pugi::xml_node> nodes,
                                                            const AttributeChoice& kept,
-                                                           std::set<std::string>& attributes) const {
+                                                           std::set<std::string>& attributes,
+                                                           bool keepsVertices) const {
   if (!isPatchGeometry(nodes[0].name()))
     return std::vector{readPopGeometry(source_, nodes[0], fetch_)};
   GeometryDescription geometry = describe(nodes[0]);
@@ -84,7 +85,7 @@ std::optional<std::vector<Mesh>> ContainerGeometries::read(std::span<const pugi:
   geometry.patches = std::move(patches);
   std::vector<Mesh> meshes;
   for (const GeometryDescription& part : splitByTopology(geometry)) {
-    meshes.push_back(readMesh(reader_, part, source_.locationOf(nodes[0])));
+    meshes.push_back(readMesh(reader_, part, source_.locationOf(nodes[0]), keepsVertices));
     chooseAttributes(meshes.back(), kept, attributes);
   }
   return meshes;

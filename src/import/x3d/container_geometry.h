@@ -42,10 +42,10 @@ public:
 
   /// The meshes, one for each kind of element, of nodes whose patches belong together, or of one node that is no
   /// ExternalGeometry; empty where nodes differ in more than their patches. Of the named attributes it has those in
-  /// `kept`; the names of all are added to `attributes`. Throws Error with the file and line of the node or with the
-  /// url of a file.
+  /// `kept`; the names of all are added to `attributes`. `keepsVertices`: see readMesh(). Throws Error with the file
+  /// and line of the node or with the url of a file.
   std::optional<std::vector<Mesh>> read(std::span<const pugi::xml_node> nodes, const AttributeChoice& kept,
-                                        std::set<std::string>& attributes) const;
+                                        std::set<std::string>& attributes, bool keepsVertices = false) const;
 
   /// The mesh of a patch of a node that several Shapes share, or why it cannot be read.
   using SharedPatch = std::variant<Mesh, Error>;

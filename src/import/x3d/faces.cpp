@@ -23,8 +23,8 @@ struct CornerHash {
 
 class WedgeBuilder {
 public:
-  WedgeBuilder(const VertexData& data, Mesh& mesh)
-      : data_(data), mesh_(mesh), localPosition_(data.positions.size(), none) {
+  WedgeBuilder(const VertexData& data, Mesh& mesh, std::vector<Corner>* wedges)
+      : data_(data), mesh_(mesh), wedgeCorners_(wedges), localPosition_(data.positions.size(), none) {
     for (const NamedAttribute& attribute : data.pointAttributes)
       mesh.namedAttributes.push_back({attribute.name, attribute.components, {}});
   }
@@ -44,6 +44,8 @@ private:
       mesh_.positions.push_back(data_.positions[corner.position]);
     }
     mesh_.wedgePositions.push_back(local);
+    if (wedgeCorners_)
+      wedgeCorners_->push_back(corner);
     if (corner.normal != none)
       mesh_.normals.push_back(data_.normals[corner.normal]);
     if (corner.texCoord != none)
@@ -62,6 +64,7 @@ private:
 
   const VertexData& data_;
   Mesh& mesh_;
+  std::vector<Corner>* wedgeCorners_;
   std::vector<std::uint32_t> localPosition_;
   std::unordered_map<Corner, std::uint32_t, CornerHash> wedges_;
 };
@@ -113,12 +116,12 @@ void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle) {
     }
 }
 
-Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans) {
+Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans, std::vector<Corner>* wedges) {
   Mesh mesh;
   mesh.topology = faces.topology;
   mesh.colorComponents = data.colorComponents;
   mesh.texCoordMappings = data.texCoordMappings;
-  WedgeBuilder builder(data, mesh);
+  WedgeBuilder builder(data, mesh, wedges);
   if (faces.topology != Topology::triangles) {
     for (const Corner& corner : faces.corners)
       builder.addCorner(corner);

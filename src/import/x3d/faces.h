@@ -41,7 +41,7 @@ struct Faces {
 void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle);
 
 /// Each distinct combination of indices becomes a wedge; polygons are triangulated. Adds to `fans` the number of
-/// concave polygons that became fans because they are too large.
-Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans);
+/// concave polygons that became fans because they are too large, and to `wedges`, if given, the indices of each wedge.
+Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans, std::vector<Corner>* wedges = nullptr);
 
 } // namespace imgeo::x3d

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace imgeo::x3d {
@@ -26,8 +27,8 @@ constexpr std::size_t maxExtrusionVertices = std::size_t{1} << 22;
 /// Reads the faces, lines or points of one geometry node and gives corners their attributes.
 class GeometryReader {
 public:
-  GeometryReader(const Source& source, pugi::xml_node node, const AttributeChoice& kept)
-      : source_(source), node_(node), kept_(kept) {}
+  GeometryReader(const Source& source, pugi::xml_node node, const AttributeChoice& kept, const MovingVertices* moving)
+      : source_(source), node_(node), kept_(kept), moving_(moving) {}
 
   using Readers = std::map<std::string_view, void (GeometryReader::*)()>;
   static const Readers& readers() {
@@ -62,6 +63,10 @@ public:
       return {};
     NodeVertexData read = readVertexData(source_, node_, kept_);
     data_ = std::move(read.data);
+    if (moving_) {
+      setFirstKey(data_.positions, moving_->coordinates);
+      setFirstKey(data_.normals, moving_->normals);
+    }
     furtherTexCoords_ = read.furtherTexCoords;
     texCoordGenerator_ = std::move(read.texCoordGenerator);
     (this->*reader->second)();
@@ -70,6 +75,16 @@ public:
 
 private:
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { source_.fail(node_, kind, message); }
+
+  /// Replaces vectors by those of the first key of an interpolator, if it has keys.
+  static void setFirstKey(std::vector<Vec3f>& vectors, const Interpolator& interpolator) {
+    if (interpolator.keys.empty())
+      return;
+    const std::size_t count = interpolator.values.size() / interpolator.keys.size() / 3;
+    vectors.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+      vectors[i] = {interpolator.values[3 * i], interpolator.values[3 * i + 1], interpolator.values[3 * i + 2]};
+  }
 
   Indices integers(const char* field) const { return source_.integers(node_, field); }
 
@@ -347,7 +362,10 @@ private:
       reverseWinding();
     // Normals that are smooth everywhere are computed later (prepare/normals), without splitting wedges.
     const double creaseAngle = source_.real(node_, "creaseAngle", defaultCreaseAngle_);
-    if (isSurface && hasCreaseAngle_ && data_.normals.empty() && creaseAngle < std::numbers::pi)
+    const bool hasCreases = isSurface && hasCreaseAngle_ && data_.normals.empty() && creaseAngle < std::numbers::pi;
+    if (hasCreases && moving_)
+      separateCorners();
+    else if (hasCreases)
       addCreaseNormals(data_, faces_, std::max(creaseAngle, 0.0));
     if (texCoordGenerator_)
       addGeneratedTexCoords(texCoordGenerator_->mode, data_, faces_);
@@ -356,8 +374,38 @@ private:
     geometry.nurbsError = nurbsError_;
     geometry.furtherTexCoords = furtherTexCoords_;
     geometry.approximatedTexCoords = texCoordGenerator_ ? texCoordGenerator_->approximated : "";
-    geometry.mesh = meshOf(data_, faces_, geometry.fans);
+    std::vector<Corner> wedges;
+    geometry.mesh = meshOf(data_, faces_, geometry.fans, moving_ ? &wedges : nullptr);
+    if (moving_)
+      sortByPoint(geometry.mesh, wedges);
+    for (const Corner& wedge : wedges) {
+      geometry.points.push_back(wedge.position);
+      geometry.normalNumbers.push_back(wedge.normal);
+    }
+    if (hasCreases && moving_)
+      geometry.creaseAngle = std::max(creaseAngle, 0.0);
     return geometry;
+  }
+
+  /// Brings the wedges of a mesh into the order of the points: those of a grid may follow one another row by row.
+  static void sortByPoint(Mesh& mesh, std::vector<Corner>& wedges) {
+    std::vector<std::uint32_t> order(wedges.size()), newOf(wedges.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t wedge) { return wedges[wedge].position; });
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+      newOf[order[i]] = i;
+    static_cast<VertexAttributes&>(mesh) = gather(mesh, order);
+    mesh.wedgePositions = gather(mesh.wedgePositions, order);
+    mesh.corners = gather(newOf, mesh.corners);
+    wedges = gather(wedges, order);
+  }
+
+  /// Gives each corner a normal of its own: which of them are equal changes from frame to frame.
+  void separateCorners() {
+    for (Corner& corner : faces_.corners) {
+      corner.normal = static_cast<std::uint32_t>(data_.normals.size());
+      data_.normals.push_back({0, 0, 1});
+    }
   }
 
   void reverseWinding() {
@@ -372,6 +420,7 @@ private:
   const Source& source_;
   pugi::xml_node node_;
   const AttributeChoice& kept_;
+  const MovingVertices* moving_;
   VertexData data_;
   Faces faces_;
   std::size_t furtherTexCoords_ = 0;
@@ -387,8 +436,9 @@ bool becomesMesh(std::string_view element) {
   return GeometryReader::readers().contains(element);
 }
 
-std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& kept) {
-  return GeometryReader(source, node, kept).read();
+std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& kept,
+                                     const MovingVertices* moving) {
+  return GeometryReader(source, node, kept, moving).read();
 }
 
 } // namespace imgeo::x3d

@@ -4,6 +4,7 @@
 #include "import/x3d/container_geometry.h"
 #include "import/x3d/faults.h"
 #include "import/x3d/inlines.h"
+#include "import/x3d/moving_meshes.h"
 #include "import/x3d/node_images.h"
 #include "import/x3d/routes.h"
 #include "import/x3d/shape_reader.h"
@@ -63,12 +64,18 @@ public:
       else if (child.type() == pugi::node_comment)
         addTo(graph.roots, child);
     addTitle();
+    MovingMeshes movingMeshes(graph, shapes_.recorded(), defined_);
     graph.routes = routes_.read(defined_, [&](pugi::xml_node node) {
+      if (movingMeshes.replaces(node))
+        return true;
+      if (movingMeshes.has(node))
+        return false;
       for (; node && node != source_.root(); node = node.parent())
         if (isLeftOut(node.name()) || routes_.isMalformed(node))
           return true;
       return false;
     });
+    movingMeshes.finish();
     shapes_.finish();
     summary_.addTo(imported_.warnings);
     return std::move(imported_);

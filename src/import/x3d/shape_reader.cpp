@@ -1,5 +1,6 @@
 #include "import/x3d/shape_reader.h"
 
+#include "documents/animation_element.h"
 #include "documents/geometry_reader.h"
 #include "images/image_type.h"
 #include "import/text/text_scanner.h"
@@ -26,8 +27,9 @@ constexpr std::size_t maxShortTextBytes = 512 << 10;
 
 ShapeReader::ShapeReader(const Source& source, const References& references, const ImportOptions& options,
                          Imported& imported, Summary& summary, Faults& faults, const Routes& routes)
-    : source_(source), imported_(imported), summary_(summary), faults_(faults), routes_(routes),
-      inlineBytes_(options.inlineBytes), keptAttributes_(options.attributes), mappings_(options.attributes),
+    : source_(source), references_(references), imported_(imported), summary_(summary), faults_(faults),
+      routes_(routes), inlineBytes_(options.inlineBytes), recordings_(source, options.recordings),
+      readsFrames_(options.recordings.files), keptAttributes_(options.attributes), mappings_(options.attributes),
       warnings_(imported.warnings), containers_(source, references, options.strict ? nullptr : &warnings_),
       sharedPatches_(source, containers_, keptAttributes_, attributes_,
                      [this](Mesh mesh, bool isSolid) { return addShape(std::move(mesh), isSolid); }) {
@@ -72,8 +74,10 @@ std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap)
     return found->second;
   if (isContainerGeometry(node.name()))
     return found->second = shapesOfFiles(node);
-  std::optional<Geometry> geometry =
-      faults_.attempt("A geometry is left as it is", [&] { return readGeometry(source_, node, mappings_); });
+  std::optional<MovingVertices> moving = recordings_.of(node);
+  std::optional<Geometry> geometry = faults_.attempt("A geometry is left as it is", [&] {
+    return readGeometry(source_, node, mappings_, moving ? &*moving : nullptr);
+  });
   if (!geometry)
     return {};
   if (geometry->mesh.corners.empty()) {
@@ -85,13 +89,44 @@ std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap)
   summary_.furtherTexCoords += geometry->furtherTexCoords > 0 ? 1 : 0;
   if (!geometry->approximatedTexCoords.empty() && !isForCubeMap)
     ++summary_.approximatedTexCoords[geometry->approximatedTexCoords];
-  if (staysInline(node))
+  if (!moving && staysInline(node))
     return {};
   noteDataOf(node);
   summary_.fans += geometry->fans;
   if (!operate(node, geometry->mesh))
     return {};
-  return found->second = {addShape(std::move(geometry->mesh), geometry->solid && containers_.isSolid(node))};
+  const Shape shape = addShape(std::move(geometry->mesh), geometry->solid && containers_.isSolid(node));
+  if (moving)
+    record(node, shape.mesh, *std::move(moving), *geometry);
+  return found->second = {shape};
+}
+
+/// Notes the interpolators that move the vertices of a mesh.
+void ShapeReader::record(pugi::xml_node node, std::size_t mesh, MovingVertices moving, Geometry& geometry) {
+  moving.coordinates.points = std::move(geometry.points);
+  moving.coordinates.creaseAngle = geometry.creaseAngle;
+  moving.normals.points = std::move(geometry.normalNumbers);
+  recorded_.push_back(
+      {mesh, {source_.resolved(node.child("Coordinate")), source_.resolved(node.child("Normal"))}, std::move(moving)});
+}
+
+/// The sequence of a geometry of files, with the paths of its index and its video.
+std::optional<MovingVertices> ShapeReader::framesOf(pugi::xml_node node) const {
+  if (!readsFrames_)
+    return {};
+  for (const pugi::xml_node& child : node.children()) {
+    const FieldReader fields(source_.documentText(), child);
+    std::optional<Interpolator> frames = readMovie(fields);
+    if (!frames && interpolatorKindOf(child.name()) == InterpolatorKind::coordinate)
+      frames = readInterpolator(InterpolatorKind::coordinate, fields);
+    if (!frames || frames->url.empty())
+      continue;
+    for (std::string* url : {&frames->url, &frames->video})
+      if (!url->empty())
+        *url = references_.fileOf(*url).string();
+    return MovingVertices{child.attribute("DEF").value(), "", *std::move(frames), {InterpolatorKind::normal, {}, {}}};
+  }
+  return {};
 }
 
 std::optional<Shape> ShapeReader::shapeOfSharedPatch(pugi::xml_node element) {
@@ -152,14 +187,19 @@ template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, con
 std::vector<Shape> ShapeReader::shapesOfFiles(pugi::xml_node node) {
   if (std::string_view(node.name()) == "ExternalGeometry")
     return shapesOfResource(node, attemptFiles(node, [&] { return containers_.readExternal(node, false); }));
-  std::optional<std::vector<Mesh>> meshes =
-      attemptFiles(node, [&] { return containers_.read(std::array{node}, keptAttributes_, attributes_); });
+  std::optional<MovingVertices> frames;
+  std::optional<std::vector<Mesh>> meshes = attemptFiles(node, [&] {
+    frames = framesOf(node);
+    return containers_.read(std::array{node}, keptAttributes_, attributes_, frames.has_value());
+  });
   if (!meshes)
     return {};
   std::vector<Shape> shapes;
   for (Mesh& mesh : *meshes)
     if (!mesh.corners.empty())
       shapes.push_back(addShape(std::move(mesh), containers_.isSolid(node)));
+  if (frames && shapes.size() == 1)
+    recorded_.push_back({shapes[0].mesh, {}, *std::move(frames)});
   if (shapes.empty())
     ++summary_.empty[node.name()];
   return shapes;

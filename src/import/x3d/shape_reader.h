@@ -5,6 +5,8 @@
 #include "import/references.h"
 #include "import/x3d/container_geometry.h"
 #include "import/x3d/faults.h"
+#include "import/x3d/geometry.h"
+#include "import/x3d/recordings.h"
 #include "import/x3d/routes.h"
 #include "import/x3d/shared_patches.h"
 #include "import/x3d/source.h"
@@ -17,6 +19,13 @@
 #include <vector>
 
 namespace imgeo::x3d {
+
+/// A mesh whose vertices move: what is to become children of its Shape.
+struct RecordedMesh {
+  std::size_t mesh = 0;
+  std::vector<pugi::xml_node> replaced; ///< nodes of the geometry at which routes end that the mesh does not need
+  MovingVertices moving;                ///< with Interpolator::points, or with paths in url and video
+};
 
 class ShapeReader {
 public:
@@ -39,11 +48,16 @@ public:
   /// Shape of its own.
   std::optional<Shape> shapeOfPatches(const std::vector<pugi::xml_node>& geometries);
 
+  /// The meshes so far whose vertices move.
+  const std::vector<RecordedMesh>& recorded() const { return recorded_; }
+
   /// To be called after all shapes: adds the names of attributes, and warnings about shared patches.
   void finish();
 
 private:
   bool staysInline(pugi::xml_node node) const;
+  void record(pugi::xml_node node, std::size_t mesh, MovingVertices moving, Geometry& geometry);
+  std::optional<MovingVertices> framesOf(pugi::xml_node node) const;
   void addTextureMappings();
   Shape addShape(Mesh mesh, bool isSolid);
   bool operate(pugi::xml_node node, Mesh& mesh);
@@ -55,17 +69,21 @@ private:
   void noteDataOf(pugi::xml_node geometry);
 
   const Source& source_;
+  const References& references_;
   Imported& imported_;
   Summary& summary_;
   Faults& faults_;
   const Routes& routes_;
   std::size_t inlineBytes_;
+  Recordings recordings_;
+  bool readsFrames_;
   const AttributeChoice& keptAttributes_;
   AttributeChoice mappings_;  ///< keptAttributes_ and the sets of texture coordinates that textures use
   DocumentWarnings warnings_; ///< of fields, in the list of `imported_`
   ContainerGeometries containers_;
   std::set<std::string> attributes_; ///< names of the vertex attributes of geometries of files
   SharedPatches sharedPatches_;
+  std::vector<RecordedMesh> recorded_;
   std::map<pugi::xml_node_struct*, std::vector<Shape>> converted_; ///< by geometry node
 };
 

@@ -119,8 +119,7 @@ void requireSequenceOptions(const ConvertOptions& options) {
 /// The options of the meshes of sequences, whose static files are SIG classic.
 ConvertOptions ofSequences(ConvertOptions options) {
   options.encoding = Encoding::classic;
-  if (options.form == MeshForm::sequence)
-    options.form = MeshForm::mesh;
+  options.form = MeshForm::mesh;
   return options;
 }
 
@@ -133,7 +132,26 @@ ConvertOptions optionsForFiles(const std::vector<fs::path>& frames, const Conver
   if (options.form == MeshForm::geometryImage || options.form == MeshForm::heightMap)
     refuseOption("--as", "the frames of a sequence are meshes, or a video");
   requireSequenceOptions(options);
-  return ofSequences(options);
+  ConvertOptions ofFiles = ofSequences(options);
+  ofFiles.form = options.form;
+  return ofFiles;
+}
+
+/// Whether everything that moves the vertices of a source is to be recorded.
+bool recordsAll(const ConvertOptions& options) {
+  return options.form == MeshForm::sequence || options.form == MeshForm::video;
+}
+
+/// The animations of vertices of a document that become sequences although nobody asked for it: those whose text is
+/// long, unless other options contradict.
+RecordingChoice recordingChoice(const ConvertOptions& options) {
+  RecordingChoice choice{.rate = options.rate, .all = recordsAll(options), .files = true};
+  const bool allowsSequences = options.encoding.value_or(Encoding::classic) != Encoding::bg &&
+                               options.target != Target::x3dom && options.primitives == Primitives::triangles &&
+                               options.indexed && options.form == MeshForm::mesh;
+  if (allowsSequences)
+    choice.minBytes = longKeyValueBytes;
+  return choice;
 }
 
 /// Warns if more than 1 % of the elements collapsed on the lattice. Fewer are normal: scans contain slivers.
@@ -175,6 +193,7 @@ public:
                                       .folder = {},
                                       .outside = options_.outside,
                                       .inlineBytes = inlineBytes,
+                                      .recordings = frames_.size() > 1 ? RecordingChoice{} : recordingChoice(options_),
                                       .strict = options_.strict};
     Imported imported = importInput(input_, importOptions, report_.sourceBytes);
     requireAttributes(imported, options_);
@@ -186,8 +205,12 @@ public:
     nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
     if (frames_.size() > 1)
       recordFiles(importOptions);
-    else if (options_.form == MeshForm::sequence)
-      recordings_ = recordDeformations(scene_, options_.rate, locationOf(input_), report_.warnings);
+    else
+      recordings_ = recordScene(scene_, options_.rate, recordsAll(options_), locationOf(input_), report_.warnings);
+    if (!recordings_.empty())
+      requireSequenceOptions(options_);
+    for (Recording& recording : recordings_)
+      recording.hasVideo = options_.form == MeshForm::video || (recording.hasVideo && !recordsAll(options_));
     surveyRecordings();
   }
 
@@ -398,7 +421,8 @@ private:
             .dropped = options_.dropped,
             .colorBits = report_.hasColors ? options_.colorBits : 8,
             .attributes = std::move(attributeNames),
-            .sequenceRate = options_.form == MeshForm::sequence ? options_.rate : 0,
+            .sequenceRate = recordings_.empty() || frames_.size() > 1 ? 0 : options_.rate,
+            .onlyLongSequences = !recordsAll(options_),
             .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
             .sourceTextureBytes = report_.textures.sourceBytes,
             .pictures = std::move(pictureContents)};
@@ -428,7 +452,7 @@ namespace {
 ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory, const ConvertOptions& options,
                   const Progress& progress) {
   resolved(options); // refuses contradictions before anything is written
-  if (options.form == MeshForm::sequence)
+  if (recordsAll(options))
     requireSequenceOptions(options);
   for (const fs::path& input : inputs)
     if (input != "-")
@@ -459,8 +483,6 @@ ConvertReport convertSequence(const std::vector<fs::path>& frames, const fs::pat
                               const ConvertOptions& options, const Progress& progress) {
   if (frames.empty())
     throw Error(ErrorKind::usage, "", "a sequence has no frames");
-  if (frames.size() == 1 && options.form == MeshForm::video)
-    refuseOption("--as", "a video has the frames of a sequence, and this is one file");
   return run(frames, directory, frames.size() > 1 ? optionsForFiles(frames, options) : options, progress);
 }
 

@@ -166,7 +166,7 @@ public:
   }
 
   /// Writes the frames and their index, and the video if one is asked for.
-  EncodedFrames encodeFrames(double rate, ContentFiles& files, const ElementsDone& done) {
+  EncodedFrames encodeFrames(double rate, bool hasVideo, ContentFiles& files, const ElementsDone& done) {
     EncodedFrames encoded;
     SequenceIndex& index = encoded.index;
     description_.rate = rate;
@@ -174,7 +174,6 @@ public:
     index.valueName = survey_.valueName;
     const std::size_t perFile = framesInFile(rate);
     index.files.resize((frames_.count() + perFile - 1) / perFile);
-    const bool hasVideo = options_.form == MeshForm::video;
     const VideoSize size = hasVideo ? videoSizeOf(description_.layout, "") : VideoSize{};
     std::vector<std::vector<Bytes>> packets(index.files.size());
     parallelFor(index.files.size(), [&](std::size_t file) {
@@ -272,7 +271,7 @@ EncodedSequence encodeSequence(Mesh mesh, const Recording& recording, const Conv
   SequenceEncoding encoding(*recording.frames, recording.survey, options);
   EncodedSequence result;
   result.still = encoding.encodeStatic(std::move(mesh), files);
-  result.frames = encoding.encodeFrames(recording.rate, files, done);
+  result.frames = encoding.encodeFrames(recording.rate, recording.hasVideo, files, done);
   return result;
 }
 

@@ -72,12 +72,31 @@ ExportReport write(const SiteDocument& document, Scene scene, const fs::path& ou
   return report;
 }
 
-SiteSequence onlySequence(const SiteDocument& document, const fs::path& site) {
+/// The sequences of a site, of which there is at least one.
+std::vector<SiteSequence> requiredSequences(const SiteDocument& document, const fs::path& site) {
   std::vector<SiteSequence> sequences = sequencesOf(document);
-  if (sequences.size() != 1)
-    throw Error(ErrorKind::usage, site.string(),
-                fmt::format("plays {} sequences; frames are exported of one", sequences.size()));
-  return std::move(sequences.front());
+  if (sequences.empty())
+    throw Error(ErrorKind::usage, site.string(), "plays no sequence: it has no frames");
+  return sequences;
+}
+
+std::uint32_t frameCountOf(const std::vector<SiteSequence>& sequences) {
+  std::uint32_t count = 0;
+  for (const SiteSequence& sequence : sequences)
+    count = std::max(count, sequence.index.frameCount());
+  return count;
+}
+
+/// The mesh of a frame of a sequence, or of its last frame where it is shorter.
+Mesh readFrame(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t number) {
+  const std::size_t index = shapeOf(document.scene.graph, sequence.shape).mesh;
+  const GeometryDescription& geometry = document.scene.geometries.at(index);
+  const IndexedPatch still = ContainerReader(fetchFrom(document)).decode(geometry.patches.at(0), geometry);
+  const std::uint32_t frame = std::min(number, sequence.index.frameCount() - 1);
+  Mesh mesh;
+  readFrames(document, sequence, frame, frame + 1,
+             [&](const live::Frame& read) { mesh = meshOfFrame(still, read, sequence.index); });
+  return mesh;
 }
 
 } // namespace
@@ -92,24 +111,21 @@ ExportReport exportSite(const fs::path& site, const fs::path& output, std::span<
 ExportReport exportFrame(const fs::path& site, std::uint32_t frame, const fs::path& output) {
   formatFor(output);
   const SiteDocument document = openDocument(site);
-  const SiteSequence sequence = onlySequence(document, site);
-  if (frame >= sequence.index.frameCount())
-    throw Error(ErrorKind::usage, "--frame",
-                fmt::format("{} is not below {}, the number of frames", frame, sequence.index.frameCount()));
+  const std::vector<SiteSequence> sequences = requiredSequences(document, site);
+  if (const std::uint32_t count = frameCountOf(sequences); frame >= count)
+    throw Error(ErrorKind::usage, "--frame", fmt::format("{} is not below {}, the number of frames", frame, count));
   Scene scene = readMeshes(document);
-  const std::size_t mesh = shapeOf(document.scene.graph, sequence.shape).mesh;
-  const GeometryDescription& geometry = document.scene.geometries.at(mesh);
-  const IndexedPatch still = ContainerReader(fetchFrom(document)).decode(geometry.patches.at(0), geometry);
-  readFrames(document, sequence, frame, frame + 1, [&](const live::Frame& read) {
-    std::string name = std::move(scene.meshes.at(mesh).name);
-    scene.meshes.at(mesh) = meshOfFrame(still, read, sequence.index.description);
-    scene.meshes.at(mesh).name = std::move(name);
-  });
+  for (const SiteSequence& sequence : sequences) {
+    Mesh& mesh = scene.meshes.at(shapeOf(document.scene.graph, sequence.shape).mesh);
+    std::string name = std::move(mesh.name);
+    mesh = readFrame(document, sequence, frame);
+    mesh.name = std::move(name);
+  }
   return write(document, std::move(scene), output);
 }
 
 std::uint32_t frameCountOf(const fs::path& site) {
-  return onlySequence(openDocument(site), site).index.frameCount();
+  return frameCountOf(requiredSequences(openDocument(site), site));
 }
 
 } // namespace imgeo

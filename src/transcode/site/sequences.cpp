@@ -5,6 +5,8 @@
 #include "sequence/sequence_file.h"
 #include "video/sequence_video.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace imgeo {
@@ -36,39 +38,60 @@ void readFrameFiles(const SiteDocument& document, const SiteSequence& sequence, 
   }
 }
 
-Mesh meshOfFrame(const IndexedPatch& still, const live::Frame& frame, const live::Description& description) {
+void moveVertices(Mesh& mesh, const live::Frame& frame, const SequenceIndex& index) {
+  const live::Description& description = index.description;
+  const live::FrameLayout& layout = frame.layout;
+  const std::size_t vertices = layout.vertices;
+  const Vec3d origin = description.origin();
+  const double step = description.step();
+  for (std::size_t i = 0; i < vertices; ++i)
+    mesh.positions[mesh.wedgePositions[i]] = Vec3f(
+        origin +
+        Vec3d{double(frame.component(0)[i]), double(frame.component(1)[i]), double(frame.component(2)[i])} * step);
+  std::uint32_t component = 3;
+  mesh.normals.clear();
+  if (layout.normalBits > 0) {
+    for (std::size_t i = 0; i < vertices; ++i)
+      mesh.normals.push_back(
+          unitFromOctahedral({frame.component(component)[i], frame.component(component + 1)[i]}, layout.normalBits));
+    component += 2;
+  }
+  if (layout.colorComponents > 0) {
+    mesh.colors.assign(vertices, Rgba(0, 0, 0, 1));
+    mesh.colorComponents = layout.colorComponents;
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const auto channel = [&](std::uint32_t c) {
+        return static_cast<float>(frame.component(component + c)[i] / 255.0);
+      };
+      mesh.colors[i] = {channel(0), channel(1), channel(2), layout.colorComponents == 4 ? channel(3) : 1};
+    }
+    component += layout.colorComponents;
+  }
+  const auto values = std::ranges::find(mesh.namedAttributes, index.valueName, &NamedAttribute::name);
+  if (layout.valueComponents == 0 || values == mesh.namedAttributes.end() ||
+      values->components != layout.valueComponents)
+    return;
+  const double largest = std::exp2(layout.valueBits) - 1;
+  for (std::uint32_t c = 0; c < layout.valueComponents; ++c) {
+    const auto [min, max] = description.valueRange[c];
+    for (std::size_t i = 0; i < vertices; ++i)
+      values->values[i * layout.valueComponents + c] =
+          static_cast<float>(min + frame.component(component + c)[i] / largest * (max - min));
+  }
+}
+
+Mesh meshOfFrame(const IndexedPatch& still, const live::Frame& frame, const SequenceIndex& index) {
   const std::size_t vertices = frame.layout.vertices;
   Mesh mesh;
   static_cast<VertexAttributes&>(mesh) = still;
   mesh.topology = still.draws.empty() ? Topology::triangles : topologyOf(still.draws.front().primitive);
   mesh.corners = still.indices;
+  mesh.positions.resize(vertices);
   mesh.wedgePositions.resize(vertices);
   std::iota(mesh.wedgePositions.begin(), mesh.wedgePositions.end(), 0u);
   if (mesh.corners.empty())
     mesh.corners = mesh.wedgePositions;
-  const Vec3d origin = description.origin();
-  const double step = description.step();
-  std::uint32_t component = 3;
-  mesh.normals.clear();
-  for (std::size_t i = 0; i < vertices; ++i)
-    mesh.positions.push_back(Vec3f(
-        origin +
-        Vec3d{double(frame.component(0)[i]), double(frame.component(1)[i]), double(frame.component(2)[i])} * step));
-  if (frame.layout.normalBits > 0) {
-    for (std::size_t i = 0; i < vertices; ++i)
-      mesh.normals.push_back(unitFromOctahedral({frame.component(component)[i], frame.component(component + 1)[i]},
-                                                frame.layout.normalBits));
-    component += 2;
-  }
-  if (frame.layout.colorComponents > 0) {
-    mesh.colors.assign(vertices, Rgba(0, 0, 0, 1));
-    for (std::size_t i = 0; i < vertices; ++i) {
-      const auto channel = [&](std::uint32_t c) {
-        return static_cast<float>(frame.component(component + c)[i] / 255.0);
-      };
-      mesh.colors[i] = {channel(0), channel(1), channel(2), frame.layout.colorComponents == 4 ? channel(3) : 1};
-    }
-  }
+  moveVertices(mesh, frame, index);
   return mesh;
 }
 

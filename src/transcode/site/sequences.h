@@ -31,9 +31,13 @@ void readFrames(const SiteDocument& document, const SiteSequence& sequence, std:
 void readFrameFiles(const SiteDocument& document, const SiteSequence& sequence, std::uint32_t first, std::uint32_t end,
                     const std::function<void(const live::Frame&)>& visit);
 
+/// Gives a mesh whose wedges are the vertices of a frame, in their order, the frame's positions, and the normals,
+/// colours and values that it has. Without normals in the frame the mesh has none.
+void moveVertices(Mesh& mesh, const live::Frame& frame, const SequenceIndex& index);
+
 /// The mesh of a frame: a vertex for each of the static mesh, which `still` is, with the frame's positions and the
 /// normals and colours that it has. Without normals in the frame the mesh has none.
-Mesh meshOfFrame(const IndexedPatch& still, const live::Frame& frame, const live::Description& description);
+Mesh meshOfFrame(const IndexedPatch& still, const live::Frame& frame, const SequenceIndex& index);
 
 /// Reads the indexes of all sequences, in document order. Throws Error for one that cannot be read.
 std::vector<SiteSequence> sequencesOf(const SiteDocument& document);

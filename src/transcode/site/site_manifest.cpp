@@ -94,6 +94,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["attributes"] = manifest.attributes;
   if (manifest.sequenceRate > 0)
     json["sequenceRate"] = manifest.sequenceRate;
+  if (manifest.sequenceRate > 0 && manifest.onlyLongSequences)
+    json["onlyLongSequences"] = true;
   if (manifest.onlyFirstTexCoords)
     json["onlyFirstTexCoords"] = true;
   if (manifest.normalErrorDegrees > 0)
@@ -131,6 +133,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.colorBits = json.value("colorBits", 8u);
     manifest.attributes = json.value("attributes", std::vector<std::string>{});
     manifest.sequenceRate = json.value("sequenceRate", 0.0);
+    manifest.onlyLongSequences = json.value("onlyLongSequences", false);
     manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);
     manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});

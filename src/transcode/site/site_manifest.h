@@ -31,7 +31,8 @@ struct SiteManifest {
   std::uint32_t colorBits = 8;
   /// Names of the further attributes that were kept, and with them of sets of texture coordinates that no texture uses.
   std::vector<std::string> attributes;
-  double sequenceRate = 0;         ///< frames a second to which deformations of shapes were recorded; 0: they were not
+  double sequenceRate = 0;         ///< frames a second to which animations of vertices were recorded; 0: they were not
+  bool onlyLongSequences = false;  ///< only interpolators with long texts were recorded
   bool onlyFirstTexCoords = false; ///< further sets of texture coordinates were left out, with their textures
   std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
   /// Content names (base/file.h) of the page's icon and picture, by file name. Nothing: the site is of a

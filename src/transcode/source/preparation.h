@@ -17,6 +17,10 @@ namespace imgeo {
 /// compress documents and hosts that do not: docs/decisions/scenes.md has the measurements.
 inline constexpr std::size_t inlineBytes = 1024;
 
+/// Interpolators of the coordinates of X3D documents with a longer text in keyValue become sequences, see
+/// RecordingChoice.
+inline constexpr std::size_t longKeyValueBytes = 64 << 10;
+
 /// Imports a file, or standard input for "-", and sets `bytes` to its size.
 Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes);
 

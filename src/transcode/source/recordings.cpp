@@ -4,6 +4,8 @@
 #include "scene/deformation.h"
 #include "scene/pose.h"
 #include "sequence/sequence_index.h"
+#include "transcode/source/moving_vertices.h"
+#include "transcode/source/sequence_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,19 +138,15 @@ std::size_t addFrames(SceneGraph& graph, std::size_t shape, std::size_t sensor) 
 Recording recordShape(SceneGraph& graph, const std::shared_ptr<const Scene>& original, std::size_t shape,
                       std::size_t sensor, double rate) {
   const double seconds = std::get<TimeSensor>(graph.nodes[sensor].content).cycleInterval;
-  const double steps = std::max(1.0, std::round(seconds * rate));
-  if (steps >= maxSequenceFrames)
-    throw Error(ErrorKind::limit, "",
-                fmt::format("{} s of animation have more than {} frames", seconds, maxSequenceFrames));
-  auto frames = std::make_shared<DeformedFrames>(original, shape, sensor, static_cast<std::size_t>(steps));
-  const double ofFrames = static_cast<double>(frames->count()) / seconds;
-  return {shape, addFrames(graph, shape, sensor), std::move(frames), ofFrames, {}};
+  const std::size_t steps = requireSteps(std::max(1.0, std::round(seconds * rate)), seconds);
+  auto frames = std::make_shared<DeformedFrames>(original, shape, sensor, steps);
+  const double ofFrames = rateOf(*frames, seconds);
+  return {
+      .shape = shape, .interpolator = addFrames(graph, shape, sensor), .frames = std::move(frames), .rate = ofFrames};
 }
 
-} // namespace
-
-std::vector<Recording> recordDeformations(Scene& scene, double rate, const std::string& location,
-                                          std::vector<std::string>& warnings) {
+/// The recordings of joints and displacers. There may be none.
+std::vector<Recording> recordDeformations(Scene& scene, double rate, std::vector<std::string>& warnings) {
   SceneGraph& graph = scene.graph;
   std::map<std::size_t, std::size_t> sensors; ///< by shape
   std::set<std::size_t> interpolators;        ///< of displacers
@@ -163,7 +161,7 @@ std::vector<Recording> recordDeformations(Scene& scene, double rate, const std::
                                      graph.nodes[node].name, graph.nodes[found.front()].name, found.size() - 1));
   }
   if (sensors.empty())
-    throw Error(ErrorKind::unsupported, location, "has no animation that moves the vertices of a shape");
+    return {};
   for (const Route& route : graph.routes)
     if (std::holds_alternative<Displacer>(graph.nodes[route.toNode].content))
       interpolators.insert(route.fromNode);
@@ -181,6 +179,34 @@ std::vector<Recording> recordDeformations(Scene& scene, double rate, const std::
   return recordings;
 }
 
+} // namespace
+
+double rateOf(const FrameSource& frames, double seconds) {
+  constexpr double maxRate = 1000; // of an index
+  return std::min(maxRate, static_cast<double>(frames.count()) / seconds);
+}
+
+std::size_t requireSteps(double steps, double seconds) {
+  if (steps >= maxSequenceFrames)
+    throw Error(ErrorKind::limit, "",
+                fmt::format("{} s of animation have more than {} frames", seconds, maxSequenceFrames));
+  return static_cast<std::size_t>(steps);
+}
+
+std::vector<Recording> recordScene(Scene& scene, double rate, bool deformations, const std::string& location,
+                                   std::vector<std::string>& warnings) {
+  std::vector<Recording> recordings = recordedSequences(scene);
+  std::ranges::move(recordInterpolators(scene, rate), std::back_inserter(recordings));
+  if (deformations)
+    std::ranges::move(recordDeformations(scene, rate, warnings), std::back_inserter(recordings));
+  if (deformations && recordings.empty())
+    throw Error(ErrorKind::unsupported, location, "has no animation that moves the vertices of a shape");
+  const std::vector<std::size_t> order = shapeNodes(scene.graph);
+  std::ranges::sort(recordings, {},
+                    [&](const Recording& recording) { return std::ranges::find(order, recording.shape); });
+  return recordings;
+}
+
 Recording recordingOfFiles(SceneGraph& graph, std::shared_ptr<const FrameSource> frames, double rate) {
   const std::size_t shape = shapeNodes(graph).front();
   const std::string name = graph.nodes[shape].name.empty() ? "sequence" : graph.nodes[shape].name;
@@ -188,7 +214,7 @@ Recording recordingOfFiles(SceneGraph& graph, std::shared_ptr<const FrameSource>
   clock.cycleInterval = static_cast<double>(frames->count()) / rate;
   clock.loop = true;
   const std::size_t sensor = addRoot(graph, {name + "-clock", clock, {}, ""});
-  return {shape, addFrames(graph, shape, sensor), std::move(frames), rate, {}};
+  return {.shape = shape, .interpolator = addFrames(graph, shape, sensor), .frames = std::move(frames), .rate = rate};
 }
 
 } // namespace imgeo

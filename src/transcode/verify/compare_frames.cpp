@@ -62,7 +62,7 @@ public:
       stillCorners_.resize(still_.vertexCount());
       std::iota(stillCorners_.begin(), stillCorners_.end(), 0u);
     }
-    report.positionBound = sequence.index.description.step() / 2;
+    report.positionBound = std::max(report.positionBound, sequence.index.description.step() / 2);
   }
 
   /// Compares a frame; the first of the site is its static mesh, too.

@@ -10,6 +10,7 @@
 #include "transcode/export/export_site.h"
 #include "transcode/site/sequences.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -162,16 +163,10 @@ TEST(Sequences, OfFramesThatDoNotFitAreRefusedWithOneSentence) {
   EXPECT_TRUE(refusalOf(files, directory.path()).starts_with("frame-4.ply"));
 }
 
-/// A GLB with a mesh of `targets` morph targets, of which an animation shows one after the other.
-Scene morphScene(std::size_t targets) {
-  Scene scene = testing::sceneOf({withNormals(testing::grid(4))});
-  Mesh& mesh = scene.meshes[0];
+/// Gives a shape `targets` morph targets, of which an animation shows one after the other.
+void addTargets(Scene& scene, std::size_t shape, std::size_t sensor, std::size_t targets) {
   SceneGraph& graph = scene.graph;
-  const std::size_t shape = shapeNodes(graph)[0];
-  TimeSensor clock;
-  clock.cycleInterval = static_cast<double>(targets) / 24;
-  clock.loop = true;
-  const std::size_t sensor = addRoot(graph, {"clock", clock, {}, ""});
+  Mesh& mesh = scene.meshes[shapeOf(graph, shape).mesh];
   for (std::size_t target = 0; target < targets; ++target) {
     std::vector<float> displacements;
     for (std::size_t i = 0; i < mesh.wedgeCount(); ++i)
@@ -188,6 +183,17 @@ Scene morphScene(std::size_t targets) {
     graph.routes.push_back({sensor, "fraction_changed", interpolator, "set_fraction"});
     graph.routes.push_back({interpolator, "value_changed", displacer, "set_weight"});
   }
+}
+
+/// Meshes with `targets` morph targets each.
+Scene morphScene(std::size_t targets, std::vector<Mesh> meshes = {withNormals(testing::grid(4))}) {
+  Scene scene = testing::sceneOf(std::move(meshes));
+  TimeSensor clock;
+  clock.cycleInterval = static_cast<double>(targets) / 24;
+  clock.loop = true;
+  const std::size_t sensor = addRoot(scene.graph, {"clock", clock, {}, ""});
+  for (const std::size_t shape : shapeNodes(scene.graph))
+    addTargets(scene, shape, sensor, targets);
   return scene;
 }
 
@@ -218,6 +224,30 @@ TEST(Sequences, OfMorphTargetsHaveAFrameForEachKey) {
       largest = std::max(largest, double{std::abs(position.z)});
     EXPECT_EQ(largest > 0.5, frame > 0) << frame;
   }
+}
+
+TEST(Sequences, OfSeveralShapesAreExportedTogether) {
+  const TemporaryDirectory directory;
+  const std::size_t targets = 6;
+  const Scene scene = morphScene(targets, {withNormals(testing::grid(4)), withNormals(testing::grid(2))});
+  writeFile(directory / "two.glb", exportScene(scene, MeshFormat::glb));
+  ConvertOptions options;
+  options.form = MeshForm::video;
+  options.rate = 24;
+  EXPECT_EQ(convert(directory / "two.glb", directory / "site", options).frames, 2 * (targets + 1));
+  const std::vector<SiteSequence> sequences = sequencesOf(openDocument(directory / "site"));
+  ASSERT_EQ(sequences.size(), 2u);
+  EXPECT_FALSE(sequences[0].video.empty() || sequences[1].video.empty());
+  const VerifyReport verified = verify(directory / "site", directory / "two.glb");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  EXPECT_EQ(verified.frames, 2 * (targets + 1));
+  EXPECT_LE(verified.positionError, verified.positionBound * 1.000001);
+  EXPECT_EQ(frameCountOf(directory / "site"), targets + 1);
+  exportFrame(directory / "site", 3, directory / "frame.glb");
+  const Scene frame = importFile(directory / "frame.glb").scene;
+  ASSERT_EQ(frame.meshes.size(), 2u);
+  for (const Mesh& mesh : frame.meshes)
+    EXPECT_TRUE(std::ranges::any_of(mesh.positions, [](const Vec3f& p) { return std::abs(p.z) > 0.5; }));
 }
 
 TEST(Sequences, AreRefusedWhereNothingMoves) {

@@ -39,6 +39,18 @@ bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
                              [&](const Vec3d& corner) { return length(a.point(corner) - b.point(corner)) <= slack; });
 }
 
+/// What convert recorded.
+RecordingChoice recordingsOf(const SiteManifest& manifest) {
+  RecordingChoice choice{.files = true};
+  if (manifest.sequenceRate > 0) {
+    choice.rate = manifest.sequenceRate;
+    choice.all = !manifest.onlyLongSequences;
+    if (manifest.onlyLongSequences)
+      choice.minBytes = longKeyValueBytes;
+  }
+  return choice;
+}
+
 /// The input, prepared as convert prepared it for this site. For a site of another program normals are not computed.
 /// `recordings` gets what convert recorded.
 Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>& manifest, bool outside,
@@ -49,9 +61,12 @@ Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>&
   options.inlineBytes = inlineBytes;
   if (manifest)
     options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
+  if (manifest)
+    options.recordings = recordingsOf(*manifest);
   Imported imported = importInput(input, options, bytes);
-  if (manifest && manifest->sequenceRate > 0)
-    recordings = recordDeformations(imported.scene, manifest->sequenceRate, locationOf(input), imported.warnings);
+  if (manifest)
+    recordings = recordScene(imported.scene, options.recordings.rate, options.recordings.all, locationOf(input),
+                             imported.warnings);
   std::vector<bool> hadNormals;
   for (const Mesh& mesh : imported.scene.meshes)
     hadNormals.push_back(!mesh.normals.empty());
