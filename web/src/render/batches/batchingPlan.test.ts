@@ -7,7 +7,7 @@ import { readScene } from "../../document/readScene.ts";
 import { BatchingPlan, minInstances, maxMergedVertices } from "./batchingPlan.ts";
 
 function geometry(name: string, vertices: number, profile = "compact"): string {
-  const patch = `<GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/>`;
+  const patch = `<GeometryPatch recordCount="${vertices}" vertexCount="3" coord="${name}.png" data="${name}.png"/>`;
   return `<ImageGeometry DEF="${name}" profile="${profile}">${patch}</ImageGeometry>`;
 }
 
