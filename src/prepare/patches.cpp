@@ -247,7 +247,7 @@ PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& 
     std::vector<std::uint32_t> permutation(mesh.elementCount());
     std::iota(permutation.begin(), permutation.end(), 0u);
     const std::vector<Elements> leaves = leavesOf(ElementTable(mesh), permutation, maxWedges);
-    const std::optional<VertexGrid> grid = lattice.bits <= 16 ? findVertexGrid(points) : std::nullopt;
+    const std::optional<VertexGrid> grid = lattice.bits <= maxGridBits ? findVertexGrid(points) : std::nullopt;
     result.patches.resize(leaves.size());
     parallelFor(leaves.size(), [&](std::size_t i) {
       result.patches[i] = makePatch(mesh, points, leaves[i], maxWedges);

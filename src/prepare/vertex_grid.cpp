@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -24,29 +25,68 @@ struct Axis {
 constexpr std::int64_t minStep = 16;
 constexpr std::size_t minLineCount = 4;
 
+/// Grids with more lines are not looked for: time grows with the square of the number.
+constexpr std::size_t maxLineCount = 4096;
+
+/// The coordinates that at least `minCount` of `coordinates` equal, ascending.
+std::vector<Line> frequent(std::vector<std::uint32_t> coordinates, std::uint32_t low, std::uint32_t high,
+                           double minCount) {
+  std::vector<Line> lines;
+  if (high - low < 65536) {
+    std::vector<std::uint32_t> counts(std::size_t{high} - low + 1);
+    for (const std::uint32_t coordinate : coordinates)
+      ++counts[coordinate - low];
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      if (counts[i] >= minCount)
+        lines.push_back({static_cast<std::int64_t>(low + i), 0});
+    return lines;
+  }
+  std::ranges::sort(coordinates);
+  for (auto first = coordinates.begin(); first != coordinates.end();) {
+    const auto last = std::upper_bound(first, coordinates.end(), *first);
+    if (static_cast<double>(last - first) >= minCount)
+      lines.push_back({*first, 0});
+    first = last;
+  }
+  return lines;
+}
+
 /// The coordinates with at least four times as many points as a uniform distribution gives.
 std::vector<Line> popularCoordinates(std::span<const Vec3u> positions, int axis) {
-  std::vector<std::uint32_t> counts(65536);
+  std::vector<std::uint32_t> coordinates;
+  coordinates.reserve(positions.size());
   std::uint32_t low = UINT32_MAX, high = 0;
   for (const Vec3u& position : positions) {
-    ++counts[position[axis]];
+    coordinates.push_back(position[axis]);
     low = std::min(low, position[axis]);
     high = std::max(high, position[axis]);
   }
+  if (coordinates.empty())
+    return {};
   const double even = static_cast<double>(positions.size()) / (high - low + 1.0);
-  std::vector<Line> lines;
-  for (std::uint32_t coordinate = low; coordinate <= high; ++coordinate)
-    if (counts[coordinate] >= std::max(4.0, 4 * even))
-      lines.push_back({coordinate, 0});
-  return lines;
+  return frequent(std::move(coordinates), low, high, std::max(4.0, 4 * even));
+}
+
+/// The most frequent distance of neighbours, the smallest of equals.
+std::int64_t frequentDistance(const std::vector<Line>& lines) {
+  std::vector<std::int64_t> distances;
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    distances.push_back(lines[i].coordinate - lines[i - 1].coordinate);
+  std::ranges::sort(distances);
+  std::int64_t best = 0;
+  std::ptrdiff_t bestCount = 0;
+  for (auto first = distances.begin(); first != distances.end();) {
+    const auto last = std::upper_bound(first, distances.end(), *first);
+    if (last - first > bestCount)
+      bestCount = last - first, best = *first;
+    first = last;
+  }
+  return best;
 }
 
 /// Numbers lines by the most frequent distance of neighbours, which it returns; 0: too small.
 std::int64_t numberLines(std::vector<Line>& lines) {
-  std::vector<std::uint32_t> counts(65536);
-  for (std::size_t i = 1; i < lines.size(); ++i)
-    ++counts[static_cast<std::size_t>(lines[i].coordinate - lines[i - 1].coordinate)];
-  const std::int64_t distance = std::ranges::max_element(counts) - counts.begin();
+  const std::int64_t distance = frequentDistance(lines);
   if (distance < minStep)
     return 0;
   for (std::size_t i = 1; i < lines.size(); ++i)
@@ -92,7 +132,7 @@ Axis exactFit(const std::vector<Line>& lines, const Axis& fitted) {
 
 std::optional<Axis> findAxis(std::span<const Vec3u> positions, int axis) {
   std::vector<Line> lines = popularCoordinates(positions, axis);
-  if (lines.size() < minLineCount || lines.size() > 65536 / minStep || numberLines(lines) == 0)
+  if (lines.size() < minLineCount || lines.size() > maxLineCount || numberLines(lines) == 0)
     return std::nullopt;
   const Axis fitted = leastSquaresFit(lines);
   if (!(fitted.step >= minStep))
@@ -114,6 +154,9 @@ bool isWorthwhile(const VertexGrid& grid, std::span<const Vec3u> points) {
 }
 
 std::optional<VertexGrid> findVertexGrid(std::span<const Vec3u> points) {
+  std::uint32_t largest = 0;
+  for (const Vec3u& point : points)
+    largest = std::max({largest, point.x, point.y, point.z});
   VertexGrid grid;
   int missing = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -121,12 +164,13 @@ std::optional<VertexGrid> findVertexGrid(std::span<const Vec3u> points) {
     if (!found) { // a height field has no grid along its height: one line at 0
       if (++missing > 1)
         return std::nullopt;
-      grid.step[axis] = UINT32_MAX;
+      grid.step[axis] = std::max<std::uint64_t>(UINT32_MAX, std::uint64_t{largest} << 16 | 65535);
       continue;
     }
-    grid.step[axis] = static_cast<std::uint32_t>(std::llround(found->step * 65536));
-    const std::int64_t origin = std::llround(found->origin * 65536) % grid.step[axis];
-    grid.origin[axis] = static_cast<std::uint32_t>(origin < 0 ? origin + grid.step[axis] : origin);
+    const std::int64_t step = std::llround(found->step * 65536);
+    const std::int64_t origin = std::llround(found->origin * 65536) % step;
+    grid.step[axis] = static_cast<std::uint64_t>(step);
+    grid.origin[axis] = static_cast<std::uint64_t>(origin < 0 ? origin + step : origin);
   }
   return isWorthwhile(grid, points) ? std::optional(grid) : std::nullopt;
 }

@@ -10,13 +10,42 @@
 
 namespace imgeo::compact {
 
+/// Kinds of residuals: those of coordinates off the grid, in the order of coding, and of a lone one.
+enum class Residual : std::uint8_t { first, second, third, lone };
+inline constexpr std::size_t residualKinds = 4;
+
 /// The first model of each symbol in the stream.
-namespace positionModels {
-inline constexpr std::size_t choice = 0, first = choice + std::size_t{8} * 16 * 4, second = first + 16 * numberModels,
-                             third = second + 31 * numberModels, count = third + 31 * numberModels, lone = count,
-                             line = lone + 8 * numberModels, mask = line + 96 * numberModels,
-                             countWithGrid = mask + std::size_t{512} * 8;
-} // namespace positionModels
+struct PositionModels {
+  std::size_t choice;       ///< `choicesOfSet` for each set and agreement of candidates
+  std::size_t choicesOfSet; ///< at least the number of candidates less one
+  std::array<std::size_t, residualKinds> residual;
+  std::size_t line, mask;
+  std::size_t nextBit; ///< version 2: the bit after the first of residuals, 32 for each kind
+  std::size_t count;
+};
+
+constexpr PositionModels positionModelsOf(Version version) {
+  const bool isOld = version == Version::one;
+  const std::size_t sets = isOld ? 8 : 32, choices = isOld ? 4 : 8, firstContexts = isOld ? 16 : 24;
+  const std::size_t first = sets * 16 * choices, second = first + firstContexts * numberModels,
+                    third = second + 31 * numberModels, lone = third + 31 * numberModels,
+                    line = lone + 8 * numberModels, mask = line + 96 * numberModels,
+                    nextBit = mask + std::size_t{512} * 8;
+  return {0,
+          choices,
+          {first, second, third, lone},
+          line,
+          mask,
+          nextBit,
+          nextBit + (isOld ? 0 : residualKinds * numberModels)};
+}
+
+/// What the positions of a patch are coded by.
+struct PositionTraits {
+  std::uint32_t bits;        ///< of a coordinate
+  std::uint32_t normalShift; ///< of edges, before their cross products
+  const std::optional<VertexGrid>& grid;
+};
 
 /// Three coordinates in the order in which they are coded.
 using Coordinates = std::array<std::int64_t, 3>;
@@ -26,6 +55,7 @@ struct VertexContext {
   std::uint32_t agreement = 0;
   std::uint32_t mask = 0;            ///< axes on the grid, as bits
   std::uint32_t shift = 0;           ///< of residuals
+  std::uint32_t first = 0;           ///< of the first residual
   std::array<int, 3> order{0, 1, 2}; ///< of the axes
   Coordinates normal{};              ///< of the surface
 
@@ -58,12 +88,16 @@ template <typename Coder> class PositionCoder {
 public:
   /// `positions` are the vertices' positions for an encoder, which replaces them by those that decoders return; a
   /// decoder fills them. Arguments that are passed by reference must outlive the PositionCoder.
-  PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits,
-                const std::optional<VertexGrid>& grid, std::uint32_t normalShift, CoarseResiduals residuals,
-                std::vector<Vec3u>& positions)
-      : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1), grid_(grid),
-        residuals_(residuals), positions_(positions),
-        sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift), masks_(grid ? positions.size() : 0) {}
+  PositionCoder(Coder& coder, Version version, const Connectivity& connectivity, const PositionTraits& traits,
+                CoarseResiduals residuals, std::vector<Vec3u>& positions)
+      : coder_(coder), version_(version), models_(positionModelsOf(version)), connectivity_(connectivity),
+        predictor_(version, connectivity, positions, traits.bits), maximum_((std::int64_t{1} << traits.bits) - 1),
+        grid_(traits.grid), residuals_(residuals), positions_(positions),
+        sums_(connectivity.across.empty() ? 0 : positions.size(), traits.normalShift),
+        masks_(traits.grid ? positions.size() : 0), sizes_(version == Version::one ? 0 : positions.size()) {
+    for (int axis = 0; axis < 3 && grid_; ++axis)
+      lastLines_[axis] = nearestGridLine(*grid_, axis, maximum_);
+  }
 
   /// Codes all positions. Returns the sums of the triangle normals around each vertex; empty for points and lines.
   NormalSums run() {
@@ -85,10 +119,13 @@ public:
 private:
   void codeVertex(std::uint32_t across) {
     const std::uint32_t vertex = next_++;
-    const Candidates candidates = candidatesFor(vertex, across, connectivity_, positions_, bits_);
+    const Candidates candidates = predictor_.candidatesFor(vertex, across);
     VertexContext context;
     context.agreement = candidates.agreement();
     context.shift = residuals_.shiftOf(vertex);
+    context.first = context.agreement;
+    if (version_ != Version::one)
+      context.first = (context.agreement + nearContext(vertex, across)) / 2;
     if (grid_)
       context.mask = codeMask(vertex, across);
     Slope slope;
@@ -102,9 +139,23 @@ private:
       choice = cheapest(candidates, context, coordinates);
     }
     choice = codeChoice(coder_, candidates, context, choice);
-    codeCoordinates(coder_, context.inOrder(candidates.positions[choice]), context, coordinates);
+    const std::uint32_t size =
+        codeCoordinates(coder_, context.inOrder(candidates.positions[choice]), context, coordinates);
+    if (version_ != Version::one)
+      sizes_[vertex] = size;
     for (std::size_t turn = 0; turn < 3; ++turn)
       positions_[vertex][context.order[turn]] = static_cast<std::uint32_t>(coordinates[turn]);
+  }
+
+  /// A context of 0 .. 31: the size of the residuals of the triangle behind the edge, or three times that of the
+  /// vertex before, in half bits.
+  std::uint32_t nearContext(std::uint32_t vertex, std::uint32_t across) const {
+    std::uint32_t size = vertex > 0 ? 3 * sizes_[vertex - 1] : 0;
+    if (across != none)
+      size = sizes_[connectivity_.vertex[across]] + sizes_[connectivity_.vertex[after(across)]] +
+             sizes_[connectivity_.vertex[before(across)]];
+    const auto length = static_cast<std::uint32_t>(std::bit_width(size));
+    return length < 2 ? length : std::min(31u, 2 * (length - 1) + (size >> (length - 2) & 1));
   }
 
   std::uint32_t codeMask(std::uint32_t vertex, std::uint32_t across) {
@@ -114,7 +165,7 @@ private:
         neighbours = neighbours * 8 + masks_[connectivity_.vertex[corner]];
     if constexpr (Coder::encodes)
       mask = gridMask(*grid_, positions_[vertex]);
-    mask = codeTree(coder_, positionModels::mask + std::size_t{8} * neighbours, 3, mask);
+    mask = codeTree(coder_, models_.mask + std::size_t{8} * neighbours, 3, mask);
     masks_[vertex] = static_cast<std::uint8_t>(mask);
     return mask;
   }
@@ -136,50 +187,66 @@ private:
   }
 
   template <typename C>
-  static std::uint32_t codeChoice(C& coder, const Candidates& candidates, const VertexContext& context,
-                                  std::uint32_t choice) {
-    const std::size_t models = positionModels::choice + (std::size_t{candidates.set} * 16 + context.agreement) * 4;
+  std::uint32_t codeChoice(C& coder, const Candidates& candidates, const VertexContext& context,
+                           std::uint32_t choice) const {
+    const std::size_t models =
+        models_.choice + (std::size_t{candidates.set} * 16 + context.agreement) * models_.choicesOfSet;
     std::uint32_t i = 0;
     while (i + 1 < candidates.count && !coder.bit(models + i, i == choice))
       ++i;
     return i;
   }
 
+  /// Returns the size of the residuals off the grid, at most 2^24.
   template <typename C>
-  void codeCoordinates(C& coder, const Coordinates& guess, const VertexContext& context,
-                       Coordinates& coordinates) const {
+  std::uint32_t codeCoordinates(C& coder, const Coordinates& guess, const VertexContext& context,
+                                Coordinates& coordinates) const {
     std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
+    std::int64_t size = 0;
     for (std::size_t turn = 0; turn < 3; ++turn) {
       if constexpr (requires { coder.isSpent(); })
         if (coder.isSpent())
-          return;
+          break;
       const int axis = context.order[turn];
       std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_), coordinate = coordinates[turn];
       if (context.mask >> axis & 1) {
         const std::int64_t line = nearestGridLine(*grid_, axis, expected);
         const std::size_t models =
-            positionModels::line + numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
+            models_.line + numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
         const std::int64_t moved = codeSmall(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
         steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
+        coder.require(line + moved >= -1 && line + moved <= lastLines_[axis], "a line of the grid is outside");
         coordinate = gridLine(*grid_, axis, line + moved);
       } else {
         if (turn == 2)
           expected = onSlope(guess, context.normal, coordinates);
-        std::size_t models = positionModels::third + numberModels * longest;
-        if (offGrid == 0)
-          models = turn == 2 ? positionModels::lone + numberModels * std::min(steps, 7u)
-                             : positionModels::first + numberModels * context.agreement;
-        else if (offGrid == 1)
-          models = positionModels::second + numberModels * length;
-        const SignedNumber residual = codeSigned(coder, models, stepsBetween(expected, coordinate, context.shift));
+        const Residual kind = offGrid == 1   ? Residual::second
+                              : offGrid == 2 ? Residual::third
+                              : turn == 2    ? Residual::lone
+                                             : Residual::first;
+        const std::uint32_t contexts[] = {context.first, length, longest, std::min(steps, 7u)}; // by kind
+        const SignedNumber residual = codeResidual(coder, kind, contexts[static_cast<std::size_t>(kind)],
+                                                   stepsBetween(expected, coordinate, context.shift));
         ++offGrid;
         length = residual.length;
         longest = std::max(longest, length);
+        size += std::abs(std::int64_t{residual.value});
         coordinate = expected + (std::int64_t{residual.value} << context.shift);
       }
       coder.require(coordinate >= 0 && coordinate <= maximum_, "a coordinate lies outside of the lattice");
       coordinates[turn] = coordinate;
     }
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(size, 1 << 24));
+  }
+
+  /// Codes a residual off the grid.
+  template <typename C>
+  SignedNumber codeResidual(C& coder, Residual kind, std::uint32_t context, std::int64_t value) const {
+    const auto index = static_cast<std::size_t>(kind);
+    const std::size_t models = models_.residual[index] + numberModels * context;
+    if (version_ == Version::one)
+      return codeSigned(coder, models, value);
+    return codeLongSigned(coder, models, models_.nextBit + numberModels * index, value);
   }
 
   /// Rounds a residual to coarser steps without leaving the lattice.
@@ -200,14 +267,18 @@ private:
   }
 
   Coder& coder_;
+  Version version_;
+  PositionModels models_;
   const Connectivity& connectivity_;
-  std::uint32_t bits_;
+  Predictor predictor_;
   std::int64_t maximum_;
   const std::optional<VertexGrid>& grid_;
   CoarseResiduals residuals_;
   std::vector<Vec3u>& positions_;
   NormalSums sums_;
   std::vector<std::uint8_t> masks_;
+  std::array<std::int64_t, 3> lastLines_{}; ///< of the grid, that a lattice has
+  std::vector<std::uint32_t> sizes_;        ///< of residuals, per vertex; version 2
   std::uint32_t next_ = 0;
 };
 

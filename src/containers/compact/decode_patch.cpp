@@ -13,7 +13,7 @@ class FileDecoder {
 public:
   FileDecoder(ByteSpan payload, const ParsedHeader& parsed, const std::string& location)
       : header_(parsed.header), location_(location),
-        streams_(payload.subspan(parsed.streamsByteOffset), parsed.header.streamLengths, location) {}
+        streams_(payload.subspan(parsed.streamsByteOffset), parsed.header, location) {}
 
   std::vector<CompactPatch> run() {
     std::vector<CompactPatch> patches;
@@ -28,7 +28,7 @@ public:
     std::vector<PatchSizes> all;
     SizeSums sums;
     for (std::uint32_t i = 0; i < header_.patchCount; ++i) {
-      const PatchSizes& sizes = all.emplace_back(codeSizes(streams_[StreamName::sizes], header_.types));
+      const PatchSizes& sizes = all.emplace_back(codeSizes(streams_[StreamName::sizes], header_));
       sums.add(sizes.vertexCount, sizes.wedgeCount, sizes.elementCount);
     }
     streams_.finish(streamOf(StreamName::sizes));
@@ -50,8 +50,9 @@ private:
       segments = codeSegments(streams_[StreamName::segments], connectivity, sizes.segmentCount,
                               std::vector<std::uint32_t>(sizes.elementCount));
     patch.positions.resize(sizes.vertexCount);
-    const NormalSums sums = PositionCoder(streams_[StreamName::positions], connectivity, type.positionBits, sizes.grid,
-                                          sizes.normalShift, {sizes.residualShift, &segments.isShared}, patch.positions)
+    const NormalSums sums = PositionCoder(streams_[StreamName::positions], header_.version, connectivity,
+                                          {type.positionBits, sizes.normalShift, sizes.grid},
+                                          {sizes.residualShift, &segments.isShared}, patch.positions)
                                 .run();
     Wedges wedges = decodeWedges(connectivity, sizes);
     const Surface surface{type.topology, connectivity, wedges, patch.positions, sums, sizes.normalShift, type.isBase};

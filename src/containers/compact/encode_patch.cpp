@@ -130,8 +130,8 @@ struct CodedPatch {
 /// In patches with fewer points a grid saves less than its own 24 bytes.
 constexpr std::size_t minGridPoints = 64;
 
-std::optional<VertexGrid> gridOf(const CompactPatch& patch) {
-  if (patch.positionBits > 16 || patch.positions.size() < minGridPoints)
+std::optional<VertexGrid> gridOf(const CompactPatch& patch, Version version) {
+  if (patch.positionBits > maxGridBitsOf(version) || patch.positions.size() < minGridPoints)
     return std::nullopt;
   return patch.grid && isWorthwhile(*patch.grid, patch.positions) ? patch.grid : findVertexGrid(patch.positions);
 }
@@ -152,13 +152,14 @@ constexpr std::uint32_t attemptCountOf(int effort) {
 
 class FileEncoder {
 public:
-  FileEncoder(std::span<const CompactPatch> patches, int effort, const Attempt& attempt)
+  FileEncoder(std::span<const CompactPatch> patches, int effort, Version version, const Attempt& attempt)
       : effort_(effort), attempt_(attempt) {
+    header_.version = version;
     header_.patchCount = static_cast<std::uint32_t>(patches.size());
     std::vector<std::uint32_t> types;
     for (const CompactPatch& patch : patches)
       types.push_back(indexIn(header_.types, typeOf(patch)));
-    streams_ = StreamEncoders(header_.streamCount());
+    streams_ = StreamEncoders(header_.streamCount(), version);
     coded_.reserve(patches.size());
     for (std::size_t i = 0; i < patches.size(); ++i)
       code(patches[i], types[i]);
@@ -204,20 +205,20 @@ private:
     for (const std::uint32_t wedge : patch.corners)
       vertices.push_back(patch.wedgePositions[wedge]);
     CodedPatch coded{patch, orderOf(patch, vertices, attempt_, streams_), {}, {}, NormalSums(0, 0), {}};
-    coded.sizes =
-        codeSizes(streams_[StreamName::sizes], header_.types,
-                  {type, static_cast<std::uint32_t>(patch.positions.size()),
-                   static_cast<std::uint32_t>(patch.wedgeCount()), static_cast<std::uint32_t>(patch.elementCount()),
-                   normalShiftFor(patch, vertices), gridOf(patch), patch.segmentCount, patch.residualShift});
+    coded.sizes = codeSizes(streams_[StreamName::sizes], header_,
+                            {type, static_cast<std::uint32_t>(patch.positions.size()),
+                             static_cast<std::uint32_t>(patch.wedgeCount()),
+                             static_cast<std::uint32_t>(patch.elementCount()), normalShiftFor(patch, vertices),
+                             gridOf(patch, header_.version), patch.segmentCount, patch.residualShift});
     const Connectivity& connectivity = coded.ordered.connectivity;
     Segments segments;
     if (patch.segmentCount > 0)
       segments = codeSegments(streams_[StreamName::segments], connectivity, patch.segmentCount, segmentsOf(coded));
     coded.positions = gather(patch.positions, coded.ordered.sourceVertex);
-    coded.normalSums =
-        PositionCoder(streams_[StreamName::positions], connectivity, patch.positionBits, coded.sizes.grid,
-                      coded.sizes.normalShift, {patch.residualShift, &segments.isShared}, coded.positions)
-            .run();
+    coded.normalSums = PositionCoder(streams_[StreamName::positions], header_.version, connectivity,
+                                     {patch.positionBits, coded.sizes.normalShift, coded.sizes.grid},
+                                     {patch.residualShift, &segments.isShared}, coded.positions)
+                           .run();
     coded.wedges = codeWedges(coded);
     coded_.push_back(std::move(coded));
   }
@@ -312,17 +313,17 @@ private:
   int effort_;
   Attempt attempt_;
   FileHeader header_;
-  StreamEncoders streams_{0};
+  StreamEncoders streams_{0, Version::two};
   std::vector<CodedPatch> coded_;
 };
 
 } // namespace
 
-EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort) {
+EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort, Version version) {
   const std::uint32_t attempts = attemptCountOf(effort);
   EncodedPatches best;
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
-    EncodedPatches encoded = FileEncoder(patches, effort, {attempt, attempts}).run();
+    EncodedPatches encoded = FileEncoder(patches, effort, version, {attempt, attempts}).run();
     if (attempt == 0 || encoded.bytes.size() < best.bytes.size())
       best = std::move(encoded);
   }

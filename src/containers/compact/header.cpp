@@ -10,7 +10,7 @@ namespace imgeo::compact {
 
 namespace {
 
-constexpr std::uint8_t signature[] = {'I', 'G', 'C', 1};
+constexpr std::uint8_t signature[] = {'I', 'G', 'C'};
 constexpr std::uint8_t baseFlag = 1; // in the flags of a patch type
 
 /// Reads the fields of a header.
@@ -65,6 +65,21 @@ void appendNumber(Bytes& out, std::uint32_t value) {
   out.push_back(static_cast<std::uint8_t>(value));
 }
 
+/// Reads the signature, the version and, from version 2 on, the features, of which there are none yet.
+Version takeVersion(FieldReader& reader, const std::string& location) {
+  std::uint8_t begin[4];
+  for (std::uint8_t& byte : begin)
+    byte = reader.takeByte();
+  if (!std::equal(std::begin(signature), std::end(signature), begin))
+    throw Error(ErrorKind::malformed, location, "is no image of compact");
+  const std::uint8_t version = begin[3];
+  if (version < 1 || version > 2)
+    throw Error(ErrorKind::unsupported, location, "compact of version " + std::to_string(version) + " is not known");
+  if (version == 2 && reader.takeByte() != 0)
+    throw Error(ErrorKind::unsupported, location, "has features of compact that are not known");
+  return static_cast<Version>(version);
+}
+
 AttributeType takeAttribute(FieldReader& reader) {
   struct Range {
     std::uint32_t minComponents, maxComponents, minBits, maxBits, maxMode;
@@ -103,6 +118,9 @@ void appendHeader(Bytes& out, const FileHeader& header) {
   assert(header.streamLengths.size() == header.streamCount() && header.attributes.size() <= maxFileAttributes &&
          header.types.size() <= maxFileTypes && header.patchCount <= maxFilePatches);
   out.insert(out.end(), std::begin(signature), std::end(signature));
+  out.push_back(static_cast<std::uint8_t>(header.version));
+  if (header.version != Version::one)
+    out.push_back(0); // no features
   appendNumber(out, static_cast<std::uint32_t>(header.attributes.size()));
   for (const AttributeType& type : header.attributes)
     out.insert(out.end(), {static_cast<std::uint8_t>(type.kind), type.components, type.bits,
@@ -122,15 +140,8 @@ void appendHeader(Bytes& out, const FileHeader& header) {
 
 ParsedHeader readHeader(ByteSpan payload, const std::string& location) {
   FieldReader reader(payload, location);
-  std::uint8_t begin[4];
-  for (std::uint8_t& byte : begin)
-    byte = reader.takeByte();
-  if (!std::equal(begin, begin + 3, signature))
-    throw Error(ErrorKind::malformed, location, "is no image of compact");
-  if (begin[3] != signature[3])
-    throw Error(ErrorKind::unsupported, location, "compact of version " + std::to_string(begin[3]) + " is not known");
-
   FileHeader header;
+  header.version = takeVersion(reader, location);
   const std::uint32_t attributeCount = reader.takeCount(maxFileAttributes, "attributes");
   for (std::uint32_t i = 0; i < attributeCount; ++i)
     header.attributes.push_back(takeAttribute(reader));

@@ -21,11 +21,15 @@ struct PatchType {
 /// named ones.
 enum class StreamName : std::uint8_t { sizes, connectivity, segments, positions, wedges, attributes };
 
+/// The version of the format. Readers know both; version 2 is written.
+enum class Version : std::uint8_t { one = 1, two = 2 };
+
 struct FileHeader {
   std::vector<AttributeType> attributes;
   std::vector<PatchType> types;
   std::uint32_t patchCount = 0;
   std::vector<std::uint32_t> streamLengths; ///< in bytes; 0: no patch has such data
+  Version version = Version::two;
 
   std::size_t streamCount() const { return static_cast<std::size_t>(StreamName::attributes) + attributes.size(); }
 };

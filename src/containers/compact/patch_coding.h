@@ -3,6 +3,7 @@
 
 #include "base/bytes.h"
 #include "containers/compact/compact_patch.h"
+#include "containers/compact/header.h"
 
 #include <span>
 #include <string>
@@ -20,8 +21,8 @@ struct EncodedPatches {
 /// the limits of a header. Probabilities adapt from patch to patch. Decoding returns elements, vertices and wedges in
 /// another order, with the orientation of triangles kept. Deterministic. `effort` is 0 .. 9: 0 uses the given mode of
 /// normals, 1 to 6 choose the mode by a sample of the normals, 7 to 9 by all; 7, 8 and 9 try 2, 4 and 8 orders of each
-/// patch and keep the smallest file.
-EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort);
+/// patch and keep the smallest file. Version 1 is for tests and for readers that know no other.
+EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort, Version version = Version::two);
 
 /// Decodes the patches of a payload. Safe for untrusted bytes: time and memory are proportional to counts that are
 /// limited. Throws Error naming `location`.

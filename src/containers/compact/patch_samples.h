@@ -2,6 +2,7 @@
 // Sample patches for tests: together they use every feature of the compact format.
 
 #include "containers/compact/compact_patch.h"
+#include "containers/compact/header.h"
 #include "containers/compact/quantise.h"
 #include "containers/testing.h"
 #include "prepare/weld.h"
@@ -264,8 +265,31 @@ inline std::vector<Sample> rareSamples() {
   return samples;
 }
 
+/// The points of an isosurface-like grid whose lines are 2^`shift` lattice steps apart, as hierarchies round them, and
+/// a few points beside it.
+inline CompactPatch roundedSphere(std::uint32_t bits, std::uint32_t shift) {
+  CompactPatch patch = patchOf(imgeo::testing::sphere(16, 20), bits);
+  Random random(bits);
+  for (Vec3u& position : patch.positions)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!random.oneIn(20))
+        position[axis] = position[axis] >> shift << shift;
+  const std::uint64_t step = std::uint64_t{1} << (shift + 16);
+  patch.grid = VertexGrid{{0, 0, 0}, {step, step, step}};
+  return patch;
+}
+
+/// Samples of what only version 2 can state: grids of more than 16 bits.
+inline std::vector<Sample> samplesOfVersion2() {
+  std::vector<Sample> samples;
+  samples.push_back({"grid-18-bits", roundedSphere(18, 5)});
+  samples.push_back({"grid-24-bits", roundedSphere(24, 17)});
+  samples.push_back({"no-grid-25-bits", patchOf(imgeo::testing::sphere(9, 9), 25)});
+  return samples;
+}
+
 /// Files of one patch and files of several patches.
-inline std::vector<Sample> files() {
+inline std::vector<Sample> files(Version version = Version::two) {
   std::vector<Sample> files = samples();
   const auto patchesNamed = [&](std::initializer_list<const char*> names) {
     std::vector<CompactPatch> patches;
@@ -283,6 +307,8 @@ inline std::vector<Sample> files() {
   files.emplace_back("several", several);
   files.emplace_back("bases", bases);
   std::ranges::move(rareSamples(), std::back_inserter(files));
+  if (version != Version::one)
+    std::ranges::move(samplesOfVersion2(), std::back_inserter(files));
   return files;
 }
 

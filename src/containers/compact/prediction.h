@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 #include "containers/compact/connectivity.h"
+#include "containers/compact/header.h"
 
 #include <array>
 #include <bit>
@@ -32,7 +33,7 @@ template <typename T> int dominantAxis(const Vec3<T>& v) {
 }
 
 struct Candidates {
-  std::array<Vec3i64, 4> positions;
+  std::array<Vec3i64, 9> positions;
   std::uint32_t count = 0;
   std::uint32_t set = 0; ///< which candidates there are besides the first, as bits
 
@@ -40,41 +41,88 @@ struct Candidates {
     positions[count++] = position;
     set += flag;
   }
+  /// Adds the middle of two candidates, rounded down. Which ones there are follows from the set.
+  void addMiddle(std::uint32_t a, std::uint32_t b) {
+    Vec3i64 sum = positions[a] + positions[b];
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] >>= 1;
+    add(sum, 0);
+  }
   /// A context from the distance between the first two candidates; 0: there is only one.
   std::uint32_t agreement() const {
     return count == 1 ? 0 : 1 + std::min(14u, lengthInBits(largestComponent(positions[1] - positions[0])));
   }
 };
 
-/// The candidates of a vertex; `across` is the corner opposite the edge across which a triangle introduces it, or none.
-inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, const Connectivity& connectivity,
-                                const std::vector<Vec3u>& positions, std::uint32_t positionBits) {
-  const auto at = [&](std::uint32_t v) { return Vec3i64(positions[v]); };
-  Candidates candidates;
-  if (across != none) {
-    const Vec3i64 o = at(connectivity.vertex[across]), p = at(connectivity.vertex[after(across)]),
-                  k = at(connectivity.vertex[before(across)]);
+/// Predicts positions from those before them, by the connectivity of a patch.
+class Predictor {
+public:
+  /// The arguments that are passed by reference must outlive the Predictor.
+  Predictor(Version version, const Connectivity& connectivity, const std::vector<Vec3u>& positions,
+            std::uint32_t positionBits)
+      : version_(version), connectivity_(connectivity), positions_(positions),
+        middle_(std::int64_t{1} << (positionBits - 1)) {}
+
+  /// The candidates of a vertex; `across` is the corner opposite the edge across which a triangle introduces it, or
+  /// none.
+  Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across) const {
+    Candidates candidates;
+    if (across != none) {
+      addParallelograms(candidates, vertex, across);
+      if (version_ != Version::one)
+        addSecondRing(candidates, across);
+    } else if (!connectivity_.from.empty() && connectivity_.from[vertex] != none) {
+      const std::uint32_t from = connectivity_.from[vertex];
+      candidates.add(at(from), 0);
+      if (const std::uint32_t further = connectivity_.from[from]; further != none)
+        candidates.add(beyond(from, further), 1);
+    } else {
+      candidates.add(vertex > 0 ? at(vertex - 1) : Vec3i64{middle_, middle_, middle_}, 0);
+    }
+    return candidates;
+  }
+
+private:
+  Vec3i64 at(std::uint32_t vertex) const { return Vec3i64(positions_[vertex]); }
+  Vec3i64 atCorner(std::uint32_t corner) const { return at(connectivity_.vertex[corner]); }
+  /// As far from `vertex` as `other` is, on the other side.
+  Vec3i64 beyond(std::uint32_t vertex, std::uint32_t other) const { return at(vertex) + at(vertex) - at(other); }
+
+  void addParallelograms(Candidates& candidates, std::uint32_t vertex, std::uint32_t across) const {
+    const Vec3i64 o = atCorner(across), p = atCorner(after(across)), k = atCorner(before(across));
     candidates.add(k + p - o, 0);
-    if (const std::uint32_t s = connectivity.second[vertex]; s != none)
-      candidates.add(
-          at(connectivity.vertex[after(s)]) + at(connectivity.vertex[before(s)]) - at(connectivity.vertex[s]), 1);
-    if (const std::uint32_t ahead = connectivity.ahead[vertex]; ahead != none)
+    if (const std::uint32_t s = connectivity_.second[vertex]; s != none)
+      candidates.add(atCorner(after(s)) + atCorner(before(s)) - atCorner(s), 1);
+    if (const std::uint32_t ahead = connectivity_.ahead[vertex]; ahead != none)
       candidates.add(p + at(ahead) - k, 2);
-    if (const std::uint32_t behind = connectivity.behind[vertex]; behind != none)
+    if (const std::uint32_t behind = connectivity_.behind[vertex]; behind != none)
       candidates.add(p + p - at(behind), 4);
-    return candidates;
   }
-  if (!connectivity.from.empty() && connectivity.from[vertex] != none) {
-    const std::uint32_t from = connectivity.from[vertex];
-    candidates.add(at(from), 0);
-    if (const std::uint32_t further = connectivity.from[from]; further != none)
-      candidates.add(at(from) + at(from) - at(further), 1);
-    return candidates;
+
+  /// Adds points beyond the ends of the edge, seen from the neighbours of the triangle behind it, and the middles of
+  /// the first three parallelograms.
+  void addSecondRing(Candidates& candidates, std::uint32_t across) const {
+    const std::uint32_t parallelograms = candidates.count, triangle = across / 3, o = connectivity_.vertex[across];
+    if (const std::uint32_t first = connectivity_.across[triangle]; first != none && across % 3 < 2)
+      candidates.add(beyond(connectivity_.vertex[triangle * 3 + 1 - across % 3], connectivity_.vertex[first]), 8);
+    if (const std::uint32_t s = connectivity_.closing[triangle]; s != none) {
+      const std::uint32_t a = connectivity_.vertex[after(s)], b = connectivity_.vertex[before(s)];
+      if (a == o || b == o)
+        candidates.add(beyond(a == o ? b : a, connectivity_.vertex[s]), 16);
+    }
+    if (parallelograms > 1)
+      candidates.addMiddle(0, 1);
+    if (parallelograms > 2) {
+      candidates.addMiddle(0, 2);
+      candidates.addMiddle(1, 2);
+    }
   }
-  const std::int64_t middle = std::int64_t{1} << (positionBits - 1);
-  candidates.add(vertex > 0 ? at(vertex - 1) : Vec3i64{middle, middle, middle}, 0);
-  return candidates;
-}
+
+  Version version_;
+  const Connectivity& connectivity_;
+  const std::vector<Vec3u>& positions_;
+  std::int64_t middle_;
+};
 
 /// Sums of triangle normals in 32-bit integers that wrap.
 class NormalSums {

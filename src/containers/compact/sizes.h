@@ -38,29 +38,45 @@ inline constexpr std::size_t type = 0, vertices = type + numberModels, seams = v
                              grid = residual + numberModels, count = grid + 1;
 }
 
-/// Codes 32 raw bits.
-template <typename Coder> std::uint32_t codeWord(Coder& coder, std::uint32_t value) {
-  const std::uint32_t low = coder.raw(16, value & 0xffff);
-  return low | coder.raw(16, value >> 16) << 16;
+/// The largest number of bits of positions with a grid.
+constexpr std::uint32_t maxGridBitsOf(Version version) {
+  return version == Version::one ? 16 : maxGridBits;
+}
+/// The numbers of a grid have so many raw bits.
+constexpr std::uint32_t gridNumberBits(Version version) {
+  return version == Version::one ? 32 : 48;
+}
+/// The largest step that a file can state, in 1/65536 lattice steps: a grid of one line.
+constexpr std::uint64_t maxGridStep(Version version) {
+  return version == Version::one ? UINT32_MAX : std::uint64_t{1} << 41;
 }
 
-template <typename Coder> VertexGrid codeGrid(Coder& coder, VertexGrid grid) {
+/// Codes `bits` raw bits, a multiple of 16, the least significant first.
+template <typename Coder> std::uint64_t codeWord(Coder& coder, std::uint64_t value, std::uint32_t bits) {
+  std::uint64_t word = 0;
+  for (std::uint32_t shift = 0; shift < bits; shift += 16)
+    word |= std::uint64_t{coder.raw(16, static_cast<std::uint32_t>(value >> shift & 0xffff))} << shift;
+  return word;
+}
+
+template <typename Coder> VertexGrid codeGrid(Coder& coder, Version version, VertexGrid grid) {
+  const std::uint32_t bits = gridNumberBits(version);
   for (int axis = 0; axis < 3; ++axis) {
-    grid.origin[axis] = codeWord(coder, grid.origin[axis]);
-    grid.step[axis] = codeWord(coder, grid.step[axis]);
-    coder.require(grid.step[axis] >= 2 * 65536 && grid.origin[axis] < grid.step[axis],
+    grid.origin[axis] = codeWord(coder, grid.origin[axis], bits);
+    grid.step[axis] = codeWord(coder, grid.step[axis], bits);
+    coder.require(grid.step[axis] >= 2 * 65536 && grid.step[axis] <= maxGridStep(version) &&
+                      grid.origin[axis] < grid.step[axis],
                   "a patch states impossible grid lines");
   }
   return grid;
 }
 
 /// Decoders ignore the values of `sizes`.
-template <typename Coder>
-PatchSizes codeSizes(Coder& coder, const std::vector<PatchType>& types, PatchSizes sizes = {}) {
+template <typename Coder> PatchSizes codeSizes(Coder& coder, const FileHeader& header, PatchSizes sizes = {}) {
   namespace models = sizeModels;
   sizes.type = codeNumber(coder, models::type, sizes.type);
-  coder.require(sizes.type < types.size(), "a patch is of a type that there is not");
-  const PatchType& type = types[sizes.type];
+  coder.require(sizes.type < header.types.size(), "a patch is of a type that there is not");
+  const PatchType& type = header.types[sizes.type];
   const std::uint32_t seams = sizes.wedgeCount - sizes.vertexCount;
   sizes.vertexCount = 1 + codeNumber(coder, models::vertices, sizes.vertexCount - 1);
   if (type.topology == Topology::points) {
@@ -75,9 +91,10 @@ PatchSizes codeSizes(Coder& coder, const std::vector<PatchType>& types, PatchSiz
     sizes.normalShift = codeNumber(coder, models::shift, sizes.normalShift);
     coder.require(sizes.normalShift <= 30, "a patch states impossible normals");
   }
-  if (type.positionBits <= 16) {
+  if (type.positionBits <= maxGridBitsOf(header.version)) {
     const bool hasGrid = coder.bit(models::grid, sizes.grid.has_value());
-    sizes.grid = hasGrid ? std::optional(codeGrid(coder, sizes.grid.value_or(VertexGrid{}))) : std::nullopt;
+    sizes.grid =
+        hasGrid ? std::optional(codeGrid(coder, header.version, sizes.grid.value_or(VertexGrid{}))) : std::nullopt;
   }
   if (type.isBase) {
     sizes.segmentCount = 1 + codeNumber(coder, models::segments, sizes.segmentCount - 1);

@@ -13,9 +13,9 @@
 namespace imgeo::compact {
 
 /// Number of models of a stream.
-inline std::size_t modelsOf(std::size_t stream) {
+inline std::size_t modelsOf(std::size_t stream, Version version) {
   const std::size_t models[] = {sizeModels::count, connectivityModels, segmentModels::count,
-                                positionModels::countWithGrid, wedgeModels::count};
+                                positionModelsOf(version).count, wedgeModels::count};
   return stream < std::size(models) ? models[stream] : attributeModels::count;
 }
 
@@ -29,11 +29,11 @@ inline std::size_t streamOfAttribute(std::size_t attribute) {
 
 class StreamEncoders {
 public:
-  explicit StreamEncoders(std::size_t count) : encoders_(count) {}
+  StreamEncoders(std::size_t count, Version version) : encoders_(count), version_(version) {}
 
   RangeEncoder& operator[](std::size_t stream) {
     std::optional<RangeEncoder>& encoder = encoders_[stream];
-    return encoder ? *encoder : encoder.emplace(modelsOf(stream));
+    return encoder ? *encoder : encoder.emplace(modelsOf(stream, version_));
   }
   RangeEncoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
 
@@ -47,14 +47,15 @@ public:
 
 private:
   std::vector<std::optional<RangeEncoder>> encoders_;
+  Version version_;
 };
 
 class StreamDecoders {
 public:
-  /// `bytes` begin with the streams, which lie within them; they and `location` outlive the decoders.
-  StreamDecoders(ByteSpan bytes, const std::vector<std::uint32_t>& lengths, const std::string& location)
-      : decoders_(lengths.size()), location_(location) {
-    for (const std::uint32_t length : lengths) {
+  /// `bytes` begin with the streams of `header`, which lie within them; they and `location` outlive the decoders.
+  StreamDecoders(ByteSpan bytes, const FileHeader& header, const std::string& location)
+      : decoders_(header.streamCount()), version_(header.version), location_(location) {
+    for (const std::uint32_t length : header.streamLengths) {
       streams_.push_back(bytes.first(length));
       bytes = bytes.subspan(length);
     }
@@ -62,7 +63,7 @@ public:
 
   RangeDecoder& operator[](std::size_t stream) {
     std::optional<RangeDecoder>& decoder = decoders_[stream];
-    return decoder ? *decoder : decoder.emplace(streams_[stream], modelsOf(stream), location_);
+    return decoder ? *decoder : decoder.emplace(streams_[stream], modelsOf(stream, version_), location_);
   }
   RangeDecoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
 
@@ -81,6 +82,7 @@ public:
 private:
   std::vector<std::optional<RangeDecoder>> decoders_;
   std::vector<ByteSpan> streams_;
+  Version version_;
   const std::string& location_;
 };
 

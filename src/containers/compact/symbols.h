@@ -60,6 +60,23 @@ template <typename Coder> SignedNumber codeSigned(Coder& coder, std::size_t mode
   return codeSignedBy(coder, value, [&](std::uint32_t length) { return codeClass(coder, models, length); });
 }
 
+/// Codes a number of -(2^30 - 1) .. 2^30 - 1 whose bit after the first has a model too, one of 32 from `nextBit` on.
+template <typename Coder>
+SignedNumber codeLongSigned(Coder& coder, std::size_t models, std::size_t nextBit, std::int64_t value = 0) {
+  const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
+  const std::uint32_t length = codeClass(coder, models, static_cast<std::uint32_t>(std::bit_width(magnitude)));
+  if (length < 2) {
+    if (length == 0)
+      return {};
+    return {coder.raw(1, std::uint32_t{value < 0}) ? -1 : 1, 1};
+  }
+  const std::uint32_t low = length - 2; // bits
+  const std::uint32_t first = 2u | std::uint32_t{coder.bit(nextBit + length, magnitude >> low & 1)};
+  const std::uint32_t rest = coder.raw(low + 1, (magnitude & ((1u << low) - 1)) << 1 | std::uint32_t{value < 0});
+  const auto decoded = static_cast<std::int32_t>(first << low | rest >> 1);
+  return {rest & 1 ? -decoded : decoded, length};
+}
+
 /// Codes a signed number that is mostly 0: its length is coded in unary.
 template <typename Coder> SignedNumber codeSmall(Coder& coder, std::size_t models, std::int64_t value = 0) {
   return codeSignedBy(coder, value, [&](std::uint32_t length) {

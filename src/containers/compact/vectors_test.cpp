@@ -1,4 +1,5 @@
-// Checks the test vectors in vectors/compact-1, which readers in every language share. NAME.png holds the patches of
+// Checks the test vectors in vectors/compact-1 and compact-2, one folder for each version of the format, which readers
+// in every language share. NAME.png holds the patches of
 // NAME.json. edits.json lists edits of payloads and the verdict on each: the kind of error, or the FNV-1a sum of the
 // decoded numbers. refused.json holds whole payloads in base 16. IMGEO_REWRITE_GOLDEN=1 writes all files again; an
 // existing file that changes means a new version of the format.
@@ -19,7 +20,31 @@ namespace imgeo::compact {
 namespace {
 
 using Json = nlohmann::ordered_json;
-const std::filesystem::path folder = IMGEO_VECTORS "/compact-1";
+
+/// The vectors of a version of the format.
+class Folder {
+public:
+  explicit Folder(Version version)
+      : version_(version), path_(IMGEO_VECTORS "/compact-" + std::to_string(static_cast<int>(version))) {}
+
+  Version version() const { return version_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+  /// The files of a version, which have its features.
+  std::vector<testing::Sample> files() const { return testing::files(version_); }
+
+  void write(const std::string& name, const nlohmann::ordered_json& json) const {
+    const std::string text = json.dump() + "\n";
+    writeFile(path_ / name, asBytes(text));
+  }
+  nlohmann::ordered_json read(const std::string& name) const {
+    return nlohmann::ordered_json::parse(asText(readFile(path_ / name)));
+  }
+
+private:
+  Version version_;
+  std::filesystem::path path_;
+};
 
 Json jsonOf(const CompactPatch& patch) {
   Json json{{"topology", static_cast<int>(patch.topology)},
@@ -68,15 +93,6 @@ Bytes edited(Bytes payload, const Json& entry) {
   return payload;
 }
 
-void write(const std::string& name, const Json& json) {
-  const std::string text = json.dump() + "\n";
-  writeFile(folder / name, asBytes(text));
-}
-
-Json read(const std::string& name) {
-  return Json::parse(asText(readFile(folder / name)));
-}
-
 /// Entries with changed bytes in the header, with one or two changed bytes anywhere, and with a payload cut anywhere.
 Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) {
   Json entries = Json::array();
@@ -101,39 +117,46 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
   return entries;
 }
 
-void rewrite() {
+void rewrite(const Folder& folder) {
+  std::filesystem::create_directories(folder.path());
   Json edits = Json::array();
   std::uint32_t seed = 0;
-  for (const testing::Sample& sample : testing::files()) {
-    const Bytes payload = encodePatches(sample.patches, 0).bytes;
+  for (const testing::Sample& sample : folder.files()) {
+    const Bytes payload = encodePatches(sample.patches, 0, folder.version()).bytes;
     writeFile(folder / (sample.name + ".png"), imageOfPayload(payload));
-    write(sample.name + ".json", jsonOf(decodePatches(payload, "")));
+    folder.write(sample.name + ".json", jsonOf(decodePatches(payload, "")));
     for (Json& entry : editsOf(sample.name, payload, ++seed))
       edits.push_back(std::move(entry));
   }
-  write("edits.json", edits);
+  folder.write("edits.json", edits);
   Json refused = Json::array();
-  for (const auto& [name, payload] : testing::refusedPayloads())
+  for (const auto& [name, payload] : testing::refusedPayloads(folder.version()))
     refused.push_back(
         {{"name", name}, {"payload", imgeo::testing::base16Of(payload)}, {"verdict", verdictOn(payload)}});
-  write("refused.json", refused);
+  folder.write("refused.json", refused);
 }
 
-class Vectors : public ::testing::Test {
+class Vectors : public ::testing::TestWithParam<Version> {
 protected:
   static void SetUpTestSuite() {
     if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)
-      rewrite();
+      for (const Version version : {Version::one, Version::two})
+        rewrite(Folder(version));
   }
+
+  const Folder folder{GetParam()};
 };
 
-TEST_F(Vectors, AreDecodedExactly) {
+INSTANTIATE_TEST_SUITE_P(, Vectors, ::testing::Values(Version::one, Version::two),
+                         [](const auto& each) { return each.param == Version::one ? "Version1" : "Version2"; });
+
+TEST_P(Vectors, AreDecodedExactly) {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     if (entry.path().extension() != ".png")
       continue;
     const std::string name = entry.path().stem();
-    const Json expected = read(name + ".json");
+    const Json expected = folder.read(name + ".json");
     const Bytes payload = payloadOfImage(readFile(entry.path()), name);
     EXPECT_EQ(jsonOf(decodePatches(payload, name)), expected) << name;
     ++count;
@@ -141,14 +164,15 @@ TEST_F(Vectors, AreDecodedExactly) {
   EXPECT_GT(count, 15u);
 }
 
-TEST_F(Vectors, EqualWhatTheEncoderWrites) {
-  for (const testing::Sample& sample : testing::files())
-    EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0).bytes), readFile(folder / (sample.name + ".png")))
+TEST_P(Vectors, EqualWhatTheEncoderWrites) {
+  for (const testing::Sample& sample : folder.files())
+    EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0, folder.version()).bytes),
+              readFile(folder / (sample.name + ".png")))
         << sample.name;
 }
 
-TEST_F(Vectors, OfInvalidPayloadsAreRefused) {
-  const Json refused = read("refused.json");
+TEST_P(Vectors, OfInvalidPayloadsAreRefused) {
+  const Json refused = folder.read("refused.json");
   EXPECT_GT(refused.size(), 10u);
   for (const Json& entry : refused) {
     const Json verdict = verdictOn(imgeo::testing::bytesOfBase16(entry.at("payload")));
@@ -157,10 +181,10 @@ TEST_F(Vectors, OfInvalidPayloadsAreRefused) {
   }
 }
 
-TEST_F(Vectors, AreRefusedOrDecodedAsStatedAfterEdits) {
+TEST_P(Vectors, AreRefusedOrDecodedAsStatedAfterEdits) {
   std::map<std::string, Bytes> payloads;
   std::map<std::string, std::size_t> verdicts;
-  for (const Json& entry : read("edits.json")) {
+  for (const Json& entry : folder.read("edits.json")) {
     const std::string name = entry.at("file");
     if (!payloads.contains(name))
       payloads[name] = payloadOfImage(readFile(folder / (name + ".png")), name);

@@ -33,7 +33,11 @@ export interface PatchType {
   readonly attributes: readonly number[];
 }
 
+/** The versions of the format. Version 2 predicts positions from more points and has grids of more than 16 bits. */
+export type Version = 1 | 2;
+
 export interface FileHeader {
+  readonly version: Version;
   readonly attributes: readonly AttributeType[];
   readonly types: readonly PatchType[];
   readonly patchCount: number;
@@ -60,7 +64,6 @@ const maxTypeCount = 256;
 const maxFileAttributeCount = 256;
 const maxPatchAttributeCount = 16;
 const magic = [0x49, 0x47, 0x43]; // IGC
-const version = 1;
 
 export function cornersPerElement(topology: Topology): 1 | 2 | 3 {
   return topology === "triangles" ? 3 : topology === "lines" ? 2 : 1;
@@ -69,11 +72,7 @@ export function cornersPerElement(topology: Topology): 1 | 2 | 3 {
 /** Safe for untrusted bytes. Throws DecodeError. */
 export function readFileHeader(payload: Uint8Array): { header: FileHeader; streams: FileStreams } {
   const reader = new FieldReader(payload);
-  const [first, second, third, fileVersion] = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
-  if (first !== magic[0] || second !== magic[1] || third !== magic[2])
-    throw new DecodeError("malformed", "is no image of compact");
-  if (fileVersion !== version)
-    throw new DecodeError("unsupported", `is of version ${fileVersion} of compact, not ${version}`);
+  const version = readVersion(reader);
   const attributes = Array.from({ length: readCount(reader, "attributes", maxFileAttributeCount) }, () =>
     readAttributeType(reader),
   );
@@ -83,7 +82,19 @@ export function readFileHeader(payload: Uint8Array): { header: FileHeader; strea
   if (types.some(({ isBase }) => isBase !== types[0]?.isBase))
     throw new DecodeError("malformed", "holds bases beside patches");
   const patchCount = within("number of patches", readCount(reader, "patches", maxPatchCount), 1, maxPatchCount);
-  return { header: { attributes, types, patchCount }, streams: readStreams(reader, attributes.length) };
+  return { header: { version, attributes, types, patchCount }, streams: readStreams(reader, attributes.length) };
+}
+
+/** Reads the signature, the version and, from version 2 on, the features, of which there are none yet. */
+function readVersion(reader: FieldReader): Version {
+  const [first, second, third, version] = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
+  if (first !== magic[0] || second !== magic[1] || third !== magic[2])
+    throw new DecodeError("malformed", "is no image of compact");
+  if (version !== 1 && version !== 2)
+    throw new DecodeError("unsupported", `is of version ${version} of compact, which is not known`);
+  if (version === 2 && reader.byte() !== 0)
+    throw new DecodeError("unsupported", "has features of compact that are not known");
+  return version;
 }
 
 function readCount(reader: FieldReader, what: string, max: number): number {

@@ -32,7 +32,7 @@ export interface CompactPatch extends DecodedShape {
 export function decodePatches<Taken>(payload: Uint8Array, take: (patch: CompactPatch) => Taken): Taken[] {
   const { header, streams } = readFileHeader(payload);
   const sizes = decodeSizes(streams.sizes, header);
-  const decoders = new StreamDecoders(streams);
+  const decoders = new StreamDecoders(streams, header.version);
   const taken = sizes.map((patch) => take(decodePatch(patch, decoders)));
   decoders.finish();
   return taken;

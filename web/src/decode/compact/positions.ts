@@ -4,21 +4,44 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
+import type { Version } from "./header.ts";
 import type { Segments } from "./segments.ts";
 import { dominantAxis, NormalSums } from "./normalSums.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
 import { bitLength, numberModelCount } from "./rangeDecoder.ts";
 import type { Grid, PatchHeader } from "./sizes.ts";
 
-const choiceModels = 0;
-const firstModels = choiceModels + 8 * 16 * 4;
-const secondModels = firstModels + 16 * numberModelCount;
-const thirdModels = secondModels + 31 * numberModelCount;
-// Patches with a grid only:
-const loneModels = thirdModels + 31 * numberModelCount;
-const gridModels = loneModels + 8 * numberModelCount;
-const maskModels = gridModels + 96 * numberModelCount;
-export const positionModelCount = maskModels + 512 * 8;
+/** The first model of each symbol in the stream. */
+interface PositionModels {
+  /** `choicesOfSet` for each set and agreement of candidates. */
+  readonly choice: number;
+  readonly choicesOfSet: number;
+  // Residuals off the grid, in the order of coding, and of a coordinate that is alone off the grid.
+  readonly first: number;
+  readonly second: number;
+  readonly third: number;
+  readonly lone: number;
+  // Patches with a grid only:
+  readonly line: number;
+  readonly mask: number;
+  /** Version 2: the bit after the first of residuals; `numberModelCount` for each of first, second, third and lone. */
+  readonly nextBit: number;
+  readonly count: number;
+}
+
+export function positionModelsOf(version: Version): PositionModels {
+  const isOld = version === 1;
+  const choicesOfSet = isOld ? 4 : 8;
+  const first = (isOld ? 8 : 32) * 16 * choicesOfSet;
+  const second = first + (isOld ? 16 : 24) * numberModelCount;
+  const third = second + 31 * numberModelCount;
+  const lone = third + 31 * numberModelCount;
+  const line = lone + 8 * numberModelCount;
+  const mask = line + 96 * numberModelCount;
+  const nextBit = mask + 512 * 8;
+  const count = nextBit + (isOld ? 0 : 4 * numberModelCount);
+  return { choice: 0, choicesOfSet, first, second, third, lone, line, mask, nextBit, count };
+}
 
 export interface Positions {
   /** x, y, z of each vertex, then those of the middle of the lattice. */
@@ -49,6 +72,8 @@ const orders = Uint8Array.from({ length: 8 }, (_, mask) => mask).reduce<number[]
 
 class PositionDecoder {
   readonly #decoder: RangeDecoder;
+  readonly #isOld: boolean;
+  readonly #models: PositionModels;
   readonly #connectivity: Connectivity;
   readonly #vertexCount: number;
   readonly #maxCoordinate: number;
@@ -63,8 +88,10 @@ class PositionDecoder {
   /** x, y, z of each vertex; then the middle of the lattice, from which the first vertex is predicted. */
   readonly #coordinates: Int32Array;
   readonly #sums: NormalSums;
+  /** Version 2, per vertex: the size of its residuals off the grid, at most 2^24. */
+  readonly #sizes: Int32Array;
   /** x, y, z of each candidate. */
-  readonly #candidates = new Int32Array(3 * 4);
+  readonly #candidates = new Int32Array(3 * 9);
   #candidateCount = 0;
   #candidateSet = 0;
   /** Context: 1 + the bit length of the distance of the first two candidates, at most 15; 0 for a single candidate. */
@@ -74,8 +101,11 @@ class PositionDecoder {
   readonly #normal = new Int32Array(3);
 
   constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, segments: Segments | undefined) {
-    const { vertexCount, positionBits, grid } = header;
+    const { version, vertexCount, positionBits, grid } = header;
     this.#decoder = decoder;
+    this.#isOld = version === 1;
+    this.#models = positionModelsOf(version);
+    this.#sizes = new Int32Array(this.#isOld ? 0 : vertexCount);
     this.#connectivity = connectivity;
     this.#vertexCount = vertexCount;
     this.#maxCoordinate = 2 ** positionBits - 1;
@@ -120,7 +150,12 @@ class PositionDecoder {
     const last = x > 0 ? x - 1 : this.#vertexCount;
     this.#beginCandidates(last, last, last);
     this.#normal.fill(0);
-    this.#decode(x, 2, 0);
+    this.#decode(x, 2, 0, this.#sizeBefore(x));
+  }
+
+  /** Three times the size of the residuals of the vertex before. */
+  #sizeBefore(x: number): number {
+    return this.#isOld || x === 0 ? 0 : 3 * this.#sizes[x - 1]!;
   }
 
   /** Decodes a vertex of a line from the lines that lead to it. */
@@ -130,7 +165,7 @@ class PositionDecoder {
     this.#beginCandidates(last, last, last);
     if (further >= 0) this.#addCandidate(last, last, further, 1);
     this.#normal.fill(0);
-    this.#decode(x, 2, 0);
+    this.#decode(x, 2, 0, this.#sizeBefore(x));
   }
 
   /**
@@ -151,9 +186,52 @@ class PositionDecoder {
     if (s >= 0) this.#addCandidate(vertex[after(s)]!, vertex[before(s)]!, vertex[s]!, 1);
     if (ahead[x]! >= 0) this.#addCandidate(p, ahead[x]!, k, 2);
     if (behind[x]! >= 0) this.#addCandidate(p, p, behind[x]!, 4);
+    const sizes = this.#sizes;
+    if (!this.#isOld) this.#addSecondRing(across, o);
     const dominant = this.#setNormal(k, p);
     const masks = this.#masks;
-    this.#decode(x, dominant, this.#grid ? masks[k]! * 64 + masks[p]! * 8 + masks[o]! : 0);
+    this.#decode(
+      x,
+      dominant,
+      this.#grid ? masks[k]! * 64 + masks[p]! * 8 + masks[o]! : 0,
+      this.#isOld ? 0 : sizes[o]! + sizes[p]! + sizes[k]!,
+    );
+  }
+
+  /**
+   * Adds points beyond the ends of the edge, seen from the neighbours of the triangle behind it, and the middles of the
+   * first three parallelograms. `o` is the vertex of the corner `across`.
+   */
+  #addSecondRing(across: number, o: number): void {
+    const { vertex, across: acrosses, closing } = this.#connectivity;
+    const parallelograms = this.#candidateCount;
+    const i = across % 3;
+    const t = (across - i) / 3;
+    const first = acrosses[t]!;
+    if (first >= 0 && i < 2) {
+      const end = vertex[3 * t + 1 - i]!;
+      this.#addCandidate(end, end, vertex[first]!, 8);
+    }
+    const s = closing[t]!;
+    if (s >= 0) {
+      const a = vertex[after(s)]!;
+      const b = vertex[before(s)]!;
+      if (a === o) this.#addCandidate(b, b, vertex[s]!, 16);
+      else if (b === o) this.#addCandidate(a, a, vertex[s]!, 16);
+    }
+    if (parallelograms > 1) this.#addMiddle(0, 1);
+    if (parallelograms > 2) {
+      this.#addMiddle(0, 2);
+      this.#addMiddle(1, 2);
+    }
+  }
+
+  /** Adds the middle of two candidates, rounded down. */
+  #addMiddle(a: number, b: number): void {
+    const candidates = this.#candidates;
+    const first = 3 * this.#candidateCount++;
+    for (let axis = 0; axis < 3; ++axis)
+      candidates[first + axis] = Math.floor((candidates[3 * a + axis]! + candidates[3 * b + axis]!) / 2);
   }
 
   #beginCandidates(a: number, b: number, c: number): void {
@@ -204,7 +282,8 @@ class PositionDecoder {
         Math.abs(candidates[5]! - candidates[2]!),
       );
       this.#agreement = 1 + Math.min(14, bitLength(apart));
-      const models = choiceModels + (this.#candidateSet * 16 + this.#agreement) * 4;
+      const { choice, choicesOfSet } = this.#models;
+      const models = choice + (this.#candidateSet * 16 + this.#agreement) * choicesOfSet;
       while (chosen < last && decoder.bit(models + chosen) === 0) ++chosen;
     }
     guess[0] = candidates[3 * chosen]!;
@@ -212,17 +291,24 @@ class PositionDecoder {
     guess[2] = candidates[3 * chosen + 2]!;
   }
 
-  /** Reads the residuals of a vertex, with the candidates and the normal that were set. */
-  #decode(x: number, dominant: 0 | 1 | 2, maskContext: number): void {
+  /**
+   * Reads the residuals of a vertex, with the candidates and the normal that were set. `sizeAround` is the size of the
+   * residuals of three vertices before it.
+   */
+  #decode(x: number, dominant: 0 | 1 | 2, maskContext: number, sizeAround: number): void {
     const decoder = this.#decoder;
     const coordinates = this.#coordinates;
     const guess = this.#guess;
     const grid = this.#grid;
+    const isOld = this.#isOld;
+    const positionModels = this.#models;
     const step = this.#isExact?.[x] === 0 ? this.#residualStep : 1;
     let mask = 0;
-    if (grid) this.#masks[x] = mask = decoder.tree(maskModels + 8 * maskContext, 3);
+    if (grid) this.#masks[x] = mask = decoder.tree(positionModels.mask + 8 * maskContext, 3);
     this.#choose();
+    const firstContext = isOld ? this.#agreement : (this.#agreement + sizeContext(sizeAround)) >> 1;
     let steps = 0;
+    let size = 0;
     let maxLength = 0;
     let length = -1; // bit length of the previous residual off the grid
     for (let j = 0; j < 3; ++j) {
@@ -230,21 +316,31 @@ class PositionDecoder {
       let value: number;
       if (grid && (mask & (1 << axis)) !== 0) {
         const residual = decoder.small(
-          gridModels + numberModelCount * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)),
+          positionModels.line + numberModelCount * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)),
         );
         steps += Math.abs(residual);
         value = planeCoordinate(grid, axis, nearestPlane(grid, axis, this.#clamp(guess[axis]!)) + residual);
       } else {
         const expected = j === 2 ? this.#height(x, dominant, mask, axis) : guess[axis]!;
-        const models =
-          length < 0
-            ? j === 2
-              ? loneModels + numberModelCount * Math.min(steps, 7)
-              : firstModels + numberModelCount * this.#agreement
-            : j === 2 && mask === 0
-              ? thirdModels + numberModelCount * maxLength
-              : secondModels + numberModelCount * length;
-        const residual = decoder.signed(models);
+        let kind: number;
+        let models: number;
+        if (length < 0) {
+          kind = j === 2 ? 3 : 0;
+          models =
+            j === 2
+              ? positionModels.lone + numberModelCount * Math.min(steps, 7)
+              : positionModels.first + numberModelCount * firstContext;
+        } else if (j === 2 && mask === 0) {
+          kind = 2;
+          models = positionModels.third + numberModelCount * maxLength;
+        } else {
+          kind = 1;
+          models = positionModels.second + numberModelCount * length;
+        }
+        const residual = isOld
+          ? decoder.signed(models)
+          : decoder.longSigned(models, positionModels.nextBit + numberModelCount * kind);
+        size += Math.abs(residual);
         length = bitLength(Math.abs(residual));
         maxLength = Math.max(maxLength, length);
         value = this.#clamp(expected) + residual * step;
@@ -253,6 +349,7 @@ class PositionDecoder {
         throw new DecodeError("malformed", "holds a vertex outside of its lattice");
       coordinates[3 * x + axis] = value;
     }
+    if (!isOld) this.#sizes[x] = Math.min(size, 2 ** 24);
   }
 
   /** Predicts the last coordinate: that of the surface's plane at the two other coordinates. */
@@ -271,6 +368,12 @@ class PositionDecoder {
   #clamp(coordinate: number): number {
     return Math.min(Math.max(coordinate, 0), this.#maxCoordinate);
   }
+}
+
+/** A size in half bits, 0 … 31. */
+function sizeContext(size: number): number {
+  const length = bitLength(size);
+  return length < 2 ? length : Math.min(31, 2 * (length - 1) + ((size >> (length - 2)) & 1));
 }
 
 /** The coordinate of the grid's plane i along an axis. */

@@ -62,6 +62,14 @@ function randomCall(random: TestRandom): Call {
     }),
     () => ({
       encode: (encoder) => {
+        encoder.longSigned(models, 96 - models, signed);
+      },
+      check: (decoder) => {
+        assert.ok(decoder.longSigned(models, 96 - models) === signed);
+      },
+    }),
+    () => ({
+      encode: (encoder) => {
         encoder.small(models, signed);
       },
       check: (decoder) => {
@@ -142,6 +150,7 @@ describe("a stream", () => {
       (decoder) => decoder.bit(0),
       (decoder) => decoder.raw(1),
       (decoder) => decoder.signed(0),
+      (decoder) => decoder.longSigned(0, 0),
       (decoder) => decoder.small(0),
     ];
     for (const call of calls) {

@@ -115,6 +115,16 @@ export class RangeDecoder {
     return this.#rest(this.#length(models));
   }
 
+  /** Reads a number of the same range, whose bit after the first is adaptive: model `nextBit` + its bit length. */
+  longSigned(models: number, nextBit: number): number {
+    const length = this.#length(models);
+    if (length < 2) return this.#rest(length);
+    const first = 2 | this.bit(nextBit + length);
+    const rest = this.raw(length - 1);
+    const magnitude = (first << (length - 2)) | (rest >>> 1);
+    return (rest & 1) === 0 ? magnitude : -magnitude;
+  }
+
   /** Reads a number of the same range, stored in fewer bits if it is mostly 0. */
   small(models: number): number {
     let length = 0;

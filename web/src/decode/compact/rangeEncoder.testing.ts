@@ -61,6 +61,19 @@ export class TestEncoder {
     this.#rest(length, value);
   }
 
+  longSigned(models: number, nextBit: number, value: number): void {
+    const length = lengthOf(value);
+    this.#length(models, length);
+    if (length < 2) {
+      this.#rest(length, value);
+      return;
+    }
+    const half = 2 ** (length - 2);
+    const isSet = Math.abs(value) - 2 * half >= half;
+    this.bit(nextBit + length, isSet);
+    this.raw(length - 1, 2 * (Math.abs(value) % half) + Number(value < 0));
+  }
+
   finish(): Uint8Array<ArrayBuffer> {
     for (let i = 0; i < 3; ++i) this.#shiftOut();
     const back: number[] = [];

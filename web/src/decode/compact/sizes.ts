@@ -2,7 +2,7 @@
 // checked here, before anything is allocated for them.
 
 import { DecodeError } from "../decodeError.ts";
-import type { AttributeType, FileHeader, PatchType, Topology } from "./header.ts";
+import type { AttributeType, FileHeader, PatchType, Topology, Version } from "./header.ts";
 import { cornersPerElement, maxCount, within } from "./header.ts";
 import { numberModelCount, RangeDecoder } from "./rangeDecoder.ts";
 
@@ -26,6 +26,7 @@ export interface Grid {
 }
 
 export interface PatchHeader {
+  readonly version: Version;
   readonly topology: Topology;
   readonly positionBits: number;
   /** Triangles: bits by which edges are shortened before their cross product, which is computed in 32 bits. */
@@ -47,7 +48,7 @@ export interface SizedPatch {
 }
 
 /** The header of each patch of a file. Safe for untrusted bytes. Throws DecodeError. */
-export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount }: FileHeader): SizedPatch[] {
+export function decodeSizes(stream: Uint8Array, { version, types, attributes, patchCount }: FileHeader): SizedPatch[] {
   const decoder = new RangeDecoder(stream, modelCount);
   const patches = Array.from({ length: patchCount }, (): SizedPatch => {
     const type = types[within("type of a patch", decoder.number(typeModels), 0, types.length - 1)]!;
@@ -55,6 +56,7 @@ export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount 
       type,
       header: decodeHeader(
         decoder,
+        version,
         type,
         type.attributes.map((attributeIndex) => attributes[attributeIndex]!),
       ),
@@ -74,6 +76,7 @@ export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount 
 
 function decodeHeader(
   decoder: RangeDecoder,
+  version: Version,
   { topology, positionBits, isBase }: PatchType,
   attributes: readonly AttributeType[],
 ): PatchHeader {
@@ -86,7 +89,8 @@ function decodeHeader(
     within("number of wedges", wedgeCount, 1, elementCount * cornersPerElement(topology));
   }
   const normalShift = topology === "triangles" ? within("shift of normals", decoder.number(shiftModels), 0, 30) : 0;
-  const grid = positionBits <= 16 && decoder.bit(gridModel) === 1 ? decodeGrid(decoder) : undefined;
+  const grid =
+    positionBits <= grids[version].maxBits && decoder.bit(gridModel) === 1 ? decodeGrid(decoder, version) : undefined;
   const segmentCount = isBase ? 1 + decoder.number(segmentModels) : 0;
   const residualShift = isBase ? decoder.number(residualModels) : 0;
   if (isBase) {
@@ -94,6 +98,7 @@ function decodeHeader(
     within("shift of residuals", residualShift, 0, positionBits - 1);
   }
   return {
+    version,
     topology,
     positionBits,
     normalShift,
@@ -107,13 +112,24 @@ function decodeHeader(
   };
 }
 
-function decodeGrid(decoder: RangeDecoder): Grid {
+/** The largest number of bits of positions with a grid, the 16-bit words of its numbers, and the largest step. */
+const grids = {
+  1: { maxBits: 16, words: 2, maxStep: 2 ** 32 - 1 },
+  2: { maxBits: 24, words: 3, maxStep: 2 ** 41 },
+} as const;
+
+function decodeGrid(decoder: RangeDecoder, version: Version): Grid {
+  const { words, maxStep } = grids[version];
   const origin = new Float64Array(3);
   const step = new Float64Array(3);
-  const word = () => decoder.raw(16) + decoder.raw(16) * 65536;
+  const number = () => {
+    let value = 0;
+    for (let i = 0; i < words; ++i) value += decoder.raw(16) * 65536 ** i;
+    return value;
+  };
   for (let axis = 0; axis < 3; ++axis) {
-    origin[axis] = word();
-    step[axis] = within("step of the grid", word(), 131072, 2 ** 32 - 1);
+    origin[axis] = number();
+    step[axis] = within("step of the grid", number(), 131072, maxStep);
     within("origin of the grid", origin[axis]!, 0, step[axis]! - 1);
   }
   return { origin, step };

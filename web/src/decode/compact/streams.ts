@@ -2,10 +2,10 @@
 
 import { DecodeError } from "../decodeError.ts";
 import { attributeModelCount } from "./attributeModels.ts";
-import type { FileStreams } from "./header.ts";
+import type { FileStreams, Version } from "./header.ts";
 import { connectivityModelCount } from "./lines.ts";
 import { segmentModelCount } from "./segments.ts";
-import { positionModelCount } from "./positions.ts";
+import { positionModelsOf } from "./positions.ts";
 import { RangeDecoder } from "./rangeDecoder.ts";
 import { wedgeModelCount } from "./wedges.ts";
 
@@ -37,10 +37,10 @@ export class StreamDecoders {
   readonly #wedges: Stream;
   readonly #attributes: readonly Stream[];
 
-  constructor({ connectivity, segments, positions, wedges, attributes }: FileStreams) {
+  constructor({ connectivity, segments, positions, wedges, attributes }: FileStreams, version: Version) {
     this.#connectivity = new Stream(connectivity, connectivityModelCount);
     this.#segments = new Stream(segments, segmentModelCount);
-    this.#positions = new Stream(positions, positionModelCount);
+    this.#positions = new Stream(positions, positionModelsOf(version).count);
     this.#wedges = new Stream(wedges, wedgeModelCount);
     this.#attributes = attributes.map((stream) => new Stream(stream, attributeModelCount));
   }

@@ -1,29 +1,31 @@
-// Reads the files of vectors/compact-1 (docs/formats/compact.md, "Conformance").
+// Reads the files of vectors/compact-1 and vectors/compact-2, one folder for each version of the format
+// (docs/formats/compact.md, "Conformance").
 
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
 import type { DecodeError } from "../decodeError.ts";
+import type { Version } from "./header.ts";
 import type { CompactPatch } from "./patch.ts";
 import { decodePatches } from "./patch.ts";
 
-const folder = join(import.meta.dirname, "../../../../vectors/compact-1");
+const folderOf = (version: Version): string => join(import.meta.dirname, `../../../../vectors/compact-${version}`);
 
 /** The names of the files that hold patches. */
-export function vectorNames(): string[] {
-  return readdirSync(folder)
+export function vectorNames(version: Version = 2): string[] {
+  return readdirSync(folderOf(version))
     .filter((name) => name.endsWith(".png"))
     .map((name) => name.slice(0, -".png".length));
 }
 
 /** The content of NAME.json. */
-export function readVector(name: string): unknown {
-  return JSON.parse(readFileSync(join(folder, `${name}.json`), "utf8")) as unknown;
+export function readVector(name: string, version: Version = 2): unknown {
+  return JSON.parse(readFileSync(join(folderOf(version), `${name}.json`), "utf8")) as unknown;
 }
 
 /** The pixels of NAME.png, which has one IDAT chunk and no filters. */
-export function readPayload(name: string): Uint8Array<ArrayBuffer> {
-  const png = readFileSync(join(folder, `${name}.png`));
+export function readPayload(name: string, version: Version = 2): Uint8Array<ArrayBuffer> {
+  const png = readFileSync(join(folderOf(version), `${name}.png`));
   const width = png.readUInt32BE(16);
   const height = png.readUInt32BE(20);
   const data = png.indexOf("IDAT") + 4;
@@ -37,13 +39,13 @@ export function readPayload(name: string): Uint8Array<ArrayBuffer> {
 }
 
 /** The patches of NAME.png. */
-export function decodeVector(name: string): CompactPatch[] {
-  return decodePatches(readPayload(name), (patch) => patch);
+export function decodeVector(name: string, version: Version = 2): CompactPatch[] {
+  return decodePatches(readPayload(name, version), (patch) => patch);
 }
 
 /** The bytes of NAME.png. */
-export function readVectorFile(name: string): Uint8Array<ArrayBuffer> {
-  return new Uint8Array(readFileSync(join(folder, `${name}.png`)));
+export function readVectorFile(name: string, version: Version = 2): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(readFileSync(join(folderOf(version), `${name}.png`)));
 }
 
 /** An entry of edits.json: a damaged payload, and the verdict on it. */
@@ -56,8 +58,8 @@ export interface Edit {
   readonly verdict: number | DecodeError["kind"];
 }
 
-export function editedPayload({ file, edits, length }: Edit): Uint8Array {
-  const payload = readPayload(file);
+export function editedPayload({ file, edits, length }: Edit, version: Version): Uint8Array {
+  const payload = readPayload(file, version);
   for (const [byteOffset, value] of edits) payload[byteOffset] = value;
   return payload.subarray(0, length);
 }

@@ -34,39 +34,41 @@ function isAcceptedByBoth(payload: Uint8Array, name: string): boolean {
 }
 
 describe("the decoder in WebAssembly", () => {
-  for (const name of vectorNames())
-    test(`returns the arrays of "${name}" that TypeScript returns`, () => {
-      assert.ok(isAcceptedByBoth(readPayload(name), name));
+  for (const version of [1, 2] as const) {
+    const names = vectorNames(version);
+    for (const name of names)
+      test(`returns the arrays of "${name}" of version ${version} that TypeScript returns`, () => {
+        assert.ok(isAcceptedByBoth(readPayload(name, version), name));
+      });
+
+    test(`has the verdict of the vectors of version ${version} on every edit and on everything to be refused`, () => {
+      const edits = readVector("edits", version) as Edit[];
+      for (const edit of edits) {
+        const payload = editedPayload(edit, version);
+        const isAccepted = isAcceptedByBoth(payload, JSON.stringify(edit));
+        assert.equal(isAccepted, typeof edit.verdict === "number");
+        if (!isAccepted) assert.equal(outcomeOf(decodeWithWasm, payload), edit.verdict);
+      }
+      const refused = readVector("refused", version) as Refused[];
+      for (const each of refused)
+        assert.equal(outcomeOf(decodeWithWasm, payloadOfRefused(each)), each.verdict, each.name);
+      assert.ok(edits.length > 1000 && refused.length > 10);
     });
 
-  test("has the verdict of the vectors on every edit and on everything to be refused", () => {
-    const edits = readVector("edits") as Edit[];
-    for (const edit of edits) {
-      const payload = editedPayload(edit);
-      const isAccepted = isAcceptedByBoth(payload, JSON.stringify(edit));
-      assert.equal(isAccepted, typeof edit.verdict === "number");
-      if (!isAccepted) assert.equal(outcomeOf(decodeWithWasm, payload), edit.verdict);
-    }
-    const refused = readVector("refused") as Refused[];
-    for (const each of refused)
-      assert.equal(outcomeOf(decodeWithWasm, payloadOfRefused(each)), each.verdict, each.name);
-    assert.ok(edits.length > 1000 && refused.length > 10);
-  });
-
-  test("accepts and refuses what TypeScript does, whatever the bytes", () => {
-    const random = new TestRandom(7);
-    const names = vectorNames();
-    const payloads = names.map(readPayload);
-    let accepted = 0;
-    for (let round = 0; round < 1500; ++round) {
-      const payload = payloads[random.below(payloads.length)]!.slice();
-      for (let edit = random.below(3); edit >= 0; --edit)
-        payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] =
-          random.below(256);
-      if (isAcceptedByBoth(payload, `round ${round}`)) ++accepted;
-    }
-    assert.ok(accepted > 50 && accepted < 1450, `${accepted} accepted`);
-  });
+    test(`accepts and refuses what TypeScript does, whatever the bytes of version ${version}`, () => {
+      const random = new TestRandom(7);
+      const payloads = names.map((name) => readPayload(name, version));
+      let accepted = 0;
+      for (let round = 0; round < 1500; ++round) {
+        const payload = payloads[random.below(payloads.length)]!.slice();
+        for (let edit = random.below(3); edit >= 0; --edit)
+          payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] =
+            random.below(256);
+        if (isAcceptedByBoth(payload, `round ${round}`)) ++accepted;
+      }
+      assert.ok(accepted > 50 && accepted < 1450, `${accepted} accepted`);
+    });
+  }
 
   test("decodes after a refusal what it decoded before it, with a new instance", () => {
     const decoder = new WasmDecoder(module);
