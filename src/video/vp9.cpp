@@ -36,8 +36,8 @@ struct Vp9Encoder::State {
   vpx_codec_pts_t next = 0;
 };
 
-Vp9Encoder::Vp9Encoder(VideoSize size, int speed) : state_(new State{size, {}, {}, {}, 0}) {
-  std::unique_ptr<State> state(state_); // until nothing can fail
+Vp9Encoder::Vp9Encoder(VideoSize size, int speed) {
+  std::unique_ptr<State> state(new State{size, {}, {}, {}, 0}); // until nothing can fail
   vpx_codec_enc_cfg_t options;
   require(vpx_codec_enc_config_default(vpx_codec_vp9_cx(), &options, 0), "options");
   options.g_profile = 1;
@@ -57,7 +57,7 @@ Vp9Encoder::Vp9Encoder(VideoSize size, int speed) : state_(new State{size, {}, {
   vpx_img_wrap(&state->image, VPX_IMG_FMT_I444, size.width, size.height, 1, state->planes.data());
   state->image.cs = VPX_CS_SRGB;
   state->image.range = VPX_CR_FULL_RANGE;
-  static_cast<void>(state.release()); // state_ owns it
+  state_ = state.release();
 }
 
 Vp9Encoder::~Vp9Encoder() {
@@ -111,12 +111,12 @@ struct Vp9Decoder::State {
   }
 };
 
-Vp9Decoder::Vp9Decoder(VideoSize size, std::string location) : state_(new State{size, std::move(location), {}}) {
-  std::unique_ptr<State> state(state_); // until nothing can fail
+Vp9Decoder::Vp9Decoder(VideoSize size, std::string location) {
+  std::unique_ptr<State> state(new State{size, std::move(location), {}}); // until nothing can fail
   require(vpx_codec_dec_init(&state->codec, vpx_codec_vp9_dx(), nullptr, 0), "decoder");
   require(vpx_codec_set_frame_buffer_functions(&state->codec, &State::takeBuffer, &State::giveBufferBack, state.get()),
           "memory of the decoder");
-  static_cast<void>(state.release()); // state_ owns it
+  state_ = state.release();
 }
 
 Vp9Decoder::~Vp9Decoder() {

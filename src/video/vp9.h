@@ -19,7 +19,7 @@ public:
 
 private:
   struct State;
-  State* state_;
+  State* state_ = nullptr;
 };
 
 /// Decodes packets one after the other. Safe for untrusted bytes: images of other sizes than the stated one are refused
@@ -36,7 +36,7 @@ public:
 
 private:
   struct State;
-  State* state_;
+  State* state_ = nullptr;
 };
 
 } // namespace imgeo
