@@ -43,7 +43,7 @@ const Interpolator& interpolatorNamed(const SceneGraph& graph, const std::string
 }
 
 /// The value of an interpolator at a fraction, component by component.
-std::vector<double> valueAt(const Interpolator& interpolator, double fraction) {
+std::vector<double> linearValueAt(const Interpolator& interpolator, double fraction) {
   const std::size_t count = componentsOf(interpolator.kind);
   std::size_t after = 1;
   while (after + 1 < interpolator.keys.size() && interpolator.keys[after] < fraction)
@@ -122,7 +122,7 @@ TEST(GltfAnimations, OfSplinesAreResampledWithinTheStatedError) {
   for (int i = 0; i <= 1000; ++i) {
     const double t = i / 1000.0, t2 = t * t, t3 = t2 * t;
     const double out = 2 * (t3 - 2 * t2 + t), in = 2 * (t3 - t2);
-    const std::vector<double> value = valueAt(interpolator, t);
+    const std::vector<double> value = linearValueAt(interpolator, t);
     EXPECT_NEAR(value[0], 6 * out + 8 * (3 * t2 - 2 * t3), 6e-4 * 8) << t;
     EXPECT_NEAR(value[1], 5 * out - 5 * in, 6e-4 * 8) << t;
   }
