@@ -8,6 +8,9 @@ const minWindowBytes = 96 * 1024;
 /** Covers rounds that take longer than the shortest. */
 const latencyMargin = 1.5;
 
+/** Covers tasks of the main thread, which has to send the next request: starting the runtime takes longer on few cores. */
+const minWindowMs = 100;
+
 /** Bytes and times that are this old count half. */
 const halfLifeMs = 500;
 
@@ -24,7 +27,7 @@ export class TransferWindow {
   get byteLength(): number {
     if (this.#receivedMs === 0 || this.#latencyMs === Infinity) return minWindowBytes;
     const bytesPerMs = this.#receivedBytes / this.#receivedMs;
-    return Math.max(minWindowBytes, latencyMargin * bytesPerMs * this.#latencyMs);
+    return Math.max(minWindowBytes, bytesPerMs * Math.max(minWindowMs, latencyMargin * this.#latencyMs));
   }
 
   /** A server's answer has begun `latencyMs` after its request. */
