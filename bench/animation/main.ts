@@ -13,15 +13,9 @@ import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSy
 import { basename, dirname, join } from "node:path";
 import { brotliCompressSync, gzipSync } from "node:zlib";
 import { converter, repository } from "../../tests/browser/paths.ts";
+import { animatedSamples } from "../../tests/gltf/animatedSamples.ts";
 
 const models = join(process.env.IMGEO_PACKAGES ?? "/", "usr/share/assimp/models");
-const samples = [
-  "glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf",
-  "glTF2/simple_skin/simple_skin.gltf",
-  "Collada/box_nested_animation.dae",
-  "FBX/huesitos.fbx",
-  "X/Testwuson.X",
-];
 const output = join(repository, "build/bench-animation");
 
 interface Accessor {
@@ -130,7 +124,7 @@ const cell = (whole: Sizes, without?: Sizes): string =>
 rmSync(output, { recursive: true, force: true });
 const animations: string[] = [];
 const files: string[] = [];
-for (const sample of samples) {
+for (const sample of animatedSamples) {
   const file = fileOf(sample);
   const { gltf, rest } = readGltf(file);
   const still = file.replace("animated.", "still.");

@@ -14,15 +14,9 @@ import { difference } from "../browser/compare.ts";
 import { converter, repository } from "../browser/paths.ts";
 import { decodePng, encodePng, type Picture } from "../browser/png.ts";
 import { startServer } from "../browser/server.ts";
+import { animatedSamples } from "./animatedSamples.ts";
 
 const models = "/usr/share/assimp/models";
-const samples = [
-  "glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf",
-  "glTF2/simple_skin/simple_skin.gltf",
-  "Collada/box_nested_animation.dae",
-  "FBX/huesitos.fbx",
-  "X/Testwuson.X",
-];
 const bundles = { "app.js": "tests/browser/riggedPage.ts", "worker.js": "web/src/workers/worker.ts" };
 /** Seconds. */
 const moments = [0, 0.4, 0.9];
@@ -97,7 +91,7 @@ async function picturesOf(url: string, bounded: string): Promise<Picture[]> {
 try {
   console.log(`| animated sample | ${moments.map((moment) => `${moment} s`).join(" | ")} |`);
   console.log(`|---|${moments.map(() => "--:|").join("")}`);
-  for (const sample of samples) {
+  for (const sample of animatedSamples) {
     const file = fileOf(sample);
     const site = join(output, `site-${basename(file)}`);
     run("convert", file, "-o", site, "--force", ...precise);
