@@ -32,15 +32,15 @@ void orderForVertexCache(std::span<const std::uint32_t> corners, std::span<const
       if (isDone[node])
         continue;
       isDone[node] = 1;
-      const std::size_t first = node > 0 ? std::size_t{3} * fans[2 * node - 2] : 0,
-                        last = std::size_t{3} * fans[2 * node];
+      const std::size_t fan = std::size_t{2} * node;
+      const std::size_t first = node > 0 ? std::size_t{3} * fans[fan - 2] : 0, last = std::size_t{3} * fans[fan];
       for (std::size_t corner = first; corner < last; ++corner)
         *ordered++ = static_cast<Index>(corners[corner]);
       if (ring + 1 == ringCount)
         continue;
       ++ring;
-      next[ring] = node > 0 ? fans[2 * node - 1] : 0;
-      end[ring] = fans[2 * node + 1];
+      next[ring] = node > 0 ? fans[fan - 1] : 0;
+      end[ring] = fans[fan + 1];
     }
   }
 }

@@ -10,6 +10,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
 import { drawsOfFrame, pictureSize, settle, until, withPage, type View } from "./harness.ts";
+import { soakTest } from "./soak.ts";
 import { transformedPatches } from "./transformedPatches.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
@@ -149,7 +150,7 @@ function tinyShapesFile(): string {
   return file;
 }
 
-test("2,500 shapes that share a file take few draw calls, and each follows its element", async () => {
+soakTest("2,500 shapes that share a file take few draw calls, and each follows its element", async () => {
   const shared = siteOf(tinyShapesFile());
   const site = variantOf(shared, "named", (page) => page.replaceAll(/<Shape DEF="(s\d+)"/g, '<Shape id="$1" DEF="$1"'));
   assert.ok(/<Shape id="s1250"[^>]* patch="[^"]+#\d+"/.test(pageOf(site)), "the shapes have files of their own");

@@ -12,6 +12,7 @@ import type { Picture } from "./png.ts";
 import { gate, type TestServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, withShapes } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 /** A site of a trefoil inside a Transform, with the files of a sphere in other/. */
 function twoMeshSite(): string {
@@ -152,22 +153,25 @@ describe("a change of the document changes the picture", () => {
       () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000"),
     ],
   ] as const) {
-    test(`${what}, each at once, and all together as if the page had been written so`, async () => {
-      await withTransform(async (view) => {
-        const requestCount = view.server.requests.length;
-        let before = await view.picture();
-        for (const [name, change] of Object.entries(changes)) {
-          await view.page.evaluate(change);
-          const after = await view.picture();
-          assert.ok(difference(before, after).mean > 0.5, `${name}: nothing has changed`);
-          before = after;
-        }
-        assert.equal(view.server.requests.length, requestCount, "files were requested again");
-        assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), {
-          mean: 0.001,
-        });
-      }, site());
-    });
+    (what === "of transforms" ? soakTest : test)(
+      `${what}, each at once, and all together as if the page had been written so`,
+      async () => {
+        await withTransform(async (view) => {
+          const requestCount = view.server.requests.length;
+          let before = await view.picture();
+          for (const [name, change] of Object.entries(changes)) {
+            await view.page.evaluate(change);
+            const after = await view.picture();
+            assert.ok(difference(before, after).mean > 0.5, `${name}: nothing has changed`);
+            before = after;
+          }
+          assert.equal(view.server.requests.length, requestCount, "files were requested again");
+          assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), {
+            mean: 0.001,
+          });
+        }, site());
+      },
+    );
   }
 
   test("that hides shapes and makes them visible again", async () => {

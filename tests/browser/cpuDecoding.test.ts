@@ -10,6 +10,7 @@ import { referencePicture } from "./reference.ts";
 import { gate } from "./server.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const onCpu = (html: Buffer): string => html.toString().replaceAll(/<ImageGeometry/gi, `$& decode="cpu"`);
 const cpuServer = (server: View["server"]): void => void server.when(/^\/$/, { replace: onCpu });
@@ -32,22 +33,24 @@ async function loadPage(site: string, options: PageOptions): Promise<Result> {
   return seen;
 }
 
-const cases: { mesh: GeneratedMesh; options: string[] }[] = [
+/** `isLong`: only `make soak` runs it. */
+const cases: { mesh: GeneratedMesh; options: string[]; isLong?: boolean }[] = [
   ...["triangles", "strips"].map((primitives) => ({
     mesh: "trefoil-colors" as const,
     options: ["--primitives", primitives, "--patch-vertices", "1000"],
+    isLong: primitives === "triangles",
   })),
-  { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
+  { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"], isLong: true },
   { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
-  { mesh: "trefoil", options: ["--normals", "octahedral"] },
+  { mesh: "trefoil", options: ["--normals", "octahedral"], isLong: true },
   { mesh: "trefoil", options: ["--normals", "palette"] },
   { mesh: "points", options: [] },
-  { mesh: "coil", options: ["--primitives", "strips"] },
+  { mesh: "coil", options: ["--primitives", "strips"], isLong: true },
 ];
 
 describe("the picture decoded on the CPU equals that of the GPU and of plain buffers", () => {
-  for (const { mesh, options } of cases) {
-    test([mesh, ...options].join(" "), async () => {
+  for (const { mesh, options, isLong } of cases) {
+    (isLong === true ? soakTest : test)([mesh, ...options].join(" "), async () => {
       const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
       const gpu = await loadPage(site, {});
       const cpu = await loadPage(site, { server: cpuServer });

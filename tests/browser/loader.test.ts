@@ -22,7 +22,7 @@ import { gate } from "./server.ts";
 import { ranksOfFiles, type PlainPatch } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
 import { TestStream } from "./testStream.ts";
-import { soakTest } from "./soak.ts";
+import { isSoak, soakTest } from "./soak.ts";
 
 const bundles = { "app.js": "tests/browser/loaderPage.ts", "worker.js": "web/src/workers/worker.ts" };
 const directory = join(outputDirectory, "loader");
@@ -82,10 +82,11 @@ const cases: Case[] = [
   {
     mesh: "trefoil",
     options: ["--profile", "classic", "--normals", "octahedral", "--primitives", "strips", "--patch-vertices", "1000"],
+    isLong: true,
   },
   { mesh: "trefoil", options: ["--profile", "compact"], lights: ["directional", "point"] },
   { mesh: "trefoil", options: ["--container", "bg", "--normals", "spherical"], lights: ["directional", "point"] },
-  { mesh: "trefoil-colors", options: ["--profile", "classic"] },
+  { mesh: "trefoil-colors", options: ["--profile", "classic"], isLong: true },
   { mesh: "trefoil-colors", options: ["--container", "bg"], isLong: true },
   { mesh: "points", options: ["--profile", "classic"], isLong: true },
   { mesh: "coil", options: ["--profile", "compact"] },
@@ -156,7 +157,7 @@ test("live streams and operators in a three.js app are drawn and cast shadows as
         window.app.loader.setKeepVertices(keep);
         return window.app.load();
       }, keepsVertices);
-    for (const keepsVertices of [false, true]) {
+    for (const keepsVertices of isSoak ? [false, true] : [false]) {
       stream.begin(wave(0));
       stream.publish(wave(0));
       await reload(keepsVertices);
@@ -220,7 +221,7 @@ test("live streams and operators in a three.js app are drawn and cast shadows as
       const unshadowed = await draw(page, "directional", "plain", false);
       const shadow = difference(expected, unshadowed).mean;
       assert.ok(shadow > 0.3, `the shadow changes the reference by ${shadow}`);
-      for (const keepsVertices of [false, true]) {
+      for (const keepsVertices of isSoak ? [false, true] : [true]) {
         await reload(keepsVertices);
         const name = `loader ${operators}${keepsVertices ? " kept" : ""}`;
         assertSamePicture(name, await draw(page, "directional", "scene"), expected, { mean: 0.06, offShare: 0.001 });
@@ -446,10 +447,14 @@ describe("the loader keeps three's conventions", () => {
 
   test("the GPU picks the object at a pixel, and Raycaster finds the same where vertices are kept", async () => {
     for (const [options, keeps] of [
-      [["--profile", "classic"], false],
       [["--profile", "classic"], true],
       [["--profile", "compact"], false],
-      [["--container", "bg"], false],
+      ...(isSoak
+        ? ([
+            [["--profile", "classic"], false],
+            [["--container", "bg"], false],
+          ] as const)
+        : []),
     ] as const) {
       await withApp(siteOfGenerated("trefoil", ...options), {}, async ({ page }) => {
         await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keeps);

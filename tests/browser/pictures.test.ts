@@ -63,18 +63,23 @@ const cases: Case[] = [
     ["separate", "interleaved"].map((layout) => ({
       mesh: "trefoil-colors" as const,
       options: ["--container", "bg", "--coord-type", type, "--layout", layout],
-      isLong: (n % 2 === 0) === (layout === "interleaved"),
+      isLong: n % 2 === 1 || (n === 0) === (layout === "interleaved"),
     })),
   ),
   {
     mesh: "trefoil",
     options: ["--container", "bg", "--coord-type", "int16", "--position-bits", "11", "--normals", "spherical"],
+    isLong: true,
   },
   {
     mesh: "trefoil-colors",
     options: ["--container", "bg", "--layout", "interleaved", "--position-bits", "20", "--primitives", "strips"],
   },
-  { mesh: "trefoil-colors", options: ["--container", "bg", "--layout", "interleaved", "--normals", "octahedral"] },
+  {
+    mesh: "trefoil-colors",
+    options: ["--container", "bg", "--layout", "interleaved", "--normals", "octahedral"],
+    isLong: true,
+  },
   { mesh: "points", options: ["--container", "bg", "--layout", "interleaved", "--coord-type", "float32"] },
   ...["sig", "bg"].map((container) => ({
     mesh: "trefoil-large" as const,
@@ -82,12 +87,12 @@ const cases: Case[] = [
     isLong: container === "bg",
   })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"], isLong: true },
-  { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
+  { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"], isLong: true },
   { mesh: "points", options: [], isLong: true },
   { mesh: "points", options: ["--container", "bg"], isLong: true },
   { mesh: "trefoil-colors", options: ["--primitives", "points"] },
   ...["sig", "bg"].flatMap((container) => [
-    { mesh: "coil" as const, options: ["--container", container], isLong: container === "bg" },
+    { mesh: "coil" as const, options: ["--container", container], isLong: true },
     {
       mesh: "coil" as const,
       options: ["--container", container, "--primitives", "strips", "--patch-vertices", "500"],
