@@ -29,6 +29,9 @@ if(IMGEO_THREAD_SANITIZE)
   target_link_options(imgeo_options INTERFACE -fsanitize=thread)
 endif()
 
+# Where processor time goes in conversion; other folders compile in 0.85 of the time with -O2 (CMakePresets.json).
+set(IMGEO_HOT_FOLDERS prepare containers images live)
+
 # Tests run once per build: the tested code is optimised, test code compiles in half the time with -Og.
 set(IMGEO_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
 
@@ -44,6 +47,9 @@ function(imgeo_folder name)
     add_library(imgeo_${name} STATIC ${sources})
     target_link_libraries(imgeo_${name} PUBLIC imgeo_options ${ARG_USES})
     set_target_properties(imgeo_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 30)
+    if(name IN_LIST IMGEO_HOT_FOLDERS)
+      target_compile_options(imgeo_${name} PRIVATE $<$<CONFIG:Release>:-O3>)
+    endif()
   else()
     add_library(imgeo_${name} INTERFACE)
     target_link_libraries(imgeo_${name} INTERFACE imgeo_options ${ARG_USES})
