@@ -5,9 +5,11 @@ import {
   AmbientLight,
   AnimationMixer,
   Box3,
+  BoxGeometry,
   DirectionalLight,
   Group,
   Mesh,
+  MeshStandardMaterial,
   type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
@@ -16,7 +18,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { ImgeoLoader } from "../../web/src/loader/index.ts";
+import { ImgeoLoader, type ImgeoScene } from "../../web/src/loader/index.ts";
 
 declare global {
   interface Window {
@@ -24,8 +26,12 @@ declare global {
     loadModel: (url: string, workerUrl: string, distance: number, center?: [number, number, number]) => Promise<void>;
     /** The box around the vertices of a GLB as GLTFLoader poses them at rest. */
     boundsOf: (url: string) => Promise<{ center: [number, number, number]; size: number }>;
-    /** Draws the model at a time of its first animation, in seconds. */
-    drawMoment: (seconds: number) => Promise<void>;
+    /** Adds a floor that receives shadows. */
+    addFloor: (y: number) => void;
+    /** Displays a frame of the model's sequences. */
+    showSequence: (seconds: number) => Promise<void>;
+    /** Draws the model at a time of its first animation, in seconds; undefined: as it is. */
+    drawMoment: (seconds: number | undefined) => Promise<void>;
     /** The name of the shape at a pixel of the canvas, by ImgeoScene.pick. */
     pickedShape: (x: number, y: number) => string | undefined;
   }
@@ -35,6 +41,7 @@ const scene = new Scene();
 let renderer: WebGLRenderer;
 let camera: PerspectiveCamera;
 let mixer: AnimationMixer | undefined;
+let sequences: ImgeoScene | undefined;
 let pick: Window["pickedShape"] = () => undefined;
 
 async function modelOf(url: string, workerUrl: string): Promise<Object3D> {
@@ -43,6 +50,7 @@ async function modelOf(url: string, workerUrl: string): Promise<Object3D> {
     loader.setWorkerUrl(workerUrl);
     const model = await loader.loadAsync(url);
     await model.complete;
+    sequences = model;
     pick = (x, y) => model.pick(renderer, camera, x, y)?.object.name;
     return model;
   }
@@ -93,8 +101,25 @@ window.loadModel = async (url, workerUrl, distance, center = [0, 0, 0]) => {
   if (clip) mixer.clipAction(clip).play();
 };
 
+window.addFloor = (y) => {
+  const floor = new Mesh(new BoxGeometry(12, 0.1, 12), new MeshStandardMaterial());
+  floor.position.y = y;
+  floor.receiveShadow = true;
+  scene.add(floor);
+};
+
+window.showSequence = async (seconds) => {
+  let lastChange = performance.now();
+  sequences?.addEventListener("change", () => {
+    lastChange = performance.now();
+  });
+  sequences?.setSequenceTime(seconds);
+  const quietTime = 500;
+  while (performance.now() < lastChange + quietTime) await window.drawMoment(undefined);
+};
+
 window.drawMoment = async (seconds) => {
-  mixer?.setTime(seconds);
+  if (seconds !== undefined) mixer?.setTime(seconds);
   // ImgeoLoader draws what it has uploaded in the frames that follow.
   for (let frame = 0; frame < 8; ++frame) {
     renderer.render(scene, camera);

@@ -44,9 +44,15 @@ export function withStreamState(
   // The values of a sequence may be those of the document.
   const isValueStatic = state.valueComponents === 0 && stated.value.length > 0;
   const value = isValueStatic ? geometry.value : geometry.value && withRange(geometry.value, state);
+  const { normal: normalLowBytes, color: colorLowBytes, ...otherLowBytes } = stated.lowBytes;
   const streamed: Partial<PatchDescription> = {
     ...(state.normalBits > 0 && { normal: undefined }),
     ...(state.colorComponents > 0 && { color: undefined }),
+    lowBytes: {
+      ...otherLowBytes,
+      ...(normalLowBytes && state.normalBits === 0 && { normal: normalLowBytes }),
+      ...(colorLowBytes && state.colorComponents === 0 && { color: colorLowBytes }),
+    },
   };
   const patch: PatchDescription = {
     ...stated,
