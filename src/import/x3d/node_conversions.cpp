@@ -158,7 +158,7 @@ private:
                                       "skinBindingNormals"sv};
     const bool hasSkin = readSkin(humanoid, definitions(), elements_.skins);
     for (const pugi::xml_node& child : elementsOf(humanoid))
-      if (isOneOf(lists, child.attribute("containerField").value()) || !isChildNode(child))
+      if (isOneOf(lists, child.attribute("containerField").value()) || isList(child))
         takeOut(child);
     if (hasSkin)
       renameSilently(humanoid, "Transform");
@@ -185,15 +185,15 @@ private:
 
   void convertSegment(pugi::xml_node segment) {
     for (const pugi::xml_node& child : elementsOf(segment))
-      if (!isChildNode(child))
+      if (isList(child))
         takeOut(child);
     makeGroup(segment);
   }
 
-  /// Whether an element can be a child of a group.
-  static bool isChildNode(pugi::xml_node element) {
-    static constexpr std::array others{"Coordinate"sv, "Normal"sv, "HAnimDisplacer"sv};
-    return !isOneOf(others, element.name());
+  /// Whether an element is a list of values, which cannot be a child of a group.
+  static bool isList(pugi::xml_node element) {
+    static constexpr std::array lists{"Coordinate"sv, "Normal"sv};
+    return isOneOf(lists, element.name());
   }
 
   /// X3DOM's ImageTexture under another name, whose image may also be an <img> in it.

@@ -99,6 +99,24 @@ TEST(NodeConversions, DrawAHumanoidOnceInItsPose) {
   EXPECT_EQ(treeOf(graph, graph.roots.at(0)), "Transform(Transform(Group(Shape(Box))),Shape)");
 }
 
+TEST(NodeConversions, KeepTheTransformOfASiteAndNameWhatHasNoEffectInAHumanoid) {
+  const Imported imported = readScene(
+      "<HAnimHumanoid><HAnimMotion containerField='motions'/><HAnimJoint DEF='J' containerField='skeleton'>"
+      "<HAnimDisplacer containerField='displacers' weight='1'/><HAnimSegment><HAnimDisplacer "
+      "containerField='displacers' weight='1'/><HAnimSite DEF='S' translation='0 3 0' rotation='0 0 1 0.5' scale='2 1 "
+      "1' center='0 1 0'><Shape><Box/></Shape></HAnimSite></HAnimSegment></HAnimJoint></HAnimHumanoid>");
+  const SceneGraph& graph = imported.scene.graph;
+  const auto site = std::ranges::find(graph.nodes, "S", &Node::name);
+  ASSERT_NE(site, graph.nodes.end());
+  const Transform& transform = std::get<Transform>(site->content);
+  EXPECT_EQ(transform.translation, (Vec3d{0, 3, 0}));
+  EXPECT_EQ(transform.rotation.angle, 0.5);
+  EXPECT_EQ(transform.scale, (Vec3d{2, 1, 1}));
+  EXPECT_EQ(transform.center, (Vec3d{0, 1, 0}));
+  EXPECT_EQ(imported.warnings.at(0),
+            "Without effect, since pages do not play it: HAnimDisplacer (2), HAnimMotion (1).");
+}
+
 TEST(NodeConversions, MakeAMaterialOfACommonSurfaceShader) {
   const Imported imported = readScene(
       "<Shape><Appearance><Material diffuseColor='0 1 0'/><CommonSurfaceShader DEF='S' diffuseFactor='0.5 0.5 0.5' "

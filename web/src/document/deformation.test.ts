@@ -96,6 +96,29 @@ test("an HAnimMotion, and HAnimDisplacers of joints and segments, have no effect
   ]);
 });
 
+test("an HAnimSite places what is in it, and an HAnimSegment may hide it", () => {
+  const site = `<HAnimSite translation="1 2 3" rotation="0 1 0 0.5" scale="2 1 1" center="0 1 0"><Shape><Box/></Shape></HAnimSite>`;
+  const { root, warnings } = sceneOf(`<HAnimSegment visible="false">${site}</HAnimSegment>${site}`);
+  assert.deepEqual(warnings, []);
+  assert.deepEqual(
+    shapesOf(root).map(({ visible }) => visible),
+    [false, true],
+  );
+  const placed = root.children.at(-1);
+  assert.ok(placed?.kind === "group");
+  assert.ok(placed.transform);
+  const { translation, rotation, scale, center } = placed.transform;
+  assert.deepEqual(
+    [translation, rotation, scale, center],
+    [
+      [1, 2, 3],
+      [0, 1, 0, 0.5],
+      [2, 1, 1],
+      [0, 1, 0],
+    ],
+  );
+});
+
 describe("displacers", () => {
   const morph = geometry(attribute("displacer.0", 3) + attribute("displacer.1", 3));
 

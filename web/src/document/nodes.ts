@@ -203,6 +203,7 @@ export const nodeFields = {
   Switch: { ...prioritized, ...boundedObject, ...visibleObject, whichChoice: SFInt32(-1) },
   Transform: transformFields,
   HAnimJoint: transformFields,
+  HAnimSite: transformFields,
   HAnimHumanoid: {
     ...transformFields,
     /** From the coordinates of its shapes, as they were modelled, to those of each joint. */

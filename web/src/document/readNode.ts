@@ -56,6 +56,7 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
       return shapeReader(element, node, context);
     case "group":
     case "staticgroup":
+    case "hanimsegment":
       return groupReader(node, readFields(node, nodeFields.Group, warnings), context);
     case "anchor": {
       const { url, description, parameter, ...fields } = readFields(node, nodeFields.Anchor, warnings);
@@ -72,7 +73,8 @@ export function readNode(element: SceneElement, node: SceneElement, context: Nod
       return groupReader(node, fields, context, { billboardAxis: axisOfRotation });
     }
     case "transform":
-    case "hanimjoint": {
+    case "hanimjoint":
+    case "hanimsite": {
       const transform = readFields(node, nodeFields.Transform, warnings);
       return groupReader(node, transform, context, { transform, transformElement: node });
     }

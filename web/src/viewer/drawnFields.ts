@@ -6,7 +6,7 @@ import type { Field } from "../document/fieldTypes.ts";
 import { nodeFields } from "../document/nodes.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
 
-const transforms: ReadonlySet<string> = new Set(["transform", "hanimjoint", "hanimhumanoid"]);
+const transforms: ReadonlySet<string> = new Set(["transform", "hanimjoint", "hanimsite", "hanimhumanoid"]);
 const fieldsOfTransform: ReadonlySet<string> = new Set<keyof TransformDescription>([
   "translation",
   "rotation",
