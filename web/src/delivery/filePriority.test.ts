@@ -150,7 +150,22 @@ describe("a delivery", () => {
     await settled;
     assert.deepEqual(site.requested.toSorted(), ["a0.png", "i0.png", "n0.png"]);
     assert.equal(stages.at(-1)?.stage.name, "shaded");
-    assert.deepEqual([delivery.isSettled, delivery.isExhausted], [true, false]);
+    assert.deepEqual([delivery.isSettled, delivery.isExhausted, delivery.followsView], [true, false, true]);
+  });
+
+  test("follows the view while that decides about a file, which it does not about texture coordinates without texture", async () => {
+    const site = siteOf(sigFiles(1));
+    const [own] = sigGeometry(1).patches;
+    assert.ok(own);
+    const textured = { ...sigGeometry(1), patches: [{ ...own, texCoord: { url: "t0.png", firstTexel: 0 } }] };
+    const withoutTexture: FilePriority = (patch, file) =>
+      file.role === "texCoord" ? undefined : everything(patch, file);
+    const { delivery, settled } = record(textured, site.pool, withoutTexture);
+    assert.equal(delivery.followsView, true);
+    await settled;
+    assert.deepEqual([delivery.isExhausted, delivery.followsView], [false, false]);
+    delivery.request(everything);
+    assert.equal(delivery.followsView, true, "while it is being loaded");
   });
 
   test("settles again after a later request for more files", async () => {

@@ -8,10 +8,9 @@ import type { ChunkWeights } from "../scheduler/priority.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import type { Camera, Matrix, Sphere, ViewMetrics } from "../scheduler/viewMetrics.ts";
 import { scaleOf, sphereOf, unknownViewMetrics, viewMetricsOf } from "../scheduler/viewMetrics.ts";
-import type { VertexRole } from "../stage/attributeRows.ts";
-import { attributeRows } from "../stage/attributeRows.ts";
 import type { FilePriority } from "./geometryDelivery.ts";
 import type { PatchFile } from "./patchFiles.ts";
+import { isForTextures } from "./patchFiles.ts";
 import type { TextureChunk } from "./textureDeliveries.ts";
 
 /** Lattice steps of fewer device pixels than this are invisible. */
@@ -39,20 +38,43 @@ export function geometryInstance(
   authorPriority: number,
   isTextured = false,
 ): GeometryInstance {
-  const scale = scaleOf(sceneFromShape);
-  return {
-    geometry,
-    authorPriority,
-    isTextured,
-    spheres: geometry.patches.map((patch) =>
+  return new PlacedGeometry(geometry, sceneFromShape, authorPriority, isTextured);
+}
+
+/** Computes spheres and steps when they are read first: those of geometries whose files are all ready never are. */
+class PlacedGeometry implements GeometryInstance {
+  readonly geometry: GeometryDescription;
+  readonly authorPriority: number;
+  readonly isTextured: boolean;
+  readonly #sceneFromShape: Matrix;
+  #spheres: readonly Sphere[] | undefined;
+  #coarseSteps: readonly number[] | undefined;
+
+  constructor(geometry: GeometryDescription, sceneFromShape: Matrix, authorPriority: number, isTextured: boolean) {
+    this.geometry = geometry;
+    this.#sceneFromShape = sceneFromShape;
+    this.authorPriority = authorPriority;
+    this.isTextured = isTextured;
+  }
+
+  get spheres(): readonly Sphere[] {
+    const { geometry } = this;
+    this.#spheres ??= geometry.patches.map((patch) =>
       isUnbounded(geometry, patch)
         ? anywhere
-        : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape),
-    ),
-    coarseSteps: geometry.patches.map(
+        : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), this.#sceneFromShape),
+    );
+    return this.#spheres;
+  }
+
+  get coarseSteps(): readonly number[] {
+    const { geometry } = this;
+    if (this.#coarseSteps) return this.#coarseSteps;
+    const scale = scaleOf(this.#sceneFromShape);
+    return (this.#coarseSteps = geometry.patches.map(
       (patch) => Math.max(...dequantizationOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale,
-    ),
-  };
+    ));
+  }
 }
 
 /** The camera and the weights of file contents, which all shapes of a scene share. */
@@ -115,10 +137,6 @@ function filePriorityAt(instance: GeometryInstance, { camera, weights }: ViewSta
     if (patch !== undefined && isTooFine(file, patch, coarseStep, view)) return undefined;
     return priorityOf(instance.authorPriority, file.chunk, view, weights);
   };
-}
-
-function isForTextures({ role }: PatchFile): boolean {
-  return role in attributeRows && attributeRows[role as VertexRole].isForTextures;
 }
 
 /**

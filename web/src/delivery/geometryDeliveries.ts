@@ -88,10 +88,10 @@ export class GeometryDeliveries {
     };
   }
 
-  /** Whether every file of all geometries has loaded or failed. */
-  get areExhausted(): boolean {
-    for (const { delivery } of this.#shared.values()) if (!delivery.isExhausted) return false;
-    return true;
+  /** Whether the view decides about files that have not been loaded. */
+  get followView(): boolean {
+    for (const { delivery } of this.#shared.values()) if (delivery.followsView) return true;
+    return false;
   }
 
   /** Estimated bytes of all geometries on the GPU; files that several share count for each. */

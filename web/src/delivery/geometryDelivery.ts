@@ -8,7 +8,7 @@ import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import type { PatchFile } from "./patchFiles.ts";
-import { bytesPerTexel, fileRoles } from "./patchFiles.ts";
+import { bytesPerTexel, fileRoles, isForTextures } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
 import type { Content, ResourceHandle, ResourcePool } from "./resourcePool.ts";
 import { deliveryOf } from "./encodings/encodings.ts";
@@ -51,6 +51,8 @@ export interface Delivery {
   readonly isSettled: boolean;
   /** Whether every file of the geometry has loaded or failed. */
   readonly isExhausted: boolean;
+  /** Whether the view decides about files that have not been loaded: where shapes are, and from where they are seen. */
+  readonly followsView: boolean;
   /** Bytes of all files on the GPU; an estimate for those that have not been decoded. */
   readonly storedBytes: number;
   /** The GPU memory that files require or hold: a list for each patch, in the order in which files become useful. */
@@ -138,6 +140,13 @@ class GeometryDelivery implements Delivery {
 
   get isExhausted(): boolean {
     return this.#files.every(({ state }) => state === "ready" || state === "failed");
+  }
+
+  get followsView(): boolean {
+    return this.#files.some(
+      ({ state, handle, file }) =>
+        state !== "ready" && state !== "failed" && (handle !== undefined || !isForTextures(file)),
+    );
   }
 
   get storedBytes(): number {

@@ -62,6 +62,10 @@ class MovingDelivery implements Delivery {
     return this.#isRequested;
   }
 
+  get followsView(): boolean {
+    return !this.#isRequested;
+  }
+
   get storedBytes(): number {
     return [...this.#stored.values(), ...this.#fixed].reduce((sum, { vertices }) => sum + vertices.bytes.byteLength, 0);
   }

@@ -4,7 +4,7 @@ import type { PatchDescription, Reference } from "../document/description.ts";
 import { cornerCountOf } from "../document/patchSizes.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
-import { vertexRoles } from "../stage/attributeRows.ts";
+import { attributeRows, vertexRoles } from "../stage/attributeRows.ts";
 import type { ContentTarget } from "./resourcePool.ts";
 
 /** The arrays of a patch, in the order in which they become useful. PatchDescription has a member of each name. */
@@ -28,6 +28,11 @@ export interface PatchFile {
   readonly expectedBytes: number;
   /** Estimated bytes on the GPU. */
   readonly storedBytes: number;
+}
+
+/** Whether only shapes with a texture need the file. */
+export function isForTextures({ role }: PatchFile): boolean {
+  return role in attributeRows && attributeRows[role as VertexRole].isForTextures;
 }
 
 /** Bytes of a texel on the GPU: three channels are stored as four. */

@@ -93,7 +93,7 @@ export class DeliveryControl {
   #requestSoon(): void {
     this.#timer ??= setTimeout(() => {
       this.#timer = undefined;
-      if (!this.#isExhausted) this.request();
+      if (this.#followsView) this.request();
     }, cameraIntervalMs);
   }
 
@@ -123,11 +123,11 @@ export class DeliveryControl {
     requestWithinBudget(this.#options.deliveries, () => noPriority, noPriority);
   }
 
-  /** Whether every file has been loaded, and none has to leave. */
-  get #isExhausted(): boolean {
+  /** Whether another view may request files, or let others leave. */
+  get #followsView(): boolean {
     const { deliveries } = this.#options;
     const { geometries, textures } = deliveries;
-    return geometries.areExhausted && textures.areExhausted && storedBytesOf(deliveries) <= this.#maxBytes;
+    return geometries.followView || !textures.areExhausted || storedBytesOf(deliveries) > this.#maxBytes;
   }
 
   #followMoved(): void {

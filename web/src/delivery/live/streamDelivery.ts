@@ -84,6 +84,7 @@ class StreamDelivery implements Delivery {
 
   /** Never: `request` tells the stream whether it is visible. */
   readonly isExhausted = false;
+  readonly followsView = true;
 
   get storedBytes(): number {
     return (this.#displayed?.delivery.storedBytes ?? 0) + (this.#next?.delivery.storedBytes ?? 0);

@@ -85,6 +85,7 @@ export class SequenceDelivery implements Delivery {
 
   /** Never: `request` tells the sequence whether it is visible. */
   readonly isExhausted = false;
+  readonly followsView = true;
 
   get storedBytes(): number {
     return (this.#static?.storedBytes ?? 0) + (this.#playing?.delivery.storedBytes ?? 0);
