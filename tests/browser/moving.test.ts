@@ -155,7 +155,7 @@ const breathPage = (name: string, site: string, attributes = ""): string =>
 const stillBreath = (frame: number): string =>
   siteOfFrames(`breath-still-${frame}`, [breath[frame]!], "--profile", "classic");
 
-test("a sequence is hit where its frame is", async () => {
+soakTest("a sequence is hit where its frame is", async () => {
   const frame = 14;
   await withPage(breathPage("moving-sequence", breathSite(), 'sequence-time="0"'), { size }, async (view) => {
     await view.promise("complete");
@@ -209,7 +209,7 @@ async function inApp(site: string, seconds?: number): Promise<{ picture: Picture
   return seen;
 }
 
-test("a sequence and a lossless video are drawn and cast shadows in a three.js app as their frame does", async () => {
+soakTest("a sequence and a lossless video are drawn and cast shadows in a three.js app as their frame does", async () => {
   await bundleApp(bundles, appDirectory);
   const frame = 14;
   const still = await inApp(stillBreath(frame));
@@ -255,7 +255,7 @@ function wavesDocument(): string {
     ${route("clock.fraction_changed", "waves.set_fraction")}${route("waves.value_changed", "grid.set_point")}</Scene></X3D>`;
 }
 
-test("a document with a CoordinateInterpolator is drawn as its site with a sequence at each key", async () => {
+soakTest("a document with a CoordinateInterpolator is drawn as its site with a sequence at each key", async () => {
   const text = wavesDocument();
   const file = join(outputDirectory, "waves.x3d");
   writeFileSync(file, text);
