@@ -209,25 +209,28 @@ async function inApp(site: string, seconds?: number): Promise<{ picture: Picture
   return seen;
 }
 
-soakTest("a sequence and a lossless video are drawn and cast shadows in a three.js app as their frame does", async () => {
-  await bundleApp(bundles, appDirectory);
-  const frame = 14;
-  const still = await inApp(stillBreath(frame));
-  savePicture("moving-app", still.picture);
-  const first = await inApp(stillBreath(0));
-  assert.ok(difference(first.picture, still.picture).offShare > 0.01, "it moves");
-  for (const [name, files, ...options] of [
-    ["frames", /igf/],
-    ["video", /webm/, "--as", "video"],
-  ] as const) {
-    const site = siteOfFrames("breath", breath, "--rate", String(rate), ...options);
-    const { picture, paths } = await inApp(site, frame / rate);
-    assertSamePicture(`moving-app-${name}`, picture, still.picture, { mean: 0.1, offShare: 0.002 });
-    const kinds = new Set(paths.filter((path) => /igf|webm/.test(path)).map((path) => path.replace(/.*\./, "")));
-    assert.equal(kinds.size, 1, Array.from(kinds).join());
-    assert.match(Array.from(kinds).join(), files);
-  }
-});
+soakTest(
+  "a sequence and a lossless video are drawn and cast shadows in a three.js app as their frame does",
+  async () => {
+    await bundleApp(bundles, appDirectory);
+    const frame = 14;
+    const still = await inApp(stillBreath(frame));
+    savePicture("moving-app", still.picture);
+    const first = await inApp(stillBreath(0));
+    assert.ok(difference(first.picture, still.picture).offShare > 0.01, "it moves");
+    for (const [name, files, ...options] of [
+      ["frames", /igf/],
+      ["video", /webm/, "--as", "video"],
+    ] as const) {
+      const site = siteOfFrames("breath", breath, "--rate", String(rate), ...options);
+      const { picture, paths } = await inApp(site, frame / rate);
+      assertSamePicture(`moving-app-${name}`, picture, still.picture, { mean: 0.1, offShare: 0.002 });
+      const kinds = new Set(paths.filter((path) => /igf|webm/.test(path)).map((path) => path.replace(/.*\./, "")));
+      assert.equal(kinds.size, 1, Array.from(kinds).join());
+      assert.match(Array.from(kinds).join(), files);
+    }
+  },
+);
 
 const keyCount = 9;
 const edge = 16;
