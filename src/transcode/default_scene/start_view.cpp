@@ -91,15 +91,21 @@ private:
 
 /// The vertices that are farthest along the axes and diagonals of a mesh: samples may miss thin tips.
 std::vector<Vec3f> tipsOf(const Mesh& mesh) {
-  std::vector<Vec3f> tips;
   if (mesh.positions.empty())
-    return tips;
+    return {};
+  std::vector<Vec3f> directions;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z)
-        tips.push_back(*std::ranges::max_element(mesh.positions, {}, [&](const Vec3f& p) {
-          return static_cast<float>(x) * p.x + static_cast<float>(y) * p.y + static_cast<float>(z) * p.z;
-        }));
+        directions.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+  std::vector<Vec3f> tips(directions.size(), mesh.positions.front());
+  std::vector<float> farthest(directions.size(), std::numeric_limits<float>::lowest());
+  for (const Vec3f& position : mesh.positions)
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      if (const float distance = dot(directions[i], position); distance > farthest[i]) {
+        farthest[i] = distance;
+        tips[i] = position;
+      }
   return tips;
 }
 
