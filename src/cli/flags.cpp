@@ -113,7 +113,8 @@ Command convertCommand() {
                 choice("as", namesOf(formChoices),
                        "geometry-image: sample surfaces anew on regular grids, one for each chart, without an index; "
                        "height-map: a regular grid of heights as images of them; both in profile classic; "
-                       "sequence: animated joints and morph targets as recorded frames, --rate a second; "
+                       "sequence: animated joints, morph targets and coordinates as recorded frames, "
+                       "--rate a second; "
                        "video: frames of a sequence as a lossless video, too"),
                 integer("grid", {}, 4, maxGridEdge, "",
                         "geometry images: N * N texels for a mesh, 4..4096, otherwise 256"),

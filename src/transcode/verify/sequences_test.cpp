@@ -250,6 +250,54 @@ TEST(Sequences, OfSeveralShapesAreExportedTogether) {
     EXPECT_TRUE(std::ranges::any_of(mesh.positions, [](const Vec3f& p) { return std::abs(p.z) > 0.5; }));
 }
 
+/// A mesh whose only joint moves by 3 along z in a second.
+Scene skinScene() {
+  Scene scene = testing::sceneOf({withNormals(testing::grid(4))});
+  SceneGraph& graph = scene.graph;
+  const std::size_t shape = shapeNodes(graph).at(0);
+  Mesh& mesh = scene.meshes.at(0);
+  const std::vector<float> joints(4 * mesh.wedgeCount());
+  std::vector<float> weights(4 * mesh.wedgeCount());
+  for (std::size_t i = 0; i < weights.size(); i += 4)
+    weights[i] = 1;
+  mesh.namedAttributes.push_back({jointsName(0), 4, joints});
+  mesh.namedAttributes.push_back({jointWeightsName(0), 4, weights});
+  Transform transform;
+  transform.isJoint = true;
+  std::erase(graph.roots, shape);
+  const std::size_t joint = addRoot(graph, {"joint", transform, {}, ""});
+  addRoot(graph, {"skin", Humanoid{{joint}, {Affine3d{}}}, {shape}, ""});
+  const std::size_t sensor = addRoot(graph, {"clock", TimeSensor{}, {}, ""});
+  const std::size_t way =
+      addRoot(graph, {"way", Interpolator{InterpolatorKind::position, {0, 1}, {0, 0, 0, 0, 0, 3}}, {}, ""});
+  graph.routes.push_back({sensor, "fraction_changed", way, "set_fraction"});
+  graph.routes.push_back({way, "value_changed", joint, "translation"});
+  return scene;
+}
+
+TEST(Sequences, OfSkinsHaveTheVerticesAsTheJointsMoveThem) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "skin.glb", exportScene(skinScene(), MeshFormat::glb));
+  ConvertOptions options;
+  options.form = MeshForm::sequence;
+  options.rate = 4;
+  EXPECT_EQ(convert(directory / "skin.glb", directory / "site", options).frames, 5u);
+  const SceneGraph graph = openDocument(directory / "site").scene.graph;
+  EXPECT_EQ(countNodes<Humanoid>(graph), 0u);
+  EXPECT_EQ(countNodes<Interpolator>(graph), 2u) << "those of the frames and of the joint, which stays";
+  const VerifyReport verified = verify(directory / "site", directory / "skin.glb");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+
+  const auto positionsOf = [&](std::uint32_t frame) {
+    exportFrame(directory / "site", frame, directory / "frame.ply");
+    return importFile(directory / "frame.ply").scene.meshes.at(0).positions;
+  };
+  const std::vector<Vec3f> rest = positionsOf(0), moved = positionsOf(3);
+  ASSERT_EQ(rest.size(), moved.size());
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    EXPECT_LT(length(Vec3d(moved[i]) - Vec3d(rest[i]) - Vec3d{0, 0, 2.25}), 1e-3) << i;
+}
+
 TEST(Sequences, AreRefusedWhereNothingMoves) {
   const TemporaryDirectory directory;
   writeFile(directory / "still.glb", exportScene(testing::sceneOf({testing::grid(2)}), MeshFormat::glb));
