@@ -1,14 +1,20 @@
 // Launches Debian's Chromium, headless, with WebGL2 in software and without network requests of its own. The
-// environment variable CHROMIUM names another binary.
+// environment variable CHROMIUM names another binary. With IMGEO_GPU=1 it draws on the machine's GPU by EGL, which
+// needs no display; tests compare pictures with WebGL in software only.
 
 import { chromium, type Browser } from "playwright-core";
 
+const rendererFlags =
+  process.env.IMGEO_GPU !== undefined
+    ? "--use-gl=angle --use-angle=gl-egl"
+    : // With compositing on the GPU, it takes half of SwiftShader's time.
+      "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing";
+
 const flags = [
   "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update",
-  "--disable-sync --disable-extensions --mute-audio --hide-scrollbars --use-gl=angle --use-angle=swiftshader",
-  "--enable-unsafe-swiftshader --ignore-gpu-blocklist --force-device-scale-factor=1 --force-color-profile=srgb",
-  // Without this, compositing takes half of SwiftShader's time.
-  "--disable-gpu-compositing",
+  "--disable-sync --disable-extensions --mute-audio --hide-scrollbars",
+  "--ignore-gpu-blocklist --force-device-scale-factor=1 --force-color-profile=srgb",
+  rendererFlags,
   "--js-flags=--expose-gc", // lets tests collect garbage
 ].flatMap((line) => line.split(" "));
 
