@@ -32,20 +32,29 @@ private:
   std::vector<std::uint32_t> parents_;
 };
 
-/// Joins the wedges of each position that have the same texture coordinates in all sets.
-void joinEqualTexCoords(WedgeSets& sets, const Patch& patch) {
+/// The normal of a wedge if creases are kept, else the same vector for all.
+Vec3f creaseNormal(const Patch& patch, std::uint32_t wedge, Creases creases) {
+  return creases == Creases::kept && !patch.normals.empty() ? patch.normals[wedge] : Vec3f{};
+}
+
+/// Joins the wedges of each position that have the same texture coordinates in all sets, and the same normal if creases
+/// are kept.
+void joinEqualWedges(WedgeSets& sets, const Patch& patch, Creases creases) {
   if (patch.wedgeCount() == patch.positions.size())
     return;
   std::vector<std::uint32_t> order(patch.wedgeCount());
   std::iota(order.begin(), order.end(), 0u);
   const std::size_t setCount = texCoordSetCount(patch);
   const auto key = [&](std::uint32_t wedge) {
-    std::array<float, 2 * maxTexCoordSets> texCoords{};
+    std::array<float, 2 * maxTexCoordSets + 3> values{};
     for (std::size_t set = 0; set < setCount; ++set) {
       const Vec2f texCoord = texCoordsOf(patch, set)[wedge];
-      texCoords[2 * set] = texCoord.x, texCoords[2 * set + 1] = texCoord.y;
+      values[2 * set] = texCoord.x, values[2 * set + 1] = texCoord.y;
     }
-    return std::pair(patch.wedgePositions[wedge], texCoords);
+    const Vec3f normal = creaseNormal(patch, wedge, creases);
+    for (int axis = 0; axis < 3; ++axis)
+      values[2 * maxTexCoordSets + static_cast<std::size_t>(axis)] = normal[axis];
+    return std::pair(patch.wedgePositions[wedge], values);
   };
   std::ranges::sort(order, {}, key);
   for (std::size_t i = 1; i < order.size(); ++i)
@@ -84,8 +93,10 @@ std::vector<std::uint32_t> nearestWedges(WedgeSets& sets, const SimplifiedTriang
 /// Makes the wedges of each simplified vertex: sets whose texture coordinates are close to each other share one.
 class WedgeBuilder {
 public:
-  WedgeBuilder(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
-      : patch_(patch), nearest_(nearest), latest_(simplified.positions.size(), SimplifiedTriangles::none),
+  WedgeBuilder(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest,
+               Creases creases)
+      : patch_(patch), nearest_(nearest), creases_(creases),
+        latest_(simplified.positions.size(), SimplifiedTriangles::none),
         wedgeOfSet_(patch.wedgeCount(), SimplifiedTriangles::none), texCoordSetCount_(texCoordSetCount(patch)) {}
 
   /// Adds the next corner, given its set of wedges and its simplified vertex.
@@ -124,10 +135,13 @@ private:
     for (std::size_t set = 0; set < texCoordSetCount_; ++set)
       if (!(texCoordDistance(set, a, b) <= maxDistances_[set]))
         return false;
-    return true;
+    if (creases_ == Creases::smoothed || patch_.normals.empty())
+      return true;
+    constexpr float minCosine = 0.866f; // of 30 degrees
+    return dot(patch_.normals[a], patch_.normals[b]) >= minCosine;
   }
 
-  /// The wedge of a vertex whose texture coordinates are close to those of `source` in all sets; a new one if there is
+  /// The wedge of a vertex whose texture coordinates and normal are close to those of `source`; a new one if there is
   /// none.
   std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source) {
     constexpr int maxCandidates = 16; // one vertex may have thousands of unconnected triangles
@@ -143,7 +157,8 @@ private:
   }
 
   const Patch& patch_;
-  const std::vector<std::uint32_t>& nearest_;   ///< by set
+  const std::vector<std::uint32_t>& nearest_; ///< by set
+  Creases creases_;
   std::vector<std::uint32_t> sets_, positions_; ///< by corner
   std::vector<std::uint32_t> latest_, before_;  ///< linked list of the wedges of each position
   std::vector<std::uint32_t> wedgeOfSet_;       ///< by set
@@ -163,17 +178,18 @@ SimplifiedWedges plainWedges(const SimplifiedTriangles& simplified) {
 } // namespace
 
 SimplifiedWedges wedgesOf(const SimplifiedTriangles& simplified, const Patch& patch,
-                          std::span<const std::uint32_t> triangles) {
-  const bool hasAttributes = !patch.namedAttributes.empty() || std::ranges::any_of(vertexRoles, [&](VertexRole role) {
-    return isInBase(role) && hasAttribute(patch, role);
-  });
+                          std::span<const std::uint32_t> triangles, Creases creases) {
+  const bool keepsNormals = creases == Creases::kept && !patch.normals.empty();
+  const bool hasAttributes =
+      keepsNormals || !patch.namedAttributes.empty() ||
+      std::ranges::any_of(vertexRoles, [&](VertexRole role) { return isInBase(role) && hasAttribute(patch, role); });
   if (!hasAttributes)
     return plainWedges(simplified);
   WedgeSets sets(patch.wedgeCount());
-  joinEqualTexCoords(sets, patch);
+  joinEqualWedges(sets, patch, creases);
   joinCollapsed(sets, simplified, patch);
   const std::vector<std::uint32_t> nearest = nearestWedges(sets, simplified, patch);
-  WedgeBuilder builder(simplified, patch, nearest);
+  WedgeBuilder builder(simplified, patch, nearest, creases);
   for (std::size_t corner = 0; corner < simplified.corners.size(); ++corner) {
     const std::uint32_t triangle = triangles[simplified.triangles[corner / 3]];
     builder.add(sets.setOf(patch.corners[std::size_t{3} * triangle + corner % 3]), simplified.corners[corner]);

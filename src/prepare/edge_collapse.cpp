@@ -1,9 +1,11 @@
 #include "prepare/edge_collapse.h"
 
 #include "prepare/d_ary_heap.h"
+#include "prepare/triangle_tree.h"
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace imgeo {
 
@@ -18,6 +20,7 @@ struct Candidate {
   Candidate(float cost, std::uint32_t from, std::uint32_t other, std::uint32_t sum)
       : rank(std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32 | from), to(other), versions(sum) {}
   std::uint32_t from() const { return static_cast<std::uint32_t>(rank); }
+  float cost() const { return std::bit_cast<float>(static_cast<std::uint32_t>(rank >> 32)); }
 
   /// Orders by cost, then by vertices. Has no branches, which would be unpredictable.
   bool isBefore(const Candidate& other) const { return (rank < other.rank) | ((rank == other.rank) & (to < other.to)); }
@@ -30,11 +33,11 @@ struct Edge {
 
 class EdgeCollapse {
 public:
-  EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount)
-      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources), targetCount_(triangleCount),
-        triangleCount_(corners_.size() / 3), first_(vertices_.size(), none), last_(vertices_.size(), none),
-        next_(corners_.size(), none), isRemoved_(triangleCount_), isBorder_(vertices_.size()),
-        versions_(vertices_.size()), marks_(vertices_.size()) {
+  EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount, CollapseOrder order)
+      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources), order_(order),
+        targetCount_(triangleCount), triangleCount_(corners_.size() / 3), first_(vertices_.size(), none),
+        last_(vertices_.size(), none), next_(corners_.size(), none), isRemoved_(triangleCount_),
+        isBorder_(vertices_.size()), versions_(vertices_.size()), marks_(vertices_.size()) {
     for (std::uint32_t corner = 0; corner < corners_.size(); ++corner)
       append(corners_[corner], corner, corner);
   }
@@ -44,13 +47,16 @@ public:
     for (const Edge& edge : edges)
       if (edge.triangleCount == 1)
         addBorderPlane(edge);
+    for (const CollapsingSurface::Vertex& vertex : vertices_)
+      totalWeight_ += vertex.quadric.weight();
+    vertexCount_ = vertices_.size();
     for (const Edge& edge : edges)
       pushCandidate(edge.a, edge.b);
     while (triangleCount_ > targetCount_ && !heap_.empty()) {
       const Candidate candidate = heap_.top();
       heap_.pop();
       if (candidate.versions == versions_[candidate.from()] + versions_[candidate.to])
-        collapse(candidate.from(), candidate.to);
+        collapse(candidate);
     }
     eraseRemovedTriangles();
   }
@@ -191,8 +197,43 @@ private:
     return flips;
   }
 
-  /// Merges two neighbours, unless that breaks the topology or flips a triangle.
-  void collapse(std::uint32_t from, std::uint32_t to) {
+  /// The larger squared distance of two neighbours from the triangles around them after merging them at `position`;
+  /// infinite if none would remain.
+  double squaredDistanceAfter(std::uint32_t from, std::uint32_t to, Vec3d position) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    double ofFrom = infinite, ofTo = infinite;
+    for (const std::uint32_t vertex : {from, to})
+      visitCorners(vertex, [&](std::uint32_t corner) {
+        const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
+        if (u == from || v == from || u == to || v == to)
+          return;
+        const Triangle triangle{position, vertices_[u].position, vertices_[v].position};
+        ofFrom = std::min(ofFrom, nearestPoint(vertices_[from].position, triangle).squaredDistance);
+        ofTo = std::min(ofTo, nearestPoint(vertices_[to].position, triangle).squaredDistance);
+      });
+    return std::max(ofFrom, ofTo);
+  }
+
+  /// With measured collapses: whether a candidate may be collapsed now. If the ends of its edge are farther from what
+  /// would replace it than it was charged for, it goes back into the queue at the cost of that distance. A spike has
+  /// little area; its distance weighs as much as the mean vertex.
+  bool isChargedEnough(const Candidate& candidate, std::uint32_t from, std::uint32_t to, Vec3d position,
+                       double weight) {
+    const double squared = squaredDistanceAfter(from, to, position);
+    if (squared == std::numeric_limits<double>::infinity())
+      return false;
+    constexpr double tolerance = 1.5;
+    const double meanWeight = totalWeight_ / static_cast<double>(vertexCount_);
+    const auto cost = static_cast<float>(std::max(weight, meanWeight) * squared);
+    if (!(cost > tolerance * tolerance * candidate.cost()))
+      return true;
+    heap_.push({cost, candidate.from(), candidate.to, candidate.versions});
+    return false;
+  }
+
+  /// Merges two neighbours, unless that breaks the topology or flips a triangle, or costs more than was charged.
+  void collapse(const Candidate& candidate) {
+    std::uint32_t from = candidate.from(), to = candidate.to;
     if (vertices_[from].isFixed)
       std::swap(from, to);
     Quadric quadric = vertices_[to].quadric;
@@ -200,6 +241,9 @@ private:
     const Vec3d position = mergedPosition(from, to, quadric);
     if (!keepsTopology(from, to) || flipsTriangle(from, to, position) || flipsTriangle(to, from, position))
       return;
+    if (order_ == CollapseOrder::measured && !isChargedEnough(candidate, from, to, position, quadric.weight()))
+      return;
+    --vertexCount_;
     visitCorners(from, [&](std::uint32_t corner) {
       if (corners_[afterCorner(corner)] == to || corners_[beforeCorner(corner)] == to) {
         isRemoved_[corner / 3] = true;
@@ -235,7 +279,10 @@ private:
   std::vector<CollapsingSurface::Vertex>& vertices_;
   std::vector<std::uint32_t>& corners_;
   std::vector<std::uint32_t>& sources_;
+  CollapseOrder order_;
   std::size_t targetCount_, triangleCount_;
+  double totalWeight_ = 0;                         ///< of all quadrics
+  std::size_t vertexCount_ = 0;                    ///< of vertices that have not been merged into another
   std::vector<std::uint32_t> first_, last_, next_; ///< linked list of the corners of each vertex
   std::vector<bool> isRemoved_;                    ///< by triangle
   std::vector<bool> isBorder_;                     ///< by vertex
@@ -248,8 +295,8 @@ private:
 
 } // namespace
 
-void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount) {
-  EdgeCollapse(surface, triangleCount).run();
+void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount, CollapseOrder order) {
+  EdgeCollapse(surface, triangleCount, order).run();
 }
 
 } // namespace imgeo

@@ -26,9 +26,16 @@ struct CollapsingSurface {
   std::vector<std::uint32_t> sources; ///< by triangle: for the caller; not used here
 };
 
+/// The order of collapses. The quadric error weighs distances by area, so that thin spikes vanish at almost no cost.
+enum class CollapseOrder : std::uint8_t {
+  quadric,  ///< by the quadric error
+  measured, ///< where the two ends of an edge are farther from the triangles that would replace those around them than
+            ///< the quadric error says, by that distance; no piece of the surface vanishes
+};
+
 /// Collapses edges until `triangleCount` triangles are left or no edge can be collapsed. Two fixed vertices are never
 /// merged. Afterwards `corners` and `sources` hold the remaining triangles; vertices keep their indices. Planes
 /// through the border's edges keep the border close to its position.
-void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount);
+void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount, CollapseOrder order = CollapseOrder::quadric);
 
 } // namespace imgeo

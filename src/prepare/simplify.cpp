@@ -184,7 +184,7 @@ SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& 
 } // namespace
 
 SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const std::uint32_t> corners,
-                             const std::vector<bool>& isFixed, std::size_t triangleCount) {
+                             const std::vector<bool>& isFixed, std::size_t triangleCount, CollapseOrder order) {
   const UnitFrame frame(positions);
   std::vector<Vec3d> points;
   points.reserve(positions.size());
@@ -192,7 +192,7 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
     points.push_back(frame.pointOf(position));
   const std::size_t clusterCount = clustersPerTriangle * triangleCount;
   const auto [normals, area] = normalsOf(points, corners);
-  const VertexClusters clusters = positions.size() > 2 * clusterCount
+  const VertexClusters clusters = order == CollapseOrder::quadric && positions.size() > 2 * clusterCount
                                       ? clusterVertices(points, corners, normals, area, isFixed, clusterCount)
                                       : singletonClusters(positions.size());
   CollapsingSurface surface = surfaceOf(points, corners, normals, isFixed, clusters);
@@ -200,7 +200,7 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
     for (CollapsingSurface::Vertex& vertex : surface.vertices)
       if (!vertex.isFixed)
         vertex.position = vertex.quadric.minimizerNear(vertex.position);
-  collapseEdges(surface, triangleCount);
+  collapseEdges(surface, triangleCount, order);
   SimplifiedTriangles result = resultOf(surface, frame, positions, clusters);
   result.inputArea = frame.latticeArea(area);
   return result;

@@ -3,6 +3,7 @@
 // in position, so a surface with a fixed border still meets its neighbours without cracks.
 
 #include "base/vec.h"
+#include "prepare/edge_collapse.h"
 
 #include <cstdint>
 #include <span>
@@ -24,8 +25,10 @@ struct SimplifiedTriangles {
 /// Simplifies triangles over positions on a lattice to about `triangleCount`, or to the minimum that the topology
 /// allows. Positions with `isFixed` keep their position and are not merged with each other. The others move to the
 /// positions of minimum quadric error, within the box of all positions. If there are many more positions than
-/// requested triangles, vertices are clustered before edges are collapsed. Deterministic.
+/// requested triangles, vertices are clustered before edges are collapsed, unless collapses are measured.
+/// Deterministic.
 SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const std::uint32_t> corners,
-                             const std::vector<bool>& isFixed, std::size_t triangleCount);
+                             const std::vector<bool>& isFixed, std::size_t triangleCount,
+                             CollapseOrder order = CollapseOrder::quadric);
 
 } // namespace imgeo

@@ -1,7 +1,7 @@
 #include "prepare/geometry_image/surface_distance.h"
 
 #include "base/parallel.h"
-#include "prepare/geometry_image/triangle_tree.h"
+#include "prepare/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "transcode/verify/compare_samples.h"
 
 #include "base/parallel.h"
-#include "prepare/geometry_image/triangle_tree.h"
+#include "prepare/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>

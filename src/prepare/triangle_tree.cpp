@@ -1,4 +1,4 @@
-#include "prepare/geometry_image/triangle_tree.h"
+#include "prepare/triangle_tree.h"
 
 #include "base/narrow.h"
 

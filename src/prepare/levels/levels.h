@@ -1,0 +1,58 @@
+#pragma once
+// Levels of detail: a mesh as a graph of groups of triangles, of which each level has about a quarter of the triangles
+// of the level below (docs/formats/levels.md). Borders of groups stay where they are from a level to the next, so that
+// groups of several levels fit together without cracks.
+
+#include "prepare/patches.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+struct LevelOptions {
+  std::uint32_t groupTriangles = 32768; ///< maximum of triangles in a group
+  double ratio = 4;                     ///< triangles of a level for each of the level above
+};
+
+/// Positions for levels have at most so many bits, so that single precision holds every lattice point.
+inline constexpr std::uint32_t maxLevelBits = 24;
+
+/// The triangles of a group. Above level 0 each belongs to a segment, the coarse form of a child.
+struct GroupMesh {
+  Patch patch;
+  std::vector<std::uint32_t> segments{}; ///< by triangle: index in the group's children; empty on level 0
+};
+
+/// What is known of a group when its level has been built.
+struct LeveledGroup {
+  std::uint32_t level = 0;
+  std::vector<std::uint32_t> children{}; ///< ascending numbers of groups: segment i is the coarse form of child i
+  Vec3d center;                          ///< of the box of its vertices, in lattice steps
+  double radius = 0;                     ///< of the sphere around it that has its vertices and those of its coarse form
+  /// A bound of the distance of level 0 below the group from its coarse form, in lattice steps: the group's own largest
+  /// distance and the largest error of a child. 0 for roots.
+  double error = 0;
+};
+
+/// The groups of all levels, from the highest down, each level in Morton order.
+struct Levels {
+  std::vector<LeveledGroup> groups;
+  std::uint32_t rootCount = 0; ///< groups of the highest level
+};
+
+/// Takes the groups of a mesh as they are built, level by level from 0. `begin` is called before the groups of a level;
+/// `take` in parallel, with a group's number within its level.
+struct GroupSink {
+  std::function<void(std::uint32_t level, std::size_t groupCount)> begin;
+  std::function<void(std::uint32_t level, std::size_t group, GroupMesh mesh)> take;
+};
+
+/// Builds the levels of a mesh of at least one triangle. `points` are its positions on a lattice of at most
+/// maxLevelBits. Ends at a level of one group, or where a level would have more than nine tenths of the triangles of
+/// the one below. Level 0 has every triangle of the mesh once. Deterministic for any number of threads.
+Levels buildLevels(Mesh mesh, std::span<const Vec3u> points, const LevelOptions& options, const GroupSink& sink);
+
+} // namespace imgeo
