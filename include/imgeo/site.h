@@ -22,6 +22,17 @@ struct SiteFile {
   std::uint64_t bytes = 0; ///< size
 };
 
+/// A level of detail of a geometry.
+struct LevelInfo {
+  std::size_t groups = 0;      ///< files
+  std::uint64_t triangles = 0; ///< of all groups
+  std::uint64_t bytes = 0;     ///< of all groups
+  /// Largest stated distance of the geometry from this level, in its units; 0 on level 0.
+  double error = 0;
+  /// Whether all members are equal.
+  friend bool operator==(const LevelInfo&, const LevelInfo&) = default;
+};
+
 /// How the numbers of one geometry are stored.
 struct GeometryInfo {
   Encoding encoding = Encoding::classic; ///< encoding of the patches
@@ -35,6 +46,7 @@ struct GeometryInfo {
   std::uint32_t colorBits = 0;           ///< 0: there are no colours
   std::vector<std::string> attributes;   ///< names of further attributes
   std::string grid;                      ///< "heightMap", "geometryImage" or "sculpt"; empty: vertices in sequence
+  std::vector<LevelInfo> levels;         ///< levels of detail, from 0; empty if there are none
   double surfaceDistance = 0;            ///< geometry images: as ResampledMesh::largestDistance; 0: not stated
   /// Whether all members are equal.
   friend bool operator==(const GeometryInfo&, const GeometryInfo&) = default;

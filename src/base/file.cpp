@@ -67,6 +67,10 @@ Bytes readFile(const std::filesystem::path& path) {
 }
 
 void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
+  writeFileInPieces(path, [&](const AppendBytes& append) { append(bytes); });
+}
+
+void writeFileInPieces(const std::filesystem::path& path, const std::function<void(const AppendBytes& append)>& write) {
   File file(std::fopen(path.c_str(), "wb"));
   if (!file)
     failWithErrno(path, "write");
@@ -74,14 +78,19 @@ void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
   std::optional<UnfinishedFile> unfinished; // devices and pipes are not removed
   if (fstat(fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode))
     unfinished.emplace(path);
-  const bool wrote = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  if (!wrote || std::fclose(file.release()) != 0) {
-    const int reason = errno;
+  const auto append = [&](ByteSpan bytes) {
+    if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+      failWithErrno(path, "write");
+  };
+  try {
+    write(append);
+    if (std::fclose(file.release()) != 0)
+      failWithErrno(path, "write");
+  } catch (...) {
     std::error_code ignored;
     if (unfinished)
       std::filesystem::remove(path, ignored);
-    errno = reason;
-    failWithErrno(path, "write");
+    throw;
   }
 }
 

@@ -69,6 +69,9 @@ inline constexpr Choice<DroppedElements> dropChoices[] = {{"none", {}},
                                                           {"repeated", {.repeated = true}},
                                                           {"both", {.degenerate = true, .repeated = true}}};
 
+inline constexpr Choice<LevelChoice> levelsChoices[] = {
+    {"never", LevelChoice::never}, {"auto", LevelChoice::automatic}, {"always", LevelChoice::always}};
+
 inline constexpr Choice<TextureFormat> texturesChoices[] = {{"keep", TextureFormat::keep},
                                                             {"webp", TextureFormat::webp},
                                                             {"avif", TextureFormat::avif},

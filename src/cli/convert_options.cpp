@@ -129,6 +129,8 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     options.maxError = maxErrorFrom(arguments.text("max-error"));
   if (!arguments.text("base").empty())
     options.basePercent = basePercentFrom(arguments.text("base"));
+  options.levels = valueNamed(levelsChoices, arguments.text("levels"));
+  options.groupTriangles = static_cast<std::uint32_t>(arguments.integer("group-triangles"));
   options.coordType = valueNamed(coordTypeChoices, arguments.text("coord-type"));
   options.layout = valueNamed(layoutChoices, arguments.text("layout"));
   options.images = valueNamed(imagesChoices, arguments.text("images"));

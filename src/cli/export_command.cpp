@@ -73,7 +73,8 @@ int runExport(const Arguments& arguments) {
       throw Error(ErrorKind::usage, "--frame", fmt::format("\"{}\" is neither a number nor all", frame));
     return print(arguments, exportFrame(arguments.text("site"), number, arguments.text("output")));
   }
-  return print(arguments, exportSite(arguments.text("site"), arguments.text("output")));
+  return print(arguments, exportSite(arguments.text("site"), arguments.text("output"), {},
+                                     static_cast<std::uint32_t>(arguments.integer("level"))));
 }
 
 int runTransform(const Arguments& arguments) {
@@ -90,10 +91,13 @@ int runSample(const Arguments& arguments) {
   if (arguments.has("live"))
     return runLiveSample(arguments);
   const std::string& what = arguments.text("sample");
-  if (what != "hall")
+  if (what != "hall" && what != "relief")
     return runFramesSample(arguments);
   if (arguments.text("output").empty())
-    throw Error(ErrorKind::usage, "", "--output FILE is missing: imgeo sample hall -o FILE");
+    throw Error(ErrorKind::usage, "", fmt::format("--output FILE is missing: imgeo sample {} -o FILE", what));
+  if (what == "relief")
+    return print(arguments, writeSampleRelief(static_cast<std::uint64_t>(arguments.integer("triangles")),
+                                              arguments.has("shuffled"), arguments.text("output")));
   const auto seats = static_cast<std::uint32_t>(arguments.integer("seats"));
   return print(arguments, writeSampleHall(seats, arguments.text("output")));
 }

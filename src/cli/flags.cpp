@@ -75,135 +75,138 @@ Command convertCommand() {
       .text = "Writes a static site: index.html, the scene as X3D, the runtime, and the mesh's vertex data in files "
               "named by their content. The directory takes its place in one step; killed at any moment, it is the old "
               "site or the new one.",
-      .flags = {input,
-                output,
-                choice("up", namesOf(upChoices),
-                       "the source's axis that points up; auto: what the format says, and for OBJ, PLY, STL and others "
-                       "that do not say it a guess by the shape, which is printed with its reason"),
-                {.name = "rotate",
-                 .valueKind = ValueKind::text,
-                 .valueName = "AXIS:DEGREES,...",
-                 .help = "then turn the source: y:90 about the upward axis, x:-30,y:90 about x first"},
-                {.name = "scale",
-                 .valueKind = ValueKind::text,
-                 .valueName = "FACTOR",
-                 .help = "then multiply its lengths",
-                 .defaultValue = "1"},
-                {.name = "exaggerate",
-                 .valueKind = ValueKind::text,
-                 .valueName = "FACTOR",
-                 .help = "then multiply its heights, as maps of terrain do",
-                 .defaultValue = "1"},
-                {.name = "rate",
-                 .valueKind = ValueKind::text,
-                 .valueName = "FRAMES",
-                 .help = "sequences: frames per second",
-                 .defaultValue = "30"},
-                choice("unit", namesOf(unitChoices),
-                       "the unit of the source's numbers, which become metres; auto: what the file says, otherwise m"),
-                choice("view", namesOf(viewChoices),
-                       "the side that is shown first; auto: the source's viewpoint, otherwise the three-quarter view "
-                       "that shows the most of the surface"),
-                choice("container", valuesOf(&EncodingRow::container), "sig: PNG images; bg: typed arrays"),
-                choice("profile", valuesOf(&EncodingRow::profile, {"auto"}),
-                       "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
-                       "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
-                       "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
-                       "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
-                choice("as", namesOf(formChoices),
-                       "geometry-image: sample surfaces anew on regular grids, one for each chart, without an index; "
-                       "height-map: a regular grid of heights as images of them; both in profile classic; "
-                       "sequence: animated joints, morph targets and coordinates as recorded frames, "
-                       "--rate a second; "
-                       "video: frames of a sequence as a lossless video, too"),
-                integer("grid", {}, 4, maxGridEdge, "",
-                        "geometry images: N * N texels for a mesh, 4..4096, otherwise 256"),
-                choice("target", namesOf(targetChoices),
-                       "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
-                {.name = "x3dom-url",
-                 .valueKind = ValueKind::text,
-                 .valueName = "URL",
-                 .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
-                         "jsdelivr.net"},
-                choice("primitives", namesOf(primitivesChoices),
-                       "how patches are drawn, those of lines as lines, line strips or points; a point cloud "
-                       "is always points"),
-                choice("index", namesOf(indexChoices),
-                       "off: vertices are repeated wherever they are drawn instead of named by an index"),
-                integer("position-bits", {"-vp", "-qp"}, 8, 32, "",
-                        "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
-                        "otherwise 16, or what the coordinates' type holds; compact takes fewer for a mesh whose "
-                        "coordinates lie on a coarser lattice already, and keeps them"),
-                {.name = "max-error",
-                 .valueKind = ValueKind::text,
-                 .valueName = "LENGTH|PERCENT",
-                 .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
-                         "with %, of a mesh's longest edge; geometry images: the smallest grid whose surface is no "
-                         "farther off"},
-                choice("coord-type", namesOf(coordTypeChoices),
-                       "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
-                       "--position-bits: the source's numbers"),
-                choice("layout", namesOf(layoutChoices),
-                       "bg: a file for each attribute, or one of records with all of them beside the index"),
-                choice("normals", namesOf(normalsChoices),
-                       "how normals are stored: as vectors, as two numbers (compact: always), as 256 directions "
-                       "a patch, or in compact not at all"),
-                choice("images", namesOf(imagesChoices),
-                       "file format of classic's images, both lossless; webp: WebP where it is smaller than PNG, a few "
-                       "percent fewer bytes for ten times the encoding time"),
-                integer("normal-bits", {"-vn", "-qn"}, 4, 32, "",
-                        "bits of a normal's component; classic: 8 or 16, compact: 4..16; bg: 8, 16 or 32; otherwise 8"),
-                integer("texcoord-bits", {"-vt", "-qt"}, 1, 32, "",
-                        "bits of a texture coordinate; compact: 1..16, otherwise 12; classic: 8, 16 or 24, bg: 8, 16 "
-                        "or 32, otherwise 16"),
-                integer("color-bits", {"-vc"}, 1, 32, "",
-                        "bits of a colour's component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; "
-                        "otherwise 8, which is what imgeo reads of sources"),
-                integer("patch-vertices", {}, 256, 4194304, "65535",
-                        "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
-                {.name = "base",
-                 .valueKind = ValueKind::text,
-                 .valueName = "PERCENT",
-                 .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
-                choice("drop", namesOf(dropChoices),
-                       "which elements to leave out: those with two corners at one place, those that repeat "
-                       "another, or both"),
-                {.name = "keep-attributes",
-                 .valueKind = ValueKind::text,
-                 .valueName = "NAMES",
-                 .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
-                 .defaultValue = "none"},
-                integer("attribute-bits", {}, 8, 24, "",
-                        "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),
-                choice("textures", namesOf(texturesChoices),
-                       "what images of textures are written as; keep: as they are, and those that no browser "
-                       "shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy"),
-                integer("texture-size", {}, 1, 16383, "",
-                        "the longest edge of a texture in pixels; larger ones are made smaller, none larger"),
-                integer("texture-quality", {}, 0, 100, "", "of lossy textures; otherwise 80 of webp, 60 of avif"),
-                integer("texture-preview", {}, 0, 256, "64",
-                        "the longest edge of what is shown first of a large texture; 0: nothing is"),
-                choice("normal-weighting", namesOf(normalWeightingChoices),
-                       "how triangles count in normals that the source lacks"),
-                {.name = "title",
-                 .valueKind = ValueKind::text,
-                 .valueName = "TEXT",
-                 .help = "the page's title; otherwise the input's name"},
-                {.name = "no-pictures",
-                 .help = "leave out icon.png and picture.png, the pictures of tabs and of previews of links"},
-                integer("effort", {}, 0, 9, "5",
-                        "how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one"),
-                integer("threads", {}, 0, 1024, "0",
-                        "how many threads to use; 0: all. The site is the same with any number"),
-                {.name = "precompress",
-                 .help = "write FILE.br and FILE.gz beside text and BG's arrays, for hosts that do not compress"},
-                outsideFlag(),
-                {.name = "strict", .help = "refuse a source of which a part is damaged, instead of leaving that out"},
-                {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},
-                report,
-                jsonFlag("the report"),
-                {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"},
-                helpFlag()},
+      .flags =
+          {input,
+           output,
+           choice("up", namesOf(upChoices),
+                  "the source's axis that points up; auto: what the format says, and for OBJ, PLY, STL and others "
+                  "that do not say it a guess by the shape, which is printed with its reason"),
+           {.name = "rotate",
+            .valueKind = ValueKind::text,
+            .valueName = "AXIS:DEGREES,...",
+            .help = "then turn the source: y:90 about the upward axis, x:-30,y:90 about x first"},
+           {.name = "scale",
+            .valueKind = ValueKind::text,
+            .valueName = "FACTOR",
+            .help = "then multiply its lengths",
+            .defaultValue = "1"},
+           {.name = "exaggerate",
+            .valueKind = ValueKind::text,
+            .valueName = "FACTOR",
+            .help = "then multiply its heights, as maps of terrain do",
+            .defaultValue = "1"},
+           {.name = "rate",
+            .valueKind = ValueKind::text,
+            .valueName = "FRAMES",
+            .help = "sequences: frames per second",
+            .defaultValue = "30"},
+           choice("unit", namesOf(unitChoices),
+                  "the unit of the source's numbers, which become metres; auto: what the file says, otherwise m"),
+           choice("view", namesOf(viewChoices),
+                  "the side that is shown first; auto: the source's viewpoint, otherwise the three-quarter view "
+                  "that shows the most of the surface"),
+           choice("container", valuesOf(&EncodingRow::container), "sig: PNG images; bg: typed arrays"),
+           choice("profile", valuesOf(&EncodingRow::profile, {"auto"}),
+                  "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
+                  "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
+                  "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
+                  "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
+           choice("as", namesOf(formChoices),
+                  "geometry-image: sample surfaces anew on regular grids, one for each chart, without an index; "
+                  "height-map: a regular grid of heights as images of them; both in profile classic; "
+                  "sequence: animated joints, morph targets and coordinates as recorded frames, "
+                  "--rate a second; "
+                  "video: frames of a sequence as a lossless video, too"),
+           integer("grid", {}, 4, maxGridEdge, "", "geometry images: N * N texels for a mesh, 4..4096, otherwise 256"),
+           choice("target", namesOf(targetChoices),
+                  "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
+           {.name = "x3dom-url",
+            .valueKind = ValueKind::text,
+            .valueName = "URL",
+            .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
+                    "jsdelivr.net"},
+           choice("primitives", namesOf(primitivesChoices),
+                  "how patches are drawn, those of lines as lines, line strips or points; a point cloud "
+                  "is always points"),
+           choice("index", namesOf(indexChoices),
+                  "off: vertices are repeated wherever they are drawn instead of named by an index"),
+           integer("position-bits", {"-vp", "-qp"}, 8, 32, "",
+                   "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
+                   "otherwise 16, or what the coordinates' type holds; compact takes fewer for a mesh whose "
+                   "coordinates lie on a coarser lattice already, and keeps them"),
+           {.name = "max-error",
+            .valueKind = ValueKind::text,
+            .valueName = "LENGTH|PERCENT",
+            .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
+                    "with %, of a mesh's longest edge; geometry images: the smallest grid whose surface is no "
+                    "farther off"},
+           choice("coord-type", namesOf(coordTypeChoices),
+                  "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
+                  "--position-bits: the source's numbers"),
+           choice("layout", namesOf(layoutChoices),
+                  "bg: a file for each attribute, or one of records with all of them beside the index"),
+           choice("normals", namesOf(normalsChoices),
+                  "how normals are stored: as vectors, as two numbers (compact: always), as 256 directions "
+                  "a patch, or in compact not at all"),
+           choice("images", namesOf(imagesChoices),
+                  "file format of classic's images, both lossless; webp: WebP where it is smaller than PNG, a few "
+                  "percent fewer bytes for ten times the encoding time"),
+           integer("normal-bits", {"-vn", "-qn"}, 4, 32, "",
+                   "bits of a normal's component; classic: 8 or 16, compact: 4..16; bg: 8, 16 or 32; otherwise 8"),
+           integer("texcoord-bits", {"-vt", "-qt"}, 1, 32, "",
+                   "bits of a texture coordinate; compact: 1..16, otherwise 12; classic: 8, 16 or 24, bg: 8, 16 "
+                   "or 32, otherwise 16"),
+           integer("color-bits", {"-vc"}, 1, 32, "",
+                   "bits of a colour's component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; "
+                   "otherwise 8, which is what imgeo reads of sources"),
+           integer("patch-vertices", {}, 256, 4194304, "65535",
+                   "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
+           {.name = "base",
+            .valueKind = ValueKind::text,
+            .valueName = "PERCENT",
+            .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
+           choice("levels", namesOf(levelsChoices),
+                  "compact: levels of detail, of which pages load what a view needs; auto: of meshes of more than "
+                  "2,000,000 triangles"),
+           integer("group-triangles", {}, 256, 262144, "32768", "levels: the most triangles in one file, 256..262144"),
+           choice("drop", namesOf(dropChoices),
+                  "which elements to leave out: those with two corners at one place, those that repeat "
+                  "another, or both"),
+           {.name = "keep-attributes",
+            .valueKind = ValueKind::text,
+            .valueName = "NAMES",
+            .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
+            .defaultValue = "none"},
+           integer("attribute-bits", {}, 8, 24, "",
+                   "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),
+           choice("textures", namesOf(texturesChoices),
+                  "what images of textures are written as; keep: as they are, and those that no browser "
+                  "shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy"),
+           integer("texture-size", {}, 1, 16383, "",
+                   "the longest edge of a texture in pixels; larger ones are made smaller, none larger"),
+           integer("texture-quality", {}, 0, 100, "", "of lossy textures; otherwise 80 of webp, 60 of avif"),
+           integer("texture-preview", {}, 0, 256, "64",
+                   "the longest edge of what is shown first of a large texture; 0: nothing is"),
+           choice("normal-weighting", namesOf(normalWeightingChoices),
+                  "how triangles count in normals that the source lacks"),
+           {.name = "title",
+            .valueKind = ValueKind::text,
+            .valueName = "TEXT",
+            .help = "the page's title; otherwise the input's name"},
+           {.name = "no-pictures",
+            .help = "leave out icon.png and picture.png, the pictures of tabs and of previews of links"},
+           integer("effort", {}, 0, 9, "5", "how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one"),
+           integer("threads", {}, 0, 1024, "0",
+                   "how many threads to use; 0: all. The site is the same with any number"),
+           {.name = "precompress",
+            .help = "write FILE.br and FILE.gz beside text and BG's arrays, for hosts that do not compress"},
+           outsideFlag(),
+           {.name = "strict", .help = "refuse a source of which a part is damaged, instead of leaving that out"},
+           {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},
+           report,
+           jsonFlag("the report"),
+           {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"},
+           helpFlag()},
       .examples = {"imgeo convert statue.ply -o site", "imgeo convert statue.ply -o site --max-error 0.01%",
                    "imgeo convert scan.stl -o site --up z --rotate y:180 --unit mm --view front",
                    "imgeo convert statue.ply -o site --profile classic --primitives strips",
@@ -293,6 +296,8 @@ Command exportCommand() {
           .flags = {positional("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"),
                     meshFileFlag(),
                     textFlag("frame", "N|all", "of a sequence: this frame, from 0; all: FILE-0000, FILE-0001 ..."),
+                    integer("level", {}, 0, 31, "0",
+                            "of meshes with levels of detail: 0, the whole mesh, or a coarser one"),
                     jsonFlag("what was written"), helpFlag()},
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb",
                        "imgeo export cloth -o frames/cloth.ply --frame all"}};
@@ -316,28 +321,30 @@ Flag viewTokenFlag() {
 }
 
 Command sampleCommand() {
-  Flag what =
-      positional("sample", "SAMPLE", ValueKind::choice,
-                 "hall: rows of seats, stairs, columns, trusses, signs. Motions: cloth in the wind; water: drops fall "
-                 "into a basin; turntable: a laser scanner turns in a street");
-  what.choices = {"hall", "cloth", "water", "turntable"};
+  Flag what = positional("sample", "SAMPLE", ValueKind::choice,
+                         "hall: rows of seats, stairs, columns, trusses, signs. relief: a closed surface of any size. "
+                         "Motions: cloth in the wind; water: drops fall "
+                         "into a basin; turntable: a laser scanner turns in a street");
+  what.choices = {"hall", "relief", "cloth", "water", "turntable"};
   Flag output{.name = "output",
               .aliases = {"-o"},
               .valueKind = ValueKind::file,
               .valueName = "FILE",
-              .help = "of hall: the GLB file to write; of a motion: a folder for its frames"};
+              .help = "of hall: the GLB file to write; of relief: the PLY file; of a motion: a folder for its frames"};
   Flag site{.name = "site",
             .valueKind = ValueKind::directory,
             .valueName = "DIR",
             .help = "with --live: serve this directory instead of a page that draws the motion"};
   return {.name = "sample",
-          .usage = "hall -o FILE | MOTION --live | MOTION --frames N -o DIR",
+          .usage = "SCENE -o FILE | MOTION --live | MOTION --frames N -o DIR",
           .summary = "write a generated scene, or write or publish a moving one",
           .text = "All seats of the hall are one mesh in many places, so that the file stays small. With --live, a "
                   "simulation runs until Ctrl-C and its vertices are a live stream; with --frames its frames are "
                   "PLY files, which convert turns into a sequence.",
           .flags = {what,
                     integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"),
+                    integer("triangles", {}, 12, 8000000000, "1000000", "about how many triangles the relief has"),
+                    {.name = "shuffled", .help = "relief: vertices and triangles in an order without neighbours"},
                     output,
                     {.name = "live", .help = "serve the motion as a live stream at /live/SAMPLE"},
                     integer("grid", {}, 8, 2048, "128", "motions: N x N vertices"),

@@ -43,7 +43,11 @@ Json jsonOf(const SiteInfo& info) {
             {"runtimeBytes", info.runtimeBytes},
             {"bytesPerTriangle", info.bytesPerTriangle}};
   json["geometries"] = Json::array();
-  for (const GeometryInfo& geometry : info.geometries)
+  for (const GeometryInfo& geometry : info.geometries) {
+    Json levels = Json::array();
+    for (const LevelInfo& level : geometry.levels)
+      levels.push_back(
+          {{"groups", level.groups}, {"triangles", level.triangles}, {"bytes", level.bytes}, {"error", level.error}});
     json["geometries"].push_back({{"container", rowOf(geometry.encoding).container},
                                   {"profile", rowOf(geometry.encoding).node.profile},
                                   {"positionBits", geometry.positionBits},
@@ -56,7 +60,9 @@ Json jsonOf(const SiteInfo& info) {
                                   {"colorBits", geometry.colorBits},
                                   {"attributes", geometry.attributes},
                                   {"grid", geometry.grid},
-                                  {"surfaceDistance", geometry.surfaceDistance}});
+                                  {"surfaceDistance", geometry.surfaceDistance},
+                                  {"levels", levels}});
+  }
   json["missing"] = info.missing;
   json["warnings"] = info.warnings;
   json["files"] = Json::array();
@@ -90,11 +96,24 @@ std::string textOf(const GeometryInfo& geometry) {
   return text;
 }
 
+/// Prints a line for each level of detail.
+void printLevels(const std::vector<LevelInfo>& levels) {
+  if (levels.empty())
+    return;
+  fmt::print("{}\n", bold(fmt::format("{:>6} {:>7} {:>14} {:>14}  {}", "level", "groups", "triangles", "bytes",
+                                      "largest error")));
+  for (std::size_t level = 0; level < levels.size(); ++level)
+    fmt::print("{:>6} {:>7} {:>14} {:>14}  {:.4g}\n", level, levels[level].groups, grouped(levels[level].triangles),
+               grouped(levels[level].bytes), levels[level].error);
+}
+
 /// Prints each distinct way in which geometries are stored.
 void printGeometries(const std::vector<GeometryInfo>& geometries) {
   for (auto it = geometries.begin(); it != geometries.end(); ++it)
     if (std::find(geometries.begin(), it, *it) == it)
       fmt::print("{}\n", textOf(*it));
+  for (const GeometryInfo& geometry : geometries)
+    printLevels(geometry.levels);
 }
 
 /// "animation: 1 TimeSensor, 3 interpolators, 6 routes", and "moving vertices: 1 skin, 2 displacers"

@@ -51,6 +51,7 @@ struct Capabilities {
   bool maxError = false;                   ///< --max-error chooses the position bits of each mesh
   bool webp = false;                       ///< --images webp chooses the file format of images
   bool base = false;                       ///< a base mesh stands in for patches that have not arrived
+  bool levels = false;                     ///< large meshes can have levels of detail
 };
 
 /// One encoding.

@@ -19,6 +19,8 @@ const char* nameOf(Role role) {
     return "patch";
   case Role::base:
     return "base";
+  case Role::levels:
+    return "levels";
   case Role::normal:
   case Role::texCoord:
   case Role::texCoord1:

@@ -3,6 +3,7 @@
 // produce it, documents store it, decoders use it.
 // docs/formats/nodes.md specifies its text form.
 
+#include "containers/levels/level_index.h"
 #include "containers/reference.h"
 #include "imgeo/encoding.h"
 #include "prepare/geometry_image/surface_distance.h"
@@ -31,7 +32,8 @@ enum class Role : std::uint8_t {
   color,
   attribute,
   patch,
-  base
+  base,
+  levels ///< an index of levels, and its further pages
 };
 
 /// "index", "coord" ...: the names of fields in documents.
@@ -120,6 +122,13 @@ struct TexCoordBox {
 /// Bits of a stored component in images of which a node states nothing else: SIG of version 1.
 inline constexpr ByVertexRole<std::uint32_t> defaultImageBits{{8, 16, 16, 16, 16, 8}};
 
+/// The levels of detail of a geometry: docs/formats/levels.md.
+struct LevelsDescription {
+  std::string url;    ///< of the index, relative to the document
+  LevelIndex index{}; ///< see readLevels(); without groups before
+  friend bool operator==(const LevelsDescription&, const LevelsDescription&) = default;
+};
+
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
   Encoding encoding = Encoding::classic;
@@ -145,6 +154,8 @@ struct GeometryDescription {
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   std::optional<Reference> base; ///< compact: base mesh, drawn until the patches are decoded
+  /// Compact: then `patches` are the groups of one level, which documents do not name, and `base` is the root.
+  std::optional<LevelsDescription> levels;
   /// The document has one node for this and other geometries, which differ in the index of their only patch. Lattice
   /// and boxes are those of all of them.
   bool isShared = false;

@@ -73,7 +73,8 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
     patch.data = reference;
     break;
   case Role::base:
-    assert(false); // a geometry has it, not a patch
+  case Role::levels:
+    assert(false); // a geometry has them, not a patch
     break;
   case Role::normal:
   case Role::texCoord:

@@ -112,7 +112,8 @@ std::string sizeFieldOf(VertexRole role) {
 }
 
 bool isSinglePatch(const GeometryDescription& geometry) {
-  return geometry.patches.size() == 1 && geometry.patches[0].data && geometry.patches[0].box == geometry.box;
+  return !geometry.levels && geometry.patches.size() == 1 && geometry.patches[0].data &&
+         geometry.patches[0].box == geometry.box;
 }
 
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry) {
@@ -230,6 +231,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   }
   if (geometry.base)
     fields.push_back({"base", urlOf(*geometry.base)});
+  if (geometry.levels)
+    fields.push_back({"levels", geometry.levels->url});
   if (hasNormalsInCoords(geometry))
     fields.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)

@@ -281,6 +281,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   const EncodingRow& row = rowOf(encoding);
   if (const std::string base = fields.text("base"); row.capabilities.base && !base.empty())
     geometry.base = referenceOf(fields, base, encoding);
+  if (const std::string levels = fields.text("levels"); row.capabilities.base && !levels.empty())
+    geometry.levels = LevelsDescription{levels};
   for (const VertexRole role : texCoordRoles)
     geometry.texCoordBoxes[texCoordSetOf(role)] = {fields.vec2(minFieldOf(role).c_str(), {0, 0}),
                                                    fields.vec2(sizeFieldOf(role).c_str(), {1, 1})};
@@ -312,9 +314,9 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   geometry.operators = operatorsOf(fields, encoding);
   geometry.attributes = readVertexAttributes(source, node, encoding);
   for (const pugi::xml_node& child : node.children())
-    if (equalIgnoringCase(child.name(), "GeometryPatch"))
+    if (equalIgnoringCase(child.name(), "GeometryPatch") && !geometry.levels)
       geometry.patches.push_back(readPatch(source, child, geometry, warnings));
-  if (geometry.patches.empty())
+  if (geometry.patches.empty() && !geometry.levels)
     geometry.patches.push_back(readPatch(source, node, geometry, warnings));
   if (row.storage == PatchStorage::bytePlanes)
     readImageBits(fields, geometry);

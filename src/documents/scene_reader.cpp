@@ -39,10 +39,10 @@ bool hasElements(const pugi::xml_node& node) {
 }
 
 bool drawsTriangles(const GeometryDescription& geometry) {
-  return std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
-    return std::ranges::any_of(patch.draws,
-                               [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; });
-  });
+  return geometry.levels || std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
+           return std::ranges::any_of(
+               patch.draws, [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; });
+         });
 }
 
 bool hasColors(const GeometryDescription& geometry) {
@@ -429,8 +429,9 @@ private:
     GeometryDescription geometry = readGeometry(source_, fields.node(), &warnings_);
     const Box3d own = fields.box(); // a Shape whose vertices move has another one
     geometry.box = own.empty() ? shape.box() : own;
-    const bool hasPatches = std::ranges::any_of(
-        fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });
+    const bool hasPatches = geometry.levels || std::ranges::any_of(fields.node().children(), [](const auto& child) {
+                              return equalIgnoringCase(child.name(), "GeometryPatch");
+                            });
     if (!hasPatches && geometry.box.empty())
       geometry.box = geometry.patches[0].box;
     if (!hasPatches)

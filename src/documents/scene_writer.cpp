@@ -358,7 +358,7 @@ void SceneWriter::writeGeometryOf(const Node& node) {
   Element element = geometryElement(geometry, shape.solid, names, ownBox);
   if (!shape.movingBox.empty() && !ownBox) // the Shape has another one
     element.groups.push_back(boxAttributes(geometry.box, geometry.lattice));
-  const bool hasPatchElements = !isSinglePatch(geometry);
+  const bool hasPatchElements = !isSinglePatch(geometry) && !geometry.levels;
   if (geometry.attributes.empty() && !hasPatchElements)
     return writer_.leaf(element);
   writer_.open(element);

@@ -94,7 +94,7 @@ IndexedPatch CompactReader::decode(const PatchDescription& patch, const Geometry
   const auto patches = patchesOf(data.url);
   const compact::CompactPatch& decoded = valueAt(*patches, data);
   const Requirement require{data.url};
-  require(decoded.segmentCount == 0, "a base stands where a patch should");
+  require(decoded.segmentCount == 0 || geometry.levels, "a base stands where a patch should");
   require(decoded.positionBits == geometry.lattice.bits, "the positions have other bits than the node states");
   require(patch.vertexCount == 0 || patch.vertexCount == decoded.wedgeCount(),
           "the patch has other vertices than the document states");

@@ -47,6 +47,7 @@ constinit const EncodingRow compactEncoding{
             .attributeBits = true,
             .maxError = true,
             .base = true,
+            .levels = true,
         },
     .resolveOptions = resolveCompactOptions,
     .describe = describeCompact,

@@ -3,6 +3,7 @@
 #include "base/first_readable.h"
 #include "containers/choose_urls.h"
 #include "containers/encodings.h"
+#include "containers/levels/level_patches.h"
 #include "containers/read_mesh.h"
 #include "documents/geometry_reader.h"
 #include "import/x3d/pop_geometry.h"
@@ -59,6 +60,8 @@ GeometryDescription ContainerGeometries::describe(pugi::xml_node node) const {
   GeometryDescription geometry = readGeometry(source_.documentText(), node, warnings_);
   if (const std::vector<Error> errors = chooseUrls(geometry, fetch_); !errors.empty())
     throw joined(errors);
+  if (geometry.levels)
+    readLevels(geometry, fetch_);
   if (!geometry.operators.empty())
     geometry.box = FieldReader(source_.documentText(), node.parent()).box();
   return geometry;

@@ -126,6 +126,14 @@ std::uint32_t maximumOf(const Mesh& mesh) {
   return static_cast<std::uint32_t>(largest);
 }
 
+std::vector<Vec3u> pointsOf(const Mesh& mesh) {
+  std::vector<Vec3u> points;
+  points.reserve(mesh.positions.size());
+  for (const Vec3f& position : mesh.positions)
+    points.emplace_back(position);
+  return points;
+}
+
 /// The grid on which positions of a level lie that have been rounded.
 std::optional<VertexGrid> gridOf(std::uint32_t roundingShift) {
   if (roundingShift == 0)
@@ -181,6 +189,7 @@ public:
 
   Levels run(Level level) {
     maximum_ = maximumOf(level.mesh);
+    grid_ = findVertexGrid(pointsOf(level.mesh)); // of an isosurface: a group alone has too few lines to find it by
     for (std::optional<Level> next; (next = buildLevel(level)).has_value();)
       level = *std::move(next);
     return numbered();

@@ -8,6 +8,7 @@
 #include "prepare/degenerate_elements.h"
 #include "prepare/patches.h"
 #include "prepare/source_lattice.h"
+#include "transcode/encode/levels.h"
 #include "transcode/options/resolve_options.h"
 
 #include <algorithm>
@@ -122,7 +123,10 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
   const bool anyLattice = rowOf(*options.encoding).storage == PatchStorage::packed;
   const std::optional<SourceLattice> source = anyLattice ? findSourceLattice(mesh.positions, lattice) : std::nullopt;
-  EncodedMesh encoded = encodeOn(source ? source->lattice : lattice, std::move(mesh), true, options, files, done);
+  const Lattice& chosen = source ? source->lattice : lattice;
+  EncodedMesh encoded = getsLevels(mesh, chosen, options)
+                            ? encodeLevels(std::move(mesh), chosen, options, files, done)
+                            : encodeOn(chosen, std::move(mesh), true, options, files, done);
   if (source)
     encoded.positionError = source->error;
   return encoded;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "containers/encodings.h"
+#include "containers/levels/level_patches.h"
 #include "export/export.h"
 #include "scene/source_axes.h"
 #include "transcode/export/write_scene.h"
@@ -48,6 +49,19 @@ void addOperators(SceneDocument& document, std::span<const Operator> operators, 
 } // namespace
 
 namespace {
+
+/// Makes all meshes with levels of detail those of a level, or of their highest.
+void chooseLevel(SceneDocument& document, std::uint32_t level) {
+  std::uint32_t count = 1;
+  for (GeometryDescription& geometry : document.geometries)
+    if (geometry.levels) {
+      const std::uint32_t levels = geometry.levels->index.levelCount();
+      count = std::max(count, levels);
+      choosePatchesOfLevel(geometry, std::min(level, levels - 1));
+    }
+  if (level >= count)
+    throw Error(ErrorKind::usage, "--level", fmt::format("{} is not below {}, the number of levels", level, count));
+}
 
 MeshFormat formatFor(const fs::path& output) {
   const std::optional<MeshFormat> format = meshFormatOf(output);
@@ -101,9 +115,11 @@ Mesh readFrame(const SiteDocument& document, const SiteSequence& sequence, std::
 
 } // namespace
 
-ExportReport exportSite(const fs::path& site, const fs::path& output, std::span<const Operator> operators) {
+ExportReport exportSite(const fs::path& site, const fs::path& output, std::span<const Operator> operators,
+                        std::uint32_t level) {
   formatFor(output);
   SiteDocument document = openDocument(site);
+  chooseLevel(document.scene, level);
   addOperators(document.scene, operators, site.string());
   return write(document, readMeshes(document), output);
 }

@@ -21,9 +21,10 @@ struct ExportReport {
 
 /// Writes the meshes of a site as one mesh file; the extension of `output` chooses the format (export/export.h). Reads
 /// sites of imgeo and of other programs that write X3DOM's containers. `operators` map each mesh after those of its
-/// node. Throws Error; {usage} for an unknown extension.
+/// node. Of meshes with levels of detail it writes those of `level`, or their highest. Throws Error; {usage} for an
+/// unknown extension, and for a level that no mesh has.
 ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output,
-                        std::span<const Operator> operators = {});
+                        std::span<const Operator> operators = {}, std::uint32_t level = 0);
 
 /// Writes a frame of a site that plays one sequence as exportSite() writes a mesh. Throws Error{usage} for a site
 /// without a sequence and for a number that is not below that of its frames.

@@ -194,6 +194,10 @@ ConvertOptions resolved(ConvertOptions options) {
     refuseOption("--base", fmt::format("{} is not within 0..25", *options.basePercent));
   if (!options.basePercent)
     options.basePercent = 2;
+  if (options.levels == LevelChoice::always && !row.capabilities.levels)
+    refuseOption("--levels", fmt::format("only compact has levels of detail, and not {}",
+                                         row.profile[0] ? row.profile : row.container));
+  requireWithin("--group-triangles", options.groupTriangles, 256, 262144);
   requireOtherBits(options);
   requireAttributes(options);
   if (options.attributeBits == 0)

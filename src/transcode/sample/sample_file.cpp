@@ -3,8 +3,12 @@
 #include "transcode/sample/sample_file.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "transcode/export/write_scene.h"
+#include "transcode/sample/relief_surface.h"
 #include "transcode/sample/sample_hall.h"
+
+#include <fmt/format.h>
 
 namespace imgeo {
 
@@ -12,6 +16,71 @@ ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& o
   if (meshFormatOf(output) != MeshFormat::glb)
     throw Error(ErrorKind::usage, output.string(), "does not end in .glb, the format that keeps a hall's structure");
   return writeScene(hallScene(seats), MeshFormat::glb, output);
+}
+
+namespace {
+
+/// Collects small writes.
+class PieceWriter {
+public:
+  explicit PieceWriter(const AppendBytes& append) : append_(append) {}
+
+  template <typename T> void add(T value) {
+    appendLittle(piece_, value);
+    if (piece_.size() >= pieceBytes)
+      flush();
+  }
+  void flush() {
+    append_(piece_);
+    written_ += piece_.size();
+    piece_.clear();
+  }
+  std::uint64_t written() const { return written_; }
+
+private:
+  static constexpr std::size_t pieceBytes = std::size_t{1} << 20;
+  const AppendBytes& append_;
+  Bytes piece_;
+  std::uint64_t written_ = 0;
+};
+
+void writeRelief(const ReliefSurface& surface, bool shuffled, PieceWriter& writer) {
+  const Scattering vertices(surface.vertexCount(), 1), triangles(surface.triangleCount(), 2);
+  for (std::uint64_t i = 0; i < surface.vertexCount(); ++i) {
+    const Vec3f vertex = surface.vertex(shuffled ? vertices.of(i) : i);
+    for (int axis = 0; axis < 3; ++axis)
+      writer.add(vertex[axis]);
+  }
+  for (std::uint64_t i = 0; i < surface.triangleCount(); ++i) {
+    writer.add(std::uint8_t{3});
+    for (const std::uint64_t vertex : surface.triangle(shuffled ? triangles.of(i) : i))
+      writer.add(static_cast<std::uint32_t>(shuffled ? vertices.inverse(vertex) : vertex));
+  }
+}
+
+} // namespace
+
+ExportReport writeSampleRelief(std::uint64_t triangles, bool shuffled, const std::filesystem::path& output) {
+  if (meshFormatOf(output) != MeshFormat::ply)
+    throw Error(ErrorKind::usage, output.string(), "does not end in .ply, the format of a relief");
+  const ReliefSurface surface(triangles);
+  ExportReport report;
+  report.format = nameOf(MeshFormat::ply);
+  report.shapes = 1;
+  report.vertices = surface.vertexCount();
+  report.elements.triangles = surface.triangleCount();
+  const std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+                                         "property float x\nproperty float y\nproperty float z\n"
+                                         "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+                                         surface.vertexCount(), surface.triangleCount());
+  writeFileInPieces(output, [&](const AppendBytes& append) {
+    append(asBytes(header));
+    PieceWriter writer(append);
+    writeRelief(surface, shuffled, writer);
+    writer.flush();
+    report.bytes = header.size() + writer.written();
+  });
+  return report;
 }
 
 } // namespace imgeo

@@ -9,4 +9,9 @@ namespace imgeo {
 /// `output` does not end in .glb.
 ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& output);
 
+/// Writes a generated closed surface (relief_surface.h) of about so many triangles, 12 .. 8 * 10^9, as binary PLY, in
+/// constant memory. `shuffled`: vertices and triangles in an order without any neighbourhood. Throws Error{usage} if
+/// `output` does not end in .ply.
+ExportReport writeSampleRelief(std::uint64_t triangles, bool shuffled, const std::filesystem::path& output);
+
 } // namespace imgeo

@@ -2,10 +2,12 @@
 #include "base/testing.h"
 #include "imgeo/imgeo.h"
 #include "scene/shape_instances.h"
+#include "transcode/sample/relief_surface.h"
 #include "transcode/sample/sample_file.h"
 #include "transcode/sample/sample_hall.h"
 
 #include <gtest/gtest.h>
+#include <set>
 
 namespace imgeo {
 namespace {
@@ -43,6 +45,53 @@ TEST(SampleHall, BecomesASiteThatStoresEachMeshOnce) {
   const VerifyReport verified = verify(directory / "site", directory / "hall.glb");
   EXPECT_TRUE(verified.equal) << verified.findings.at(0);
   EXPECT_THROW(writeSampleHall(1, directory / "hall.ply"), Error);
+}
+
+TEST(SampleRelief, IsClosedAndHasEveryVertexOnce) {
+  for (const std::uint64_t triangles : {12u, 48u, 3072u}) {
+    const ReliefSurface surface(triangles);
+    EXPECT_EQ(surface.triangleCount(), triangles);
+    std::set<std::pair<std::uint64_t, std::uint64_t>> edges;
+    std::set<std::uint64_t> vertices;
+    for (std::uint64_t i = 0; i < surface.triangleCount(); ++i) {
+      const std::array<std::uint64_t, 3> corners = surface.triangle(i);
+      const auto at = [&](std::size_t corner) { return Vec3d(surface.vertex(corners[corner])); };
+      EXPECT_GT(dot(cross(at(1) - at(0), at(2) - at(0)), at(0)), 0) << "faces inwards";
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        EXPECT_TRUE(edges.emplace(corners[corner], corners[(corner + 1) % 3]).second);
+        vertices.insert(corners[corner]);
+      }
+    }
+    for (const auto& [from, to] : edges)
+      EXPECT_TRUE(edges.contains({to, from}));
+    EXPECT_EQ(vertices.size(), surface.vertexCount());
+    EXPECT_EQ(*vertices.rbegin() + 1, surface.vertexCount());
+  }
+}
+
+TEST(SampleRelief, HasDetailOfAllSizes) {
+  const ReliefSurface fine(30000);
+  double low = 2, high = 0;
+  for (std::uint64_t i = 0; i < fine.vertexCount(); ++i) {
+    low = std::min(low, length(Vec3d(fine.vertex(i))));
+    high = std::max(high, length(Vec3d(fine.vertex(i))));
+  }
+  EXPECT_GT(low, 0.8);
+  EXPECT_LT(high, 1.2);
+  EXPECT_GT(high - low, 0.1);
+}
+
+TEST(SampleRelief, IsScatteredByABijection) {
+  for (const std::uint64_t count : {1u, 2u, 17u, 1000u, 4096u}) {
+    const Scattering scattering(count, 3);
+    std::set<std::uint64_t> values;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      EXPECT_EQ(scattering.inverse(scattering.of(i)), i);
+      values.insert(scattering.of(i));
+    }
+    EXPECT_EQ(values.size(), count);
+    EXPECT_LT(*values.rbegin(), count);
+  }
 }
 
 } // namespace

@@ -7,9 +7,26 @@
 #include <filesystem>
 #include <mutex>
 #include <set>
+#include <span>
 #include <string>
 
 namespace imgeo {
+
+/// A file of a folder that is named by its content.
+struct FolderFile {
+  std::string name; ///< relative to the folder
+  ByteSpan bytes;
+};
+
+/// Names a folder by the names and contents of its files, one after the other.
+class FolderName {
+public:
+  void add(const std::string& name, ByteSpan bytes);
+  std::string get() const;
+
+private:
+  std::string text_;
+};
 
 /// The files of one folder of a site under construction. Equal contents share one file. Safe to call from any thread.
 class ContentFiles {
@@ -19,6 +36,10 @@ public:
 
   /// Writes a file named by its content and returns its url, relative to the site.
   std::string write(ByteSpan bytes, const std::string& extension);
+
+  /// Writes files with names of their own into a folder that is named by the names and contents of all, and returns
+  /// its url. Names may have folders: "0/7.png".
+  std::string writeFolder(std::span<const FolderFile> folderFiles);
 
 private:
   std::filesystem::path site_;

@@ -49,6 +49,22 @@ void addCounts(const GeometryDescription& geometry, const ContainerReader& reade
   }
 }
 
+std::vector<LevelInfo> levelInfosOf(const GeometryDescription& geometry) {
+  const LevelIndex& index = geometry.levels->index;
+  std::vector<LevelInfo> levels(index.levelCount());
+  for (const LevelGroup& group : index.groups) {
+    LevelInfo& level = levels[group.level];
+    ++level.groups;
+    level.triangles += group.triangles;
+    level.bytes += group.bytes;
+    if (group.level + 1u < levels.size()) {
+      double& error = levels[group.level + 1].error;
+      error = std::max(error, statedError(group.errorCode) * geometry.lattice.step);
+    }
+  }
+  return levels;
+}
+
 GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& reader) {
   GeometryInfo info;
   info.encoding = geometry.encoding;
@@ -69,6 +85,8 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& 
     info.grid = nameOf(*geometry.grid);
   if (geometry.surfaceDistance)
     info.surfaceDistance = geometry.surfaceDistance->largest;
+  if (geometry.levels)
+    info.levels = levelInfosOf(geometry);
   for (const AttributeDescription& attribute : geometry.attributes)
     info.attributes.push_back(attribute.name);
   return info;

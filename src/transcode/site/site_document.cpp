@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/first_readable.h"
 #include "containers/choose_urls.h"
+#include "containers/levels/level_patches.h"
 #include "images/decode_image.h"
 #include "transcode/site/site_files.h"
 
@@ -68,6 +69,13 @@ bool isReadableImage(const FetchFile& fetch, const std::string& url) {
   }
 }
 
+/// Reads the indexes of levels. Throws Error.
+void readAllLevels(SiteDocument& document) {
+  for (GeometryDescription& geometry : document.scene.geometries)
+    if (geometry.levels)
+      readLevels(geometry, fetchFrom(document));
+}
+
 /// Chooses, of files with several URLs, the first that can be read and decoded, as pages do; of an image, the first of
 /// all where none can. Throws Error, which names all, where none of the URLs of a file of geometry can.
 void chooseFiles(SiteDocument& document) {
@@ -102,6 +110,7 @@ SiteDocument openDocument(const fs::path& site) {
   document.scene = readScene(document.text, file.string());
   addInlined(document);
   chooseFiles(document);
+  readAllLevels(document);
   return document;
 }
 
@@ -115,6 +124,9 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
   for (const GeometryDescription& geometry : scene.geometries) {
     if (geometry.base)
       add(Role::base, *geometry.base);
+    if (geometry.levels)
+      for (const auto& [url, role] : filesOfLevels(*geometry.levels))
+        add(role, {url, {}});
     for (const PatchDescription& patch : geometry.patches)
       visitReferences(patch, add);
   }

@@ -9,6 +9,28 @@ namespace imgeo {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+bool isNumber(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+/// Whether a file is one of levels: "geometry/NAME/levels-1.png", "geometry/NAME/0/7.png".
+bool isLevelFile(const fs::path& file) {
+  if (file.extension() != ".png")
+    return false;
+  const fs::path folder = file.parent_path();
+  const auto isLevelFolder = [](const fs::path& path) {
+    return path.parent_path() == geometryFolder && isContentNamed(path.filename().native());
+  };
+  const std::string stem = file.stem();
+  if (isLevelFolder(folder))
+    return file.filename() == levelIndexName || (stem.starts_with("levels-") && isNumber(stem.substr(7)));
+  return isLevelFolder(folder.parent_path()) && isNumber(folder.filename()) && isNumber(stem);
+}
+
+} // namespace
+
 bool isPrecompressed(const fs::path& file) {
   return file.extension() == ".br" || file.extension() == ".gz";
 }
@@ -19,6 +41,8 @@ bool isSiteFile(const fs::path& file) {
     return !isPrecompressed(original) && isSiteFile(original);
   }
   const fs::path folder = file.parent_path();
+  if (isLevelFile(file))
+    return true;
   if (isContentNamed(file.filename().native()))
     return folder == geometryFolder || folder == textureFolder || folder == runtimeFolder ||
            (folder.empty() && file.extension() == ".x3d"); // a document that an Inline refers to

@@ -16,6 +16,7 @@ inline constexpr const char* stylesheetName = "imgeo.css";
 inline constexpr const char* iconName = "icon.png";
 inline constexpr const char* pictureName = "picture.png"; ///< what previews of links show
 inline constexpr const char* geometryFolder = "geometry";
+inline constexpr const char* levelIndexName = "levels.png"; ///< in a folder of its own in geometryFolder
 inline constexpr const char* textureFolder = "textures";
 inline constexpr const char* runtimeFolder = "runtime";
 

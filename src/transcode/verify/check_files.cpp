@@ -1,6 +1,8 @@
 #include "transcode/verify/check_files.h"
 
 #include "base/file.h"
+#include "containers/levels/level_patches.h"
+#include "transcode/site/content_files.h"
 #include "transcode/site/sequences.h"
 #include "transcode/site/site_files.h"
 #include "transcode/verify/compare_appearances.h"
@@ -12,6 +14,33 @@
 namespace imgeo {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::set<std::string> urlsOfLevels(const SceneDocument& scene) {
+  std::set<std::string> urls;
+  for (const GeometryDescription& geometry : scene.geometries)
+    if (geometry.levels)
+      for (const auto& [url, role] : filesOfLevels(*geometry.levels))
+        urls.insert(url);
+  return urls;
+}
+
+/// Checks that the folders of levels have the names of their contents.
+void checkLevelFolders(const SiteDocument& document, Findings& findings) {
+  for (const GeometryDescription& geometry : document.scene.geometries) {
+    if (!geometry.levels)
+      continue;
+    const fs::path folder = fs::path(geometry.levels->url).parent_path();
+    FolderName name;
+    for (const auto& [url, role] : filesOfLevels(*geometry.levels))
+      name.add(fs::path(url).lexically_relative(folder).string(), readFile(fileOf(document, url)));
+    if (folder.filename() != name.get())
+      findings.add("{} does not hold what its name says (its content is {}).", folder.string(), name.get());
+  }
+}
+
+} // namespace
 
 bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& input, Findings& findings) {
   bool allPresent = true;
@@ -31,6 +60,7 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
     for (std::size_t i = 0; i < sequence.index.files.size(); ++i)
       urls.push_back(sequence.urlOf(i));
   }
+  const std::set<std::string> levelFiles = urlsOfLevels(document.scene);
   for (const std::string& url : urls) {
     const fs::path file = fileOf(document, url);
     std::error_code ignored;
@@ -39,12 +69,15 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
       allPresent = false;
       continue;
     }
-    if (isForeign || file.extension() == ".css" || file.filename() == runtimeModuleName)
+    const bool isInLevels = levelFiles.contains(url);
+    if (isForeign || isInLevels || file.extension() == ".css" || file.filename() == runtimeModuleName)
       continue;
     const std::string stem = file.stem(), content = contentName(readFile(file));
     if (!stem.ends_with(content))
       findings.add("{} does not hold what its name says (its content is {}).", url, content);
   }
+  if (allPresent && !isForeign)
+    checkLevelFolders(document, findings);
   return allPresent;
 }
 

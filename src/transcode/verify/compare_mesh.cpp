@@ -6,6 +6,7 @@
 #include "containers/grid.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
+#include "transcode/verify/check_levels.h"
 #include "transcode/verify/element_list.h"
 #include "transcode/verify/foreign_site.h"
 
@@ -148,7 +149,7 @@ void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u
 /// Checks that the base mesh, if there is one, can be decoded and leaves no crack at the border of any patch.
 void checkBase(const ContainerReader& reader, const GeometryDescription& geometry,
                const std::vector<IndexedPatch>& patches, Findings& findings) {
-  if (!geometry.base)
+  if (!geometry.base || geometry.levels)
     return;
   const BaseMesh base = reader.decodeBase(geometry);
   std::vector<PatchTriangles> triangles;
@@ -188,6 +189,8 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   if (!geometry.isShared) // else the box is that of several patches; decoding has checked that it contains each
     checkBoxes(patches, geometry, findings);
   checkBase(reader, geometry, patches, findings);
+  if (geometry.levels)
+    checkLevels(*geometry.levels, reader.fetch(), findings);
   if (geometry.isFlat && topologyOf(patches.front().draws.front().primitive) == Topology::triangles)
     for (IndexedPatch& patch : patches)
       makeFlat(patch, geometry.lattice);

@@ -34,6 +34,8 @@ _imgeo() {
     "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
     "convert --patch-vertices") COMPREPLY=(); return ;;
     "convert --base") COMPREPLY=(); return ;;
+    "convert --levels") COMPREPLY=($(compgen -W "never auto always" -- "$word")); return ;;
+    "convert --group-triangles") COMPREPLY=(); return ;;
     "convert --drop") COMPREPLY=($(compgen -W "none degenerate repeated both" -- "$word")); return ;;
     "convert --keep-attributes") COMPREPLY=(); return ;;
     "convert --attribute-bits") COMPREPLY=(); return ;;
@@ -48,9 +50,11 @@ _imgeo() {
     "convert -r"|"convert --report") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "export -o"|"export --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "export --frame") COMPREPLY=(); return ;;
+    "export --level") COMPREPLY=(); return ;;
     "transform -o"|"transform --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "transform --operators") COMPREPLY=(); return ;;
     "sample --seats") COMPREPLY=(); return ;;
+    "sample --triangles") COMPREPLY=(); return ;;
     "sample -o"|"sample --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "sample --grid") COMPREPLY=(); return ;;
     "sample --rate") COMPREPLY=(); return ;;
@@ -85,12 +89,12 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --levels --group-triangles --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --level --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     transform) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --operators --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall cloth water turntable" -- "$word")); fi ;;
+    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --triangles --shuffled --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall relief cloth water turntable" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --max-streams --max-frame --max-rate --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --attribute --rate --loop --to --token --view-token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;

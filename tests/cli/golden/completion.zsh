@@ -59,6 +59,8 @@ _imgeo() {
       '--color-bits[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
+      '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles]:levels:(never auto always)' \
+      '--group-triangles[levels\: the most triangles in one file, 256..262144]:group-triangles: ' \
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
       '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
@@ -100,6 +102,7 @@ _imgeo() {
       '-o[the file to write; .ply, .obj or .glb says what]:output:_files' \
       '--output[the file to write; .ply, .obj or .glb says what]:output:_files' \
       '--frame[of a sequence\: this frame, from 0; all\: FILE-0000, FILE-0001 ...]:frame: ' \
+      '--level[of meshes with levels of detail\: 0, the whole mesh, or a coarser one]:level: ' \
       '--json[print what was written as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
@@ -115,8 +118,10 @@ _imgeo() {
       ':input:_files' ;;
     sample) _arguments \
       '--seats[how many seats the hall has]:seats: ' \
-      '-o[of hall\: the GLB file to write; of a motion\: a folder for its frames]:output:_files' \
-      '--output[of hall\: the GLB file to write; of a motion\: a folder for its frames]:output:_files' \
+      '--triangles[about how many triangles the relief has]:triangles: ' \
+      '--shuffled[relief\: vertices and triangles in an order without neighbours]' \
+      '-o[of hall\: the GLB file to write; of relief\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
+      '--output[of hall\: the GLB file to write; of relief\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
       '--live[serve the motion as a live stream at /live/SAMPLE]' \
       '--grid[motions\: N x N vertices]:grid: ' \
       '--rate[motions\: frames per second]:rate: ' \
@@ -131,7 +136,7 @@ _imgeo() {
       '--json[print what was written as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
-      ':sample:(hall cloth water turntable)' ;;
+      ':sample:(hall relief cloth water turntable)' ;;
     serve) _arguments \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \

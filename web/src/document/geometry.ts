@@ -204,6 +204,7 @@ type ImageFields =
   | "decode"
   | "profile"
   | "base"
+  | "levels"
   | "implicitMeshMode"
   | "implicitMeshCount"
   | "surfaceDistance";

@@ -316,6 +316,7 @@ export const nodeFields = {
     decode: SFString("auto"),
     profile: SFString("classic"),
     base: SFString(""),
+    levels: SFString(""),
     implicitMeshMode: SFString("auto"),
     /** The paper's name for implicitMeshSize. */
     implicitMeshCount: optional(SFVec2f([256, 256])),

@@ -1,0 +1,27 @@
+#pragma once
+// Groups of levels <-> files of SIG compact: docs/formats/levels.md.
+
+#include "containers/patch_encoder.h"
+#include "containers/patch_reader.h"
+#include "prepare/levels/group_borders.h"
+#include "prepare/levels/levels.h"
+
+namespace imgeo {
+
+struct EncodedGroup {
+  Bytes bytes; ///< of the file
+  std::size_t vertices = 0, triangles = 0;
+  double normalError = 0; ///< largest error of a normal, in radians
+};
+
+/// Encodes a group of `childCount` children, 0 on level 0, by the fields of its node. Normals are stored, also where
+/// the options ask for derived ones, which would differ between the two sides of a group's border. Deterministic.
+/// Throws Error{limit} for a group that no image holds.
+EncodedGroup encodeGroup(GroupMesh mesh, std::size_t childCount, const GeometryDescription& geometry,
+                         const EncodeOptions& options);
+
+/// Reads the triangles of a group, without their attributes; `children` is not set. Safe for untrusted bytes. Throws
+/// Error naming the file; {malformed} where it is not as the index says.
+GroupTriangles readGroup(const LevelsDescription& levels, std::uint32_t number, const FetchFile& fetch);
+
+} // namespace imgeo
