@@ -1,53 +1,137 @@
-// Bundles the runtime into the ES modules of web/dist: imgeo.js, which a page loads
-// first, and which draws previews and loads the rest; imgeo-scene.js, the rest with
-// three.js in it; imgeo-shared.js, which both import; imgeo-animation.js, which only documents with animation need; and
-// imgeo-worker.js for workers.
+// Bundles the runtime into the ES modules of web/dist, which modules.txt lists: imgeo.js, which a page loads first, and
+// which draws previews and loads the rest; imgeo-scene.js, what every scene needs, with three.js in it; imgeo-shared.js,
+// which both import; further modules that come when a scene needs them; and imgeo-worker.js for workers.
 // The `imgeo` executable contains them and copies them into every site.
-import { build, type BuildOptions } from "esbuild";
-import { readFile } from "node:fs/promises";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
-import { leanThree } from "./leanThree.ts";
+import type { OutputChunk, OutputOptions, Plugin } from "rolldown";
+import { rolldown } from "rolldown";
+import { isOfThree, leanThree, notice } from "./leanThree.ts";
+import { unusedMethodsOf, withoutMethods } from "./unusedMethods.ts";
 
 const sources = join(import.meta.dirname, "src");
+const pageSource = join(sources, "dom/page.ts");
+const runtimeSource = join(sources, "dom/register.ts");
 
-function bundleOf(entry: string): BuildOptions & { write?: true } {
-  return {
-    entryPoints: [join(sources, entry)],
-    bundle: true,
-    format: "esm",
-    target: "es2022",
-    minify: true,
-    sourcemap: false,
-    legalComments: "inline",
-    logLevel: "warning",
-  };
+interface BundleOptions {
+  readonly plugins?: readonly Plugin[];
+  /** Modules that are not part of the bundle. */
+  readonly external?: readonly string[];
+  readonly output?: OutputOptions;
+}
+
+/** Bundles a module with what it imports, minified. Returns the chunks. */
+async function chunksOf(
+  entry: string,
+  { plugins = [], external = [], output = {} }: BundleOptions,
+  minify = true,
+): Promise<OutputChunk[]> {
+  const bundle = await rolldown({
+    input: entry,
+    plugins: [...plugins],
+    external: [...external],
+    platform: "browser",
+    preserveEntrySignatures: "allow-extension",
+    transform: { target: "es2022" },
+    logLevel: "warn",
+  });
+  const options: OutputOptions = { format: "esm", minify, postBanner: noticeOf, ...output };
+  const { output: files } = await bundle.generate(options);
+  await bundle.close();
+  return files.filter((file) => file.type === "chunk");
+}
+
+function noticeOf({ moduleIds }: { readonly moduleIds: readonly string[] }): string {
+  return moduleIds.some(isOfThree) ? notice : "";
+}
+
+/** `chunksOf` with the parts of three.js that the entry needs. */
+async function leanChunksOf(entry: string, options: BundleOptions = {}): Promise<OutputChunk[]> {
+  const withAll = await chunksOf(entry, { ...options, plugins: [leanThree((module) => module)] }, false);
+  const unused = unusedMethodsOf(withAll.map(({ code }) => code));
+  return chunksOf(entry, { ...options, plugins: [leanThree((module) => withoutMethods(module, unused))] });
+}
+
+/** Bundles a module with what it imports into one, with the parts of three.js that it needs. Returns the module's text. */
+export async function bundleWithThree(entry: string): Promise<string> {
+  const [chunk] = await leanChunksOf(entry, { output: { codeSplitting: false } });
+  return chunk?.code ?? "";
+}
+
+/** Bundles a module with what it imports into one, which imports the packages `external`. Returns the module's text. */
+export async function bundleModule(entry: string, external: readonly string[] = []): Promise<string> {
+  const [chunk] = await chunksOf(entry, { external, output: { codeSplitting: false } });
+  return chunk?.code ?? "";
 }
 
 /** The whole runtime in one module. */
-export const runtimeBundle = { ...bundleOf("dom/index.ts"), plugins: [leanThree] };
-export const workerBundle = bundleOf("workers/worker.ts");
+export function bundleRuntime(): Promise<string> {
+  return bundleWithThree(join(sources, "dom/index.ts"));
+}
 
-/** The runtime in the modules of a site. */
-export const siteBundle: BuildOptions & { write?: true } = {
-  ...bundleOf("dom/page.ts"),
-  entryPoints: {
-    imgeo: join(sources, "dom/page.ts"),
-    "imgeo-scene": join(sources, "dom/register.ts"),
-    // Shares no code with the others, whose common code would otherwise be a second chunk.
-    "imgeo-animation": join(sources, "animation/index.ts"),
-  },
-  splitting: true,
-  chunkNames: "imgeo-shared", // a second chunk would have the same name, which is an error
-  plugins: [leanThree],
-};
+export function bundleWorker(): Promise<string> {
+  return bundleModule(join(sources, "workers/worker.ts"));
+}
+
+/** By the file that a module of web/dist is made of, the module's name. */
+function modulesBySource(): ReadonlyMap<string, string> {
+  const lines = readFileSync(join(import.meta.dirname, "modules.txt"), "utf8").split("\n");
+  const words = lines.filter((line) => line !== "" && !line.startsWith("#")).map((line) => line.split(/\s+/));
+  return new Map(words.map(([name = "", source = ""]) => [join(sources, source), name]));
+}
+
+/**
+ * The modules of a site, without the worker: their texts by their names. Each contains what only it imports. Code that
+ * several import is in the one that has been loaded before: `imgeo-shared`, or else `imgeo-scene`.
+ */
+export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
+  const names = modulesBySource();
+  const shared = names.get(join(sources, "shared")) ?? "";
+  const chunks = await leanChunksOf(pageSource, {
+    output: {
+      entryFileNames: "imgeo.js",
+      chunkFileNames: ({ name, facadeModuleId }) => `${names.get(facadeModuleId ?? "") ?? name}.js`,
+      codeSplitting: {
+        includeDependenciesRecursively: false,
+        groups: [
+          {
+            debugName: "modules.txt",
+            name: (path, context) => {
+              const importers = (of: string) => context.getModuleInfo(of)?.importers ?? [];
+              const isOfRuntime = isReached(path, runtimeSource, importers);
+              if (isReached(path, pageSource, importers)) return isOfRuntime ? shared : "imgeo";
+              return isOfRuntime ? names.get(runtimeSource) : null;
+            },
+          },
+        ],
+      },
+    },
+  });
+  const made = new Map(chunks.map(({ fileName, code }) => [fileName.replace(/\.js$/, ""), code]));
+  const unlisted = [...made.keys()].filter((name) => ![...names.values()].includes(name));
+  const missing = [...names.values()].filter((name) => name !== "imgeo-worker" && !made.has(name));
+  if (unlisted.length > 0 || missing.length > 0)
+    throw new Error(`web/modules.txt lists other modules than these: ${[...made.keys()].join(", ")}`);
+  return made;
+}
+
+/** Whether an entry's static imports lead to a module. */
+function isReached(path: string, entry: string, importersOf: (path: string) => readonly string[]): boolean {
+  const seen = new Set([path]);
+  for (const module of seen) {
+    if (module === entry) return true;
+    for (const importer of importersOf(module)) seen.add(importer);
+  }
+  return false;
+}
 
 if (import.meta.main) {
   const outdir = join(import.meta.dirname, "dist");
-  await build({ ...siteBundle, outdir });
-  await build({ ...workerBundle, outfile: join(outdir, "imgeo-worker.js") });
-  for (const name of ["imgeo.js", "imgeo-shared.js", "imgeo-scene.js", "imgeo-animation.js", "imgeo-worker.js"]) {
-    const bytes = await readFile(join(outdir, name));
-    console.log(`web/dist/${name} ${bytes.byteLength} bytes, ${gzipSync(bytes, { level: 9 }).byteLength} gzipped`);
+  mkdirSync(outdir, { recursive: true });
+  const modules = new Map(await bundleSite()).set("imgeo-worker", await bundleWorker());
+  for (const [name, code] of modules) {
+    writeFileSync(join(outdir, `${name}.js`), code);
+    console.log(`web/dist/${name}.js ${code.length} bytes, ${gzipSync(code, { level: 9 }).byteLength} gzipped`);
   }
 }

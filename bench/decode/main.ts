@@ -16,7 +16,7 @@ import type { Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { repository } from "../../tests/browser/paths.ts";
 import { startServer } from "../../tests/browser/server.ts";
-import { workerBundle } from "../../web/bundle.ts";
+import { bundleWorker } from "../../web/bundle.ts";
 import { meshOf, prepareModels } from "../load/models.ts";
 import { describeBrowser } from "../load/tasks.ts";
 import { longestTaskMsOf, processorMsOf, traceCategories, type TraceEvent } from "../load/trace.ts";
@@ -57,7 +57,7 @@ async function writePage(directory: string): Promise<void> {
     entryPoints: [join(repository, "bench/decode/page.ts")],
     outfile: join(directory, "page.js"),
   });
-  await build({ ...workerBundle, outfile: join(directory, "imgeo-worker.js") });
+  writeFileSync(join(directory, "imgeo-worker.js"), await bundleWorker());
   cpSync(decoderModule, join(directory, "imgeo-decoder.wasm"));
   cpSync(join(repository, "node_modules/three/examples/jsm/libs/draco"), join(directory, "draco"), { recursive: true });
   writeFileSync(

@@ -3,8 +3,7 @@
 
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { build } from "esbuild";
-import { runtimeBundle } from "../../web/bundle.ts";
+import { bundleRuntime } from "../../web/bundle.ts";
 import { repository } from "../browser/paths.ts";
 import type { TestServer } from "../browser/server.ts";
 
@@ -19,8 +18,7 @@ const fill = "margin: 0; border: 0; padding: 0; display: block; width: 100vw; he
 /** Puts the files that the pages need on the server. */
 export async function serveRuntimes(server: TestServer): Promise<void> {
   server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
-  const bundle = await build({ ...runtimeBundle, write: false });
-  server.put("/imgeo.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
+  server.put("/imgeo.js", Buffer.from(await bundleRuntime()));
   const packageFile = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
   server.put("/x_ite.js", packageFile("x_ite/dist/x_ite.min.js"));
   const fonts = readdirSync(join(repository, "node_modules/x_ite/dist/assets/fonts"), {

@@ -2,62 +2,81 @@
 
 #include "base/file.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cassert>
-#include <initializer_list>
-
-extern "C" {
-// The first byte of each bundle and the byte after its last one, defined by runtime_module.S.
-extern const char imgeoPageBegin[], imgeoPageEnd[];
-extern const char imgeoSharedBegin[], imgeoSharedEnd[];
-extern const char imgeoSceneBegin[], imgeoSceneEnd[];
-extern const char imgeoAnimationBegin[], imgeoAnimationEnd[];
-extern const char imgeoWorkerBegin[], imgeoWorkerEnd[];
-extern const char imgeoDecoderBegin[], imgeoDecoderEnd[];
-}
+#include <fmt/format.h>
+#include <ranges>
+#include <utility>
 
 namespace imgeo {
 
 namespace {
 
-/// A bundle as a file of a site. Replaces the bundle names of the modules that it imports by their file names.
-RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
-                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> imports,
-                     const char* extension = "js") {
-  std::string text(bundle);
-  for (const auto& [bundledName, file] : imports) {
-    std::size_t position = text.find(bundledName);
-    assert(position != text.npos);
-    for (; position != text.npos; position = text.find(bundledName, position + file->name.size())) {
-      text.replace(position, std::string_view(bundledName).size(), file->name);
-    }
-  }
-  std::string name = fmt::format("{}-{}.{}", stem, contentName(asBytes(text)), extension);
-  return {std::move(name), std::move(text)};
+struct BundleEntry {
+  const char* name;
+  const char* begin;
+  const char* end; ///< the byte after the last one
+};
+
+} // namespace
+
+extern "C" {
+/// The bundles, and after them an entry without a name: made by CMakeLists.txt.
+extern const BundleEntry imgeoBundles[]; // NOLINT(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
+}
+
+namespace {
+
+void replaceAll(std::string& text, std::string_view name, const std::string& replacement) {
+  for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + replacement.size()))
+    text.replace(at, name.size(), replacement);
+}
+
+const RuntimeFile& moduleWithStem(const Runtime& runtime, std::string_view stem) {
+  // The hash in a name has no dashes.
+  const auto found = std::ranges::find_if(runtime.files, [&](const RuntimeFile& file) {
+    return std::string_view(file.name).substr(0, file.name.rfind('-')) == stem;
+  });
+  assert(found != runtime.files.end());
+  return *found;
 }
 
 } // namespace
 
-RuntimeModules<std::string_view> bundledRuntime() {
-  return {{imgeoPageBegin, imgeoPageEnd},     {imgeoSharedBegin, imgeoSharedEnd},
-          {imgeoSceneBegin, imgeoSceneEnd},   {imgeoAnimationBegin, imgeoAnimationEnd},
-          {imgeoWorkerBegin, imgeoWorkerEnd}, {imgeoDecoderBegin, imgeoDecoderEnd}};
+std::vector<BundledModule> bundledRuntime() {
+  std::vector<BundledModule> modules;
+  for (const BundleEntry* entry = imgeoBundles; entry->name != nullptr; ++entry)
+    modules.push_back({entry->name, {entry->begin, entry->end}});
+  return modules;
 }
 
 Runtime runtimeOfSite() {
-  // The names are those of web/bundle.ts and of web/src/workers/pageWorkers.ts.
-  const auto [page, shared, scene, animation, worker, decoder] = bundledRuntime();
-  Runtime site;
-  site.worker = siteFile("imgeo-worker", worker, {});
-  site.decoder = siteFile("imgeo-decoder", decoder, {}, "wasm");
-  site.shared =
-      siteFile("imgeo-shared", shared, {{"imgeo-worker.js", &site.worker}, {"imgeo-decoder.wasm", &site.decoder}});
-  site.animation = siteFile("imgeo-animation", animation, {});
-  site.scene =
-      siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-animation.js", &site.animation}});
-  site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
-  return site;
+  const std::vector<BundledModule> bundled = bundledRuntime();
+  Runtime runtime;
+  runtime.files.resize(bundled.size());
+  // A module names only modules after it, whose names are made first.
+  for (std::size_t i = bundled.size(); i-- > 0;) {
+    std::string text(bundled[i].text);
+    for (std::size_t other = i + 1; other < bundled.size(); ++other)
+      replaceAll(text, bundled[other].name, runtime.files[other].name);
+    const std::string_view name = bundled[i].name;
+    const std::size_t dot = name.rfind('.');
+    std::string siteName = fmt::format("{}-{}{}", name.substr(0, dot), contentName(asBytes(text)), name.substr(dot));
+    runtime.files[i] = {std::move(siteName), std::move(text)};
+  }
+  return runtime;
+}
+
+const RuntimeFile& Runtime::page() const {
+  return moduleWithStem(*this, "imgeo");
+}
+
+const RuntimeFile& Runtime::shared() const {
+  return moduleWithStem(*this, "imgeo-shared");
+}
+
+const RuntimeFile& Runtime::scene() const {
+  return moduleWithStem(*this, "imgeo-scene");
 }
 
 std::string runtimeModuleText(const Runtime& runtime) {
@@ -65,7 +84,7 @@ std::string runtimeModuleText(const Runtime& runtime) {
   return fmt::format(
       "// The runtime of imgeo. Servers should have this file revalidated (Cache-Control: no-cache), and may "
       "keep the files\n// that it names forever.\nimport \"./{}\";\nimport \"./{}\";\n",
-      runtime.shared.name, runtime.page.name);
+      runtime.shared().name, runtime.page().name);
 }
 
 } // namespace imgeo

@@ -3,21 +3,18 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace imgeo {
 
-/// One value for each module of the runtime: JavaScript except for the last.
-template <typename Module> struct RuntimeModules {
-  Module page;      ///< the page loads it first: draws the preview and loads the others
-  Module shared;    ///< used by `page` and `scene`
-  Module scene;     ///< three.js and all else
-  Module animation; ///< loaded by `scene` where the document has nodes that send events
-  Module worker;    ///< runs in workers
-  Module decoder;   ///< WebAssembly that workers decode compact with (src/wasm)
+/// A module as it was bundled into web/dist when the tool was built.
+struct BundledModule {
+  std::string_view name; ///< of the file in web/dist
+  std::string_view text; ///< JavaScript; of imgeo-decoder.wasm, WebAssembly
 };
 
-/// The modules as they were bundled into web/dist when the tool was built.
-RuntimeModules<std::string_view> bundledRuntime();
+/// All modules: those that web/modules.txt lists, in its order, and the decoder that workers use (src/wasm).
+std::vector<BundledModule> bundledRuntime();
 
 /// A file whose name contains the hash of its content.
 struct RuntimeFile {
@@ -25,8 +22,14 @@ struct RuntimeFile {
   std::string text;
 };
 
-/// The modules as files of one folder of a site; they import each other by these names.
-using Runtime = RuntimeModules<RuntimeFile>;
+/// The modules as files of one folder of a site. They import each other by these names.
+struct Runtime {
+  std::vector<RuntimeFile> files; ///< in the order of bundledRuntime()
+
+  const RuntimeFile& page() const;   ///< the page loads it first: draws the preview and loads the others
+  const RuntimeFile& shared() const; ///< what both page() and scene() import
+  const RuntimeFile& scene() const;  ///< three.js and all that every scene needs
+};
 Runtime runtimeOfSite();
 
 /// The text of the module that other people's pages load, `runtimeModuleName` (site_files.h). Its name never changes,

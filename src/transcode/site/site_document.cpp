@@ -164,8 +164,8 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document) {
   const std::string runtimePrefix = std::string(runtimeFolder) + "/";
   if (std::ranges::any_of(urls, [&](const std::string& url) { return url.starts_with(runtimePrefix); }))
     urls.push_back(runtimePrefix + runtimeModuleName);
-  // Modules import others as "./imgeo-....js".
-  constexpr std::string_view name = "\"./imgeo-";
+  // Modules import others as "./imgeo-....js", with quotation marks of any kind.
+  constexpr std::string_view name = "./imgeo-";
   for (std::size_t i = 0; i < urls.size(); ++i) {
     std::error_code ignored;
     const fs::path file = fileOf(document, urls[i]);
@@ -174,8 +174,9 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document) {
     const Bytes bytes = readFile(file);
     const std::string_view text = asText(bytes);
     for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
-      const std::size_t begin = at + std::string_view("\"./").size();
-      const std::string_view other = text.substr(begin, std::min(text.find('"', begin), text.size()) - begin);
+      const std::size_t begin = at + std::string_view("./").size();
+      const std::string_view other =
+          text.substr(begin, std::min(text.find_first_of("\"'`", begin), text.size()) - begin);
       std::string url = (fs::path(urls[i]).parent_path() / other).string();
       if (other.ends_with(".js") && std::ranges::find(urls, url) == urls.end())
         urls.push_back(std::move(url));

@@ -48,9 +48,8 @@ void writeX3domPages(const SceneDocument& document, const X3domRelease& release,
 Runtime writeRuntime(const fs::path& site) {
   Runtime runtime = runtimeOfSite();
   fs::create_directory(site / runtimeFolder);
-  for (const RuntimeFile* file :
-       {&runtime.page, &runtime.shared, &runtime.scene, &runtime.animation, &runtime.worker, &runtime.decoder})
-    writeFile(site / runtimeFolder / file->name, asBytes(file->text));
+  for (const RuntimeFile& file : runtime.files)
+    writeFile(site / runtimeFolder / file.name, asBytes(file.text));
   writeFile(site / runtimeFolder / runtimeModuleName, asBytes(runtimeModuleText(runtime)));
   return runtime;
 }
@@ -63,7 +62,8 @@ void writePages(const SceneDocument& document, const PagePictures& pictures, con
   writeFile(
       site / pageName,
       asBytes(writeHtml(
-          document, {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}, pictures})));
+          document,
+          {urlOf(runtime.page()), stylesheetName, {urlOf(runtime.shared())}, {urlOf(runtime.scene())}, pictures})));
 }
 
 } // namespace imgeo
