@@ -15,10 +15,25 @@ import { readScene } from "../document/readScene.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { unknownViewMetrics } from "../scheduler/viewMetrics.ts";
+import { bgDelivery } from "./encodings/bg/bgDelivery.ts";
+import { classicDelivery } from "./encodings/classic/classicDelivery.ts";
+import { addEncodings } from "./encodings/encodings.ts";
+import { liveDelivery } from "./encodings/live/liveDelivery.ts";
+import { addDeliveries } from "./lateDeliveries.ts";
+import { deliverStream } from "./live/streamDelivery.ts";
+import { deliverMoving } from "./movingDelivery.ts";
+import { SequenceDelivery } from "./sequence/sequenceDelivery.ts";
 import type { Delivery, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { ResourcePool } from "./resourcePool.ts";
+
+addEncodings({ bg: bgDelivery, classic: classicDelivery, live: liveDelivery });
+addDeliveries({
+  moving: deliverMoving,
+  stream: deliverStream,
+  sequence: (...needed) => new SequenceDelivery(...needed),
+});
 
 /** A file's bytes, at once or later, or an HTTP status. */
 export type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;

@@ -5,10 +5,8 @@ import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, Playback } from "../document/description.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
-import { deliverMoving } from "./movingDelivery.ts";
-import { deliverStream } from "./live/streamDelivery.ts";
-import type { SequencePosition } from "./sequence/sequenceDelivery.ts";
-import { SequenceDelivery } from "./sequence/sequenceDelivery.ts";
+import type { PlayedDelivery, SequencePosition } from "./lateDeliveries.ts";
+import { lateDelivery } from "./lateDeliveries.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { Members } from "./members.ts";
 import type { Transfer } from "./progress.ts";
@@ -26,6 +24,8 @@ export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhau
 
 interface SharedDelivery {
   readonly delivery: Delivery;
+  /** The same, where it is the delivery of a sequence. */
+  readonly played: PlayedDelivery | undefined;
   readonly members: Members<DeliveryListener>;
   /** The present stages and all errors, for members that join later. */
   readonly stages: Map<number, readonly [stage: Stage, drawn: GeometryDescription | undefined]>;
@@ -130,15 +130,14 @@ export class GeometryDeliveries {
   /** The duration of the longest sequence whose index has arrived, in seconds; 0 where there is none. */
   get sequenceDuration(): number {
     let longest = 0;
-    for (const { delivery } of this.#shared.values())
-      if (delivery instanceof SequenceDelivery) longest = Math.max(longest, delivery.duration);
+    for (const { played } of this.#shared.values()) longest = Math.max(longest, played?.duration ?? 0);
     return longest;
   }
 
   /** The duration of the sequence of an interpolator, in seconds; 0 before its index has arrived. */
   sequenceDurationOf(interpolator: number): number {
-    for (const [{ sequence }, { delivery }] of this.#shared)
-      if (sequence?.interpolator === interpolator && delivery instanceof SequenceDelivery) return delivery.duration;
+    for (const [{ sequence }, { played }] of this.#shared)
+      if (sequence?.interpolator === interpolator && played) return played.duration;
     return 0;
   }
 
@@ -153,22 +152,26 @@ export class GeometryDeliveries {
   }
 
   #deliver(geometry: GeometryDescription, listener: DeliveryListener): Delivery {
-    const { moving, sequence } = geometry;
-    if (moving) return deliverMoving(geometry, moving, this.#pool, listener);
-    if (sequence) {
-      const delivery = new SequenceDelivery(geometry, sequence, this.#pool, listener);
-      delivery.setPosition(this.#positionOf(sequence.interpolator));
-      return delivery;
-    }
-    const deliver = geometry.encoding === "live" ? deliverStream : deliverGeometry;
+    const { moving } = geometry;
+    if (moving) return lateDelivery("moving")(geometry, moving, this.#pool, listener);
+    const deliver = geometry.encoding === "live" ? lateDelivery("stream") : deliverGeometry;
     return deliver(geometry, this.#pool, listener);
+  }
+
+  /** The delivery of a sequence; undefined for other geometry. */
+  #play(geometry: GeometryDescription, listener: DeliveryListener): PlayedDelivery | undefined {
+    const { moving, sequence } = geometry;
+    if (moving !== undefined || sequence === undefined) return undefined;
+    const played = lateDelivery("sequence")(geometry, sequence, this.#pool, listener);
+    played.setPosition(this.#positionOf(sequence.interpolator));
+    return played;
   }
 
   #start(geometry: GeometryDescription): SharedDelivery {
     const members = new Members<DeliveryListener>();
     const stages: SharedDelivery["stages"] = new Map();
     const errors: DeliveryError[] = [];
-    const delivery = this.#deliver(geometry, {
+    const membersListener: DeliveryListener = {
       onStage(patch, stage, drawn) {
         if (stage === undefined) stages.delete(patch);
         else stages.set(patch, [stage, drawn]);
@@ -187,8 +190,10 @@ export class GeometryDeliveries {
       onSettled() {
         for (const listener of members) listener.onSettled();
       },
-    });
-    const shared: SharedDelivery = { delivery, members, stages, errors, next: undefined };
+    };
+    const played = this.#play(geometry, membersListener);
+    const delivery = played ?? this.#deliver(geometry, membersListener);
+    const shared: SharedDelivery = { delivery, played, members, stages, errors, next: undefined };
     this.#shared.set(geometry, shared);
     return shared;
   }
@@ -200,9 +205,8 @@ export class GeometryDeliveries {
   }
 
   #updatePositions(): void {
-    for (const [{ sequence }, { delivery }] of this.#shared)
-      if (sequence && delivery instanceof SequenceDelivery)
-        delivery.setPosition(this.#positionOf(sequence.interpolator));
+    for (const [{ sequence }, { played }] of this.#shared)
+      if (sequence) played?.setPosition(this.#positionOf(sequence.interpolator));
   }
 }
 

@@ -16,6 +16,7 @@ import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import { withCubeMapDirection } from "./readCubeMap.ts";
 import { texCoordNodesOf } from "./texCoordNodes.ts";
 import type { MovingValues } from "./movingValues.ts";
+import type { NeedPart } from "./parts.ts";
 import type { Refusals } from "./refused.ts";
 import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
@@ -36,6 +37,8 @@ export interface ShapeReadingContext {
   readonly refusals: Refusals | undefined;
   /** Undefined: Text is not drawn. */
   readonly text: TextReader | undefined;
+  /** Is told of the parts of the runtime that the shape needs. */
+  readonly need: NeedPart | undefined;
   /** Undefined: operators are read, but not applied. */
   readonly operators: OperatorReader | undefined;
   /** Registers an element, of any document, whose change makes the shape be read again. */
@@ -55,6 +58,7 @@ export function readShape(
   const { warnings } = context;
   const values = readFields(node, nodeFields.Shape, warnings);
   const children = withOneGeometry(node, context);
+  needReaderOf(children, element, context);
   const ownBox = boxOf(values);
   const { geometry, priority, lit, playback, operators } =
     values.patch !== "" && !children.some(isGeometry)
@@ -176,7 +180,20 @@ function readGeometryOf(
   const deformed = hasDeformation(geometry)
     ? geometries.variant(geometry, `deformed in ${JSON.stringify(box)}`, (plain) => deformedIn(plain, box))
     : geometry;
+  if (deformed.encoding !== "compact") context.need?.("files");
+  if (deformed.encoding === "live" || deformed.sequence) context.need?.("streams");
   return { geometry: deformed, ...drawingFieldsOf(found.child, context, deformed) };
+}
+
+/** Asks for the part that reads geometry in the document, where a shape has such. */
+function needReaderOf(children: readonly SceneElement[], shape: SceneElement, context: ShapeReadingContext): void {
+  if (context.inlineGeometry !== undefined || context.need === undefined) return;
+  for (const child of children.filter(isGeometry)) {
+    const node = resolveUse(child, { ...context, warnings: [] });
+    if (node === undefined || Object.hasOwn(geometryReaders, lowerNameOf(node))) continue;
+    context.need("documentGeometry", shape);
+    context.need("files"); // its arrays are in the form of BG's files
+  }
 }
 
 /** The geometry with its deformation, which moves vertices within a box. */

@@ -20,6 +20,7 @@ import type { InlinedDocument } from "./readNode.ts";
 import { isReadAsWhole, readNode } from "./readNode.ts";
 import type { ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
 import { joinDeclarations, warningsOnly } from "./sceneFragment.ts";
+import type { NeedPart } from "./parts.ts";
 import type { TextReader } from "./textReader.ts";
 
 /** What reading needs besides the document. When a result for an element changes, call `touch` with the element. */
@@ -31,13 +32,15 @@ export interface SceneReaderOptions {
   /** The visible level of a LOD; undefined while its distance is unknown. */
   readonly levelOf?: (lod: SceneElement) => number | undefined;
   /** Reads geometry whose numbers are in the document; without it such geometry is not drawn. */
-  readonly inlineGeometry?: InlineGeometryReader;
+  readonly inlineGeometry?: InlineGeometryReader | undefined;
   /** Default: operators are not applied. */
   readonly operators?: OperatorReader;
   /** Warns of nodes and fields that are not read; without it they are ignored without a word. */
   readonly refusals?: Refusals;
   /** Reads Text nodes; without it they are not drawn. */
-  readonly text?: TextReader;
+  readonly text?: TextReader | undefined;
+  /** Is told of the parts of the runtime that nodes need. */
+  readonly need?: NeedPart;
 }
 
 /** Inlined documents nested deeper than this are refused. */
@@ -226,6 +229,7 @@ export class SceneReader {
       operators: this.#options.operators,
       refusals: this.#options.refusals,
       text: this.#options.text,
+      need: this.#options.need,
       host: host ?? element,
       inlineDepth: inlinedBy.length,
       childrenOf: (parent) => tree.childrenOf(parent),

@@ -2,6 +2,7 @@
 
 import { ImgeoViewer } from "../element/imgeoViewer.ts";
 import { ImgeoView } from "./imgeoView.ts";
+import { partImports } from "./partImports.ts";
 import { registerViews } from "./register.ts";
 
 export { ImgeoView, ImgeoViewer };
@@ -11,4 +12,4 @@ export type { SurfacePoint } from "./imgeoView.ts";
 export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapePointerEvent.ts";
 export type { ViewStatistics } from "./pageViewer.ts";
 
-registerViews();
+registerViews(partImports);

@@ -5,6 +5,7 @@ import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle } from "../element/viewStyle.ts";
 import { isNearViewport } from "../element/visibility.ts";
 import type { Preview } from "../preview/preview.ts";
+import { partImports } from "./partImports.ts";
 import { startPreviews } from "../preview/startPreviews.ts";
 
 /** The bundle of `register.ts` and of all its imports, beside this file. */
@@ -21,7 +22,7 @@ async function start(): Promise<void> {
   const { registerViews } = await import("./register.ts");
   // Previews whose bases have loaded meanwhile are drawn before the runtime starts, which takes longer.
   await Promise.all(previews.filter(({ isDue }) => isDue).map(({ settled }) => settled));
-  registerViews();
+  registerViews(partImports);
   for (const preview of previews) if (!preview.canvas.isConnected) preview.end(); // the page has removed it
 }
 

@@ -35,6 +35,7 @@ import { LoadingEvents, lowestStageOf } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
 import { PageSurroundings } from "./pageSurroundings.ts";
 import { PageInlines } from "./pageInlines.ts";
+import { pageParts } from "./pageParts.ts";
 import { absoluteUrlOf, makePagePool } from "./pagePool.ts";
 import type { PageShape } from "./pageShapes.ts";
 import { displayedStageOf, PageShapes } from "./pageShapes.ts";
@@ -190,6 +191,7 @@ export class PageViewer {
           return absoluteUrl;
         },
       },
+      parts: pageParts(),
       host: this.#makeHost(),
     });
     if (!this.#readsTextures) this.#warnOfInexactImages();
@@ -341,7 +343,7 @@ export class PageViewer {
 
   /** Whether all patches that a preview displays are displayed by the runtime, or have failed. */
   displays(shapes: readonly PreviewedShape[]): boolean {
-    return shapes.every((shape) => this.#shapes.displays(shape));
+    return this.#core.isDisplayed && shapes.every((shape) => this.#shapes.displays(shape));
   }
 
   /** The title of the first inlined document that has one; undefined if there is none, or none has loaded. */
@@ -561,7 +563,8 @@ export class PageViewer {
     );
     this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
     // The scene settles only after a frame: until then further shapes may join.
-    if (this.#surroundings.isSettled && awaited.every((loading) => loading.isSettled)) this.#loading.settle();
+    const areSettled = this.#surroundings.isSettled && awaited.every((loading) => loading.isSettled);
+    if (this.#core.isDisplayed && areSettled) this.#loading.settle();
     this.#shapes.onFrame();
     this.#inlines.onFrame();
     this.#loading.onFrame(true);

@@ -2,16 +2,22 @@
 
 import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
+import type { PartImports } from "../viewer/parts/parts.ts";
 import { ImgeoView } from "./imgeoView.ts";
+import { setPartImports } from "./pageParts.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
 
 function addMissingViews(): void {
   for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
 }
 
-/** Defines <imgeo-viewer> and <imgeo-view>, and adds an <imgeo-view> to every <x3d>. A second call has no effect. */
-export function registerViews(): void {
+/**
+ * Defines <imgeo-viewer> and <imgeo-view>, and adds an <imgeo-view> to every <x3d>. `parts`: the modules of the runtime
+ * that come when a scene needs them. A second call has no effect.
+ */
+export function registerViews(parts: PartImports): void {
   if (customElements.get(viewTag) !== undefined) return;
+  setPartImports(parts);
   defineViewer();
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);

@@ -19,6 +19,7 @@ import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { lodLevelAt } from "../scene/lodLevel.ts";
 import { isOfPose } from "../viewer/drawnFields.ts";
 import { sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
+import { allParts } from "../viewer/parts/allParts.ts";
 import { touchWritten } from "../viewer/writtenElements.ts";
 import type { AppShape, AppShapesListener } from "./appShapes.ts";
 import { AppShapes } from "./appShapes.ts";
@@ -83,6 +84,7 @@ export class SceneContents {
       shapes: this.shapes,
       reader: { url, levelOf: (lod) => this.#levels.get(lod) },
       inlines: { urlOf, ownDocument: { url, x3d } },
+      parts: allParts,
       host: {
         view: () => undefined, // the app has any number of cameras
         display: (scene) => this.#display(scene),

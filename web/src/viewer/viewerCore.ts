@@ -12,7 +12,6 @@ import type { ResourcePool } from "../delivery/resourcePool.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { inlineGeometryReader } from "../document/inlineGeometry.ts";
 import { operatorReader } from "../document/operatorReader.ts";
 import { refusals } from "../document/refused.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
@@ -20,12 +19,14 @@ import { SceneReader } from "../document/sceneReader.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
-import { measureRun } from "../text/glyphRendering.ts";
-import { textReader } from "../text/textGeometry.ts";
+import type { TextReader } from "../document/textReader.ts";
+import type { textReader } from "../text/textGeometry.ts";
 import { DeliveryControl } from "./deliveryControl.ts";
 import type { LoadingShape } from "./loadingShape.ts";
 import type { LoadingShapes } from "./loadingShapes.ts";
 import { MessageLog } from "./messageLog.ts";
+import { NeededParts } from "./neededParts.ts";
+import type { Parts } from "./parts/parts.ts";
 
 /** Time between progress reports: 20 a second are as many as a user can see. */
 export const progressIntervalMs = 50;
@@ -69,6 +70,8 @@ export interface ViewerCoreOptions<Shape extends LoadingShape> {
   /** How many times faces of a font have loaded; texts are laid out again when the number changes. */
   readonly fontEditionOf?: Parameters<typeof textReader>[1];
   readonly inlines: Omit<InlinesOptions, "pool">;
+  /** The parts of the runtime that come when the scene needs them. */
+  readonly parts: Parts;
   readonly host: ViewerHost;
 }
 
@@ -90,10 +93,15 @@ export class ViewerCore<Shape extends LoadingShape> {
   readonly #host: ViewerHost;
   #scene: SceneDescription | undefined;
   #isLoading = false;
+  readonly #needed: NeededParts;
+  /** Called when the document has been read. */
+  readonly #afterRead: (() => void)[] = [];
+  #isDisposed = false;
 
   /** Reads nothing before `read`, and requests nothing before `load`. */
   constructor(options: ViewerCoreOptions<Shape>) {
-    const { x3d, pool, deliveries, shapes, reader, fontEditionOf, inlines, host } = options;
+    const { x3d, pool, deliveries, shapes, reader, fontEditionOf, inlines, host, parts } = options;
+    this.#needed = new NeededParts(parts);
     this.#options = options;
     this.#host = host;
     this.shapes = shapes;
@@ -106,21 +114,30 @@ export class ViewerCore<Shape extends LoadingShape> {
         onEnd: (inline, error) => {
           host.onInlineEnd(inline, error);
           this.reader.touch(inline);
+          this.#afterRead.push(() => host.onInlineRead?.());
           this.read();
-          host.onInlineRead?.();
         },
         onRemove: (inline) => {
           host.onInlineRemoved?.(inline);
         },
       },
     );
+    let text: TextReader | undefined;
     this.reader = new SceneReader(x3d, {
       ...reader,
       inlined: (inline) => this.inlines.documentOf(inline),
-      inlineGeometry: inlineGeometryReader,
+      get inlineGeometry() {
+        return parts.documentGeometry.module?.inlineGeometryReader;
+      },
       operators: operatorReader,
       refusals,
-      text: textReader(measureRun, fontEditionOf),
+      get text() {
+        const module = parts.documentGeometry.module;
+        return (text ??= module?.textReader(module.measureRun, fontEditionOf));
+      },
+      need: (part, unread) => {
+        this.#needed.need(part, unread);
+      },
     });
     this.control = new DeliveryControl({
       deliveries,
@@ -144,12 +161,42 @@ export class ViewerCore<Shape extends LoadingShape> {
     return [...geometries.transfers(), ...textures.transfers(), ...this.inlines.transfers];
   }
 
-  /** Reads the document. If the scene has changed, displays it and requests its files. */
+  /**
+   * Reads the document. If the scene has changed, displays it and requests its files; where it needs parts of the
+   * runtime that have not been loaded, as soon as they have.
+   */
   read(): void {
     this.#host.beforeRead?.();
+    const scene = this.reader.read();
+    if (this.#needed.areLoaded) this.#follow(scene);
+    else void this.#loadParts();
+  }
+
+  /** Whether the document is displayed as it was last read; otherwise parts of the runtime are being loaded for it. */
+  get isDisplayed(): boolean {
+    return this.#needed.areLoaded;
+  }
+
+  /** Reads again when the parts have been loaded that the scene needs. */
+  async #loadParts(): Promise<void> {
+    try {
+      const unread = await this.#needed.load();
+      if (unread === undefined || this.#isDisposed) return;
+      for (const node of unread) this.reader.touch(node);
+      this.read();
+    } catch (error) {
+      if (!this.#isDisposed) this.log.error(`the module of a part of the runtime could not be loaded: ${String(error)}`);
+    }
+  }
+
+  #follow(scene: SceneDescription): void {
     const before = this.#scene;
-    const scene = (this.#scene = this.reader.read());
-    if (scene === before) return;
+    this.#scene = scene;
+    if (scene !== before) this.#display(scene, before);
+    for (const call of this.#afterRead.splice(0)) call();
+  }
+
+  #display(scene: SceneDescription, before: SceneDescription | undefined): void {
     const changes = this.#host.display(scene);
     const leaveDeliveries = this.shapes.follow(changes);
     this.#host.onShapes(changes);
@@ -186,6 +233,7 @@ export class ViewerCore<Shape extends LoadingShape> {
 
   /** Ends all requests, and all deliveries. */
   dispose(): void {
+    this.#isDisposed = true;
     this.stop();
     this.shapes.dispose();
   }

@@ -1,21 +1,21 @@
-// The registry of encodings in delivery: one entry for each encoding.
+// The registry of encodings in delivery: one entry for each encoding. Modules that few scenes need add theirs before the
+// first geometry in it is delivered (document/parts.ts).
 
 import type { Encoding, GeometryDescription } from "../../document/description.ts";
-import { bgDelivery } from "./bg/bgDelivery.ts";
-import { classicDelivery } from "./classic/classicDelivery.ts";
 import { compactDelivery } from "./compact/compactDelivery.ts";
-import { liveDelivery } from "./live/liveDelivery.ts";
 import type { EncodingDelivery } from "./encodingDelivery.ts";
 
-export const encodingDeliveries: Readonly<Record<Encoding, EncodingDelivery>> = {
-  compact: compactDelivery,
-  classic: classicDelivery,
-  bg: bgDelivery,
-  live: liveDelivery,
-};
+const encodingDeliveries: Partial<Record<Encoding, EncodingDelivery>> = { compact: compactDelivery };
 
+export function addEncodings(deliveries: Partial<Record<Encoding, EncodingDelivery>>): void {
+  Object.assign(encodingDeliveries, deliveries);
+}
+
+/** Throws RangeError where the module of the encoding has not been loaded. */
 export function deliveryOf({ encoding }: Pick<GeometryDescription, "encoding">): EncodingDelivery {
-  return encodingDeliveries[encoding];
+  const delivery = encodingDeliveries[encoding];
+  if (delivery === undefined) throw new RangeError(`the module for the encoding "${encoding}" is not loaded`);
+  return delivery;
 }
 
 /** Whether workers decode the geometry's patches on every GPU, not only on those that cannot read images exactly. */

@@ -16,19 +16,17 @@ import { ArrayTarget } from "../live/liveArrays.ts";
 import { ImageTarget } from "../live/liveImages.ts";
 import type { Transfer } from "../progress.ts";
 import type { ResourceHandle, ResourcePool } from "../resourcePool.ts";
+import type { PlayedDelivery, SequencePosition } from "../lateDeliveries.ts";
 import { FramesAhead } from "./framesAhead.ts";
 import type { SequenceFrame } from "./frameRuns.ts";
 import { PackedRuns } from "./packedRuns.ts";
 import { SequenceFiles } from "./sequenceFiles.ts";
 import { SequenceVideo } from "./sequenceVideo.ts";
 
-/** Where a sequence is: a part of its duration, 0 … 1, or seconds from its beginning. */
-export type SequencePosition = { readonly fraction: number } | { readonly seconds: number };
-
 const indexBytes = 4096;
 
 /** Requests nothing before `request` is called. Never calls the listener before it returns. */
-export class SequenceDelivery implements Delivery {
+export class SequenceDelivery implements PlayedDelivery {
   readonly #geometry: GeometryDescription;
   readonly #sequence: SequenceDescription;
   readonly #pool: ResourcePool;

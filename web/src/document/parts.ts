@@ -1,0 +1,13 @@
+// The parts of the runtime that are modules of their own, because few scenes need them. The scene reader says which a
+// scene needs; viewer/parts loads them.
+
+import type { SceneElement } from "./element.ts";
+
+/**
+ * `documentGeometry`: geometry whose numbers are in the document, and text. `files`: geometry in images of classic and
+ * in arrays of BG. `streams`: live streams, and sequences of frames.
+ */
+export type PartName = "documentGeometry" | "files" | "streams";
+
+/** Called wherever a node needs a part. `unread`: the node, if it is to be read again when the part is there. */
+export type NeedPart = (part: PartName, unread?: SceneElement) => void;

@@ -1,0 +1,13 @@
+// All parts of the runtime, as parts of the module that imports this one.
+
+import * as documentGeometry from "./documentGeometry.ts";
+import * as files from "./files.ts";
+import { LatePart } from "./latePart.ts";
+import type { Parts } from "./parts.ts";
+import * as streams from "./streams.ts";
+
+export const allParts: Parts = {
+  documentGeometry: LatePart.of(documentGeometry),
+  files: LatePart.of(files),
+  streams: LatePart.of(streams),
+};

@@ -1,0 +1,25 @@
+// The parts of the runtime that come when a scene needs them.
+
+import type { PartName } from "../../document/parts.ts";
+import type * as documentGeometry from "./documentGeometry.ts";
+import type { PartModule } from "./latePart.ts";
+import { LatePart } from "./latePart.ts";
+
+/** What the modules export. */
+interface PartModules {
+  readonly documentGeometry: typeof documentGeometry;
+  readonly files: PartModule;
+  readonly streams: PartModule;
+}
+
+export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
+
+export type PartImports = { readonly [Name in PartName]: () => Promise<PartModules[Name]> };
+
+export function partsFrom(imports: PartImports): Parts {
+  return {
+    documentGeometry: new LatePart(imports.documentGeometry),
+    files: new LatePart(imports.files),
+    streams: new LatePart(imports.streams),
+  };
+}
